@@ -105,6 +105,7 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
   options.PointsPrecision = self->OutputPointsPrecision;
   options.Schlick = self->ReflectanceModel == SCHLICK;
   options.VirtualNormals = self->VirtualNormals;
+  options.Reflects = self->Mode == REFLECTION;
   const double* light = self->LightDirection;
   const double length = std::hypot(light[0], light[1], light[2]);
   options.IsLightAtEye = !(length > 0.0);
@@ -262,7 +263,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const std::size_t count = block.Points.size() / 3;
   if (!isReady)
   {
-    const bool mayCross = !this->Scene.GetCurved().AreAllBehindAll(block.Points.data(), count);
+    const bool mayCross = !this->Scene.GetCurved().AreAllOnRaySide(block.Points.data(), count);
     if (mayCross)
     {
       this->Scene.GetCurved().PrepareSides();
@@ -481,6 +482,11 @@ int vtkRefractedGeometryFilter::RequestData(
   {
     return this->RequestStack(input, inputs[1], output);
   }
+  if (this->Mode == REFLECTION && this->MembraneModel == FLAT_FACETS)
+  {
+    vtkErrorMacro("Mode REFLECTION needs the membrane model CURVED; the output is empty.");
+    return 0;
+  }
   this->WarnOfModes();
   if (!this->UpdateMembrane(membrane))
   {
@@ -646,7 +652,7 @@ bool vtkRefractedGeometryFilter::UpdateEye()
   const bool ready = this->Internals->Scene.SetEye(
     { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
       this->GetInteriorIndexOfRefraction() },
-    messages);
+    messages, this->Mode == REFLECTION);
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");

@@ -117,6 +117,13 @@ public:
   vtkTypeMacro(vtkRefractedGeometryFilter, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** Rays that the eye sees the geometry by. */
+  enum Modes
+  {
+    REFRACTION = 0, ///< through the membrane
+    REFLECTION = 1  ///< in the membrane, a mirror
+  };
+
   /** Representation of the membrane's surface between its vertices. */
   enum MembraneModels
   {
@@ -138,6 +145,30 @@ public:
     FRESNEL = 0, ///< exact reflectance of unpolarised light, Eq. 2.6
     SCHLICK = 1  ///< Schlick's approximation, Eq. 2.7, which the thesis uses for drawing
   };
+
+  /** @{ */
+  /**
+   * Set/Get whether the output is the geometry as it is seen through the membrane, REFRACTION, or
+   * as it is seen mirrored by it, REFLECTION. Default is REFRACTION.
+   *
+   * With REFLECTION the geometry is on the eye's side. Its mirror image lies behind the membrane:
+   * on the sight ray, as far behind the sight point as the true point is in front of it. This
+   * distance is the array RefractionDepth. Points behind the mirror have no image and cells are cut
+   * along the mirror; points on it are their own images. Polygons have the reversed winding, and
+   * point normals are mirrored, so that the front of a polygon stays its front; ImageOrientation is
+   * +1 for images like those of a plane mirror. VirtualNormals are for light that comes to the
+   * geometry directly. The indices of refraction give the array Reflectance only.
+   *
+   * One interface can mirror, with MembraneModel CURVED; other settings are an error when the
+   * filter runs. A ray that meets the mirror again, in front of the sight point or behind it, is
+   * not blocked: the mirror does not occlude itself, and there are no second reflections. Cell
+   * normals are passed unchanged.
+   */
+  vtkSetClampMacro(Mode, int, REFRACTION, REFLECTION);
+  vtkGetMacro(Mode, int);
+  void SetModeToRefraction() { this->SetMode(REFRACTION); }
+  void SetModeToReflection() { this->SetMode(REFLECTION); }
+  /** @} */
 
   /** @{ */
   /**
@@ -438,6 +469,7 @@ private:
   bool UpdateStack(vtkInformationVector* membranes);
   int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
 
+  int Mode = REFRACTION;
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
   bool ViewCulling = true;
   double ViewAspectRatio = 0.0;

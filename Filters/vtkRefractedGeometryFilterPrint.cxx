@@ -10,6 +10,7 @@
 void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mode: " << (this->Mode == REFLECTION ? "REFLECTION" : "REFRACTION") << "\n";
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
   os << indent << "Camera: " << this->Camera.Get() << "\n";

@@ -21,6 +21,10 @@
 // Text of the error for properties that several interfaces do not support; empty if none.
 std::string vtkRefractedGeometryFilter::FindUnsupported()
 {
+  if (this->Mode == REFLECTION)
+  {
+    return "Mode REFLECTION mirrors at one interface, and the list has more";
+  }
   const std::string model = meniscus::FindModelFault(this->MembraneModel == CURVED);
   if (!model.empty())
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Rendering/Pass/PictureSize.h"
 #include "Rendering/Pass/RefractionMedium.h"
 #include "Rendering/Pass/RefractionTarget.h"
 #include "Rendering/Pass/ViewBounds.h"
@@ -14,7 +15,6 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
-#include "vtkFrameBufferObjectBase.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -54,33 +54,6 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-/** Size of the image to which a pass draws. */
-struct PictureSize
-{
-  int Size[2];
-  int Origin[2] = { 0, 0 };
-
-  explicit PictureSize(const vtkRenderState* drawn)
-  {
-    if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
-    {
-      buffer->GetLastSize(this->Size); // the image of another pass, of any size
-    }
-    else
-    {
-      drawn->GetRenderer()->GetTiledSizeAndOrigin(
-        &this->Size[0], &this->Size[1], &this->Origin[0], &this->Origin[1]);
-    }
-  }
-
-  void Set(vtkOpenGLState* state) const
-  {
-    state->vtkglViewport(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
-    state->vtkglScissor(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
-  }
-};
-
-//------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper* RayCasterOf(vtkVolume* volume)
 {
   return vtkTetrahedraRayCastMapper::SafeDownCast(volume->GetMapper());
@@ -104,6 +77,7 @@ public:
     /** Actor of a filter's virtual geometry, or a volume. */
     vtkSmartPointer<vtkProp3D> Object;
     vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
+    bool IsReflection = false; ///< seen in the membrane, not through it
 
     vtkVolume* GetVolume() const { return vtkVolume::SafeDownCast(this->Object); }
     double GetRelativeIndex() const;
@@ -111,6 +85,7 @@ public:
   enum class Stages
   {
     Objects,
+    Mirrored,
     Membrane
   };
 
@@ -125,6 +100,7 @@ public:
 
   meniscus::RefractionMedium Medium;
   meniscus::RefractionTarget Objects;
+  meniscus::RefractionTarget Mirrored;
   meniscus::RefractionTarget Membrane;
   std::unique_ptr<vtkOpenGLQuadHelper> Composers[2]; // without and with a cube map
 
@@ -133,6 +109,7 @@ public:
 
   void AdjustClippingRange(vtkRenderer* renderer) const;
   std::vector<vtkActor*> ListMembranes() const;
+  std::vector<vtkProp*> ListObjects(vtkActor* membrane, bool areReflections) const;
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
 };
 
@@ -196,6 +173,23 @@ std::vector<vtkActor*> vtkRefractionPass::vtkInternals::ListMembranes() const
 }
 
 //------------------------------------------------------------------------------
+/** Visible objects, without volumes. */
+std::vector<vtkProp*> vtkRefractionPass::vtkInternals::ListObjects(
+  vtkActor* membrane, bool areReflections) const
+{
+  std::vector<vtkProp*> props;
+  for (const Refraction& refraction : this->Refractions)
+  {
+    if (refraction.Filter && refraction.IsReflection == areReflections &&
+      refraction.Membrane == membrane && refraction.Object->GetVisibility())
+    {
+      props.push_back(refraction.Object);
+    }
+  }
+  return props;
+}
+
+//------------------------------------------------------------------------------
 vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
 {
   vtkTexture* texture =
@@ -233,9 +227,10 @@ vtkRenderPass* vtkRefractionPass::GetScenePass()
 void vtkRefractionPass::AddRefraction(
   vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter)
 {
-  if (!membrane || !object || !filter)
+  if (!membrane || !object || !filter ||
+    filter->GetMode() != vtkRefractedGeometryFilter::REFRACTION)
   {
-    vtkErrorMacro("A refraction needs a membrane, an object and a filter.");
+    vtkErrorMacro("A refraction needs a membrane, an object and a filter in Mode REFRACTION.");
     return;
   }
   if (auto* mapper = vtkPolyDataMapper::SafeDownCast(object->GetMapper()))
@@ -247,6 +242,20 @@ void vtkRefractionPass::AddRefraction(
       "innerReflectance", "InnerReflectance", vtkDataObject::FIELD_ASSOCIATION_POINTS);
   }
   this->Internals->Refractions.push_back({ membrane, object, filter });
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::AddReflection(
+  vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter)
+{
+  if (!membrane || !object || !filter ||
+    filter->GetMode() != vtkRefractedGeometryFilter::REFLECTION)
+  {
+    vtkErrorMacro("A reflection needs a membrane, an object and a filter in Mode REFLECTION.");
+    return;
+  }
+  this->Internals->Refractions.push_back({ membrane, object, filter, true });
   this->Modified();
 }
 
@@ -317,6 +326,10 @@ vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
 bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
 {
+  if (this->Internals->Stage == vtkInternals::Stages::Mirrored)
+  {
+    return true; // no medium is in front of what a membrane reflects
+  }
   const std::string light = "  //VTK::Light::Impl";
   if (this->Internals->Stage == vtkInternals::Stages::Membrane)
   {
@@ -422,7 +435,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 void vtkRefractionPass::DrawInFront(
   const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
-  const PictureSize picture(drawn);
+  const meniscus::PictureSize picture(drawn);
   vtkOpenGLState* state = window->GetState();
   state->Push();
   picture.Set(state);
@@ -437,12 +450,14 @@ void vtkRefractionPass::DrawMembrane(
   vtkInternals& internals = *this->Internals;
   vtkOpenGLClearErrorMacro();
   vtkRenderer* renderer = drawn->GetRenderer();
-  const PictureSize picture(drawn);
+  const meniscus::PictureSize picture(drawn);
   const int(&size)[2] = picture.Size;
   vtkOpenGLState* state = window->GetState();
   state->Push();
   state->PushFramebufferBindings();
   const bool ready = internals.Objects.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR) &&
+    (internals.ListObjects(membrane, true).empty() ||
+      internals.Mirrored.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR)) &&
     internals.Membrane.Ready(window, size[0], size[1], VTK_FLOAT);
   if (ready)
   {
@@ -465,31 +480,32 @@ void vtkRefractionPass::DrawMembrane(
 }
 
 //------------------------------------------------------------------------------
-/** Draws the virtual geometry behind the membrane. */
+/** Draws the virtual geometry behind the membrane: the refracted one and the mirror images. */
 void vtkRefractionPass::DrawObjects(
   vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
 {
   vtkInternals& internals = *this->Internals;
-  std::vector<vtkProp*> props;
-  for (const auto& refraction : internals.Refractions)
+  for (const bool areReflections : { true, false })
   {
-    const bool isSurface = refraction.Filter != nullptr;
-    if (isSurface && refraction.Membrane == membrane && refraction.Object->GetVisibility())
+    std::vector<vtkProp*> props = internals.ListObjects(membrane, areReflections);
+    if (areReflections && props.empty())
     {
-      props.push_back(refraction.Object);
+      continue;
     }
+    meniscus::RefractionTarget& target = areReflections ? internals.Mirrored : internals.Objects;
+    target.Begin(state);
+    internals.Stage =
+      areReflections ? vtkInternals::Stages::Mirrored : vtkInternals::Stages::Objects;
+    vtkRenderState objects(renderer);
+    objects.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+    objects.SetFrameBuffer(target.Buffer);
+    this->PreRender(&objects);
+    internals.Opaque->Render(&objects);
+    internals.Translucent->Render(&objects);
+    this->PostRender(&objects);
+    this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
   }
-  internals.Objects.Begin(state);
-  internals.Stage = vtkInternals::Stages::Objects;
-  vtkRenderState objects(renderer);
-  objects.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
-  objects.SetFrameBuffer(internals.Objects.Buffer);
-  this->PreRender(&objects);
-  internals.Opaque->Render(&objects);
-  internals.Translucent->Render(&objects);
-  this->PostRender(&objects);
   this->DrawVolumes(renderer, membrane, vtkTetrahedraRayCastMapper::BEHIND);
-  this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
 }
 
 //------------------------------------------------------------------------------
@@ -552,7 +568,7 @@ void vtkRefractionPass::Compose(
     { return "#define " + std::string(name) + " " + std::to_string(value) + "\n"; };
     vtkShaderProgram::Substitute(source, "//VTK::Environment::Dec",
       define("HAS_ENVIRONMENT", cubeMap ? 1 : 0) + define("NO_REFLECTANCE", NONE) +
-        define("SCHLICK", SCHLICK) + define("FRESNEL", FRESNEL));
+        define("SCHLICK", SCHLICK) + define("MIRROR", MIRROR));
     composer = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
   }
   else
@@ -570,6 +586,8 @@ void vtkRefractionPass::Compose(
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDisable(GL_BLEND);
   vtkTextureObject* const color = internals.Objects.Color;
+  const bool mirrors = !internals.ListObjects(membrane, true).empty();
+  vtkTextureObject* const mirrored = mirrors ? internals.Mirrored.Color.Get() : color;
   vtkTextureObject* const normal = internals.Membrane.Color;
   vtkTextureObject* const depth = internals.Membrane.Depth;
   const auto bind = [&composer](vtkTextureObject* texture, const char* name)
@@ -578,6 +596,8 @@ void vtkRefractionPass::Compose(
     composer->Program->SetUniformi(name, texture->GetTextureUnit());
   };
   bind(color, "refracted");
+  bind(mirrored, "mirroredScene"); // any image if it is not read
+  composer->Program->SetUniformi("mirrorsScene", mirrors);
   bind(normal, "membraneNormal");
   bind(depth, "membraneDepth");
   if (cubeMap)
@@ -590,7 +610,7 @@ void vtkRefractionPass::Compose(
   {
     cubeMap->PostRender(renderer);
   }
-  for (vtkTextureObject* texture : { color, normal, depth })
+  for (vtkTextureObject* texture : { color, mirrored, normal, depth })
   {
     texture->Deactivate();
   }
@@ -658,6 +678,7 @@ void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
     internals.Reflection->ReleaseGraphicsResources(window);
   }
   internals.Objects.Release(window);
+  internals.Mirrored.Release(window);
   internals.Membrane.Release(window);
   for (auto& composer : internals.Composers)
   {

@@ -32,8 +32,8 @@
  * from sight point to object. Where there is no virtual geometry, T is the renderer's background,
  * or that behind an infinite medium (InfiniteMedium). F is the Fresnel
  * reflectance of unpolarised light at the membrane's interpolated normal, exact or by Schlick's
- * approximation. R is the colour of a cube map in the direction of the reflected ray, or the
- * background.
+ * approximation. R is the colour of the mirror images of AddReflection(), and where there are none
+ * that of a cube map in the direction of the reflected ray, or the background.
  *
  * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
  * Fresnel's transmittance of the interfaces behind the first one, from the array InnerReflectance,
@@ -83,7 +83,8 @@ public:
   {
     NONE = 0,    ///< no reflection: the membrane is clear
     SCHLICK = 1, ///< Schlick's approximation, Eq. 2.7
-    FRESNEL = 2  ///< exact reflectance of unpolarised light, Eq. 2.6
+    FRESNEL = 2, ///< exact reflectance of unpolarised light, Eq. 2.6
+    MIRROR = 3   ///< all light is reflected
   };
 
   /** @{ */
@@ -103,6 +104,15 @@ public:
    * @param filter source of the indices of refraction. Null is an error, like a null actor.
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
+  /**
+   * Adds an object that a membrane reflects: the scene in front of it. The medium behind the
+   * membrane does not attenuate it. The object itself is drawn where it is added, for instance to
+   * the renderer.
+   * @param membrane as in AddRefraction(); may be a membrane without anything behind it.
+   * @param object actor of the filter's output.
+   * @param filter in Mode REFLECTION; otherwise, and if it is null, it is an error.
+   */
+  void AddReflection(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
   /**
    * Adds a volume of which at least a part lies behind a membrane. The part behind it is drawn
    * through the membrane together with the membrane's objects; the part in front of it, or next to
@@ -125,18 +135,18 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the model of the light that membranes reflect: NONE, SCHLICK or FRESNEL. Default is
-   * FRESNEL.
+   * Set/Get the model of the light that membranes reflect: NONE, SCHLICK, FRESNEL or MIRROR.
+   * Default is FRESNEL.
    */
-  vtkSetClampMacro(ReflectanceModel, int, NONE, FRESNEL);
+  vtkSetClampMacro(ReflectanceModel, int, NONE, MIRROR);
   vtkGetMacro(ReflectanceModel, int);
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get a cube map (vtkTexture::CubeMapOn(), world axes) that membranes reflect. Default is
-   * none: the renderer's environment texture is used if it is a cube map, otherwise its background
-   * colour.
+   * Set/Get a cube map (vtkTexture::CubeMapOn(), world axes) that membranes reflect where they do
+   * not reflect an object. Default is none: the renderer's environment texture is used if it is a
+   * cube map, otherwise its background colour.
    *
    * Inputs 0 to 5 of the texture are the faces +x, -x, +y, -y, +z, -z, in OpenGL's layout. Pixel
    * (i, j) of a vtkImageData of n x n, (0, 0) its lower left one, with u = (2 i + 1) / n - 1 and v

@@ -62,19 +62,21 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
 }
 
 //------------------------------------------------------------------------------
-bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
+bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages, bool reflects)
 {
-  if (eye == this->Key.Values && this->PatchBuilds == this->Key.MembraneBuild)
+  if (eye == this->Key.Values && this->PatchBuilds == this->Key.MembraneBuild &&
+    reflects == this->Key.Reflects)
   {
     return true;
   }
   this->Key = EyeKey(); // stale until the update succeeds
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
-  const EyeStatus status = this->Curves ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
-                                        : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
+  const EyeStatus status = this->Curves
+    ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop, reflects)
+    : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
   if (status == EyeStatus::Ready)
   {
-    this->Key = { eye, this->PatchBuilds };
+    this->Key = { eye, this->PatchBuilds, reflects };
     ++this->EyeUpdates;
     this->ReportEye(messages);
     return true;
@@ -91,14 +93,17 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   // consecutive points.
   constexpr std::size_t mostPoints = 256;
   const bool isEnclosed = this->Curves && this->Curved.IsClosed() && !this->Curved.FacesEye();
+  const bool reflects = this->Key.Reflects;
   const auto behind = static_cast<vtkTypeInt64>(
-    this->Curves ? this->Curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
+    this->Curves && !reflects ? this->Curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
   const bool isNew = this->EyeReportOf != this->PatchBuilds;
   std::ostringstream text;
   if (isEnclosed && (isNew || !this->EyeEnclosed))
   {
-    text << "The eye is inside of a closed membrane whose normals point outwards: geometry "
-            "outside passes unchanged. For a bubble around the eye, reverse the normals. ";
+    text << "The eye is inside of a closed membrane whose normals point outwards: "
+         << (reflects ? "it sees the back of the mirror only. To mirror its inside"
+                      : "geometry outside passes unchanged. For a bubble around the eye")
+         << ", reverse the normals. ";
   }
   if (behind > 0 && (isNew || this->PointsBehind == 0))
   {

@@ -51,9 +51,10 @@ public:
   /**
    * Sets the eye. Returns false, with an error message, if it cannot be used. Adds a warning when
    * the eye enters a closed membrane whose normals point outwards, when pieces of the membrane come
-   * to lie behind each other, and when the membrane changes in such a state.
+   * to lie behind each other, and when the membrane changes in such a state. With `reflects`, for
+   * curved membranes only, the membrane is a mirror.
    */
-  bool SetEye(const Eye& eye, SceneMessages& messages);
+  bool SetEye(const Eye& eye, SceneMessages& messages, bool reflects = false);
 
   const Eye& GetEye() const { return this->Key.Values; }
 
@@ -92,6 +93,7 @@ private:
   {
     Eye Values{};
     vtkTypeInt64 MembraneBuild = -1;
+    bool Reflects = false;
   };
 
   MembraneStatus BuildMembrane(bool curved);

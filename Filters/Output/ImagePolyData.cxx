@@ -126,18 +126,18 @@ public:
     const vtkIdType firstOfLines = this->TakePoints(this->Cells.Lines.Points);
     const vtkIdType firstOfPolygons = this->TakePoints(this->Cells.Polygons.Points);
     this->MakeVertices();
-    this->MakeCells(this->Cells.WholeLines, this->Cells.Lines, firstOfLines, this->Lines);
-    this->MakeCells(
-      this->Cells.WholePolygons, this->Cells.Polygons, firstOfPolygons, this->Polygons);
+    this->MakeCells(this->Cells.WholeLines, this->Cells.Lines, firstOfLines, false, this->Lines);
+    this->MakeCells(this->Cells.WholePolygons, this->Cells.Polygons, firstOfPolygons,
+      options.Reflects, this->Polygons);
     this->Output->SetVerts(this->Vertices);
     this->Output->SetLines(this->Lines);
     this->Output->SetPolys(this->Polygons);
 
     this->InterpolatePointArrays();
     MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
-    if (options.VirtualNormals)
+    if (ChangesNormals(options))
     {
-      MakeVirtualNormals(this->Points, this->FindTruePoints(), options, this->Output);
+      ChangeNormals(this->Points, this->FindTruePoints(), options, this->Output);
     }
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType cells = this->Input->GetNumberOfCells();
@@ -218,14 +218,15 @@ private:
     }
   }
 
-  void MakeCells(
-    const ImageMesh& whole, const ImageMesh& pieces, vtkIdType firstOfPieces, vtkCellArray* cells)
+  void MakeCells(const ImageMesh& whole, const ImageMesh& pieces, vtkIdType firstOfPieces,
+    bool areReversed, vtkCellArray* cells)
   {
-    this->AddCells(whole, 0, cells);
-    this->AddCells(pieces, firstOfPieces, cells);
+    this->AddCells(whole, 0, areReversed, cells);
+    this->AddCells(pieces, firstOfPieces, areReversed, cells);
   }
 
-  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, vtkCellArray* cells)
+  // Mirror images of polygons have the reversed winding.
+  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, bool areReversed, vtkCellArray* cells)
   {
     vtkNew<vtkIdList> ids;
     std::int64_t begin = 0;
@@ -234,7 +235,8 @@ private:
       ids->Reset();
       for (std::int64_t k = begin; k < mesh.Ends[i]; ++k)
       {
-        ids->InsertNextId(firstPoint + mesh.Connectivity[static_cast<std::size_t>(k)]);
+        const std::int64_t at = areReversed ? begin + mesh.Ends[i] - 1 - k : k;
+        ids->InsertNextId(firstPoint + mesh.Connectivity[static_cast<std::size_t>(at)]);
       }
       cells->InsertNextCell(ids);
       this->CellSources.push_back(mesh.SourceCells[i]);

@@ -93,13 +93,42 @@ void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
     const VirtualVertex& vertex = *vertices[k];
     if (length > 0.0 && std::isfinite(length) && vertex.Facet >= 0)
     {
-      normal = ComputeVirtualNormal(normal / length, truePoints[k], vertex.SightPoint, options.Eye,
-        options.Exterior, options.Interior, options.IsLightAtEye ? nullptr : &options.Light);
+      const glm::dvec3* light = options.IsLightAtEye ? nullptr : &options.Light;
+      normal = options.Reflects
+        ? ComputeReflectedNormal(
+            normal / length, truePoints[k], vertex.SightPoint, options.Eye, light)
+        : ComputeVirtualNormal(normal / length, truePoints[k], vertex.SightPoint, options.Eye,
+            options.Exterior, options.Interior, light);
     }
     normals->SetTypedTuple(i, &normal.x);
   }
   data->AddArray(normals);
   data->SetActiveNormals(normals->GetName()); // SetNormals would drop the true ones
+}
+
+//------------------------------------------------------------------------------
+void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  vtkDataArray* trueNormals = output->GetPointData()->GetNormals();
+  if (!trueNormals)
+  {
+    return;
+  }
+  const auto normals = vtk::TakeSmartPointer(trueNormals->NewInstance());
+  normals->DeepCopy(trueNormals); // the input may share the array
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    glm::dvec3 normal(0.0);
+    trueNormals->GetTuple(i, &normal.x);
+    if (vertices[k]->Facet >= 0)
+    {
+      normal = ComputeMirroredNormal(normal, truePoints[k], vertices[k]->SightPoint, options.Eye);
+      normals->SetTuple(i, &normal.x);
+    }
+  }
+  output->GetPointData()->SetNormals(normals);
 }
 
 //------------------------------------------------------------------------------

@@ -35,6 +35,7 @@ struct OutputOptions
   int PointsPrecision = 0; ///< vtkAlgorithm::DesiredOutputPrecision
   bool Schlick = false;
   bool VirtualNormals = false;
+  bool Reflects = false; ///< true: images of a mirror
   bool IsLightAtEye = true;
   glm::dvec3 Light{ 0.0 }; ///< unit vector to a light at infinity
   glm::dvec3 Eye{ 0.0 };
@@ -56,6 +57,24 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
  */
 void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
+
+/** Replaces the output's normals by mirrored ones, in an array of the same name and type. */
+void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
+
+/** True if the options ask for other normals than those of the input. */
+inline bool ChangesNormals(const OutputOptions& options)
+{
+  return options.VirtualNormals || options.Reflects;
+}
+
+/** Makes the normals that the options ask for. */
+inline void ChangeNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  (options.VirtualNormals ? MakeVirtualNormals : MirrorNormals)(
+    vertices, truePoints, options, output);
+}
 
 /** Creates the additional cell arrays. */
 void MakeCellArrays(const std::vector<vtkIdType>& sources,

@@ -15,6 +15,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+
 namespace meniscus
 {
 namespace
@@ -40,20 +42,22 @@ public:
     this->CopyArrays(this->Input->GetPointData(), this->Input->GetNumberOfPoints(),
       this->SourcePoints, this->Output->GetPointData());
     MakePoints(this->Input, this->Images, this->SourcePoints, this->Surface, options, this->Output);
-    if (options.VirtualNormals)
+    if (ChangesNormals(options))
     {
       std::vector<glm::dvec3> truePoints(this->SourcePoints.size());
       for (std::size_t i = 0; i < truePoints.size(); ++i)
       {
         this->Input->GetPoint(this->SourcePoints[i], &truePoints[i].x);
       }
-      MakeVirtualNormals(this->Images, truePoints, options, this->Output);
+      ChangeNormals(this->Images, truePoints, options, this->Output);
     }
 
     this->Output->SetVerts(this->CopyVertices(this->Input->GetVerts()));
-    this->Output->SetLines(this->CopyCells(this->Input->GetLines()));
-    this->Output->SetPolys(this->CopyCells(this->Input->GetPolys()));
-    this->Output->SetStrips(this->CopyCells(this->Input->GetStrips()));
+    this->Output->SetLines(this->CopyCells(this->Input->GetLines(), Winding::Kept));
+    this->Output->SetPolys(this->CopyCells(
+      this->Input->GetPolys(), options.Reflects ? Winding::Reversed : Winding::Kept));
+    this->Output->SetStrips(this->CopyCells(
+      this->Input->GetStrips(), options.Reflects ? Winding::ReversedStrip : Winding::Kept));
     this->CopyArrays(this->Input->GetCellData(), this->Input->GetNumberOfCells(), this->SourceCells,
       this->Output->GetCellData());
     MakeCellArrays(this->SourceCells, this->Orientations, this->Output);
@@ -61,6 +65,14 @@ public:
   }
 
 private:
+  /** Winding of output cells against that of the input. Mirror images have the reversed one. */
+  enum class Winding
+  {
+    Kept,
+    Reversed,
+    ReversedStrip
+  };
+
   // Numbers the points that have an image; others get -1.
   void NumberPoints()
   {
@@ -147,7 +159,7 @@ private:
     return copy;
   }
 
-  vtkSmartPointer<vtkCellArray> CopyCells(vtkCellArray* cells)
+  vtkSmartPointer<vtkCellArray> CopyCells(vtkCellArray* cells, Winding winding)
   {
     auto copy = vtkSmartPointer<vtkCellArray>::New();
     vtkNew<vtkIdList> points;
@@ -170,7 +182,7 @@ private:
       const bool selected = this->Selection.HasCell(this->Cell);
       if (!broken && complete && selected)
       {
-        copy->InsertNextCell(points);
+        InsertCell(copy, points, winding);
         this->AddSource(this->Cell, ids[0]);
       }
       this->Report.BrokenCells += broken;
@@ -178,6 +190,24 @@ private:
       ++this->Cell;
     }
     return copy;
+  }
+
+  // A strip changes the winding of all its triangles with its first point doubled, whatever its
+  // length.
+  static void InsertCell(vtkCellArray* cells, vtkIdList* points, Winding winding)
+  {
+    const vtkIdType* first = points->GetPointer(0);
+    const vtkIdType* last = first + points->GetNumberOfIds();
+    std::vector<vtkIdType> ids(first, last);
+    if (winding == Winding::Reversed)
+    {
+      std::reverse(ids.begin(), ids.end());
+    }
+    else if (winding == Winding::ReversedStrip)
+    {
+      ids.insert(ids.begin(), *first);
+    }
+    cells->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
   }
 
   vtkPolyData* Input;

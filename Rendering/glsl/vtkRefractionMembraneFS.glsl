@@ -13,6 +13,8 @@ in vec2 texCoord;
 //VTK::Output::Dec
 
 uniform sampler2D refracted;       // premultiplied
+uniform sampler2D mirroredScene;   // premultiplied, read if mirrorsScene
+uniform bool mirrorsScene;
 uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 without a membrane
 uniform sampler2D membraneDepth;   // window depth
 #if HAS_ENVIRONMENT
@@ -23,7 +25,7 @@ uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
 uniform vec3 backdrop;             // background, seen through the medium behind the membrane
-uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK or FRESNEL
+uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK, MIRROR, else Fresnel's
 uniform float relativeIndex;       // index of the interior relative to the exterior
 
 // Reflectance of unpolarised light; c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of
@@ -33,6 +35,10 @@ float reflectance(float c)
   if (reflectanceModel == NO_REFLECTANCE)
   {
     return 0.0;
+  }
+  if (reflectanceModel == MIRROR)
+  {
+    return 1.0;
   }
   if (reflectanceModel == SCHLICK)
   {
@@ -71,6 +77,11 @@ void main()
 #else
   vec3 mirrored = background;
 #endif
+  if (mirrorsScene)
+  {
+    vec4 inFront = texture(mirroredScene, texCoord);
+    mirrored = inFront.rgb + (1.0 - inFront.a) * mirrored;
+  }
   gl_FragData[0] = vec4(mix(transmitted, mirrored, reflectance(cosine)), 1.0);
   gl_FragDepth = depth;
 }

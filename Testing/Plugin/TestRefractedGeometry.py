@@ -66,6 +66,19 @@ def check_camera(refracted, view):
         view.CameraFocalPoint = [0, 0, -0.6]
 
 
+def check_reflection(membrane):
+    """A plane mirrors points in front of it to the same distance behind it."""
+    above = simple.Sphere(Center=[0, 0, 0.6], Radius=0.3)
+    mirrored = simple.RefractedGeometry(Geometry=above, Membrane=membrane, EyePosition=EYE,
+                                        Mode="Reflection", Images="First image")
+    source, virtual = servermanager.Fetch(above), servermanager.Fetch(mirrored)
+    assert virtual.GetNumberOfPoints() == source.GetNumberOfPoints()
+    worst = max(abs(a - b) for i in range(source.GetNumberOfPoints())
+                for a, b in zip(virtual.GetPoint(i), source.GetPoint(i)[:2] +
+                                (-source.GetPoint(i)[2],)))
+    assert worst < EXACT_TOLERANCE, "the mirror image is off by %g" % worst
+
+
 def check_exact(sphere, membrane):
     """With a formula for the membrane, its mesh counts by its extent alone: waves on a plane are
     gone, and Snell's law holds as exactly as for a plane; without it they are there again."""
@@ -137,6 +150,7 @@ def test():
     refracted.Images = "All images"
     check_camera(refracted, view)
     check_exact(sphere, membrane)
+    check_reflection(membrane)
     check_blocks(sphere, membrane)
 
 

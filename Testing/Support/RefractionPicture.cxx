@@ -203,7 +203,7 @@ PlaceTracer MakeSquareTracer(double y, double size)
   return [y, size](const glm::dvec3& start, const glm::dvec3& direction)
   {
     PlacePixel pixel;
-    if (direction.y < 0.0)
+    if (y < 0.0 ? direction.y < 0.0 : direction.y > 0.0)
     {
       pixel.Place = start + direction * ((y - start.y) / direction.y);
       pixel.Covered = std::max(std::fabs(pixel.Place.x), std::fabs(pixel.Place.z)) <= 0.5 * size;

@@ -85,7 +85,7 @@ using PlaceTracer = std::function<PlacePixel(const glm::dvec3& start, const glm:
 PlacePicture TracePlaces(
   const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object);
 
-/** A horizontal square around the axis, at height `y`. */
+/** A horizontal square around the axis, at height `y`, below the membrane or above it. */
 PlaceTracer MakeSquareTracer(double y, double size);
 
 /** Extent of the object in a pixel: the largest distance to a neighbouring pixel's place. */

@@ -3,7 +3,6 @@
 #include "Refraction/Curved/CurveCrossings.h"
 
 #include "Refraction/Curved/BracketedZero.h"
-#include "Refraction/Membrane/Optics.h"
 
 #include <glm/common.hpp>
 
@@ -50,8 +49,8 @@ ObjectLine ObjectLine::Order(const glm::dvec3& a, const glm::dvec3& b, bool& tur
 //------------------------------------------------------------------------------
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media)
 {
-  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.Position - media.Eye),
-    glm::normalize(at.Normal), media.Exterior / media.Interior);
+  const RefractionRay ray =
+    media.GetRay(glm::normalize(at.Position - media.Eye), glm::normalize(at.Normal));
   return { at, ray.Direction,
     ray.Kind == RayKind::Refracted && glm::length(at.Normal) > CurvedPatch::ShortestNormal };
 }

@@ -12,6 +12,7 @@
 #define meniscus_Refraction_Curved_CurveCrossings_h
 
 #include "Refraction/Curved/SightEquation.h"
+#include "Refraction/Membrane/Optics.h"
 
 namespace meniscus
 {
@@ -34,19 +35,28 @@ struct ObjectLine
   }
 };
 
+/** An eye, the two media, and the kind of rays to follow from the surface between them. */
 struct Media
 {
   glm::dvec3 Eye;
   double Exterior;
   double Interior;
+  bool Reflects = false; ///< true: rays are reflected; false: they are refracted
+
+  /** The ray that a sight ray becomes at a place with a unit normal. */
+  RefractionRay GetRay(const glm::dvec3& sight, const glm::dvec3& normal) const
+  {
+    return this->Reflects ? ComputeReflectionRay(sight, normal)
+                          : ComputeRefractionRay(sight, normal, this->Exterior / this->Interior);
+  }
 };
 
-/** A point of the membrane and the unit direction of its refracted ray. */
+/** A point of the membrane and the unit direction of its refracted or reflected ray. */
 struct RefractedPoint
 {
   PatchPoint At;
   glm::dvec3 Ray;
-  bool IsValid; ///< true: the refracted ray exists; false: its direction is extrapolated
+  bool IsValid; ///< true: the ray exists; false: its direction is extrapolated
 };
 
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media);

@@ -93,6 +93,7 @@ void CurvedMembraneSolver::BuildTree(RayTubeTree& tree) const
 void CurvedMembraneSolver::FindAxis()
 {
   this->SidesReady = false;
+  this->SidesAboveReady = false;
   glm::dvec3 sum(0.0);
   for (const Membrane::Facet& facet : this->Surface.GetFacets())
   {
@@ -109,6 +110,7 @@ void CurvedMembraneSolver::FindAxis()
   const glm::dvec3 oblique(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
   this->Axis = length > 0.0 && !this->Closed ? sum / length : oblique;
   this->Frame = HeightFrame(this->Axis);
+  this->RayFrame = this->Frame;
   this->FieldReady = false;
   this->ConvexField = false;
   this->LargestBulge = 0.0;
@@ -171,27 +173,70 @@ void CurvedMembraneSolver::PrepareSides()
     this->Sides.Build(this->Surface, this->Patches, this->Frame);
     this->SidesReady = true;
   }
+  if (this->Optics.Reflects && !this->SidesAboveReady)
+  {
+    this->SidesAbove.Build(this->Surface, this->Patches, HeightFrame(-this->Axis));
+    this->SidesAboveReady = true;
+  }
 }
 
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::IsInFront(const glm::dvec3& local) const
 {
-  if (!this->Closed && glm::dot(this->Axis, local) > this->Highest)
+  if (this->IsAboveAll(local))
   {
     return true;
   }
   const MembraneSides::Side side = this->Sides.Find(local);
   return side == MembraneSides::Side::Unknown ? this->OutsideIsFront
-                                              : side == MembraneSides::Side::Front;
+                                              : side != MembraneSides::Side::Behind;
 }
 
 //------------------------------------------------------------------------------
-bool CurvedMembraneSolver::AreAllBehindAll(const double* points, std::size_t count) const
+// Side by the nearest patch below the point, else by the nearest patch above it. Beyond the border
+// of an open mirror there is neither; such a point may still be reflected, by a dome for instance,
+// and its side is unknown.
+MembraneSides::Side CurvedMembraneSolver::FindSideOfMirror(const glm::dvec3& local) const
+{
+  using Side = MembraneSides::Side;
+  if (this->IsAboveAll(local))
+  {
+    return Side::Front;
+  }
+  const Side below = this->Sides.Find(local);
+  if (below != Side::Unknown)
+  {
+    return below;
+  }
+  return this->Closed ? (this->OutsideIsFront ? Side::Front : Side::Behind)
+                      : this->SidesAbove.Find(local);
+}
+
+//------------------------------------------------------------------------------
+// Answers for points that a mirror does not reflect: those on it are their own images, those behind
+// it have none. Returns false for all others.
+bool CurvedMembraneSolver::FindOnMirror(const glm::dvec3& local, VirtualVertex& vertex) const
+{
+  if (!this->Optics.Reflects)
+  {
+    return false;
+  }
+  const MembraneSides::Side side = this->FindSideOfMirror(local);
+  if (side == MembraneSides::Side::On)
+  {
+    vertex = this->PassThrough(local);
+  }
+  return side == MembraneSides::Side::On || side == MembraneSides::Side::Behind;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::AreAllOnRaySide(const double* points, std::size_t count) const
 {
   const glm::dvec3& origin = this->Surface.GetOrigin();
   for (const double* p = points; p != points + 3 * count; p += 3)
   {
-    if (!this->IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin))
+    const glm::dvec3 local = glm::dvec3(p[0], p[1], p[2]) - origin;
+    if (!(this->Optics.Reflects ? this->IsAboveAll(local) : this->IsBehindAll(local)))
     {
       return false;
     }
@@ -206,18 +251,24 @@ void CurvedMembraneSolver::Clear()
   this->Patches = CurvedPatches();
   this->Tree = RayTubeTree();
   this->SidesReady = false;
+  this->SidesAboveReady = false;
 }
 
 //------------------------------------------------------------------------------
 EyeStatus CurvedMembraneSolver::SetEye(
-  const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop)
+  const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop, bool reflects)
 {
   const EyeStatus status = CheckEye(eye, exterior, interior);
   if (status != EyeStatus::Ready)
   {
     return status;
   }
-  this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior };
+  this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior, reflects };
+  this->RayFrame = reflects ? HeightFrame(-this->Axis) : this->Frame;
+  if (reflects)
+  {
+    this->PrepareSides();
+  }
   std::atomic<bool> touched{ false };
   this->Tree.Refit(
     [this, &touched](std::int32_t facet)
@@ -227,8 +278,9 @@ EyeStatus CurvedMembraneSolver::SetEye(
       {
         touched = true;
       }
-      return BoundRefractedRays(
-        patch, this->Optics.Eye, this->Optics.Exterior / this->Optics.Interior);
+      return this->Optics.Reflects ? BoundReflectedRays(patch, this->Optics.Eye)
+                                   : BoundRefractedRays(patch, this->Optics.Eye,
+                                       this->Optics.Exterior / this->Optics.Interior);
     },
     loop);
   return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
@@ -299,7 +351,7 @@ bool CurvedMembraneSolver::MayShow(
   const double padding = std::max({ half.x, half.y, half.z });
   const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
     std::copysign(half.z, this->Axis.z));
-  return !this->IsInReach(middle) || !this->IsBehindAll(middle + top) ||
+  return !this->IsInReach(middle) || (!this->Optics.Reflects && !this->IsBehindAll(middle + top)) ||
     this->Tree.HasAny(middle, padding, chosen);
 }
 
@@ -338,6 +390,10 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
   if (!this->IsInReach(local))
   {
     vertex.State = ImageState::NotFinite;
+    return vertex;
+  }
+  if (this->FindOnMirror(local, vertex))
+  {
     return vertex;
   }
   const SightEquation equation = this->MakeEquation(local);
@@ -549,6 +605,12 @@ ImageState CurvedMembraneSolver::FindImages(
   {
     return ImageState::NotFinite;
   }
+  VirtualVertex own;
+  if (this->FindOnMirror(local, own))
+  {
+    images.assign(own.State == ImageState::Found ? 1 : 0, own);
+    return own.State;
+  }
   const SightEquation equation = this->MakeEquation(local);
   thread_local std::vector<SightPlace> places; // kept between points so that its memory is reused
   this->FindPlaces(equation, local, places);
@@ -577,10 +639,13 @@ VirtualVertex CurvedMembraneSolver::MakeVertex(
   VirtualVertex vertex;
   vertex.Depth = glm::length(local - at.Position);
   vertex.SightPoint = at.Position + this->Surface.GetOrigin();
-  // Eq. 2.4; the identity if the indices are equal.
-  const glm::dvec3 virtualPoint = this->Optics.Exterior == this->Optics.Interior
+  // Eq. 2.4; the identity if the indices are equal. The medium does not change at a mirror.
+  const bool reflects = this->Optics.Reflects;
+  const double exterior = reflects ? 1.0 : this->Optics.Exterior;
+  const double interior = reflects ? 1.0 : this->Optics.Interior;
+  const glm::dvec3 virtualPoint = !reflects && exterior == interior
     ? local
-    : at.Position + sight * (vertex.Depth * this->Optics.Exterior / this->Optics.Interior);
+    : at.Position + sight * (vertex.Depth * exterior / interior);
   vertex.Position = virtualPoint + this->Surface.GetOrigin();
   vertex.Cosine = -glm::dot(sight, at.Normal) / glm::length(at.Normal);
   vertex.Reflectance =

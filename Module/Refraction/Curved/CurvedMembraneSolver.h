@@ -65,9 +65,11 @@ public:
 
   /**
    * Fits the tree to an eye in world coordinates. Solving is allowed only if the result is `Ready`.
+   * With `reflects`, virtual points are those of a mirror: of points on the eye's side, as far
+   * behind their sight points as they are in front of them. The indices give the reflectance only.
    */
-  EyeStatus SetEye(
-    const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop = SerialLoop);
+  EyeStatus SetEye(const glm::dvec3& eye, double exterior, double interior,
+    const RangeLoop& loop = SerialLoop, bool reflects = false);
 
   /**
    * Finds one image of each of `points` (x, y, z each) in [begin, end) and writes it to the same
@@ -107,12 +109,12 @@ public:
 
   /** @{ */
   /**
-   * The directions that InjectivityGrid takes, along the mean of the membrane's normals, and
-   * whether the membrane is a convex field along them, which PrepareField determines once per
-   * shape.
+   * The directions that InjectivityGrid takes, along the mean of the membrane's normals, or against
+   * it if the membrane reflects, and whether the membrane is a convex field along them, which
+   * PrepareField determines once per shape.
    */
   void PrepareField();
-  const HeightFrame& GetFrame() const { return this->Frame; }
+  const HeightFrame& GetFrame() const { return this->RayFrame; }
   bool HasConvexField() const { return this->ConvexField; }
   /** @} */
   /** Largest distance of a patch from its flat facet. */
@@ -156,7 +158,9 @@ public:
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const
   {
-    return { this->Optics.Eye, local, this->Optics.Exterior, this->Optics.Interior };
+    return this->Optics.Reflects
+      ? SightEquation::MakeReflection(this->Optics.Eye, local)
+      : SightEquation(this->Optics.Eye, local, this->Optics.Exterior, this->Optics.Interior);
   }
   bool IsInReach(const glm::dvec3& local) const;
 
@@ -172,7 +176,8 @@ public:
 
   /**
    * True if a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
-   * coordinates, or if the box is not entirely behind the membrane.
+   * coordinates, or if points of the box may be shown unrefracted: unless the box is entirely
+   * behind the membrane, or the membrane reflects.
    */
   bool MayShow(
     const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;
@@ -181,7 +186,10 @@ public:
   VirtualVertex MakeVertex(
     const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
 
-  /** Virtual vertex of a local point on the eye's side of the membrane, which is its own image. */
+  /**
+   * Virtual vertex of a local point that is its own image: on the eye's side of a membrane that
+   * refracts, or on a mirror.
+   */
   VirtualVertex PassThrough(const glm::dvec3& local) const;
 
   /** @{ */
@@ -202,14 +210,26 @@ public:
   {
     return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
   }
-  /** The same for `count` points (x, y, z each) in world coordinates. */
-  bool AreAllBehindAll(const double* points, std::size_t count) const;
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
   /**
+   * True if `count` points (x, y, z each), in world coordinates, are certainly on the side of the
+   * membrane that its rays go to: behind all of it, or in front of all of it if it reflects.
+   */
+  bool AreAllOnRaySide(const double* points, std::size_t count) const;
+  /** True if a point may lie on a ray that has not met the membrane again. Needs PrepareSides. */
+  bool IsOnRaySide(const glm::dvec3& local) const
+  {
+    return this->Optics.Reflects ? this->FindSideOfMirror(local) != MembraneSides::Side::Behind
+                                 : !this->IsInFront(local);
+  }
+  /**
    * Number of points since construction whose side could not be determined; they are not in front.
    */
-  std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
+  std::int64_t GetNumberOfUndecidedSides() const
+  {
+    return this->Sides.GetNumberOfUndecided() + this->SidesAbove.GetNumberOfUndecided();
+  }
   /** @} */
 
 private:
@@ -227,6 +247,12 @@ private:
 
   void FindAxis();
   void FindEnclosure();
+  bool IsAboveAll(const glm::dvec3& local) const
+  {
+    return !this->Closed && glm::dot(this->Axis, local) > this->Highest;
+  }
+  MembraneSides::Side FindSideOfMirror(const glm::dvec3& local) const;
+  bool FindOnMirror(const glm::dvec3& local, VirtualVertex& vertex) const;
   void BuildTree(RayTubeTree& tree) const;
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
   bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
@@ -239,9 +265,12 @@ private:
   CurvedPatches Patches;
   RayTubeTree Tree;
   MembraneSides Sides;
+  MembraneSides SidesAbove; ///< as Sides, but by patches above points
   bool SidesReady = false;
+  bool SidesAboveReady = false;
   glm::dvec3 Axis{ 0.0 };
   HeightFrame Frame;
+  HeightFrame RayFrame;
   bool FieldReady = false;
   bool ConvexField = false;
   double LargestBulge = 0.0;

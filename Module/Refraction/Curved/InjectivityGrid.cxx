@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/InjectivityGrid.h"
 
-#include "Refraction/Membrane/Optics.h"
-
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -51,8 +49,8 @@ bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& f
   {
     return false;
   }
-  const RefractionRay refracted = ComputeRefractionRay(
-    glm::normalize(at.Position - media.Eye), at.Normal / length, media.Exterior / media.Interior);
+  const RefractionRay refracted =
+    media.GetRay(glm::normalize(at.Position - media.Eye), at.Normal / length);
   const double drop = -frame.GetHeight(refracted.Direction);
   if (refracted.Kind != RayKind::Refracted || !(drop > 0.0))
   {

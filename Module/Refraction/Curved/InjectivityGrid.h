@@ -34,7 +34,8 @@ class InjectivityGrid
 {
 public:
   /**
-   * Builds the grid for points between two heights along the frame's axis. The membrane must be a
+   * Builds the grid for points between two heights along the frame's axis, which points against the
+   * rays: along the membrane's normals, or against them for reflected rays. The membrane must be a
    * convex field, and no patch may be farther than `bulge` from its flat facet.
    */
   void Build(const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame,

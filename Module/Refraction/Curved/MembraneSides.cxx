@@ -152,6 +152,8 @@ MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int3
     {
       look =
         this->LookAlong(this->Frame, local + reach * way, std::numeric_limits<double>::infinity());
+      // The place is on a patch; the point itself is not.
+      look.Answer = look.Answer == Side::On ? Side::Front : look.Answer;
     }
     if (look.OpenFacet == CurvedPatches::NoFacet)
     {
@@ -290,7 +292,7 @@ MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& can
       }
       if (distance <= this->Slack)
       {
-        return MakeLook(1);
+        return { Side::On, CurvedPatches::NoFacet };
       }
       nearest.Add(crossing, candidate.Facet, SameHeight * patch.GetSize());
     }

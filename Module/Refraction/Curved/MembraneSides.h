@@ -37,13 +37,14 @@ public:
   {
     Unknown, ///< no patch below the point
     Front,
-    Behind
+    Behind,
+    On ///< within rounding of a patch
   };
 
   /** Builds the tree. `surface` and `patches` must outlive this. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const HeightFrame& frame);
 
-  /** Side of a point in local coordinates. Points within rounding of a patch are in front. */
+  /** Side of a point in local coordinates. */
   Side Find(const glm::dvec3& local) const;
 
   /** Number of points since construction whose side no way could decide. */

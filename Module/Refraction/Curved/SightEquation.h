@@ -8,7 +8,12 @@
  *
  * is parallel to the normal where the ray along a is refracted along p. It is |a| |p| times the
  * difference in the tangential part of Eq. 2.2, stays smooth beyond the critical angle and where
- * the surface faces away, and has no pole at the eye or at the point.
+ * the surface faces away, and has no pole at the eye or at the point. It is also the derivative of
+ * the optical path n1 |a| + n2 |p| along the surface, times |a| |p|.
+ *
+ * A mirror has the same equation with n1 = n2: |p| a - |a| p is parallel to the normal where the
+ * tangential parts of the two directions are equal, for the straight ray and for the reflected one.
+ * The side that the point lies on tells them apart: it is the eye's for a reflection.
  */
 #ifndef meniscus_Refraction_Curved_SightEquation_h
 #define meniscus_Refraction_Curved_SightEquation_h
@@ -50,6 +55,15 @@ public:
   {
   }
 
+  /** Equation of a reflection, for a point on the eye's side. */
+  static SightEquation MakeReflection(const glm::dvec3& eye, const glm::dvec3& point)
+  {
+    SightEquation equation(eye, point, 1.0, 1.0);
+    equation.PointSide = 1.0;
+    equation.LastStep = 1e-7;
+    return equation;
+  }
+
   /**
    * Component of h tangential to the surface, in the two directions of the facet's edges and
    * multiplied by the square of the normal's length; zero at a sight point. `nearest` is set to the
@@ -69,7 +83,10 @@ public:
    */
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
-  /** True if a root is an image: the eye is in front of the surface, the point behind it. */
+  /**
+   * True if a root is an image: the eye is in front of the surface, the point behind it, or in
+   * front for a reflection.
+   */
   bool IsImage(const PatchPoint& at) const;
 
   /** Squared distance of a place from the eye or from the point, whichever is nearer. */
@@ -99,6 +116,13 @@ private:
   glm::dvec3 Point;
   double Exterior;
   double Interior;
+  double PointSide = -1.0; ///< side of the surface that the point lies on: +1 in front, -1 behind
+  /**
+   * Length of Newton's last step in units of the facet. The error after a step is of the order of
+   * the step's square: below 1e-10 of a facet, except near a caustic. For a reflection it is below
+   * 1e-14, so that plane mirrors are exact within rounding.
+   */
+  double LastStep = 1e-5;
 };
 
 //------------------------------------------------------------------------------
@@ -172,11 +196,10 @@ inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
 inline SightRoot SightEquation::Solve(
   const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
 {
-  // The error after a step is of the order of the step's square, in units of the facet: the
-  // remaining error is below 1e-10 of a facet except near a caustic. Where the eye or the point is
-  // closer to the surface than a facet is wide, that distance takes the place of the facet's size.
-  constexpr double lastStep = 1e-5;
-  const auto isLast = [](const Step& step, const PatchJet& at, double size)
+  // Where the eye or the point is closer to the surface than a facet is wide, that distance takes
+  // the place of the facet's size.
+  const double lastStep = this->LastStep;
+  const auto isLast = [lastStep](const Step& step, const PatchJet& at, double size)
   {
     const double width = std::max(
       glm::dot(at.PositionBy[0], at.PositionBy[0]), glm::dot(at.PositionBy[1], at.PositionBy[1]));
@@ -216,7 +239,7 @@ inline bool SightEquation::IsImage(const PatchPoint& at) const
   return glm::dot(at.Normal, at.Normal) >
     CurvedPatch::ShortestNormal * CurvedPatch::ShortestNormal &&
     glm::dot(at.Position - this->Eye, at.Normal) < 0.0 &&
-    glm::dot(this->Point - at.Position, at.Normal) < 0.0;
+    this->PointSide * glm::dot(this->Point - at.Position, at.Normal) > 0.0;
 }
 
 //------------------------------------------------------------------------------

@@ -127,8 +127,8 @@ void ObjectImages::SolveRun(
   {
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
     const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
-    if (this->MayCross && this->Geometry.IsInReach(local) && !this->Geometry.IsBehindAll(local) &&
-      this->Geometry.IsInFront(local))
+    if (this->MayCross && !this->Geometry.GetMedia().Reflects && this->Geometry.IsInReach(local) &&
+      !this->Geometry.IsBehindAll(local) && this->Geometry.IsInFront(local))
     {
       images.assign(1, this->Geometry.PassThrough(local));
       images.front().Position = point;
@@ -316,8 +316,8 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
         continue;
       }
       isDivided = false;
-      mapping.MapLine(
-        this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell, side == Side::Both, pieces);
+      mapping.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell,
+        this->MayCrossMembrane(side), pieces);
     }
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
@@ -359,7 +359,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     {
       mapping.MapTriangle(
         this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
-        cell, side == Side::Both, pieces);
+        cell, this->MayCrossMembrane(side), pieces);
     }
     isMapped[i] = isDivided ? 0 : 1;
     report.Count(isDivided, pieces.GetNumberOfCells() > before);

@@ -39,8 +39,8 @@ public:
   void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
 
   /**
-   * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them is
-   * not behind all of the membrane. Computes no image.
+   * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them may
+   * be on the other side of the membrane than its rays. Computes no image.
    */
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 
@@ -102,6 +102,10 @@ private:
   ImageState FindImages(const glm::dvec3& point, bool isUnique,
     CurvedMembraneSolver::Memory& memory, std::vector<VirtualVertex>& images) const;
   Side FindSide(const std::int64_t* ids, std::size_t count) const;
+  bool MayCrossMembrane(Side side) const
+  {
+    return side == Side::Both || (this->MayCross && this->Geometry.GetMedia().Reflects);
+  }
   bool HaveOneImage(const std::int64_t* ids, std::size_t count) const;
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;

@@ -55,7 +55,11 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
   context.Images = &behind;
   context.IsOnMembrane = &isOnMembrane;
   this->Map(context);
-  const std::vector<WaterlinePiece> waterline = this->DropInFront(context, behind, images);
+  const std::vector<WaterlinePiece> waterline = this->DropBeyond(context, behind, images);
+  if (this->Geometry.GetMedia().Reflects)
+  {
+    return; // a mirror shows nothing of the part behind it
+  }
   if (context.IsLine)
   {
     AddFrontOfLine(this->Geometry, context.Primitive, context.SourceCell, images);
@@ -68,9 +72,10 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
 }
 
 //------------------------------------------------------------------------------
-// Drops parts that lie in front of the membrane: a ray may leave the interior through the membrane
-// and meet the primitive outside, which is no image. Returns the pieces of the waterline.
-std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
+// Drops parts that lie on the other side of the membrane than its rays, in front of it or behind a
+// mirror: a ray may leave through the membrane and meet the primitive outside, which is no image.
+// Returns the pieces of the waterline.
+std::vector<WaterlinePiece> PrimitiveMapper::DropBeyond(
   const Context& context, const ImageMesh& from, ImageMesh& images) const
 {
   std::vector<WaterlinePiece> waterline;
@@ -87,7 +92,7 @@ std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
       weights.push_back(context.GetWeight(from.Points[id]));
       middle += context.GetPoint(weights.back()) / static_cast<double>(end - begin);
     }
-    if (!this->Geometry.IsInFront(middle))
+    if (this->Geometry.IsOnRaySide(middle))
     {
       for (std::int64_t i = begin; i < end; ++i)
       {

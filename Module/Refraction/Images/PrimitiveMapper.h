@@ -61,7 +61,7 @@ public:
 
   /**
    * Adds the images of a triangle as convex polygons with the winding of the triangle. With
-   * `mayCross`, also adds the part of it in front of the membrane, unchanged.
+   * `mayCross`, also adds the part of it in front of the membrane, unchanged, unless it reflects.
    */
   void MapTriangle(const MappedTriangle& triangle, std::int64_t sourceCell, bool mayCross,
     ImageMesh& images) const;
@@ -88,7 +88,7 @@ private:
 
   void MapSides(Context& context, bool mayCross, ImageMesh& images) const;
   void Map(const Context& context) const;
-  std::vector<WaterlinePiece> DropInFront(
+  std::vector<WaterlinePiece> DropBeyond(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
   void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign) const;

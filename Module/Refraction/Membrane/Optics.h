@@ -21,7 +21,7 @@ namespace meniscus
 /** Equation that a refracted ray comes from. */
 enum class RayKind : unsigned char
 {
-  Refracted,       ///< Eq. 2.2, Snell's law.
+  Refracted,       ///< Eq. 2.2, Snell's law, or the law of reflection.
   BackFacing,      ///< Eq. 3.1, extrapolated: the surface faces away from the ray.
   TotallyReflected ///< Eq. 3.2, extrapolated: beyond the critical angle.
 };
@@ -63,6 +63,17 @@ inline RefractionRay ComputeRefractionRay(
   const RayKind kind = radicand < 0.0 ? RayKind::TotallyReflected
                                       : (facing > 0.0 ? RayKind::BackFacing : RayKind::Refracted);
   return { RefractionDirection(sight, normal, ratio, cosine, radicand), kind };
+}
+
+/**
+ * Reflected ray of the sight ray `sight` at a surface of normal `normal`, D - 2 N (D.N): Snell's
+ * law with n2 = -n1. A surface that faces away reflects nothing; its ray is the same expression.
+ */
+inline RefractionRay ComputeReflectionRay(const glm::dvec3& sight, const glm::dvec3& normal)
+{
+  const double facing = glm::dot(sight, normal);
+  return { glm::normalize(sight - (2.0 * facing) * normal),
+    facing < 0.0 ? RayKind::Refracted : RayKind::BackFacing };
 }
 
 /**

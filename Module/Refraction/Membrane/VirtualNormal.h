@@ -111,6 +111,51 @@ inline glm::dvec3 ComputeVirtualNormal(const glm::dvec3& normal, const glm::dvec
   return KeepLighting(normal, atTrue, atVirtual);
 }
 
+/**
+ * Normal of the mirror image of a point with the unit normal `normal`: mirrored at the tangent
+ * plane of the sight point. The light is mirrored with it.
+ */
+inline glm::dvec3 ComputeMirroredNormal(const glm::dvec3& normal, const glm::dvec3& point,
+  const glm::dvec3& sightPoint, const glm::dvec3& eye)
+{
+  const glm::dvec3 back = point - sightPoint;
+  const double depth = glm::length(back);
+  if (!(depth > 0.0))
+  {
+    return normal;
+  }
+  // By the law of reflection the mirror's normal halves the angle between eye and point.
+  const glm::dvec3 across = glm::normalize(back / depth + glm::normalize(eye - sightPoint));
+  return normal - (2.0 * glm::dot(normal, across)) * across;
+}
+
+/**
+ * Normal at the mirror image `position` of a point for light that comes to the point directly, not
+ * by the mirror; otherwise as ComputeVirtualNormal. A null `light` is at the eye.
+ */
+inline glm::dvec3 ComputeReflectedNormal(const glm::dvec3& normal, const glm::dvec3& point,
+  const glm::dvec3& sightPoint, const glm::dvec3& eye, const glm::dvec3* light)
+{
+  const glm::dvec3 inFront = sightPoint - point;
+  const double depth = glm::length(inFront);
+  const glm::dvec3 view = glm::normalize(eye - sightPoint); // the virtual point is on this ray
+  if (!(depth > 0.0))
+  {
+    return normal;
+  }
+  if (!light)
+  {
+    // The virtual point is lit along the line of sight, so only the light's product can be kept.
+    const glm::dvec3 mirrored = ComputeMirroredNormal(normal, point, sightPoint, eye);
+    const double q = glm::dot(normal, glm::normalize(eye - point));
+    const glm::dvec3 beside = mirrored - glm::dot(mirrored, view) * view;
+    const double length = glm::length(beside);
+    const double sine = std::sqrt(std::max(1.0 - q * q, 0.0));
+    return length > 0.0 ? q * view + (sine / length) * beside : mirrored;
+  }
+  return KeepLighting(normal, { inFront / depth, *light }, { view, *light });
+}
+
 }
 
 #endif

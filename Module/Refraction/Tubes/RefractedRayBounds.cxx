@@ -29,6 +29,29 @@ std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
   return control;
 }
 
+// Tube around rays along ratio D + g N, with g between two ends.
+TubeBounds BoundCombinations(const DirectionBox& sight, const DirectionBox& normal, double ratio,
+  const double (&ends)[2], const glm::dvec3* points, int count, double reach)
+{
+  const double g = 0.5 * (ends[0] + ends[1]);
+  const double gHalf = 0.5 * std::fabs(ends[0] - ends[1]);
+  const glm::dvec3 direction = ratio * sight.Middle + g * normal.Middle;
+  const glm::dvec3 spread = ratio * sight.Half + std::fabs(g) * normal.Half +
+    gHalf * (glm::abs(normal.Middle) + normal.Half);
+  // The rays are unit vectors.
+  const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
+  const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
+  return BoundRays(lowest, highest, points, count, reach);
+}
+
+// Bounds of the sight rays to a patch whose points are within `bulge` of its facet.
+DirectionBox BoundSights(const CurvedPatch& patch, const glm::dvec3& eye, double bulge)
+{
+  const glm::dvec3 sights[3] = { patch.Corner[0] - eye, patch.Corner[1] - eye,
+    patch.Corner[2] - eye };
+  return BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -137,27 +160,30 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
   const double last =
     radicand(most) > 0.0 ? most : -std::sqrt(std::max(1.0 - 1.0 / (ratio * ratio), 0.0));
   const double ends[2] = { factor(least), factor(last) };
-  const double g = 0.5 * (ends[0] + ends[1]);
-  const double gHalf = 0.5 * std::fabs(ends[0] - ends[1]);
-
-  const glm::dvec3 direction = ratio * sight.Middle + g * normal.Middle;
-  const glm::dvec3 spread = ratio * sight.Half + std::fabs(g) * normal.Half +
-    gHalf * (glm::abs(normal.Middle) + normal.Half);
-  // The rays are unit vectors.
-  const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
-  const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
-  return BoundRays(lowest, highest, points, count, reach);
+  return BoundCombinations(sight, normal, ratio, ends, points, count, reach);
 }
 
 //------------------------------------------------------------------------------
 TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
 {
   const double bulge = BoundBulge(patch);
-  const glm::dvec3 sights[3] = { patch.Corner[0] - eye, patch.Corner[1] - eye,
-    patch.Corner[2] - eye };
-  const DirectionBox sight =
-    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
-  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.Corner, 3, bulge);
+  return BoundRefractedRays(
+    BoundSights(patch, eye, bulge), BoundNormals(patch), ratio, patch.Corner, 3, bulge);
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundReflectedRays(const CurvedPatch& patch, const glm::dvec3& eye)
+{
+  const double bulge = BoundBulge(patch);
+  const DirectionBox sight = BoundSights(patch, eye, bulge);
+  const DirectionBox normal = BoundNormals(patch);
+  const CosineBounds cosine = BoundCosine(sight, normal);
+  if (!(cosine.Least < 0.0))
+  {
+    return TubeBounds();
+  }
+  const double ends[2] = { -2.0 * cosine.Least, -2.0 * std::min(cosine.Most, 0.0) };
+  return BoundCombinations(sight, normal, 1.0, ends, patch.Corner, 3, bulge);
 }
 
 }

@@ -61,6 +61,12 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
  */
 TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio);
 
+/**
+ * Tube around every ray that a point of `patch` reflects, by the same arithmetic with ratio 1 and
+ * g(c) = -2 c. It is not valid if the entire patch faces away from the eye.
+ */
+TubeBounds BoundReflectedRays(const CurvedPatch& patch, const glm::dvec3& eye);
+
 }
 
 #endif

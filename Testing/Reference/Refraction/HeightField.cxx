@@ -166,7 +166,9 @@ std::vector<glm::dvec3> HeightField::FindSightPoints(
       const glm::dvec3 normal = this->GetNormal(x, z);
       const bool known = std::any_of(found.begin(), found.end(),
         [&s, step](const glm::dvec3& other) { return glm::length(other - s) < 1e-6 * step; });
-      if (!known && glm::dot(s - eye, normal) < 0.0 && glm::dot(point - s, normal) < 0.0)
+      const double height = glm::dot(point - s, normal);
+      if (!known && glm::dot(s - eye, normal) < 0.0 &&
+        (this->Mirrors ? height > 0.0 : height < 0.0))
       {
         found.push_back(s);
       }
@@ -197,6 +199,10 @@ std::optional<glm::dvec3> HeightField::Refract(
 {
   const glm::dvec3 sight = glm::normalize(onSurface - eye);
   const glm::dvec3 normal = this->GetNormal(onSurface.x, onSurface.z);
+  if (this->Mirrors)
+  {
+    return onSurface + length * (sight - 2.0 * glm::dot(sight, normal) * normal);
+  }
   const glm::dvec3 tangent =
     (sight - normal * glm::dot(sight, normal)) * (this->Exterior / this->Interior);
   const double squared = 1.0 - glm::dot(tangent, tangent);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Refraction at an analytic height field y = f(x, z) over a square, the eye above it. Sight points
- * are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat), found by a dense
- * search in double precision, independently of the kernel's patches, trees and equations.
+ * Refraction or reflection at an analytic height field y = f(x, z) over a square, the eye above it.
+ * Sight points are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat),
+ * found by a dense search in double precision, independently of the kernel's patches, trees and
+ * equations.
  */
 #ifndef meniscus_Testing_Reference_Refraction_HeightField_h
 #define meniscus_Testing_Reference_Refraction_HeightField_h
@@ -31,6 +32,7 @@ struct HeightField
   double K = 0.0;
   double Exterior = 1.0;
   double Interior = 1.333;
+  bool Mirrors = false; ///< reflection, of points above the field; the indices must be 1
 
   double GetHeight(double x, double z) const;
   /** df / dx and df / dz. */
@@ -51,7 +53,7 @@ struct HeightField
 
   /**
    * Point at a distance of `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin
-   * b; nothing under total internal reflection.
+   * b; nothing under total internal reflection. For a mirror, on the reflected ray.
    */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double length) const;

@@ -1,0 +1,420 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkRefractedGeometryFilter in Mode REFLECTION: pictures, cuts, normals, winding and bad input.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+#include "RefractionPicture.h"
+
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkStripper.h"
+#include "vtkTriangleFilter.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::HeightField;
+using Filter = vtkRefractedGeometryFilter;
+
+const double Pi = std::acos(-1.0);
+const glm::dvec3 Eye(20.0, 300.0, 10.0);
+
+vtkSmartPointer<Filter> MakeMirror(vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetModeToReflection();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
+{
+  glm::dvec3 p(0.0);
+  data->GetPoint(i, &p.x);
+  return p;
+}
+
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
+{
+  glm::dvec3 t(0.0);
+  array->GetTuple(i, &t.x);
+  return t;
+}
+
+/** Twice the area of a polygon of the output, along its normal by the order of its points. */
+glm::dvec3 GetAreaVector(vtkPolyData* data, vtkIdType cell)
+{
+  vtkNew<vtkIdList> ids;
+  data->GetCellPoints(cell, ids);
+  glm::dvec3 sum(0.0);
+  for (vtkIdType k = 2; k < ids->GetNumberOfIds(); ++k)
+  {
+    const glm::dvec3 first = GetPoint(data, ids->GetId(0));
+    sum +=
+      glm::cross(GetPoint(data, ids->GetId(k - 1)) - first, GetPoint(data, ids->GetId(k)) - first);
+  }
+  return sum;
+}
+
+/** An upright rectangle in the plane z = `z`, of two quads one above the other. */
+vtkSmartPointer<vtkPolyData> MakeScreen(double z, double low, double high)
+{
+  std::vector<Point> points;
+  for (const double y : { low, 0.25 * low + 0.75 * high, high })
+  {
+    points.push_back({ -20.0, y, z });
+    points.push_back({ 20.0, y, z });
+  }
+  auto screen = MakePoints(points);
+  vtkNew<vtkCellArray> quads;
+  for (const vtkIdType k : { 0, 2 })
+  {
+    const vtkIdType ids[4] = { k, k + 1, k + 3, k + 2 };
+    quads->InsertNextCell(4, ids);
+  }
+  screen->SetPolys(quads);
+  return screen;
+}
+
+//------------------------------------------------------------------------------
+struct MirrorScene
+{
+  const char* Name;
+  HeightField Field;
+  glm::dvec3 Eye;
+  double Height; ///< of a square of 4 x 4 tiles above the mirror
+  double Size;
+};
+
+std::vector<MirrorScene> GetMirrorScenes()
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 0.8, 0.03 * Pi, 1.0, 1.0, true };
+  const HeightField dome{ HeightField::Shape::Dome, 200.0, 8.0, 0.025, 1.0, 1.0, true };
+  const HeightField dish{ HeightField::Shape::Dome, 200.0, -8.0, 0.025, 1.0, 1.0, true };
+  return { { "waves with caustics", waves, Eye, 90.0, 60.0 },
+    { "convex", dome, { 30.0, 400.0, 20.0 }, 60.0, 110.0 },
+    { "concave, beyond its focus", dish, { 30.0, 400.0, 20.0 }, 120.0, 40.0 } };
+}
+
+class ReflectedGeometry : public ::testing::TestWithParam<std::size_t>
+{
+};
+
+// A pixel differs as in RefractedGeometryRayTrace.
+TEST_P(ReflectedGeometry, PixelsAgreeWithTracedRays)
+{
+  const MirrorScene scene = GetMirrorScenes()[GetParam()];
+  const PixelCamera camera(scene.Eye, { 0.0, 0.0, 0.0 }, 0.5 * scene.Field.Side / scene.Eye.y);
+  const auto grid = MakeGrid(5, scene.Size, scene.Height);
+  AddPlaces(grid);
+  const auto filter = MakeMirror(grid, MakeMembrane(scene.Field.MakeMesh(96)));
+  filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
+  const PlacePicture traced =
+    TracePlaces(scene.Field, camera, MakeSquareTracer(scene.Height, scene.Size));
+  const PlaceComparison compared = ComparePlaces(traced, drawn, camera);
+  std::printf("%s: %d pixels, %d differ in coverage, %d in place, %lld cells\n", scene.Name,
+    compared.Covered, compared.Coverage, compared.Place,
+    static_cast<long long>(filter->GetOutput()->GetNumberOfCells()));
+  EXPECT_GT(compared.Covered, camera.GetPixels() * camera.GetPixels() / 20);
+  EXPECT_LE(compared.Coverage + compared.Place, compared.Covered / 1000);
+}
+
+// Facets out of the camera's view do not change the part in view.
+TEST_P(ReflectedGeometry, CullingKeepsThePicture)
+{
+  const MirrorScene scene = GetMirrorScenes()[GetParam()];
+  const PixelCamera camera(scene.Eye, { 20.0, 0.0, 20.0 }, 0.05, 256);
+  const auto grid = MakeGrid(17, scene.Size, scene.Height);
+  AddPlaces(grid);
+  const auto filter = MakeMirror(grid, MakeMembrane(scene.Field.MakeMesh(64)));
+  filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
+  filter->Update();
+  const PlacePicture whole = DrawPlaces(filter->GetOutput(), camera);
+  vtkNew<vtkCamera> view;
+  view->SetPosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
+  view->SetFocalPoint(20.0, 0.0, 20.0);
+  view->SetViewUp(0.0, 0.0, 1.0);
+  view->SetViewAngle(2.0 * std::atan(0.05) * 180.0 / Pi);
+  filter->SetCamera(view);
+  filter->SetViewAspectRatio(1.0);
+  filter->Update();
+  EXPECT_GT(filter->GetNumberOfCulledCells(), 0);
+  const PlaceComparison compared =
+    ComparePlaces(whole, DrawPlaces(filter->GetOutput(), camera), camera);
+  EXPECT_GT(compared.Covered, 1000);
+  EXPECT_EQ(compared.Coverage + compared.Place, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ReflectedGeometry, ::testing::Range<std::size_t>(0, 3));
+
+//------------------------------------------------------------------------------
+// All sources of an output: points, lines, polygons and strips at a plane mirror. Normals are
+// mirrored in the type of the input, whose own array is not touched.
+TEST(ReflectedGeometryOutput, PlaneMirrorsReverseNormalsAndWinding)
+{
+  for (const int images : { Filter::FIRST_IMAGE, Filter::ALL_IMAGES })
+  {
+    const auto grid = MakeGrid(9, 60.0, 40.0);
+    vtkNew<vtkFloatArray> normals;
+    normals->SetName("Bumps");
+    normals->SetNumberOfComponents(3);
+    for (int i = 0; i < 81; ++i)
+    {
+      const glm::dvec3 n =
+        glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 1.0, 0.6 * std::cos(1.3 * i)));
+      normals->InsertNextTuple(&n.x);
+    }
+    grid->GetPointData()->SetNormals(normals);
+    const auto filter = MakeMirror(grid, MakeFlatMembrane());
+    filter->SetImages(images);
+    filter->Update();
+    vtkPolyData* output = filter->GetOutput();
+    ASSERT_EQ(output->GetNumberOfPoints(), 81);
+    ASSERT_EQ(output->GetNumberOfCells(), 64);
+    vtkDataArray* mirrored = output->GetPointData()->GetNormals();
+    ASSERT_TRUE(mirrored);
+    EXPECT_STREQ(mirrored->GetName(), "Bumps");
+    EXPECT_EQ(mirrored->GetDataType(), VTK_FLOAT);
+    for (vtkIdType i = 0; i < 81; ++i)
+    {
+      const glm::dvec3 truth = GetPoint(grid, i);
+      EXPECT_LT(glm::length(GetPoint(output, i) - glm::dvec3(truth.x, -truth.y, truth.z)), 1e-10);
+      const glm::dvec3 n = GetTuple(normals, i);
+      EXPECT_LT(glm::length(GetTuple(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
+      EXPECT_GT(n.y, 0.0);
+    }
+    for (vtkIdType cell = 0; cell < 64; ++cell)
+    {
+      // The front of the grid is its upper side, and that of its image the lower one.
+      EXPECT_GT(GetAreaVector(grid, cell).y, 0.0);
+      EXPECT_LT(GetAreaVector(output, cell).y, 0.0);
+      EXPECT_EQ(output->GetCellData()->GetArray("ImageOrientation")->GetTuple1(cell), 1.0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(ReflectedGeometryOutput, StripsAreReversedToo)
+{
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(MakeGrid(6, 60.0, 40.0));
+  vtkNew<vtkStripper> strips;
+  strips->SetInputConnection(triangles->GetOutputPort());
+  strips->Update();
+  ASSERT_GT(strips->GetOutput()->GetNumberOfStrips(), 0);
+  for (const int images : { Filter::FIRST_IMAGE, Filter::ALL_IMAGES })
+  {
+    const auto filter = MakeMirror(strips->GetOutput(), MakeFlatMembrane());
+    filter->SetImages(images);
+    filter->Update();
+    vtkNew<vtkTriangleFilter> split;
+    split->SetInputData(filter->GetOutput());
+    split->Update();
+    double area = 0.0;
+    for (vtkIdType cell = 0; cell < split->GetOutput()->GetNumberOfCells(); ++cell)
+    {
+      const glm::dvec3 along = GetAreaVector(split->GetOutput(), cell);
+      EXPECT_LE(along.y, 0.0); // the doubled point of a strip makes a triangle without area
+      area -= 0.5 * along.y;
+    }
+    EXPECT_NEAR(area, 3600.0, 1e-6);
+  }
+}
+
+//------------------------------------------------------------------------------
+// With VirtualNormals the diffuse light is that of the true normal, for lamps that shine on the
+// geometry directly; the highlight's product is kept, too, where a normal has both.
+TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 0.4, 0.02 * Pi, 1.0, 1.0, true };
+  const auto grid = MakeGrid(9, 60.0, 40.0);
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  for (int i = 0; i < 81; ++i)
+  {
+    const glm::dvec3 n =
+      glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 0.8, 0.6 * std::cos(1.3 * i)));
+    normals->InsertNextTuple(&n.x);
+  }
+  grid->GetPointData()->SetNormals(normals);
+  const auto filter = MakeMirror(grid, MakeMembrane(waves.MakeMesh(64)));
+  filter->SetImagesToFirstImage();
+  filter->VirtualNormalsOn();
+  for (const glm::dvec3& light : { glm::dvec3(0.0), glm::normalize(glm::dvec3(1.0, 2.0, -0.5)) })
+  {
+    filter->SetLightDirection(light.x, light.y, light.z);
+    filter->Update();
+    vtkPolyData* output = filter->GetOutput();
+    ASSERT_GT(output->GetNumberOfPoints(), 50);
+    vtkDataArray* made = output->GetPointData()->GetArray("VirtualNormals");
+    ASSERT_EQ(output->GetPointData()->GetNormals(), made);
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      const auto source =
+        static_cast<vtkIdType>(output->GetPointData()->GetArray("SourcePointId")->GetTuple1(i));
+      const glm::dvec3 truth = GetTuple(normals, source);
+      const glm::dvec3 n = GetTuple(made, i);
+      EXPECT_NEAR(glm::length(n), 1.0, 1e-12);
+      const bool isAtEye = light == glm::dvec3(0.0);
+      const glm::dvec3 toLamp = isAtEye ? glm::normalize(Eye - GetPoint(grid, source)) : light;
+      const glm::dvec3 drawn = isAtEye ? glm::normalize(Eye - GetPoint(output, i)) : light;
+      EXPECT_NEAR(glm::dot(n, drawn), glm::dot(truth, toLamp), 1e-9);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The part behind the mirror is cut off along it.
+TEST(ReflectedGeometryOutput, PiercingObjectsEndAtTheMirror)
+{
+  const auto filter = MakeMirror(MakeScreen(-5.0, -30.0, 50.0), MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  vtkPolyData* output = filter->GetOutput();
+  double area = 0.0;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    area += 0.5 * glm::length(GetAreaVector(output, cell));
+  }
+  EXPECT_NEAR(area, 40.0 * 50.0, 1e-6);
+  double highest = -1e300;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 p = GetPoint(output, i);
+    highest = std::max(highest, p.y);
+    EXPECT_NEAR(p.z, -5.0, 1e-9);
+    EXPECT_GE(p.y, -50.0 - 1e-9);
+  }
+  EXPECT_NEAR(highest, 0.0, 1e-9);
+}
+
+// The same at waves: the cut follows the analytic surface.
+TEST(ReflectedGeometryOutput, PiercingObjectsEndAtWaves)
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 2.0, 0.02 * Pi, 1.0, 1.0, true };
+  const auto screen = MakeScreen(-12.0, -30.0, 50.0);
+  AddPlaces(screen);
+  const auto filter = MakeMirror(screen, MakeMembrane(waves.MakeMesh(96)));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  vtkDataArray* places = output->GetPointData()->GetArray("Place");
+  int onMirror = 0;
+  ASSERT_GT(output->GetNumberOfPoints(), 20);
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 place = GetTuple(places, i);
+    const double above = place.y - waves.GetHeight(place.x, place.z);
+    EXPECT_GT(above, -0.01); // chords of the cut, within 0.005 degrees at a distance of 300
+    onMirror += above < 0.01;
+  }
+  EXPECT_GT(onMirror, 10);
+}
+
+//------------------------------------------------------------------------------
+TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
+{
+  const auto filter = MakeMirror(MakeGrid(5, 60.0, -40.0), MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 25);
+  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 16);
+  EXPECT_EQ(messages->Warnings, 1);
+  EXPECT_NE(messages->Text.find("None of the 25 points has an image"), std::string::npos);
+}
+
+TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
+{
+  const auto filter = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
+  filter->SetEyePosition(10.0, 0.0, 10.0);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_NE(messages->Text.find("lies on the membrane"), std::string::npos);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
+{
+  const auto open = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
+  open->SetEyePosition(10.0, -100.0, 10.0);
+  const auto messages = Observe(open);
+  open->Update();
+  EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(open->GetNumberOfVerticesWithoutImage(), 25);
+  EXPECT_NE(messages->Text.find("Is the eye on the side"), std::string::npos);
+
+  const auto ball =
+    MakeMirror(MakeGrid(5, 0.4, 0.3), MakeMembrane(meniscus::reference::MakeSphere(16, 1.0)));
+  ball->SetEyePosition(0.1, -0.2, 0.1);
+  const auto told = Observe(ball);
+  ball->Update();
+  EXPECT_EQ(ball->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(ball->IsEyeEnclosed());
+  EXPECT_NE(told->Text.find("sees the back of the mirror only"), std::string::npos);
+}
+
+TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
+{
+  const auto flat = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
+  flat->SetMembraneModelToFlatFacets();
+  const auto messages = Observe(flat);
+  flat->Update();
+  EXPECT_EQ(flat->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_NE(messages->Text.find("REFLECTION needs the membrane model CURVED"), std::string::npos);
+
+  const auto stack = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
+  stack->AddInputData(1, MakeFlatMembrane());
+  const auto told = Observe(stack);
+  stack->Update();
+  EXPECT_EQ(stack->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_GT(told->Errors, 0);
+}
+
+//------------------------------------------------------------------------------
+// A change of the mode is a change of the eye's rays; going back gives the first result again.
+TEST(ReflectedGeometryCache, ModesDoNotMix)
+{
+  const auto screen = MakeScreen(-5.0, -30.0, 50.0);
+  const auto filter = MakeMirror(screen, MakeFlatMembrane());
+  filter->SetModeToRefraction();
+  filter->Update();
+  vtkNew<vtkPolyData> refracted;
+  refracted->DeepCopy(filter->GetOutput());
+  filter->SetModeToReflection();
+  filter->Update();
+  EXPECT_NE(filter->GetOutput()->GetNumberOfPoints(), refracted->GetNumberOfPoints());
+  filter->SetModeToRefraction();
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), refracted->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < refracted->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(GetPoint(filter->GetOutput(), i), GetPoint(refracted, i));
+  }
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 3);
+}
+
+}
