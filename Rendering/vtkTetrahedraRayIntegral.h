@@ -84,11 +84,6 @@ public:
   vtkTypeMacro(vtkTetrahedraRayIntegral, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** @{ */
-  /** Set the mesh, port 0, without a pipeline connection. */
-  void SetInputData(vtkDataObject* input) { this->SetInputDataInternal(0, input); }
-  /** @} */
-
   /** Rays of the image. */
   enum FrameModes
   {
