@@ -215,9 +215,9 @@ public:
    * between interfaces looks through those behind it. Interfaces with equal indices are left out.
    * MembraneModel must be CURVED, and the light of VirtualNormals at the eye; ViewCulling has no
    * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
-   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight point.
-   * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
-   * (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
+   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight
+   * point. Point arrays added: `LegLengths` (a length behind each refracting interface),
+   * `LastSightPoint` (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
