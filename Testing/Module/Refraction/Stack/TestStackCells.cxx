@@ -438,3 +438,35 @@ TEST(RefractionStackCells, BallShowsTrianglesBeforeWithinAndBehindIt)
   RecordProperty("wrong", result.Wrong);
   RecordProperty("rays", result.Rays);
 }
+
+//------------------------------------------------------------------------------
+// Small triangles, most of which are seen once and are nearly straight: those keep their corners.
+// Together with the divided ones they cover every ray as often as it meets them.
+TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
+{
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakeWaves(0.0, 1.0, 6.0, 24)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(-12.0, 0.8, 7.0, 28)), { 1.5, 1.2 } } },
+    { 5.0, 90.0, -8.0 });
+  Object object;
+  constexpr int cells = 16;
+  constexpr double side = 50.0 / cells;
+  for (int i = 0; i < cells; ++i)
+  {
+    for (int j = 0; j < cells; ++j)
+    {
+      object.AddQuad({ -25.0 + side * i, -100.0 + 0.5 * i, -25.0 + side * j }, { side, 0.5, 0.0 },
+        { 0.0, 0.0, side });
+    }
+  }
+  object.Map(solver, Tolerance);
+  EXPECT_GT(object.Report.Whole, object.GetCount() / 10);
+  EXPECT_GT(object.Report.Mapped, object.GetCount() / 10);
+  const Comparison result = Compare(solver, object, 9000, 35);
+  EXPECT_GT(result.Hits, 500);
+  EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
+  RecordProperty("hits", result.Hits);
+  RecordProperty("off", result.Off);
+  RecordProperty("whole", static_cast<int>(object.Report.Whole));
+}
