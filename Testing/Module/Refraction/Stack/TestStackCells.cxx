@@ -470,3 +470,34 @@ TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
   RecordProperty("off", result.Off);
   RecordProperty("whole", static_cast<int>(object.Report.Whole));
 }
+
+//------------------------------------------------------------------------------
+// The second surface has a gap, through which nothing is seen. A triangle behind it, whose corners
+// are seen once each and whose image is straight, is cut all the same.
+TEST(RefractionStackCells, TriangleBehindAGapIsCut)
+{
+  MembraneMesh halves = MakePlane(-20.0, 60.0, 6);
+  halves.Translate({ 31.0, 0.0, 0.0 });
+  MembraneMesh other = MakePlane(-20.0, 60.0, 6);
+  other.Translate({ -31.0, 0.0, 0.0 });
+  const auto first = static_cast<std::int64_t>(halves.Points.size() / 3);
+  halves.Points.insert(halves.Points.end(), other.Points.begin(), other.Points.end());
+  halves.Normals.insert(halves.Normals.end(), other.Normals.begin(), other.Normals.end());
+  for (const std::int64_t vertex : other.Triangles)
+  {
+    halves.Triangles.push_back(first + vertex);
+  }
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 40.0, 12)), { 1.0, 1.5 } },
+      { MakeSurface(halves), { 1.5, 1.333 } } },
+    { 0.0, 80.0, 0.0 });
+  Object object;
+  object.AddTriangle({ -5.0, -60.0, -4.0 }, { 5.0, -60.0, -4.0 }, { 5.0, -60.0, 6.0 });
+  object.Map(solver, Tolerance);
+  EXPECT_EQ(object.PointImages.size(), 3u);
+  EXPECT_EQ(object.Report.Mapped, 1u);
+  const Comparison result = Compare(solver, object, 20000, 36);
+  EXPECT_GT(result.Hits, 100);
+  EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
+}
