@@ -130,6 +130,8 @@ public:
    * and borders.
    */
   std::int64_t GetNumberOfUndecidedSearches() const { return this->Undecided; }
+  /** Counts another one, of a user of this object. */
+  void CountUndecided() const { ++this->Undecided; }
 
 private:
   bool Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const;

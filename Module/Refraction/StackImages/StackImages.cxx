@@ -3,7 +3,6 @@
 #include "Refraction/StackImages/StackImages.h"
 
 #include "Refraction/Images/SeamClosure.h"
-#include "Refraction/StackImages/StackMapper.h"
 
 #include <glm/geometric.hpp>
 
@@ -103,7 +102,8 @@ void StackImages::AddWhole(
     whole.Connectivity.push_back(
       static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
   }
-  whole.EndCell(cell, 1);
+  whole.EndCell(
+    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].Vertex.Orientation);
 }
 
 //------------------------------------------------------------------------------
@@ -127,6 +127,7 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
 {
   const StackMapper mapper(this->Solver, *this->Sheet);
   CellReport report;
+  std::vector<StackMapper::Part> parts;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
@@ -140,7 +141,11 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
     const std::size_t before = pieces.GetNumberOfCells();
     for (std::size_t k = 0; k + 1 < count; ++k)
     {
-      mapper.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), names[i], pieces);
+      const MappedTriangle line = this->MakeTriangle({ ids[k], ids[k + 1], ids[k] });
+      const ObjectPrimitive primitive = mapper.MakeLine(line, names[i]);
+      parts.clear();
+      mapper.Clip(primitive, parts);
+      mapper.Emit(primitive, parts, pieces);
     }
     report.Count(false, pieces.GetNumberOfCells() > before);
   }
@@ -154,33 +159,60 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
 {
   const StackMapper mapper(this->Solver, *this->Sheet);
   CellReport report;
-  std::vector<std::int64_t> triangles;
+  std::vector<std::int64_t> corners;
+  std::vector<Triangle> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
-    isMapped[i] = this->AreInFront(ids, count) ? 0 : 1;
-    if (!isMapped[i])
+    bool isWhole = this->AreInFront(ids, count);
+    triangles.clear();
+    if (!isWhole)
+    {
+      corners = { 0, 1, 2 };
+      if (count != 3)
+      {
+        triangulate(ids, count, corners);
+      }
+      for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
+      {
+        triangles.push_back(
+          { this->MakeTriangle({ ids[corners[k]], ids[corners[k + 1]], ids[corners[k + 2]] }),
+            {} });
+      }
+      isWhole = this->ClipTriangles(mapper, names[i], triangles);
+    }
+    isMapped[i] = isWhole ? 0 : 1;
+    if (isWhole)
     {
       this->AddWhole(ids, count, names[i], whole);
       ++report.Whole;
       continue;
     }
-    triangles = { 0, 1, 2 };
-    if (count != 3)
-    {
-      triangulate(ids, count, triangles);
-    }
     const std::size_t before = pieces.GetNumberOfCells();
-    for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
+    for (const Triangle& triangle : triangles)
     {
-      mapper.MapTriangle(
-        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
-        names[i], pieces);
+      mapper.Emit(mapper.MakeTriangle(triangle.Corners, names[i]), triangle.Parts, pieces);
     }
     report.Count(false, pieces.GetNumberOfCells() > before);
   }
   return report;
+}
+
+//------------------------------------------------------------------------------
+// Returns true if the polygon that the triangles make up can keep its points.
+bool StackImages::ClipTriangles(
+  const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const
+{
+  bool isWhole = !triangles.empty();
+  for (Triangle& triangle : triangles)
+  {
+    const ObjectPrimitive primitive = mapper.MakeTriangle(triangle.Corners, name);
+    mapper.Clip(primitive, triangle.Parts);
+    // The sheet is within the tolerance of the rays, the triangle within half of it of the sheet.
+    isWhole = isWhole && mapper.IsWhole(primitive, triangle.Parts, 0.5 * this->Tolerance);
+  }
+  return isWhole;
 }
 
 //------------------------------------------------------------------------------

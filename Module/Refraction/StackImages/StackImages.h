@@ -4,8 +4,7 @@
 #define meniscus_Refraction_StackImages_StackImages_h
 
 #include "Refraction/Images/CellImages.h"
-#include "Refraction/Images/ObjectPrimitive.h"
-#include "Refraction/StackImages/SightSheet.h"
+#include "Refraction/StackImages/StackMapper.h"
 
 #include <array>
 #include <cstddef>
@@ -17,9 +16,10 @@ namespace meniscus
 {
 
 /**
- * Images of an object through several interfaces: of its points, lines and polygons. A cell whose
- * points are all seen in front of the interfaces, and nowhere else, keeps its points. All others
- * are mapped from the first surface.
+ * Images of an object through several interfaces: of its points, lines and polygons. A cell keeps
+ * its points if they are all seen in front of the interfaces, and nowhere else. So does a polygon
+ * that is seen once, on one leg, and whose image is straight within the tolerance. All others are
+ * mapped from the first surface.
  */
 class StackImages : public CellImages
 {
@@ -62,6 +62,15 @@ public:
     bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const override;
 
 private:
+  /** A triangle of a polygon, and the parts of it that are seen. */
+  struct Triangle
+  {
+    MappedTriangle Corners;
+    std::vector<StackMapper::Part> Parts;
+  };
+
+  bool ClipTriangles(
+    const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
   glm::dvec3 GetPoint(std::int64_t id) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
   void AddWhole(

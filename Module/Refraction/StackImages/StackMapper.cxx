@@ -24,6 +24,27 @@ constexpr int ShotSteps = 16;
 // the first guess.
 constexpr double Grid = 1024.0;
 
+// Error of a sum of areas, for thousands of parts with some roundings each.
+constexpr double Covered = 1e-10;
+
+// Twice the signed area of a polygon in the primitive's second and third barycentric coordinates.
+double GetArea(const StackMapper::Polygon& polygon)
+{
+  const auto place = [](const StackMapper::Corner& corner)
+  {
+    return glm::dvec2(corner.Value[2], corner.Value[3]) /
+      (corner.Value[1] + corner.Value[2] + corner.Value[3]);
+  };
+  double area = 0.0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
+    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
+    area += u.x * v.y - u.y * v.x;
+  }
+  return area;
+}
+
 glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double s)
 {
   return (1.0 - s) * a + s * b;
@@ -38,41 +59,38 @@ double GetLongest(const std::array<glm::dvec3, 3>& corners)
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::MapTriangle(
-  const MappedTriangle& triangle, std::int64_t sourceCell, ImageMesh& images) const
+ObjectPrimitive StackMapper::MakeTriangle(
+  const MappedTriangle& triangle, std::int64_t sourceCell) const
 {
-  this->Map(ObjectPrimitive::MakeTriangle(triangle, sourceCell, this->Stack.GetOrigin()), images);
+  return ObjectPrimitive::MakeTriangle(triangle, sourceCell, this->Stack.GetOrigin());
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::MapLine(
-  const MappedTriangle& line, std::int64_t sourceCell, ImageMesh& images) const
+ObjectPrimitive StackMapper::MakeLine(const MappedTriangle& line, std::int64_t sourceCell) const
 {
-  this->Map(
-    ObjectPrimitive::MakeLine(line, sourceCell, this->Stack.GetOrigin(), this->Stack.GetEye()),
-    images);
+  return ObjectPrimitive::MakeLine(line, sourceCell, this->Stack.GetOrigin(), this->Stack.GetEye());
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::Map(const ObjectPrimitive& primitive, ImageMesh& images) const
+void StackMapper::Clip(const ObjectPrimitive& primitive, std::vector<Part>& parts) const
 {
-  if (this->Sheet.GetNumberOfLinks() == 0 ||
-    !(glm::dot(primitive.Normal, primitive.Normal) > 0.0) ||
+  const std::size_t links = this->Sheet.GetNumberOfLinks();
+  if (links == 0 || !(glm::dot(primitive.Normal, primitive.Normal) > 0.0) ||
     !this->Solver.IsInReach(primitive.Middle))
   {
     return; // a primitive without area covers no pixel; neither does a line along the line of sight
   }
   std::vector<std::int32_t> facets;
-  for (std::size_t leg = 0; leg <= this->Sheet.GetNumberOfLinks(); ++leg)
+  for (std::size_t leg = 0; leg <= links; ++leg)
   {
     this->CollectFacets(primitive, leg, facets);
     for (const std::int32_t facet : facets)
     {
-      const SightSheet::Patch& patch = this->Sheet.GetPatch(facet);
       this->Sheet.Visit(
-        patch, leg, [&primitive](const SubCell& nodes) { return primitive.IsOutside(nodes); },
+        this->Sheet.GetPatch(facet), leg,
+        [&primitive](const SubCell& nodes) { return primitive.IsOutside(nodes); },
         [&](const LegCell& cell) {
-          this->MapCell({ primitive, leg, facet, SightSheet::GetSurface(patch), cell }, images);
+          ClipCell(primitive, { leg, facet, cell, {}, 0.0 }, leg == links, parts);
         });
     }
   }
@@ -109,20 +127,20 @@ void StackMapper::CollectFacets(
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::MapCell(const Context& context, ImageMesh& images) const
+void StackMapper::ClipCell(
+  const ObjectPrimitive& primitive, const Part& cell, bool isLast, std::vector<Part>& parts)
 {
-  const ObjectPrimitive& primitive = context.Primitive;
   Polygon whole(3);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const RefractedPoint& from = context.Cell.Nodes[i].From;
-    whole[i].B = context.Cell.Nodes[i].B;
+    const RefractedPoint& from = cell.Cell.Nodes[i].From;
+    whole[i].B = cell.Cell.Nodes[i].B;
     whole[i].Edges = 7u & ~(1u << i);
     primitive.Measure(from, whole[i].Value);
     // The last leg has no end; the cosine has the sign of a place on the ray.
-    whole[i].Value[PrimitiveConstraints] = context.Leg < this->Sheet.GetNumberOfLinks()
-      ? glm::dot(primitive.Normal, context.Cell.Ends[i] - primitive.Corners[0])
-      : glm::dot(primitive.Normal, from.Ray);
+    whole[i].Value[PrimitiveConstraints] = isLast
+      ? glm::dot(primitive.Normal, from.Ray)
+      : glm::dot(primitive.Normal, cell.Cell.Ends[i] - primitive.Corners[0]);
     whole[i].Limits = 0;
     for (int k = 1; k < PrimitiveConstraints && !primitive.IsLine; ++k)
     {
@@ -133,62 +151,115 @@ void StackMapper::MapCell(const Context& context, ImageMesh& images) const
   for (const double sign : { 1.0, -1.0 })
   {
     primitive.Clip(whole, sign, polygon);
-    if (primitive.IsLine && polygon.size() == 2)
+    if (primitive.IsLine ? polygon.size() == 2 : polygon.size() > 2)
     {
-      this->EmitLine(context, polygon, images);
-    }
-    else if (!primitive.IsLine && polygon.size() > 2)
-    {
-      this->Emit(context, polygon, sign, images);
+      parts.push_back({ cell.Leg, cell.Facet, cell.Cell, polygon, sign });
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::Emit(
-  const Context& context, const Polygon& polygon, double sign, ImageMesh& images) const
+// The sense of rotation of the cell from the eye, and that of the primitive along the rays.
+int StackMapper::GetOrientation(const CurvedPatch& patch, const Part& part, double area) const
 {
-  // Twice the signed area in the primitive's second and third barycentric coordinates.
-  const auto place = [](const Corner& corner)
+  const SubCell& nodes = part.Cell.Nodes;
+  const glm::dvec3 corner = patch.GetFlatPoint(nodes[0].B);
+  const glm::dvec3 facet =
+    glm::cross(patch.GetFlatPoint(nodes[1].B) - corner, patch.GetFlatPoint(nodes[2].B) - corner);
+  const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
+  const bool facetTurned = glm::dot(facet, corner - eye) < 0.0;
+  const bool imageTurned = (area < 0.0) != (part.Sign < 0.0);
+  return facetTurned == imageTurned ? 1 : -1;
+}
+
+//------------------------------------------------------------------------------
+bool StackMapper::IsWhole(
+  const ObjectPrimitive& triangle, const std::vector<Part>& parts, double tolerance) const
+{
+  const std::array<KnownImages, 3>& images = triangle.Primitive.Images;
+  for (const KnownImages& known : images)
   {
-    return glm::dvec2(corner.Value[2], corner.Value[3]) /
-      (corner.Value[1] + corner.Value[2] + corner.Value[3]);
-  };
-  double area = 0.0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
-    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
-    area += u.x * v.y - u.y * v.x;
+    if (known.Count != 1 || known.First->Passed != images[0].First->Passed ||
+      known.First->Vertex.Orientation != images[0].First->Vertex.Orientation)
+    {
+      return false;
+    }
   }
+  const glm::dvec3 eye = this->Stack.GetEye() + this->Stack.GetOrigin();
+  const glm::dvec3 shift = this->Stack.GetLinks().front().Shift + this->Stack.GetOrigin();
+  double sum = 0.0;
+  for (const Part& part : parts)
+  {
+    const CurvedPatch& patch = SightSheet::GetSurface(this->Sheet.GetPatch(part.Facet));
+    const double area = GetArea(part.Corners);
+    if (part.Leg != static_cast<std::size_t>(images[0].First->Passed) ||
+      this->GetOrientation(patch, part, area) != images[0].First->Vertex.Orientation)
+    {
+      return false;
+    }
+    sum += std::fabs(area);
+    for (const Corner& corner : part.Corners)
+    {
+      const glm::dvec3 weight = glm::dvec3(corner.Value[1], corner.Value[2], corner.Value[3]) /
+        (corner.Value[1] + corner.Value[2] + corner.Value[3]);
+      glm::dvec3 drawn = -eye;
+      for (glm::length_t k = 0; k < 3; ++k)
+      {
+        drawn += weight[k] * images[static_cast<std::size_t>(k)].First->Vertex.Position;
+      }
+      const glm::dvec3 seen = patch.Evaluate(corner.B).Position + shift - eye;
+      // Written so that a NaN fails.
+      if (!(glm::length(glm::cross(drawn, seen)) <=
+            tolerance * glm::length(drawn) * glm::length(seen)))
+      {
+        return false;
+      }
+    }
+  }
+  return std::fabs(sum - 1.0) <= Covered;
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::Emit(
+  const ObjectPrimitive& primitive, const std::vector<Part>& parts, ImageMesh& images) const
+{
+  for (const Part& part : parts)
+  {
+    const Context context{ primitive, part.Leg, part.Facet,
+      SightSheet::GetSurface(this->Sheet.GetPatch(part.Facet)), part.Cell };
+    if (!(primitive.IsLine ? this->EmitLine(context, part.Corners, images)
+                           : this->EmitPolygon(context, part, images)))
+    {
+      this->Solver.CountUndecided();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Returns false if interpolation has found the primitive where the corners do not.
+bool StackMapper::EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const
+{
+  const double area = GetArea(part.Corners);
   if (!(std::fabs(area) > 0.0))
   {
-    return;
+    return true;
   }
   std::vector<MappedPoint> points;
   std::size_t unseenEnds = 0;
-  for (const Corner& corner : polygon)
+  for (const Corner& corner : part.Corners)
   {
     points.push_back(this->MakePoint(context, corner));
     if (points.back().Outcome == Finding::Elsewhere)
     {
-      return; // as PrimitiveMapper::IsSeen
+      return false; // as PrimitiveMapper::IsSeen
     }
     unseenEnds += points.back().Outcome == Finding::EndWithoutImage;
   }
   if (unseenEnds == points.size())
   {
-    return;
+    return false;
   }
-  // The sense of rotation of the cell from the eye, and that of the primitive along the last rays.
-  const SubCell& nodes = context.Cell.Nodes;
-  const glm::dvec3 corner = context.Patch.GetFlatPoint(nodes[0].B);
-  const glm::dvec3 facet = glm::cross(context.Patch.GetFlatPoint(nodes[1].B) - corner,
-    context.Patch.GetFlatPoint(nodes[2].B) - corner);
-  const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
-  const bool facetTurned = glm::dot(facet, corner - eye) < 0.0;
-  const bool imageTurned = (area < 0.0) != (sign < 0.0);
-  const int orientation = facetTurned == imageTurned ? 1 : -1;
+  const int orientation = this->GetOrientation(context.Patch, part, area);
   const auto first = static_cast<std::int64_t>(images.Points.size());
   const auto count = static_cast<std::int64_t>(points.size());
   for (MappedPoint& point : points)
@@ -201,10 +272,11 @@ void StackMapper::Emit(
     images.Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
   }
   images.EndCell(context.Primitive.SourceCell, orientation);
+  return true;
 }
 
 //------------------------------------------------------------------------------
-void StackMapper::EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const
+bool StackMapper::EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const
 {
   const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
   const bool turned = along(polygon[0]) > along(polygon[1]);
@@ -212,7 +284,7 @@ void StackMapper::EmitLine(const Context& context, const Polygon& polygon, Image
     this->MakePoint(context, polygon[turned ? 0 : 1]) };
   if (ends[0].Outcome == Finding::Elsewhere || ends[1].Outcome == Finding::Elsewhere)
   {
-    return;
+    return false;
   }
   for (const MappedPoint& end : ends)
   {
@@ -220,6 +292,7 @@ void StackMapper::EmitLine(const Context& context, const Polygon& polygon, Image
     images.Points.push_back(end.Point);
   }
   images.EndCell(context.Primitive.SourceCell, 1);
+  return true;
 }
 
 //------------------------------------------------------------------------------

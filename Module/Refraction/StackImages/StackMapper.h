@@ -32,16 +32,43 @@ public:
   {
   }
 
-  /** Adds the images of a triangle as convex polygons with the winding of the triangle. */
-  void MapTriangle(
-    const MappedTriangle& triangle, std::int64_t sourceCell, ImageMesh& images) const;
-
-  /** Adds the images of a line between the first two corners as lines of two points. */
-  void MapLine(const MappedTriangle& line, std::int64_t sourceCell, ImageMesh& images) const;
-
-private:
   using Corner = ClippedCorner<PrimitiveConstraints + 1>;
   using Polygon = std::vector<Corner>;
+
+  /** Part of a primitive that a cell of the sheet shows, by linear interpolation of its rays. */
+  struct Part
+  {
+    std::size_t Leg;
+    std::int32_t Facet;
+    LegCell Cell;
+    Polygon Corners;
+    double Sign; ///< of the rays' component along the primitive's normal
+  };
+
+  /** A triangle, or a line between the first two corners, in the coordinates of the stack. */
+  ObjectPrimitive MakeTriangle(const MappedTriangle& triangle, std::int64_t sourceCell) const;
+  ObjectPrimitive MakeLine(const MappedTriangle& line, std::int64_t sourceCell) const;
+
+  /** Adds the parts of a primitive that are seen on any leg. */
+  void Clip(const ObjectPrimitive& primitive, std::vector<Part>& parts) const;
+
+  /**
+   * True if a triangle can keep its corners: each has one image, the parts cover it once, on the
+   * same leg and in one sense of rotation, and are drawn within `tolerance`, an angle in radians at
+   * the eye, by the triangle of the corners' images.
+   */
+  bool IsWhole(
+    const ObjectPrimitive& triangle, const std::vector<Part>& parts, double tolerance) const;
+
+  /**
+   * Adds the parts with exact corners: convex polygons with the winding of the triangle, or lines
+   * of two points. Parts whose corners contradict each other are left out, and counted by the
+   * solver as undecided.
+   */
+  void Emit(
+    const ObjectPrimitive& primitive, const std::vector<Part>& parts, ImageMesh& images) const;
+
+private:
   enum class Finding
   {
     Found,
@@ -63,12 +90,13 @@ private:
     const LegCell& Cell;
   };
 
-  void Map(const ObjectPrimitive& primitive, ImageMesh& images) const;
   void CollectFacets(
     const ObjectPrimitive& primitive, std::size_t leg, std::vector<std::int32_t>& facets) const;
-  void MapCell(const Context& context, ImageMesh& images) const;
-  void Emit(const Context& context, const Polygon& polygon, double sign, ImageMesh& images) const;
-  void EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;
+  static void ClipCell(
+    const ObjectPrimitive& primitive, const Part& cell, bool isLast, std::vector<Part>& parts);
+  bool EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const;
+  int GetOrientation(const CurvedPatch& patch, const Part& part, double area) const;
+  bool EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;
   MappedPoint MakePoint(const Context& context, const Corner& corner) const;
   MappedPoint MakeOnSide(const Context& context, std::size_t side, const glm::dvec2& b,
     const RefractedPoint& from, const StackPath* path) const;

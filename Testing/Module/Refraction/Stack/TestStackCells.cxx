@@ -438,3 +438,66 @@ TEST(RefractionStackCells, BallShowsTrianglesBeforeWithinAndBehindIt)
   RecordProperty("wrong", result.Wrong);
   RecordProperty("rays", result.Rays);
 }
+
+//------------------------------------------------------------------------------
+// Small triangles, most of which are seen once and are nearly straight: those keep their corners.
+// Together with the divided ones they cover every ray as often as it meets them.
+TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
+{
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakeWaves(0.0, 1.0, 6.0, 24)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(-12.0, 0.8, 7.0, 28)), { 1.5, 1.2 } } },
+    { 5.0, 90.0, -8.0 });
+  Object object;
+  constexpr int cells = 16;
+  constexpr double side = 50.0 / cells;
+  for (int i = 0; i < cells; ++i)
+  {
+    for (int j = 0; j < cells; ++j)
+    {
+      object.AddQuad({ -25.0 + side * i, -100.0 + 0.5 * i, -25.0 + side * j }, { side, 0.5, 0.0 },
+        { 0.0, 0.0, side });
+    }
+  }
+  object.Map(solver, Tolerance);
+  EXPECT_GT(object.Report.Whole, object.GetCount() / 10);
+  EXPECT_GT(object.Report.Mapped, object.GetCount() / 10);
+  const Comparison result = Compare(solver, object, 9000, 35);
+  EXPECT_GT(result.Hits, 500);
+  EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
+  RecordProperty("hits", result.Hits);
+  RecordProperty("off", result.Off);
+  RecordProperty("whole", static_cast<int>(object.Report.Whole));
+}
+
+//------------------------------------------------------------------------------
+// The second surface has a gap, through which nothing is seen. A triangle behind it, whose corners
+// are seen once each and whose image is straight, is cut all the same.
+TEST(RefractionStackCells, TriangleBehindAGapIsCut)
+{
+  MembraneMesh halves = MakePlane(-20.0, 60.0, 6);
+  halves.Translate({ 31.0, 0.0, 0.0 });
+  MembraneMesh other = MakePlane(-20.0, 60.0, 6);
+  other.Translate({ -31.0, 0.0, 0.0 });
+  const auto first = static_cast<std::int64_t>(halves.Points.size() / 3);
+  halves.Points.insert(halves.Points.end(), other.Points.begin(), other.Points.end());
+  halves.Normals.insert(halves.Normals.end(), other.Normals.begin(), other.Normals.end());
+  for (const std::int64_t vertex : other.Triangles)
+  {
+    halves.Triangles.push_back(first + vertex);
+  }
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 40.0, 12)), { 1.0, 1.5 } },
+      { MakeSurface(halves), { 1.5, 1.333 } } },
+    { 0.0, 80.0, 0.0 });
+  Object object;
+  object.AddTriangle({ -5.0, -60.0, -4.0 }, { 5.0, -60.0, -4.0 }, { 5.0, -60.0, 6.0 });
+  object.Map(solver, Tolerance);
+  EXPECT_EQ(object.PointImages.size(), 3u);
+  EXPECT_EQ(object.Report.Mapped, 1u);
+  const Comparison result = Compare(solver, object, 20000, 36);
+  EXPECT_GT(result.Hits, 100);
+  EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
+}
