@@ -333,6 +333,32 @@ TEST(ReflectedGeometryOutput, PiercingObjectsEndAtWaves)
   EXPECT_GT(onMirror, 10);
 }
 
+// Waves so steep that they reflect rays to each other: where such a ray goes on below the surface,
+// pieces of the object are dropped.
+TEST(ReflectedGeometryOutput, SteepWavesShowNothingBelowThem)
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 12.0, 0.03 * Pi, 1.0, 1.0, true };
+  const auto screen = MakeScreen(-12.0, -30.0, 50.0);
+  AddPlaces(screen);
+  const auto filter = MakeMirror(screen, MakeMembrane(waves.MakeMesh(96)));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  vtkDataArray* places = output->GetPointData()->GetArray("Place");
+  vtkNew<vtkIdList> ids;
+  ASSERT_GT(output->GetNumberOfCells(), 100);
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    output->GetCellPoints(cell, ids);
+    glm::dvec3 middle(0.0);
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    {
+      middle += GetTuple(places, ids->GetId(k)) / static_cast<double>(ids->GetNumberOfIds());
+    }
+    // The mesh's own error is of third order in facets of 2, some 0.01.
+    EXPECT_GT(middle.y - waves.GetHeight(middle.x, middle.z), -0.05);
+  }
+}
+
 //------------------------------------------------------------------------------
 TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
 {
