@@ -247,10 +247,10 @@ public:
    * between interfaces looks through those behind it. Interfaces with equal indices are left out.
    * MembraneModel must be CURVED, and the light of VirtualNormals at the eye; ViewCulling has no
    * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
-   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight point.
-   * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
-   * (3 doubles, world), `Transmittance` (product of 1 - Fresnel reflectance) and `InnerReflectance`
-   * (1 minus that product without the first interface).
+   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight
+   * point. Point arrays added: `LegLengths` (a length behind each refracting interface),
+   * `LastSightPoint` (3 doubles, world), `Transmittance` (product of 1 - Fresnel reflectance) and
+   * `InnerReflectance` (1 minus that product without the first interface).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

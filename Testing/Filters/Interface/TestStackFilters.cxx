@@ -404,6 +404,23 @@ TEST(StackErrorVolume, SamplesInFrontAndBesideAreNotMeasured)
   }
 }
 
+/** Behind a ball: on its axis, past the caustic, a point has an image there and a ring around it.
+ */
+TEST(StackErrorVolume, SamplesWithSeveralImagesAreNotMeasured)
+{
+  const auto volume = MakeVolume();
+  const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 3, true));
+  AddInterface(volume.Get(), ball, 1.0, 1.5);
+  AddInterface(volume.Get(), ball, 1.0, 1.5);
+  volume->SetEyePosition(0.0, 300.0, 0.0);
+  // Next to the axis, behind the focus and in front of it.
+  volume->SetModelBounds(3.0, 3.0, -150.0, -41.0, 1.0, 1.0);
+  volume->SetSampleDimensions(1, 2, 1);
+  volume->Update();
+  EXPECT_EQ(SampleStateOf(volume, 0), vtkRefractionErrorVolume::SEVERAL_IMAGES);
+  EXPECT_TRUE(std::isnan(ErrorOf(volume, 0)));
+}
+
 TEST(StackErrorVolume, ResultsDoNotDependOnTheNumberOfThreads)
 {
   std::vector<double> errors;
