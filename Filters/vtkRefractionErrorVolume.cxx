@@ -33,8 +33,7 @@ namespace
 // not for fewer samples than keep all threads of a large machine busy.
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
-constexpr vtkIdType SmallestStep = 64; // times Grain
-static_assert(Grain % meniscus::StackSolver::Chain == 0, "Ranges are made of whole chains");
+constexpr vtkIdType SmallestStep = 64 * Grain;
 
 }
 
@@ -298,20 +297,16 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
 }
 
 //------------------------------------------------------------------------------
-// Calls the body for ranges that begin at multiples of the chains of StackSolver. Returns false
-// after an abort.
+// Calls the body for ranges of samples. Returns false after an abort.
 bool vtkRefractionErrorVolume::RunOverSamples(
   vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body)
 {
-  const vtkIdType chains = (count + Grain - 1) / Grain;
-  const vtkIdType step = std::max(chains / ProgressSteps, SmallestStep);
-  for (vtkIdType first = 0; first < chains; first += step)
+  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
+  for (vtkIdType first = 0; first < count; first += step)
   {
-    const vtkIdType last = std::min(first + step, chains);
-    vtkSMPTools::For(first, last, 1,
-      [&body, count](vtkIdType begin, vtkIdType end)
-      { body(begin * Grain, std::min(end * Grain, count)); });
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(chains));
+    const vtkIdType last = std::min(first + step, count);
+    vtkSMPTools::For(first, last, Grain, body);
+    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
     if (this->GetAbortExecute())
     {
       return false;

@@ -111,8 +111,7 @@ public:
    * the filter runs. Null, the default, stands for a list of one with default values.
    *
    * With several interfaces, as for vtkRefractedGeometryFilter::SetInterfaces(), MembraneModel must
-   * be CURVED, and one image of each sample is measured: SEVERAL_IMAGES is not reported. Port 1 has
-   * a finer mesh for each interface, or none.
+   * be CURVED. Port 1 has a finer mesh for each interface, or none.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

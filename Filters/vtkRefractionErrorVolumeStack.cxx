@@ -130,16 +130,11 @@ bool vtkRefractionErrorVolume::MeasureStack(vtkImageData* output)
   return this->RunOverSamples(output->GetNumberOfPoints(),
     [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
     {
-      meniscus::StackSolver::Memory memory;
       for (vtkIdType i = begin; i < end; ++i)
       {
-        if (static_cast<std::size_t>(i) % meniscus::StackSolver::Chain == 0)
-        {
-          memory = meniscus::StackSolver::Memory();
-        }
         glm::dvec3 point;
         output->GetPoint(i, &point.x);
-        internals.Samples[static_cast<std::size_t>(i)] = sampler.Measure(point, memory);
+        internals.Samples[static_cast<std::size_t>(i)] = sampler.Measure(point);
       }
     });
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace meniscus
 {
@@ -104,17 +105,21 @@ StackTruePosition FindTruePosition(
 }
 
 //------------------------------------------------------------------------------
-ErrorSample StackErrorSampler::Measure(const glm::dvec3& point, StackSolver::Memory& memory) const
+ErrorSample StackErrorSampler::Measure(const glm::dvec3& point) const
 {
-  thread_local StackPath path; // kept so that its memory is reused
-  const StackVertex vertex = this->Solver.SolvePoint(point, memory, path);
-  if (vertex.State == ImageState::NotFinite)
+  thread_local std::vector<StackPath> images; // kept so that its memory is reused
+  const ImageState state = this->Solver.FindImages(point, images);
+  if (state != ImageState::Found)
   {
-    return { 0.0, SampleState::NotFinite };
+    return { 0.0, state == ImageState::NotFinite ? SampleState::NotFinite : SampleState::NoImage };
   }
-  return vertex.State == ImageState::Found && vertex.Passed > 0
-    ? this->Compare(point, vertex, path)
-    : ErrorSample{ 0.0, SampleState::NoImage };
+  if (images.size() > 1)
+  {
+    return { 0.0, SampleState::SeveralImages };
+  }
+  const StackPath& path = images.front();
+  return path.Count > 0 ? this->Compare(point, this->Solver.MakeVertex(point, path), path)
+                        : ErrorSample{ 0.0, SampleState::NoImage };
 }
 
 //------------------------------------------------------------------------------

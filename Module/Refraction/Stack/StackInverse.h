@@ -74,11 +74,8 @@ public:
   {
   }
 
-  /**
-   * Error of the image of a point that StackSolver::SolvePoint finds after those in `memory`.
-   * Points in front of all interfaces are not measured.
-   */
-  ErrorSample Measure(const glm::dvec3& point, StackSolver::Memory& memory) const;
+  /** Only points with exactly one image, behind at least one interface, are measured. */
+  ErrorSample Measure(const glm::dvec3& point) const;
 
 private:
   ErrorSample Compare(

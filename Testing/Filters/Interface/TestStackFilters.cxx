@@ -404,6 +404,26 @@ TEST(StackErrorVolume, SamplesInFrontAndBesideAreNotMeasured)
   }
 }
 
+/**
+ * Behind a ball, next to its axis: rays near the axis cross it 35 behind the ball, and those near
+ * the rim right behind it. Between these places a point has an image of both kinds of rays, and
+ * farther away only one.
+ */
+TEST(StackErrorVolume, SamplesWithSeveralImagesAreNotMeasured)
+{
+  const auto volume = MakeVolume();
+  const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 3, true));
+  AddInterface(volume.Get(), ball, 1.0, 1.5);
+  AddInterface(volume.Get(), ball, 1.0, 1.5);
+  volume->SetEyePosition(0.0, 300.0, 0.0);
+  volume->SetModelBounds(0.5, 0.5, -150.0, -60.0, 0.2, 0.2);
+  volume->SetSampleDimensions(1, 2, 1);
+  volume->Update();
+  EXPECT_EQ(SampleStateOf(volume, 0), vtkRefractionErrorVolume::MEASURED);
+  EXPECT_EQ(SampleStateOf(volume, 1), vtkRefractionErrorVolume::SEVERAL_IMAGES);
+  EXPECT_TRUE(std::isnan(ErrorOf(volume, 1)));
+}
+
 TEST(StackErrorVolume, ResultsDoNotDependOnTheNumberOfThreads)
 {
   std::vector<double> errors;
