@@ -217,10 +217,6 @@ MembraneSides::Side CurvedMembraneSolver::FindSideOfMirror(const glm::dvec3& loc
 // it have none. Returns false for all others.
 bool CurvedMembraneSolver::FindOnMirror(const glm::dvec3& local, VirtualVertex& vertex) const
 {
-  if (!this->Optics.Reflects)
-  {
-    return false;
-  }
   const MembraneSides::Side side = this->FindSideOfMirror(local);
   if (side == MembraneSides::Side::On)
   {
@@ -392,7 +388,7 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
     vertex.State = ImageState::NotFinite;
     return vertex;
   }
-  if (this->FindOnMirror(local, vertex))
+  if (this->Optics.Reflects && this->FindOnMirror(local, vertex))
   {
     return vertex;
   }
@@ -606,7 +602,7 @@ ImageState CurvedMembraneSolver::FindImages(
     return ImageState::NotFinite;
   }
   VirtualVertex own;
-  if (this->FindOnMirror(local, own))
+  if (this->Optics.Reflects && this->FindOnMirror(local, own))
   {
     images.assign(own.State == ImageState::Found ? 1 : 0, own);
     return own.State;

@@ -158,9 +158,9 @@ public:
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const
   {
-    return this->Optics.Reflects
-      ? SightEquation::MakeReflection(this->Optics.Eye, local)
-      : SightEquation(this->Optics.Eye, local, this->Optics.Exterior, this->Optics.Interior);
+    const bool reflects = this->Optics.Reflects;
+    return { this->Optics.Eye, local, reflects ? 1.0 : this->Optics.Exterior,
+      reflects ? 1.0 : this->Optics.Interior, reflects };
   }
   bool IsInReach(const glm::dvec3& local) const;
 

@@ -47,21 +47,15 @@ struct SightRoot
 class SightEquation
 {
 public:
-  SightEquation(const glm::dvec3& eye, const glm::dvec3& point, double exterior, double interior)
+  /** With `reflects` and equal indices, the equation of a reflection. */
+  SightEquation(const glm::dvec3& eye, const glm::dvec3& point, double exterior, double interior,
+    bool reflects = false)
     : Eye(eye)
     , Point(point)
     , Exterior(exterior)
     , Interior(interior)
+    , Reflects(reflects)
   {
-  }
-
-  /** Equation of a reflection, for a point on the eye's side. */
-  static SightEquation MakeReflection(const glm::dvec3& eye, const glm::dvec3& point)
-  {
-    SightEquation equation(eye, point, 1.0, 1.0);
-    equation.PointSide = 1.0;
-    equation.LastStep = 1e-7;
-    return equation;
   }
 
   /**
@@ -116,13 +110,7 @@ private:
   glm::dvec3 Point;
   double Exterior;
   double Interior;
-  double PointSide = -1.0; ///< side of the surface that the point lies on: +1 in front, -1 behind
-  /**
-   * Length of Newton's last step in units of the facet. The error after a step is of the order of
-   * the step's square: below 1e-10 of a facet, except near a caustic. For a reflection it is below
-   * 1e-14, so that plane mirrors are exact within rounding.
-   */
-  double LastStep = 1e-5;
+  bool Reflects;
 };
 
 //------------------------------------------------------------------------------
@@ -198,7 +186,10 @@ inline SightRoot SightEquation::Solve(
 {
   // Where the eye or the point is closer to the surface than a facet is wide, that distance takes
   // the place of the facet's size.
-  const double lastStep = this->LastStep;
+  // The error after a step is of the order of the step's square, in units of the facet: below 1e-10
+  // of a facet, except near a caustic. For a reflection it is below 1e-14, so that plane mirrors
+  // are exact within rounding.
+  const double lastStep = this->Reflects ? 1e-7 : 1e-5;
   const auto isLast = [lastStep](const Step& step, const PatchJet& at, double size)
   {
     const double width = std::max(
@@ -239,7 +230,8 @@ inline bool SightEquation::IsImage(const PatchPoint& at) const
   return glm::dot(at.Normal, at.Normal) >
     CurvedPatch::ShortestNormal * CurvedPatch::ShortestNormal &&
     glm::dot(at.Position - this->Eye, at.Normal) < 0.0 &&
-    this->PointSide * glm::dot(this->Point - at.Position, at.Normal) > 0.0;
+    (this->Reflects ? glm::dot(this->Point - at.Position, at.Normal) > 0.0
+                    : glm::dot(this->Point - at.Position, at.Normal) < 0.0);
 }
 
 //------------------------------------------------------------------------------
