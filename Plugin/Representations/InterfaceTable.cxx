@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InterfaceTable.h"
 
+#include "MembraneGathering.h"
+
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -85,6 +87,7 @@ vtkRefractingInterfaceCollection* InterfaceTable::GetInterfaces()
 }
 
 //------------------------------------------------------------------------------
+// Text of the error for rows that do not fit the number of surfaces; empty if all do.
 std::string InterfaceTable::FindFault(int surfaces) const
 {
   // Written so that a NaN fails.
@@ -110,6 +113,7 @@ std::string InterfaceTable::FindFault(int surfaces) const
 }
 
 //------------------------------------------------------------------------------
+// Surfaces in the order of the rows; unchanged without rows.
 vtkSmartPointer<vtkInformationVector> InterfaceTable::Arrange(vtkInformationVector* surfaces) const
 {
   if (this->Surfaces.empty())
@@ -122,6 +126,25 @@ vtkSmartPointer<vtkInformationVector> InterfaceTable::Arrange(vtkInformationVect
     arranged->Append(surfaces->GetInformationObject(static_cast<int>(number)));
   }
   return arranged;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkInformationVector> InterfaceTable::GatherSurfaces(
+  vtkInformationVector* port, bool isOptional, std::string& fault) const
+{
+  const vtkSmartPointer<vtkInformationVector> surfaces = GatherMembranes(port);
+  if (!surfaces)
+  {
+    fault = "The ranks could not exchange their parts of the membrane";
+    return nullptr;
+  }
+  const int number = surfaces->GetNumberOfInformationObjects();
+  if (isOptional && number == 0)
+  {
+    return surfaces;
+  }
+  fault = this->FindFault(number);
+  return fault.empty() ? this->Arrange(surfaces) : nullptr;
 }
 
 }

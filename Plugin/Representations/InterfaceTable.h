@@ -88,12 +88,17 @@ public:
   /** List of the rows' interfaces; that of the single one if there are no rows. */
   vtkRefractingInterfaceCollection* GetInterfaces();
 
-  /** Text of the error for rows that do not fit the number of surfaces; empty if all do. */
-  std::string FindFault(int surfaces) const;
-  /** Surfaces in the order of the rows; unchanged without rows. */
-  vtkSmartPointer<vtkInformationVector> Arrange(vtkInformationVector* surfaces) const;
+  /**
+   * Surfaces of a port, with the parts of all ranks, in the order of the rows; in that of the
+   * connections without rows. Null, with the text of an error, if the ranks cannot exchange their
+   * parts or the rows do not fit the number of surfaces. An optional port may be empty.
+   */
+  vtkSmartPointer<vtkInformationVector> GatherSurfaces(
+    vtkInformationVector* port, bool isOptional, std::string& fault) const;
 
 private:
+  std::string FindFault(int surfaces) const;
+  vtkSmartPointer<vtkInformationVector> Arrange(vtkInformationVector* surfaces) const;
   void UpdateExactSurfaces();
 
   vtkNew<vtkRefractingInterfaceCollection> Single;

@@ -123,21 +123,13 @@ int vtkPVRefractionErrorVolume::RequestData(
   vtkSmartPointer<vtkInformationVector> gathered[2];
   for (int port = 0; port < 2; ++port)
   {
-    gathered[port] = meniscus::GatherMembranes(inputs[port]);
+    std::string fault;
+    gathered[port] = this->Table.GatherSurfaces(inputs[port], port == 1, fault);
     if (!gathered[port])
-    {
-      vtkErrorMacro(
-        "The ranks could not exchange their parts of the membrane; the output is empty.");
-      return 0;
-    }
-    const int surfaces = gathered[port]->GetNumberOfInformationObjects();
-    const std::string fault = surfaces > 0 ? this->Table.FindFault(surfaces) : std::string();
-    if (!fault.empty())
     {
       vtkErrorMacro(<< fault << "; the output is empty.");
       return 0;
     }
-    gathered[port] = surfaces > 0 ? this->Table.Arrange(gathered[port]) : gathered[port];
   }
   vtkInformationVector* ports[] = { gathered[0], gathered[1] };
   const int measured = this->Superclass::RequestData(request, ports, outputs);

@@ -67,19 +67,14 @@ int vtkPVTruePositionFilter::ComputeInputUpdateExtent(
 int vtkPVTruePositionFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const vtkSmartPointer<vtkInformationVector> membranes = meniscus::GatherMembranes(inputs[1]);
+  std::string fault;
+  const auto membranes = this->Table.GatherSurfaces(inputs[1], false, fault);
   if (!membranes)
-  {
-    vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
-    return 0;
-  }
-  const std::string fault = this->Table.FindFault(membranes->GetNumberOfInformationObjects());
-  if (!fault.empty())
   {
     vtkErrorMacro(<< fault << "; the output is empty.");
     return 0;
   }
-  return meniscus::RunBlocks("vtkPointSet", inputs, outputs, this->Table.Arrange(membranes),
+  return meniscus::RunBlocks("vtkPointSet", inputs, outputs, membranes,
     [this, request](vtkInformationVector** ports, vtkInformationVector* output)
     { return this->Superclass::RequestData(request, ports, output); });
 }

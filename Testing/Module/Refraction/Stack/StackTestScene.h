@@ -4,10 +4,12 @@
 #define meniscus_Testing_Module_Refraction_Stack_StackTestScene_h
 
 #include "ExactStack.h"
+#include "HeightField.h"
 #include "Refraction/Stack/StackSolver.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -19,6 +21,18 @@ inline std::shared_ptr<const StackSurface> MakeSurface(const reference::Membrane
   auto surface = std::make_shared<StackSurface>();
   EXPECT_EQ(surface->SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   return surface;
+}
+
+/** A square of side `size` about the y axis at height `y`, with `waves` half waves along a side. */
+inline reference::MembraneMesh MakeWaves(
+  double size, double y, double amplitude, double waves, int cells)
+{
+  using reference::HeightField;
+  const HeightField field{ HeightField::Shape::Waves, size, amplitude,
+    waves * std::acos(-1.0) / size, 1.0, 1.333 };
+  reference::MembraneMesh mesh = field.MakeMesh(cells);
+  mesh.Translate({ 0.0, y, 0.0 });
+  return mesh;
 }
 
 /** Sets interfaces and eye, which must be valid. */

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images of triangles and lines through several surfaces. Truth: rays that are traced one by one
 // and intersected with the object on each leg.
-#include "HeightField.h"
 #include "Refraction/StackImages/StackImages.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
@@ -30,24 +29,15 @@ using meniscus::RefractionStack;
 using meniscus::StackImages;
 using meniscus::StackPath;
 using meniscus::StackSolver;
-using meniscus::reference::HeightField;
 using meniscus::reference::MakePlane;
 using meniscus::reference::MakeSphere;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::MakeSurface;
+using meniscus::testing::MakeWaves;
 using meniscus::testing::Random;
 using meniscus::testing::SetStack;
 
 const double Pi = std::acos(-1.0);
-
-MembraneMesh MakeWaves(double y, double amplitude, double waves, int cells)
-{
-  const HeightField field{ HeightField::Shape::Waves, 100.0, amplitude, waves * Pi / 100.0, 1.0,
-    1.333 };
-  MembraneMesh mesh = field.MakeMesh(cells);
-  mesh.Translate({ 0.0, y, 0.0 });
-  return mesh;
-}
 
 // An object of triangles and its images.
 struct Object
@@ -375,8 +365,8 @@ TEST(RefractionStackCells, ImagesThroughTwoWavySurfacesCoverTheTracedRays)
 {
   StackSolver solver;
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 1.3, 8.0, 24)), { 1.0, 1.5 } },
-      { MakeSurface(MakeWaves(-12.0, 1.0, 9.0, 28)), { 1.5, 1.2 } } },
+    { { MakeSurface(MakeWaves(100.0, 0.0, 1.3, 8.0, 24)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(100.0, -12.0, 1.0, 9.0, 28)), { 1.5, 1.2 } } },
     { 5.0, 90.0, -8.0 });
   Object object;
   object.AddQuad({ -30.0, -90.0, -30.0 }, { 60.0, 5.0, 0.0 }, { 0.0, -8.0, 60.0 });
@@ -402,7 +392,7 @@ TEST(RefractionStackCells, RaysThatEndEarlierShowWhatIsBefore)
   MembraneMesh small = MakePlane(-10.0, 40.0, 5);
   small.Translate({ 12.0, 0.0, 0.0 });
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 0.6, 5.0, 16)), { 1.0, 1.6 } },
+    { { MakeSurface(MakeWaves(100.0, 0.0, 0.6, 5.0, 16)), { 1.0, 1.6 } },
       { MakeSurface(small), { 1.6, 1.0 } } },
     { 60.0, 35.0, 4.0 });
   Object object;
@@ -446,8 +436,8 @@ TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
 {
   StackSolver solver;
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 1.0, 6.0, 24)), { 1.0, 1.5 } },
-      { MakeSurface(MakeWaves(-12.0, 0.8, 7.0, 28)), { 1.5, 1.2 } } },
+    { { MakeSurface(MakeWaves(100.0, 0.0, 1.0, 6.0, 24)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(100.0, -12.0, 0.8, 7.0, 28)), { 1.5, 1.2 } } },
     { 5.0, 90.0, -8.0 });
   Object object;
   constexpr int cells = 16;

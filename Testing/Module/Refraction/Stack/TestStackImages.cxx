@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // All images of points through several surfaces, against dense searches and closed forms.
-#include "HeightField.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
@@ -25,26 +24,16 @@ using meniscus::StackPlace;
 using meniscus::StackSolver;
 using meniscus::StackVertex;
 using meniscus::reference::ExactSurface;
-using meniscus::reference::HeightField;
 using meniscus::reference::MakePlane;
 using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
 using meniscus::reference::TraceExactly;
 using meniscus::testing::MakeSurface;
+using meniscus::testing::MakeWaves;
 using meniscus::testing::Random;
 using meniscus::testing::SetStack;
 using meniscus::testing::SolveAlone;
 
 const double Pi = std::acos(-1.0);
-
-MembraneMesh MakeWaves(double y, double amplitude, double waves, int cells)
-{
-  const HeightField field{ HeightField::Shape::Waves, 100.0, amplitude, waves * Pi / 100.0, 1.0,
-    1.333 };
-  MembraneMesh mesh = field.MakeMesh(cells);
-  mesh.Translate({ 0.0, y, 0.0 });
-  return mesh;
-}
 
 // Rays from a dense grid in every patch of the first surface, traced through all interfaces. It
 // does not depend on the point that is looked for, and uses no bounds, derivatives or predictions.
@@ -244,8 +233,8 @@ TEST(RefractionStackImages, AgreeWithADenseSearchThroughTwoWavySurfaces)
 {
   StackSolver solver;
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 1.3, 8.0, 24)), { 1.0, 1.5 } },
-      { MakeSurface(MakeWaves(-12.0, 1.0, 9.0, 28)), { 1.5, 1.2 } } },
+    { { MakeSurface(MakeWaves(100.0, 0.0, 1.3, 8.0, 24)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(100.0, -12.0, 1.0, 9.0, 28)), { 1.5, 1.2 } } },
     { 5.0, 90.0, -8.0 });
   const DenseSearch dense(solver, 10);
   Random random(21);
@@ -391,8 +380,8 @@ TEST(RefractionStackImages, AgreeWithADenseSearchAtBordersAndCriticalAngles)
 {
   StackSolver solver;
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 1.0, 7.0, 20)), { 1.0, 1.6 } },
-      { MakeSurface(MakeWaves(-10.0, 1.2, 7.0, 24)), { 1.6, 1.0 } } },
+    { { MakeSurface(MakeWaves(100.0, 0.0, 1.0, 7.0, 20)), { 1.0, 1.6 } },
+      { MakeSurface(MakeWaves(100.0, -10.0, 1.2, 7.0, 24)), { 1.6, 1.0 } } },
     { 60.0, 50.0, 8.0 });
   const DenseSearch dense(solver, 10);
   Random random(24);

@@ -27,27 +27,19 @@ using meniscus::StackVertex;
 using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::MakeSurface;
+using meniscus::testing::MakeWaves;
 using meniscus::testing::Random;
 using meniscus::testing::SetStack;
 
 const double Pi = std::acos(-1.0);
 
-MembraneMesh MakeWaves(double y, double amplitude, double waves, int cells)
-{
-  const HeightField field{ HeightField::Shape::Waves, 200.0, amplitude, waves * Pi / 200.0, 1.0,
-    1.333 };
-  MembraneMesh mesh = field.MakeMesh(cells);
-  mesh.Translate({ 0.0, y, 0.0 });
-  return mesh;
-}
-
 // Three wavy interfaces between four media.
 void SetWaves(StackSolver& solver, const glm::dvec3& eye)
 {
   SetStack(solver,
-    { { MakeSurface(MakeWaves(0.0, 1.5, 6.0, 40)), { 1.0, 1.5 } },
-      { MakeSurface(MakeWaves(-15.0, 1.0, 8.0, 50)), { 1.5, 1.2 } },
-      { MakeSurface(MakeWaves(-30.0, 1.2, 5.0, 45)), { 1.2, 1.333 } } },
+    { { MakeSurface(MakeWaves(200.0, 0.0, 1.5, 6.0, 40)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(200.0, -15.0, 1.0, 8.0, 50)), { 1.5, 1.2 } },
+      { MakeSurface(MakeWaves(200.0, -30.0, 1.2, 5.0, 45)), { 1.2, 1.333 } } },
     eye);
 }
 
