@@ -56,7 +56,7 @@
  * alpha over the unit distance.
  *
  * Method:
- * 1. Once per mesh, vertices and cells are ordered along a Hilbert curve, and cells are linked
+ * 1. Once per mesh, vertices and cells are ordered along a Morton curve, and cells are linked
  *    across faces. The tables take 32 bytes of GPU memory per cell, 16 per vertex and 80 per
  *    boundary face.
  * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.

@@ -3,8 +3,8 @@
 #include "Common/CoherentOrder.h"
 
 #include "Common/BlockLoop.h"
-#include "Common/CodeOrder.h"
 #include "Common/HilbertCurve.h"
+#include "Common/MortonOrder.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -84,14 +84,14 @@ std::vector<std::uint32_t> FindCoherentOrder(
     return order;
   }
   const HilbertCurve curve(extent.Lower, extent.Upper);
-  std::vector<CodeKey> keys(count);
+  std::vector<MortonKey> keys(count);
   ForEachBlock(count, loop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
         const glm::dvec3 point = PointAt(points, i);
-        keys[i] = MakeCodeKey(IsFinite(point) ? curve.Code(point) : 0, i);
+        keys[i] = MakeMortonKey(IsFinite(point) ? curve.Code(point) : 0, i);
       }
     });
   SortByCode(keys, loop);

@@ -91,20 +91,6 @@ std::uint32_t HilbertCode(const std::uint32_t (&cell)[3])
 }
 
 //------------------------------------------------------------------------------
-std::uint32_t HilbertCode(const std::int64_t (&position)[3], int bits)
-{
-  constexpr std::int64_t lastCell = (1 << HilbertCurve::BitsPerAxis) - 1;
-  std::uint32_t cell[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const std::int64_t fromLower = position[axis] + (std::int64_t{ 1 } << (bits - 1));
-    cell[axis] = static_cast<std::uint32_t>(
-      std::min(fromLower >> (bits - HilbertCurve::BitsPerAxis), lastCell));
-  }
-  return HilbertCode(cell);
-}
-
-//------------------------------------------------------------------------------
 HilbertCurve::HilbertCurve(const glm::dvec3& lower, const glm::dvec3& upper)
   : Lower(lower)
 {

@@ -34,9 +34,6 @@ private:
 /** Index of a cell; each coordinate is less than 2^HilbertCurve::BitsPerAxis. */
 std::uint32_t HilbertCode(const std::uint32_t (&cell)[3]);
 
-/** Index of the cell of integers within +-2^(bits - 1), from the uppermost bits of each axis. */
-std::uint32_t HilbertCode(const std::int64_t (&position)[3], int bits);
-
 }
 
 #endif

@@ -4,7 +4,7 @@
 #include "Volume/Entries/EntryTiles.h"
 
 #include "Common/BlockLoop.h"
-#include "Common/CodeOrder.h"
+#include "Common/MortonOrder.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 
@@ -210,12 +210,12 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
 //------------------------------------------------------------------------------
 void EntryTiles::SortByDepth(std::vector<Outline>& outlines, const RangeLoop& loop)
 {
-  std::vector<CodeKey> keys;
+  std::vector<MortonKey> keys;
   keys.reserve(outlines.size());
   for (std::size_t i = 0; i < outlines.size(); ++i)
   {
     const Outline& outline = outlines[i];
-    keys.push_back(MakeCodeKey(outline.Depth, i));
+    keys.push_back(MakeMortonKey(outline.Depth, i));
     // Rounded down, to a float not above the depth.
     const float nearest = static_cast<float>(outline.Depth / DepthSteps - 2.0);
     this->NearestDepths[static_cast<std::size_t>(outline.Face)] =
@@ -224,7 +224,7 @@ void EntryTiles::SortByDepth(std::vector<Outline>& outlines, const RangeLoop& lo
   SortByCode(keys, loop);
   std::vector<Outline> sorted;
   sorted.reserve(outlines.size());
-  for (const CodeKey key : keys)
+  for (const MortonKey key : keys)
   {
     sorted.push_back(outlines[IndexOf(key)]);
   }

@@ -16,7 +16,7 @@ namespace
 
 using Quad = std::array<std::int32_t, 4>;
 
-std::uint32_t CodeOf(CodeKey key)
+std::uint32_t CodeOf(MortonKey key)
 {
   return static_cast<std::uint32_t>(key >> 32);
 }
@@ -37,7 +37,7 @@ std::uint32_t HashOf(const glm::dvec3& position)
 }
 
 /** Marks the duplicates among the keys [first, last), which all have the same code. */
-void MarkDuplicates(const std::vector<CodeKey>& keys, std::size_t first, std::size_t last,
+void MarkDuplicates(const std::vector<MortonKey>& keys, std::size_t first, std::size_t last,
   const std::function<Quad(std::size_t)>& verticesOf,
   std::vector<std::pair<Quad, std::size_t>>& cells, std::vector<std::uint8_t>& duplicate)
 {
@@ -59,13 +59,13 @@ void MarkDuplicates(const std::vector<CodeKey>& keys, std::size_t first, std::si
 std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
   const std::function<glm::dvec3(std::size_t)>& getPosition, const RangeLoop& loop)
 {
-  std::vector<CodeKey> keys(count);
+  std::vector<MortonKey> keys(count);
   ForEachBlock(count, loop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t v = first; v < last; ++v)
       {
-        keys[v] = MakeCodeKey(HashOf(getPosition(v)), v);
+        keys[v] = MakeMortonKey(HashOf(getPosition(v)), v);
       }
     });
   SortByCode(keys, loop);
@@ -89,7 +89,7 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
 }
 
 //------------------------------------------------------------------------------
-std::size_t RemoveDuplicateCells(std::vector<CodeKey>& keys,
+std::size_t RemoveDuplicateCells(std::vector<MortonKey>& keys,
   const std::function<Quad(std::size_t)>& verticesOf, const RangeLoop& loop)
 {
   std::vector<std::uint8_t> duplicate(keys.size());

@@ -3,7 +3,7 @@
 #ifndef meniscus_Volume_Mesh_DuplicateCells_h
 #define meniscus_Volume_Mesh_DuplicateCells_h
 
-#include "Common/CodeOrder.h"
+#include "Common/MortonOrder.h"
 #include "Common/RangeLoop.h"
 
 #include <glm/vec3.hpp>
@@ -28,7 +28,7 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
  * @param verticesOf returns the vertices of a key's cell in ascending order; called only where a
  *   code occurs repeatedly.
  */
-std::size_t RemoveDuplicateCells(std::vector<CodeKey>& keys,
+std::size_t RemoveDuplicateCells(std::vector<MortonKey>& keys,
   const std::function<std::array<std::int32_t, 4>(std::size_t)>& verticesOf, const RangeLoop& loop);
 
 }

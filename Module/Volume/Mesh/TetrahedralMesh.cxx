@@ -3,8 +3,7 @@
 #include "Volume/Mesh/TetrahedralMesh.h"
 
 #include "Common/BlockLoop.h"
-#include "Common/CodeOrder.h"
-#include "Common/HilbertCurve.h"
+#include "Common/MortonOrder.h"
 #include "Volume/Mesh/DuplicateCells.h"
 
 #include <glm/common.hpp>
@@ -90,9 +89,9 @@ private:
   template <typename Id>
   void ReadBlock(const Id* cells, std::size_t first, std::size_t last, RejectedCells& rejected,
     std::size_t& accepted);
-  std::vector<CodeKey> KeysOfUsedPoints();
-  void TakeCodesOfCells(const HilbertCurve& curve, std::vector<CodeKey>& keys);
-  void RemoveDuplicates(std::vector<CodeKey>& keys);
+  std::vector<MortonKey> KeysOfUsedPoints();
+  void TakeCodesOfCells(const MortonCurve& curve, std::vector<MortonKey>& keys);
+  void RemoveDuplicates(std::vector<MortonKey>& keys);
 
   TetrahedralMesh& Mesh;
   const TetrahedraView& Input;
@@ -270,7 +269,7 @@ void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std
 }
 
 //------------------------------------------------------------------------------
-std::vector<CodeKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
+std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
 {
   struct Part
   {
@@ -304,8 +303,8 @@ std::vector<CodeKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
   }
   this->Mesh.Center = 0.5 * all.Lower + 0.5 * all.Upper;
 
-  std::vector<CodeKey> keys(CountsToStarts(starts));
-  const HilbertCurve curve(all.Lower, all.Upper);
+  std::vector<MortonKey> keys(CountsToStarts(starts));
+  const MortonCurve curve(all.Lower, all.Upper);
   std::vector<double> radii(parts.size(), 0.0);
   ForEachBlock(numberOfPoints, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -317,7 +316,7 @@ std::vector<CodeKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
         {
           const glm::dvec3 point = this->Input.Points[p];
           radii[block] = std::max(radii[block], glm::length(point - this->Mesh.Center));
-          keys[next++] = MakeCodeKey(curve.Code(point), p);
+          keys[next++] = MakeMortonKey(curve.Code(point), p);
         }
       }
     });
@@ -335,7 +334,7 @@ std::vector<CodeKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
  * cells share no points, the points of a cell are then adjacent in memory.
  */
 void TetrahedralMesh::Builder::TakeCodesOfCells(
-  const HilbertCurve& curve, std::vector<CodeKey>& keys)
+  const MortonCurve& curve, std::vector<MortonKey>& keys)
 {
   const std::unique_ptr<std::atomic<std::uint32_t>[]> codes(
     new std::atomic<std::uint32_t>[this->Input.NumberOfPoints]);
@@ -369,17 +368,17 @@ void TetrahedralMesh::Builder::TakeCodesOfCells(
         }
       }
     });
-  for (CodeKey& key : keys)
+  for (MortonKey& key : keys)
   {
     const std::size_t point = IndexOf(key);
-    key = MakeCodeKey(codes[point].load(std::memory_order_relaxed), point);
+    key = MakeMortonKey(codes[point].load(std::memory_order_relaxed), point);
   }
 }
 
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberVertices()
 {
-  std::vector<CodeKey> keys = this->KeysOfUsedPoints();
+  std::vector<MortonKey> keys = this->KeysOfUsedPoints();
   SortByCode(keys, this->Loop);
   this->VertexOfPoint.resize(this->Input.NumberOfPoints);
   ResizeTable(this->Mesh.SourcePoints, keys.size());
@@ -401,7 +400,7 @@ void TetrahedralMesh::Builder::NumberVertices()
 
 //------------------------------------------------------------------------------
 /** Removes the keys of cells that have the same four vertices as an earlier cell of the input. */
-void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<CodeKey>& keys)
+void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
 {
   std::vector<std::int32_t> lowest;
   if (this->Input.MatchPositions)
@@ -430,7 +429,7 @@ void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<CodeKey>& keys)
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberCells()
 {
-  std::vector<CodeKey> keys(this->NumberOfCells);
+  std::vector<MortonKey> keys(this->NumberOfCells);
   ForEachBlock(this->Input.NumberOfCells, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
@@ -454,7 +453,7 @@ void TetrahedralMesh::Builder::NumberCells()
           }
         }
         SortFour(corners);
-        keys[next++] = MakeCodeKey(HilbertCode(sum, 33), c);
+        keys[next++] = MakeMortonKey(MortonCode(sum, 33), c);
       }
     });
   SortByCode(keys, this->Loop);

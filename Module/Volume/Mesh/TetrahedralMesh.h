@@ -8,7 +8,7 @@
  * 1. Cells with an index out of range, a repeated vertex or a vertex that is not finite are
  *    rejected and counted, and so is each cell with the same four vertices as an earlier cell of
  *    the input. Zero-volume and inverted cells are kept: the mesh needs them to be conforming.
- * 2. Vertices and cells are renumbered along a Hilbert curve, so that neighbours on a ray are
+ * 2. Vertices and cells are renumbered along a Morton curve, so that neighbours on a ray are
  *    neighbours in memory; vertices by the cells that use them, if they outnumber the cells. The
  *    vertices of a cell are stored in ascending order; the local index of a vertex is its rank,
  *    which gives every tie in the walk the same answer in all cells.

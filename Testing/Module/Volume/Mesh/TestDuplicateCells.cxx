@@ -97,7 +97,7 @@ TEST(DuplicateCells, MeshGivenInAnyNumberAndOrderIsTheMesh)
 
 TEST(DuplicateCells, MeshThatIsSmallBesideItsBoxAsWell)
 {
-  // The whole grid has one code: thousands of cells are compared with each other.
+  // The whole grid has one Morton code: thousands of cells are compared with each other.
   MeshArrays arrays = KuhnGrid(8);
   for (double& x : arrays.Points)
   {
