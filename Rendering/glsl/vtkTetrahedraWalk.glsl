@@ -202,6 +202,13 @@ bool advance(int exitDepth, float exitScalar)
 #endif
 #else
   faceScalar = exitScalar;
+#if SEES_JUMPS
+  // Scalars before and behind a cell without one are not connected.
+  if (to > from && !counts)
+  {
+    startPart(exitScalar);
+  }
+#endif
 #endif
   return counts;
 }
