@@ -231,8 +231,9 @@ float meetFace(
   // as along an edge in an isosurface, the result is exactly that scalar.
   vec3 scalars = vec3(vertexScalar(p), vertexScalar(q), vertexScalar(r));
   float weight = areas.y * inverse;
-  float first =
-    weight >= max(weights.x, weights.y) ? scalars.x : (weights.x >= weights.y ? scalars.y : scalars.z);
+  float first = weight >= max(weights.x, weights.y)
+    ? scalars.x
+    : (weights.x >= weights.y ? scalars.y : scalars.z);
   float met = first + dot(vec3(weight, weights), scalars - vec3(first));
 #else
   float first = vertexScalar(p);
