@@ -406,8 +406,7 @@ inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
     const Float first = rotate(this->A.Scalar, this->B.Scalar, this->C.Scalar);
     const Float second = rotate(this->B.Scalar, this->C.Scalar, this->A.Scalar);
     const Float third = rotate(this->C.Scalar, this->A.Scalar, this->B.Scalar);
-    met.Scalar = meanFrom(first, second, third,
-      rotate(this->AreaAB, this->AreaBC, this->AreaCA),
+    met.Scalar = meanFrom(first, second, third, rotate(this->AreaAB, this->AreaBC, this->AreaCA),
       rotate(this->AreaCA, this->AreaAB, this->AreaBC));
   }
   for (int i = 0; i < VertexValues::Size; ++i)
