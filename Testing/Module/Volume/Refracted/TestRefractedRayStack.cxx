@@ -145,7 +145,8 @@ const std::function<double(double, double)> Shapes[] = { [](double, double) { re
 
 /**
  * The field of one interface finds the patches of a ray by their projections, the stack by a tree;
- * both use the same Newton steps, whose error is below 1e-9 of a facet (PatchIntersector::LastStep).
+ * both use the same Newton steps, whose error is below 1e-9 of a facet
+ * (PatchIntersector::LastStep).
  */
 TEST(RefractedRayStack, OneInterfaceIsThatOfTheField)
 {
