@@ -3,11 +3,13 @@
 #ifndef meniscus_Rendering_RayCastMapperInternals_h
 #define meniscus_Rendering_RayCastMapperInternals_h
 
+#include "Rendering/Integral/RayPicker.h"
 #include "Rendering/Pipeline/RayCastPipeline.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include <glm/mat4x4.hpp>
 
+#include <memory>
 #include <set>
 #include <string>
 
@@ -33,6 +35,8 @@ public:
   bool WarnedPeeling = false;
   /** Matrix of the last frame, for positions given in world coordinates. */
   glm::dmat4 WorldToModel{ 1.0 };
+  /** Null until the first pick. */
+  std::unique_ptr<meniscus::RayPicker> Picker;
 };
 
 #endif

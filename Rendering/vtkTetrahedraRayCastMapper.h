@@ -112,10 +112,12 @@ namespace meniscus
 struct BlendModel;
 struct InputBlocks;
 struct InputReport;
+class RayCastMembrane;
 struct RayCastFrame;
 struct ViewContext;
 struct RayCastOptics;
 struct ScalarSelection;
+struct VolumePick;
 }
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -508,6 +510,12 @@ public:
   vtkTypeInt64 GetNumberOfRejectedCells();
   /** @} */
 
+  /**
+   * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
+   * since construction: once per mesh that is picked. The table takes 4 bytes per tetrahedron.
+   */
+  vtkTypeInt64 GetNumberOfCellSearches();
+
   /** @{ */
   /**
    * Counters since construction: images whose rays were cast, and their pixels. A frame that
@@ -592,15 +600,19 @@ private:
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
-  bool UpdateMembrane();
+  bool UpdateMembrane(meniscus::RayCastMembrane& membrane);
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
   const meniscus::BlendModel& GetBlendModel();
   double ChooseImageSampleDistance(vtkVolume* volume);
+  std::string PrepareView(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
+  friend class vtkTetrahedraVolumePicker;
+  bool UpdateForPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts);
+  bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;

@@ -81,7 +81,9 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
-  return this->Internals->GetBytes() + this->Internals->GetCounters().HostBytes;
+  const vtkInternals& internals = *this->Internals;
+  return internals.GetBytes() + internals.GetCounters().HostBytes +
+    (internals.Picker ? internals.Picker->GetBytes() : 0);
 }
 
 //------------------------------------------------------------------------------

@@ -110,6 +110,26 @@ bool IntegralCaster::MeasureScalars(TileCaster::Scene scene, const IntegralChoic
 }
 
 //------------------------------------------------------------------------------
+bool IntegralCaster::MeasureEvents(TileCaster::Scene scene, const EventChoice& choice,
+  const EventContext& context, IntegralArrays& arrays, const Progress& progress)
+{
+  scene.Measuring = RayMeasuring::Events;
+  scene.Blending = choice.Blending;
+  scene.EventOpacity = choice.Opacity;
+  return this->Cast(
+    scene,
+    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+    {
+      const RayStatistics sums = caster.Measure(tile, workspace);
+      ForEachPixel(caster, tile,
+        [&](std::int64_t pixel, std::size_t inTile)
+        { arrays.Events.Set(pixel, workspace.Measured.Events[inTile], context); });
+      return sums;
+    },
+    progress);
+}
+
+//------------------------------------------------------------------------------
 bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables::Table& table,
   IntegralArrays& arrays, const Progress& progress)
 {
@@ -133,7 +153,7 @@ bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables:
 
 //------------------------------------------------------------------------------
 std::string IntegralCaster::Measure(const IntegralChoice& choice, const IntegralView& view,
-  const int size[2], IntegralArrays& arrays, const Progress& progress)
+  const int size[2], const InputCells& cells, IntegralArrays& arrays, const Progress& progress)
 {
   this->Statistics = RayStatistics();
   this->Aborted = false;
@@ -159,6 +179,7 @@ std::string IntegralCaster::Measure(const IntegralChoice& choice, const Integral
   this->DoneCasts = 0;
   this->PlannedCasts = static_cast<int>(choice.NeedsScalars()) +
     static_cast<int>(choice.Has(IntegralArray::RGBA)) +
+    static_cast<int>(choice.Events.IsAnyWanted()) +
     (choice.NeedsBinArrays() ? static_cast<int>(this->Bins.GetTables().size()) : 0);
   if (choice.NeedsScalars() && !this->MeasureScalars(scene, choice, arrays, progress))
   {
@@ -167,6 +188,15 @@ std::string IntegralCaster::Measure(const IntegralChoice& choice, const Integral
   for (std::size_t i = 0; choice.NeedsBinArrays() && i < this->Bins.GetTables().size(); ++i)
   {
     if (!this->MeasureBins(scene, this->Bins.GetTables()[i], arrays, progress))
+    {
+      return std::string();
+    }
+  }
+  if (choice.Events.IsAnyWanted())
+  {
+    const EventContext context{ cells, this->Input.GetInputCells(), this->Input.GetNormalization(),
+      IndicesOf(this->Property.GetIsosurfaces()), view.Center, view.Rays.ViewToWorld };
+    if (!this->MeasureEvents(scene, choice.Events, context, arrays, progress))
     {
       return std::string();
     }

@@ -73,4 +73,23 @@ MeasuredBin ReadBins(const float* values)
   return measured;
 }
 
+//------------------------------------------------------------------------------
+void TakeEvents(const RayEventState& state, const LegLine& line, MeasuredEvents& events)
+{
+  for (std::size_t kind = 0; kind < events.Events.size(); ++kind)
+  {
+    if ((state.Fresh >> kind & 1u) == 0)
+    {
+      continue;
+    }
+    const RayEvent& event = state.Events[kind];
+    const double distance = line.Distance(event.Depth);
+    events.Events[kind] = { distance,
+      line.Begin + (distance - line.Distance.AtBegin) * line.PerDistance, event.Scalar, event.Cell,
+      event.Surface };
+  }
+  events.State = state;
+  events.State.Fresh = 0;
+}
+
 }
