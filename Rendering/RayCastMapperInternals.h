@@ -9,9 +9,11 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
 {
@@ -37,6 +39,11 @@ public:
   glm::dmat4 WorldToModel{ 1.0 };
   /** Null until the first pick. */
   std::unique_ptr<meniscus::RayPicker> Picker;
+  /** Null until depths are written, and the depths of the last image that was cast. */
+  std::unique_ptr<meniscus::RayPicker> DepthCaster;
+  std::vector<float> Depths;
+  /** Number of casts of which these are the depths. */
+  std::int64_t DepthsOfCast = -1;
 };
 
 #endif

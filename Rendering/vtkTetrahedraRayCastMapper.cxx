@@ -559,6 +559,10 @@ bool vtkTetrahedraRayCastMapper::Draw(
   {
     error = this->DrawFrame(frame, parts);
   }
+  if (error.empty() && this->DepthWriting != NO_DEPTH && this->MembranePart == WHOLE)
+  {
+    error = this->WriteDepths(frame);
+  }
   if (!error.empty())
   {
     vtkErrorMacro("Nothing is rendered: " << error << ".");

@@ -409,6 +409,32 @@ public:
   vtkGetMacro(ColorBias, double);
   /** @} */
 
+  /** Depths that frames write. */
+  enum DepthWritings
+  {
+    NO_DEPTH = 0,
+    FIRST_VISIBLE_DEPTH = 1,
+    OPACITY_DEPTH = 2
+  };
+
+  /** @{ */
+  /**
+   * Set/Get the depth that a frame writes to the window's depth buffer, so that whatever reads it
+   * afterwards sees the volume: props that are drawn later, render passes, vtkWorldPointPicker.
+   * FIRST_VISIBLE_DEPTH and OPACITY_DEPTH are the places of vtkTetrahedraVolumePicker, the latter
+   * at the accumulated opacity DepthOpacity. Behind refracting surfaces it is the depth at which
+   * the place is drawn.
+   *
+   * The depths are computed on the processor whatever the backend is, by one more cast of every
+   * image. Volumes that are drawn after this one end at its depth. Default is NO_DEPTH, which costs
+   * nothing; the default of DepthOpacity is 0.5.
+   */
+  vtkSetClampMacro(DepthWriting, int, NO_DEPTH, OPACITY_DEPTH);
+  vtkGetMacro(DepthWriting, int);
+  vtkSetClampMacro(DepthOpacity, double, 0.0, 1.0);
+  vtkGetMacro(DepthOpacity, double);
+  /** @} */
+
   /** @{ */
   /**
    * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
@@ -611,6 +637,7 @@ private:
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
   friend class vtkTetrahedraVolumePicker;
+  std::string WriteDepths(const meniscus::RayCastFrame& frame);
   bool UpdateForPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts);
   bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
@@ -632,6 +659,8 @@ private:
   vtkTypeBool AutoAdjustSampleDistances = 1;
   vtkTypeBool CompactTables = 0;
   double ColorBias = 0.0;
+  int DepthWriting = NO_DEPTH;
+  double DepthOpacity = 0.5;
   vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double UsedImageSampleDistance = 1.0;
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;

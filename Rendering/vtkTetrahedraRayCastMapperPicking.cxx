@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Picks of vtkTetrahedraRayCastMapper: single rays, without a frame.
+// Places on rays for vtkTetrahedraRayCastMapper: picks, and depths of frames.
 #include "Rendering/RayCastMapperInternals.h"
 #include "Rendering/VolumePick.h"
 #include "vtkTetrahedraRayCastMapper.h"
@@ -91,4 +91,32 @@ bool vtkTetrahedraRayCastMapper::CastPick(
     }
   }
   return isAny;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::WriteDepths(const meniscus::RayCastFrame& frame)
+{
+  vtkInternals& internals = *this->Internals;
+  if (!internals.DepthCaster)
+  {
+    internals.DepthCaster = std::make_unique<meniscus::RayPicker>();
+  }
+  // A frame that shows the last image again has its depths, too.
+  if (internals.DepthsOfCast != internals.GetNumberOfCasts())
+  {
+    if (!this->UpdateMembrane(internals.DepthCaster->Membrane))
+    {
+      return "no depths without a usable membrane";
+    }
+    const auto kind = this->DepthWriting == FIRST_VISIBLE_DEPTH ? meniscus::FirstVisibleEvent
+                                                                : meniscus::OpacityReachedEvent;
+    const std::string error = internals.DepthCaster->CastDepths(
+      internals, frame, this->DepthOpacity, kind, internals.Depths);
+    if (!error.empty())
+    {
+      return error;
+    }
+    internals.DepthsOfCast = internals.GetNumberOfCasts();
+  }
+  return internals.GetPresenter().WriteDepths(internals.Depths, frame.Output.ImageSize);
 }

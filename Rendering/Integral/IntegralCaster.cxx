@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Backends/RayCastFrame.h"
+#include "Rendering/Integral/TilePixels.h"
 
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
@@ -30,21 +31,6 @@ RayCastFrame FrameOf(const RayCastTables& tables, const IntegralView& view)
   frame.Optics.CellScalars = tables.Input.GetFieldAssociation() == FieldAssociation::Cells;
   frame.Optics.DataRange = tables.Input.GetNormalizedRange();
   return frame;
-}
-
-/** Calls body(pixel in the image, pixel in the tile) for all pixels of a tile. */
-template <class Body>
-void ForEachPixel(const TileCaster& caster, int tile, Body&& body)
-{
-  const BoundaryRaster::PixelBox box = caster.GetBox(tile);
-  for (int row = box.Bottom; row < box.Top; ++row)
-  {
-    for (int column = box.Left; column < box.Right; ++column)
-    {
-      const int inTile = (row - box.Bottom) * RefractedRayTiles::TileSize + column - box.Left;
-      body(std::int64_t{ row } * caster.GetWidth() + column, static_cast<std::size_t>(inTile));
-    }
-  }
 }
 
 }

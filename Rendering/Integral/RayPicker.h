@@ -9,9 +9,11 @@
 #include "Rendering/Backends/RayCastTables.h"
 #include "Volume/Caster/MeasuredRays.h"
 #include "Volume/Caster/TileCaster.h"
+#include "Volume/Packet/Data/RayEvents.h"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace meniscus
 {
@@ -43,6 +45,14 @@ public:
   std::string Cast(RayCastTables& tables, RayCastFrame frame, const PickedPixel& pixel,
     double opacity, MeasuredEvents& events);
 
+  /**
+   * Computes window depths of an event for all pixels of a frame.
+   * @param kind FirstVisibleEvent or another one.
+   * @param depths replaced by one depth per pixel, 2 for rays without the event.
+   */
+  std::string CastDepths(RayCastTables& tables, const RayCastFrame& frame, double opacity,
+    RayEventKind kind, std::vector<float>& depths);
+
   /** Bytes of the tables about the last ray. */
   std::int64_t GetBytes() const;
 
@@ -50,6 +60,9 @@ public:
   RayCastMembrane Membrane;
 
 private:
+  std::string MakeScene(RayCastTables& tables, RayCastFrame frame, const int (&size)[2],
+    double opacity, TileCaster::Scene& scene);
+
   NativeScene Scenes;
   TileCaster::Workspace Workspace;
 };

@@ -84,9 +84,9 @@ void TakeEvents(const RayEventState& state, const LegLine& line, MeasuredEvents&
     }
     const RayEvent& event = state.Events[kind];
     const double distance = line.Distance(event.Depth);
-    events.Events[kind] = { distance,
-      line.Begin + (distance - line.Distance.AtBegin) * line.PerDistance, event.Scalar, event.Cell,
-      event.Surface };
+    const double along = distance - line.Distance.AtBegin;
+    events.Events[kind] = { distance, line.Begin + along * line.PerDistance,
+      line.DrawnDepth + along * line.DrawnPerDistance, event.Scalar, event.Cell, event.Surface };
   }
   events.State = state;
   events.State.Fresh = 0;

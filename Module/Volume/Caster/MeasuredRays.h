@@ -55,6 +55,8 @@ struct MeasuredEvent
   double Distance = 0.0;
   /** Place in the frame of the view; behind interfaces the true one. */
   glm::dvec3 Place{ 0.0 };
+  /** Depth in that frame at which the place is drawn. */
+  double DrawnDepth = 0.0;
   /** Normalised scalar. */
   double Scalar = 0.0;
   /** Cell of the mesh; negative if there is no such event. */
@@ -98,6 +100,9 @@ struct LegLine
   /** Place at Distance.BeginDepth, and the step per world unit of distance. */
   glm::dvec3 Begin{ 0.0 };
   glm::dvec3 PerDistance{ 0.0 };
+  /** Drawn depth at Begin, and per world unit of distance. */
+  double DrawnDepth = 0.0;
+  double DrawnPerDistance = 0.0;
 };
 
 /** Takes over the state of a ray at the end of a leg, and places the events found in it. */

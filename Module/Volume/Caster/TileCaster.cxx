@@ -169,8 +169,10 @@ void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& 
     const double perStep = glm::length(toWorld * line.Step);
     // In double precision, since a place far from the camera is a small part of the distance.
     distance.PerDepth = perStep * entries.GetStepsPerDepth(frame, line);
+    const double drawn = leg.Number == 0 ? from : line.Depth;
     const glm::dvec3 begin = leg.Number == 0 ? line.Begin + from * line.Step : line.Begin;
-    TakeEvents(workspace.EventStates[ray], { distance, begin, line.Step / perStep },
+    TakeEvents(workspace.EventStates[ray],
+      { distance, begin, line.Step / perStep, drawn, 1.0 / perStep },
       workspace.Measured.Events[at]);
     return;
   }

@@ -7,6 +7,8 @@
 
 #include <vtkActor.h>
 #include <vtkAssembly.h>
+#include <vtkAssemblyNode.h>
+#include <vtkAssemblyPath.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellData.h>
@@ -20,7 +22,7 @@
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
-#include <vtkPropPicker.h>
+#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSMPTools.h>
@@ -28,6 +30,7 @@
 #include <vtkTetrahedraVolumePicker.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
 #include <gtest/gtest.h>

@@ -14,6 +14,7 @@
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkRenderWindow.h>
@@ -22,6 +23,7 @@
 #include <vtkTetrahedraVolumePicker.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
 #include <glm/geometric.hpp>
