@@ -9,6 +9,8 @@
 #include "vtkSMPTools.h"
 #include "vtkType.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,15 +20,20 @@ namespace meniscus
 namespace
 {
 
-/** The rays of an image of one pixel. */
-RayFrame CropToPixel(const RayFrame& image, const int (&size)[2], const PickedPixel& pixel)
+/** Reduces the rays of a frame, and what is affine in the pixel, to one pixel. */
+void CropToPixel(const PickedPixel& pixel, RayCastFrame& frame)
 {
+  const int(&size)[2] = frame.Output.ImageSize;
   const double column = pixel.Column + 0.5 - 0.5 * size[0];
   const double row = pixel.Row + 0.5 - 0.5 * size[1];
-  RayFrame rays = image;
-  rays.Origin.Base = image.Origin.At(column, row);
-  rays.Slope.Base = image.Slope.At(column, row);
-  return rays;
+  frame.Rays.Origin.Base = frame.Rays.Origin.At(column, row);
+  frame.Rays.Slope.Base = frame.Rays.Slope.At(column, row);
+  const glm::dvec3 place(1.0, column, row);
+  for (RayClippingPlane& plane : frame.Optics.ClippingPlanes)
+  {
+    plane.Constant.x = glm::dot(plane.Constant, place);
+    plane.PerDepth.x = glm::dot(plane.PerDepth, place);
+  }
 }
 
 /** Window depth of a depth of the frame: the inverse of RayFrame::DepthAt(). */
@@ -80,7 +87,7 @@ std::string RayPicker::MakeScene(RayCastTables& tables, RayCastFrame frame, cons
 std::string RayPicker::Cast(RayCastTables& tables, RayCastFrame frame, const PickedPixel& pixel,
   double opacity, MeasuredEvents& events)
 {
-  frame.Rays = CropToPixel(frame.Rays, frame.Output.ImageSize, pixel);
+  CropToPixel(pixel, frame);
   TileCaster::Scene scene;
   const int size[2] = { 1, 1 };
   std::string error = this->MakeScene(tables, frame, size, opacity, scene);

@@ -242,15 +242,16 @@ RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrato
   for (std::size_t i = 0; i < 3; ++i)
   {
     const TrueEvent& event = robust.Events[i];
-    const auto isNearEnd = [&](const RaySegment& segment)
+    const double length = LengthOf(ray);
+    // In another cell along the ray.
+    const auto isNear = [&](const RaySegment& segment)
     {
-      const double length = LengthOf(ray);
-      return segment.Cell == event.Cell &&
-        (event.Distance - length * segment.Begin < depthRounding ||
-          length * segment.End - event.Distance < depthRounding);
+      return segment.Cell != event.Cell &&
+        length * segment.Begin - event.Distance < depthRounding &&
+        event.Distance - length * segment.End < depthRounding;
     };
     robust.StaysInCell[i] =
-      event.IsFound() && std::none_of(segments.begin(), segments.end(), isNearEnd);
+      event.IsFound() && std::none_of(segments.begin(), segments.end(), isNear);
   }
   const auto compare = [&](const TrueEvents& moved)
   {

@@ -73,7 +73,7 @@ struct RobustEvents
  * units of 2^-29 (1 + steepest slope), is a bound of 3.6e-7 (1 + slope); `slope` is the tangent of
  * half the view angle. Rounding of scalars: floats in [-1, 1] are rounded by 2^-25 of half the
  * range, and interpolated with the same error at three corners: 2^-24 of the range, `scalarRange`.
- * An event within `depthRounding` of a face of its cell may as well be in the neighbour.
+ * An event within `depthRounding` of the neighbour along the ray may as well be in that cell.
  */
 RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrator,
   const reference::Ray& ray, const FindEvents& find, double slope, double scalarRange,

