@@ -173,9 +173,9 @@ void VolumePropertyTables::NormalizeTables(
     // No isosurface is met outside the range of the data, and NaN is not a value.
     if (scalar >= -1.0 && scalar <= 1.0)
     {
-      this->Isosurfaces.push_back({ static_cast<float>(scalar),
-        static_cast<float>(std::clamp(point.Attenuation, 0.0, 1.0)), glm::vec3(point.Color),
-        static_cast<std::int32_t>(i) });
+      this->Isosurfaces.push_back(
+        { static_cast<float>(scalar), static_cast<float>(std::clamp(point.Attenuation, 0.0, 1.0)),
+          glm::vec3(point.Color), static_cast<std::int32_t>(i) });
     }
   }
   std::stable_sort(this->Isosurfaces.begin(), this->Isosurfaces.end(),

@@ -10,6 +10,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTetrahedraVolumePicker.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
