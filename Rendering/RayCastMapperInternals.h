@@ -3,13 +3,17 @@
 #ifndef meniscus_Rendering_RayCastMapperInternals_h
 #define meniscus_Rendering_RayCastMapperInternals_h
 
+#include "Rendering/Integral/RayPicker.h"
 #include "Rendering/Pipeline/RayCastPipeline.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include <glm/mat4x4.hpp>
 
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
 {
@@ -33,6 +37,13 @@ public:
   bool WarnedPeeling = false;
   /** Matrix of the last frame, for positions given in world coordinates. */
   glm::dmat4 WorldToModel{ 1.0 };
+  /** Null until the first pick. */
+  std::unique_ptr<meniscus::RayPicker> Picker;
+  /** Null until depths are written, and the depths of the last image that was cast. */
+  std::unique_ptr<meniscus::RayPicker> DepthCaster;
+  std::vector<float> Depths;
+  /** Number of casts of which these are the depths. */
+  std::int64_t DepthsOfCast = -1;
 };
 
 #endif

@@ -315,7 +315,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::UpdateMembrane()
+bool vtkTetrahedraRayCastMapper::UpdateMembrane(meniscus::RayCastMembrane& membrane)
 {
   const int membranes = this->GetNumberOfMembranes();
   // The list is never shorter than one; the interface of a mapper without a membrane is not used.
@@ -334,7 +334,7 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
     interfaces.push_back({ this->GetMembrane(i), item->GetExteriorIndexOfRefraction(),
       item->GetInteriorIndexOfRefraction() });
   }
-  return this->Tell(this->Internals->Membrane.Update(interfaces, this->MembranePart != WHOLE));
+  return this->Tell(membrane.Update(interfaces, this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------
@@ -485,7 +485,21 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     frame.Output.SelectionValue =
       propPass ? glm::vec3(value[0], value[1], value[2]) : glm::vec3(0.0f);
   }
+  const std::string error = this->PrepareView(renderer, volume, frame);
+  if (!error.empty())
+  {
+    return error;
+  }
+  this->ChooseIntegration(volume, frame.Optics);
+  return meniscus::DescribeExcess(frame.Optics);
+}
 
+//------------------------------------------------------------------------------
+/** Rays and optics of a frame of a given size, but for the way of integration. */
+std::string vtkTetrahedraRayCastMapper::PrepareView(
+  vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame)
+{
+  vtkInternals& internals = *this->Internals;
   meniscus::ViewContext place;
   const std::string error = internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
   if (!error.empty())
@@ -513,8 +527,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
     this->Gradients == VERTEX_GRADIENTS;
-  this->ChooseIntegration(volume, frame.Optics);
-  return meniscus::DescribeExcess(frame.Optics);
+  return error;
 }
 
 //------------------------------------------------------------------------------
@@ -545,6 +558,10 @@ bool vtkTetrahedraRayCastMapper::Draw(
   if (error.empty())
   {
     error = this->DrawFrame(frame, parts);
+  }
+  if (error.empty() && this->DepthWriting != NO_DEPTH && this->MembranePart == WHOLE)
+  {
+    error = this->WriteDepths(frame);
   }
   if (!error.empty())
   {
@@ -578,7 +595,8 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   }
   meniscus::InputBlocks parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
-    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), volume, parts))
+    !this->UpdateMembrane(this->Internals->Membrane) ||
+    !this->UpdateInput(renderer->GetRenderWindow(), volume, parts))
   {
     return;
   }

@@ -112,10 +112,12 @@ namespace meniscus
 struct BlendModel;
 struct InputBlocks;
 struct InputReport;
+class RayCastMembrane;
 struct RayCastFrame;
 struct ViewContext;
 struct RayCastOptics;
 struct ScalarSelection;
+struct VolumePick;
 }
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -407,6 +409,32 @@ public:
   vtkGetMacro(ColorBias, double);
   /** @} */
 
+  /** Depths that frames write. */
+  enum DepthWritings
+  {
+    NO_DEPTH = 0,
+    FIRST_VISIBLE_DEPTH = 1,
+    OPACITY_DEPTH = 2
+  };
+
+  /** @{ */
+  /**
+   * Set/Get the depth that a frame writes to the window's depth buffer, so that whatever reads it
+   * afterwards sees the volume: props that are drawn later, render passes, vtkWorldPointPicker.
+   * FIRST_VISIBLE_DEPTH and OPACITY_DEPTH are the places of vtkTetrahedraVolumePicker, the latter
+   * at the accumulated opacity DepthOpacity. Behind refracting surfaces it is the depth at which
+   * the place is drawn.
+   *
+   * The depths are computed on the processor whatever the backend is, by one more cast of every
+   * image. Volumes that are drawn after this one end at its depth. Default is NO_DEPTH, which costs
+   * nothing; the default of DepthOpacity is 0.5.
+   */
+  vtkSetClampMacro(DepthWriting, int, NO_DEPTH, OPACITY_DEPTH);
+  vtkGetMacro(DepthWriting, int);
+  vtkSetClampMacro(DepthOpacity, double, 0.0, 1.0);
+  vtkGetMacro(DepthOpacity, double);
+  /** @} */
+
   /** @{ */
   /**
    * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
@@ -508,6 +536,12 @@ public:
   vtkTypeInt64 GetNumberOfRejectedCells();
   /** @} */
 
+  /**
+   * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
+   * since construction: once per mesh that is picked. The table takes 4 bytes per tetrahedron.
+   */
+  vtkTypeInt64 GetNumberOfCellSearches();
+
   /** @{ */
   /**
    * Counters since construction: images whose rays were cast, and their pixels. A frame that
@@ -592,15 +626,20 @@ private:
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
-  bool UpdateMembrane();
+  bool UpdateMembrane(meniscus::RayCastMembrane& membrane);
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
   const meniscus::BlendModel& GetBlendModel();
   double ChooseImageSampleDistance(vtkVolume* volume);
+  std::string PrepareView(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
+  friend class vtkTetrahedraVolumePicker;
+  std::string WriteDepths(const meniscus::RayCastFrame& frame);
+  bool UpdateForPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts);
+  bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
@@ -620,6 +659,8 @@ private:
   vtkTypeBool AutoAdjustSampleDistances = 1;
   vtkTypeBool CompactTables = 0;
   double ColorBias = 0.0;
+  int DepthWriting = NO_DEPTH;
+  double DepthOpacity = 0.5;
   vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double UsedImageSampleDistance = 1.0;
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;

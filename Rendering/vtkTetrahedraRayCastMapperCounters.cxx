@@ -81,7 +81,11 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
-  return this->Internals->GetBytes() + this->Internals->GetCounters().HostBytes;
+  const vtkInternals& internals = *this->Internals;
+  return internals.GetBytes() + internals.GetCounters().HostBytes +
+    (internals.Picker ? internals.Picker->GetBytes() : 0) +
+    (internals.DepthCaster ? internals.DepthCaster->GetBytes() : 0) +
+    meniscus::BytesOf(internals.Depths);
 }
 
 //------------------------------------------------------------------------------
@@ -194,6 +198,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";
   os << indent << "ColorBias: " << this->ColorBias << "\n";
+  os << indent << "DepthWriting: " << this->DepthWriting << "\n";
+  os << indent << "DepthOpacity: " << this->DepthOpacity << "\n";
   os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
   os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
   os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";

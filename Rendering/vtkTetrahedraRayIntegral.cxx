@@ -6,6 +6,7 @@
 
 #include "vtkAbstractMapper.h"
 #include "vtkCamera.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -228,6 +229,29 @@ bool vtkTetrahedraRayIntegral::TellError(const std::string& error)
 }
 
 //------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::ChooseEvents(Request& request)
+{
+  meniscus::IntegralChoice& choice = request.Choice;
+  meniscus::EventChoice& events = choice.Events;
+  events.Wanted = { this->ComputeFirstVisible != 0, this->ComputeOpacityReached != 0,
+    this->ComputeLargestContribution != 0 };
+  events.Opacity = this->EventOpacity;
+  const meniscus::BlendModel* model = meniscus::FindBlendModel(this->EventBlendMode);
+  if (events.IsAnyWanted() && !model)
+  {
+    return this->TellError(
+      "There is no blend mode of number " + std::to_string(this->EventBlendMode) + " for events");
+  }
+  events.Blending = model ? model->Mode : meniscus::BlendMode::Composite;
+  if (events.IsAnyWanted() && events.HasSurfaces() && choice.NeedsComposite())
+  {
+    return this->TellError("Events of isosurfaces cannot be in the same image as RGBA or "
+                           "OpticalDepth, which are those of composite blending");
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
 {
   using Array = meniscus::IntegralArray;
@@ -245,9 +269,14 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   want(Array::MaximumDepth, this->ComputeMaximum);
   want(Array::RGBA, this->ComputeRGBA);
   want(Array::EnergyBins, this->ComputeEnergyBins);
+  if (!this->ChooseEvents(request))
+  {
+    return false;
+  }
   choice.HasBinArrays = this->AttenuationArrayName != nullptr;
   choice.NumberOfBins = this->GetNumberOfEnergyBins();
-  request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() && !choice.NeedsProperty();
+  request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() &&
+    !choice.NeedsProperty() && !choice.Events.IsAnyWanted();
   if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
   {
     return this->TellError("ImageSize must be at least 1 by 1, not " +
@@ -261,7 +290,9 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   }
   if (choice.NeedsProperty() && !this->VolumeProperty)
   {
-    return this->TellError("RGBA and OpticalDepth need a volume property");
+    return this->TellError(choice.NeedsComposite()
+        ? "RGBA and OpticalDepth need a volume property"
+        : "Events need a volume property in this blend mode");
   }
   const std::vector<meniscus::EnergyBin>& bins = this->Internals->EnergyBins;
   const bool finite = std::all_of(bins.begin(), bins.end(),
@@ -340,6 +371,7 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
   {
     return this->TellError("The input has no cells");
   }
+  request.Choice.Events.HasBlocks = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
   const meniscus::InputBlocks& bins = request.Attenuation;
   meniscus::IntegralChoice& choice = request.Choice;
   if (!choice.NeedsBinArrays())
@@ -386,9 +418,11 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
     return this->TellError("The input has no cells that can be used");
   }
   const bool usesProperty = request.Choice.NeedsProperty();
+  const meniscus::EventChoice& events = request.Choice.Events;
+  const bool hasSurfaces = events.IsAnyWanted() && events.HasSurfaces();
   internals.Property.Reduce(usesProperty ? this->VolumeProperty.Get() : internals.NoProperty.Get(),
-    meniscus::BlendMode::Composite, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE,
-    meniscus::ComponentMixture::None, 1);
+    hasSurfaces ? meniscus::BlendMode::Isosurfaces : meniscus::BlendMode::Composite,
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, meniscus::ComponentMixture::None, 1);
   const int component = request.BinsAlone ? 0
     : this->ArrayComponent == -1          ? meniscus::ScalarSelection::Magnitude
                                           : this->ArrayComponent;
@@ -402,6 +436,10 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
     return this->TellError("The scalars reach too far beyond the changes of the volume property "
                            "for integrals in the same image; switch off RGBA and OpticalDepth, or "
                            "the other arrays");
+  }
+  if (events.IsAnyWanted())
+  {
+    input.FindInputCells(request.Scalars);
   }
   internals.Property.Normalize(input.GetNormalization(), internals.Components);
   input.UpdateActiveCells(
@@ -469,13 +507,14 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
 
 //------------------------------------------------------------------------------
 /** Returns false after an error or an abort. */
-bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkImageData* output)
+bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, vtkImageData* output)
 {
   vtkInternals& internals = *this->Internals;
   std::vector<meniscus::EnergyBin> bins = internals.EnergyBins;
   bins.resize(static_cast<std::size_t>(request.Choice.NumberOfBins));
   const std::int64_t pixels = std::int64_t{ this->ImageSize[0] } * this->ImageSize[1];
   meniscus::IntegralArrays arrays(request.Choice, bins, pixels);
+  const meniscus::InputCells cells(input, request.Scalars);
   const auto goOn = [this](double fraction)
   {
     this->UpdateProgress(ShareOfMesh + (1.0 - ShareOfMesh) * fraction);
@@ -487,7 +526,7 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkImageData* output)
   if (mesh.GetNumberOfActiveCells() > 0 && mesh.GetRadius() > 0.0 &&
     (!this->ComputeView(request) ||
       !this->TellError(
-        internals.Measure(request.Choice, request.View, this->ImageSize, arrays, goOn)) ||
+        internals.Measure(request.Choice, request.View, this->ImageSize, cells, arrays, goOn)) ||
       internals.WasAborted()))
   {
     return false;
@@ -508,11 +547,11 @@ int vtkTetrahedraRayIntegral::RequestData(
 {
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->Initialize();
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   Request request;
-  const bool measured = this->ChooseArrays(request) &&
-    this->CollectInput(vtkDataObject::GetData(inputs[0]), request) &&
+  const bool measured = this->ChooseArrays(request) && this->CollectInput(input, request) &&
     this->TellError(DescribeExcess(request.Choice, this->ImageSize)) && this->UpdateMembranes() &&
-    this->UpdateTables(request) && this->Measure(request, output);
+    this->UpdateTables(request) && this->Measure(request, input, output);
   if (!measured)
   {
     output->Initialize();

@@ -195,9 +195,51 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the property of RGBA and OpticalDepth, which need one. RGBA is the mapper's composite
-   * blending without light: Shade and gradient opacity have no effect, and the functions of
-   * component 0 are used. Default is none.
+   * Switch the events of rays on or off: the first visible place, the place at which the
+   * accumulated opacity reaches EventOpacity, and the place of the largest contribution per length.
+   * By default they are off.
+   *
+   * Each adds arrays whose names begin with `FirstVisible`, `OpacityReached` or
+   * `LargestContribution`: `Depth` (distance along the ray), `Value` (the scalar there), `Position`
+   * (3 components, world coordinates; behind refracting surfaces the true place), all of 32-bit
+   * floats; `CellId` (vtkIdTypeArray: cell of the input's data set), `Block` (vtkIntArray: its flat
+   * index, for composite input) and `Surface` (vtkIntArray: index of the isosurface in the
+   * property, with isosurface blending). Rays without the event have NaN, and -1 in arrays of
+   * integers.
+   */
+  vtkSetMacro(ComputeFirstVisible, vtkTypeBool);
+  vtkGetMacro(ComputeFirstVisible, vtkTypeBool);
+  vtkBooleanMacro(ComputeFirstVisible, vtkTypeBool);
+  vtkSetMacro(ComputeOpacityReached, vtkTypeBool);
+  vtkGetMacro(ComputeOpacityReached, vtkTypeBool);
+  vtkBooleanMacro(ComputeOpacityReached, vtkTypeBool);
+  vtkSetMacro(ComputeLargestContribution, vtkTypeBool);
+  vtkGetMacro(ComputeLargestContribution, vtkTypeBool);
+  vtkBooleanMacro(ComputeLargestContribution, vtkTypeBool);
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the accumulated opacity of `OpacityReached`, from 0 to 1. Default is 0.5. */
+  vtkSetClampMacro(EventOpacity, double, 0.0, 1.0);
+  vtkGetMacro(EventOpacity, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the blend mode that defines events, a number of vtkVolumeMapper::BlendModes; see
+   * vtkTetrahedraVolumePicker. Composite, additive and isosurface blending need a property; events
+   * of isosurfaces exclude RGBA and OpticalDepth in one image. Default is
+   * vtkVolumeMapper::COMPOSITE_BLEND.
+   */
+  vtkSetMacro(EventBlendMode, int);
+  vtkGetMacro(EventBlendMode, int);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the property of RGBA, OpticalDepth and events, which need one. RGBA is the mapper's
+   * composite blending without light: Shade and gradient opacity have no effect, also for the
+   * others, and the functions of component 0 are used. Default is none.
    */
   void SetVolumeProperty(vtkVolumeProperty* property);
   vtkVolumeProperty* GetVolumeProperty();
@@ -316,6 +358,12 @@ public:
   vtkTypeInt64 GetNumberOfCasts();
   /** @} */
 
+  /**
+   * Number of times that the input's cells were looked up for events since construction: once per
+   * mesh.
+   */
+  vtkTypeInt64 GetNumberOfCellSearches();
+
   /** @{ */
   /**
    * Numbers of the last image or mesh: rays that met the mesh, crossed cells, rays whose walk did
@@ -354,11 +402,12 @@ private:
   bool Tell(const meniscus::InputReport& report);
   bool TellError(const std::string& error);
   bool CollectInput(vtkDataObject* input, Request& request);
+  bool ChooseEvents(Request& request);
   bool ChooseArrays(Request& request);
   bool UpdateTables(Request& request);
   bool UpdateMembranes();
   bool ComputeView(Request& request);
-  bool Measure(Request& request, vtkImageData* output);
+  bool Measure(Request& request, vtkDataObject* input, vtkImageData* output);
 
   int FrameMode = FITTED;
   double Direction[3] = { 0.0, 0.0, -1.0 };
@@ -377,6 +426,11 @@ private:
   vtkTypeBool ComputeMaximum = 0;
   vtkTypeBool ComputeRGBA = 0;
   vtkTypeBool ComputeEnergyBins = 0;
+  vtkTypeBool ComputeFirstVisible = 0;
+  vtkTypeBool ComputeOpacityReached = 0;
+  vtkTypeBool ComputeLargestContribution = 0;
+  double EventOpacity = 0.5;
+  int EventBlendMode = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;
   char* AttenuationArrayName = nullptr;
   char* EmissionArrayName = nullptr;

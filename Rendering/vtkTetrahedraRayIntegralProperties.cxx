@@ -196,6 +196,12 @@ vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCasts()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCellSearches()
+{
+  return this->Internals->Input.GetNumberOfInputCellSearches();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfRays()
 {
   return this->Internals->GetStatistics().Rays;
@@ -262,6 +268,11 @@ void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ComputeMaximum: " << this->ComputeMaximum << "\n";
   os << indent << "ComputeRGBA: " << this->ComputeRGBA << "\n";
   os << indent << "ComputeEnergyBins: " << this->ComputeEnergyBins << "\n";
+  os << indent << "ComputeFirstVisible: " << this->ComputeFirstVisible << "\n";
+  os << indent << "ComputeOpacityReached: " << this->ComputeOpacityReached << "\n";
+  os << indent << "ComputeLargestContribution: " << this->ComputeLargestContribution << "\n";
+  os << indent << "EventOpacity: " << this->EventOpacity << "\n";
+  os << indent << "EventBlendMode: " << this->EventBlendMode << "\n";
   os << indent << "VolumeProperty: " << this->VolumeProperty << "\n";
   os << indent << "OpacityModel: "
      << (this->OpacityModel == ATTENUATION_COEFFICIENT ? "ATTENUATION_COEFFICIENT"

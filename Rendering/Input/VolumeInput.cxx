@@ -7,6 +7,7 @@
 #include "Rendering/Input/ConcatenatedArray.h"
 #include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/TetrahedraSource.h"
+#include "Volume/Mesh/SourceCells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,20 @@
 
 namespace meniscus
 {
+namespace
+{
+
+std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
+{
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
+  {
+    grids.push_back(part.Grid);
+  }
+  return grids;
+}
+
+}
 
 //------------------------------------------------------------------------------
 InputReport VolumeInput::UpdateMesh(
@@ -29,12 +44,7 @@ InputReport VolumeInput::UpdateMesh(
     return InputReport();
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  std::vector<vtkDataSet*> grids;
-  for (const InputPart& part : input.Parts)
-  {
-    grids.push_back(part.Grid);
-  }
-  return this->BuildMesh(grids, progress);
+  return this->BuildMesh(GridsOf(input), progress);
 }
 
 //------------------------------------------------------------------------------
@@ -45,6 +55,7 @@ InputReport VolumeInput::BuildMesh(
   this->ActiveSetStale = true;
   this->MeshVersion.Bump();
   this->LinkVersion.Bump();
+  this->InputCells = std::vector<std::int32_t>();
 
   InputReport report;
   std::ostringstream text;
@@ -244,7 +255,19 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
 std::int64_t VolumeInput::GetBytes() const
 {
   return this->Mesh.GetBytes() + BytesOf(this->Scalars) + BytesOf(this->CellScalars) +
-    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces());
+    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces()) + BytesOf(this->InputCells);
+}
+
+//------------------------------------------------------------------------------
+void VolumeInput::FindInputCells(const InputBlocks& input)
+{
+  if (!this->GetInputCells().empty())
+  {
+    return;
+  }
+  const TetrahedraSource source(GridsOf(input), ThreadedLoop);
+  this->InputCells = FindSourceCells(this->Mesh, source.GetView(), ThreadedLoop);
+  ++this->InputCellSearches;
 }
 
 //------------------------------------------------------------------------------

@@ -81,6 +81,19 @@ public:
   ScalarRange GetNormalizedRange() const;
   /** Index of the input's scalar for each vertex, or for each cell of the mesh. */
   const std::vector<std::int32_t>& GetSources(FieldAssociation place) const;
+  /**
+   * Finds the cell of the input that each cell of the mesh is a part of. It is kept until the mesh
+   * is built again, and takes 4 bytes per cell.
+   * @param input source of the mesh.
+   */
+  void FindInputCells(const InputBlocks& input);
+  /** Running index over all parts for each cell of the mesh, after FindInputCells(). */
+  const std::vector<std::int32_t>& GetInputCells() const
+  {
+    return this->InputCells.empty() ? this->Mesh.GetSourceCells() : this->InputCells;
+  }
+  /** Times that it was found. */
+  std::int64_t GetNumberOfInputCellSearches() const { return this->InputCellSearches; }
   /** Component used as the scalar, as in ScalarSelection. */
   int GetComponent() const { return this->BuiltComponent; }
   /** Tree over the boundary of the active cells; built when first requested. */
@@ -103,6 +116,8 @@ private:
 
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
+  /** Empty until asked for, and if the mesh has them. */
+  std::vector<std::int32_t> InputCells;
   std::vector<float> Scalars;
   std::vector<float> CellScalars;
   ScalarDistribution Distribution;
@@ -121,6 +136,7 @@ private:
   bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
   TableVersion TreeOf;
+  std::int64_t InputCellSearches = 0;
 
   TableVersion MeshVersion;
   TableVersion ScalarVersion;

@@ -46,14 +46,14 @@ bool IntegralChoice::NeedsScalars() const
 bool IntegralChoice::NeedsScalarValues() const
 {
   return this->Has(IntegralArray::Integral) || this->Has(IntegralArray::Minimum) ||
-    this->Has(IntegralArray::Maximum) ||
+    this->Has(IntegralArray::Maximum) || this->Events.IsAnyWanted() ||
     (this->Has(IntegralArray::EnergyBins) && !this->HasBinArrays);
 }
 
 //------------------------------------------------------------------------------
 std::int64_t IntegralChoice::GetNumbersPerPixel() const
 {
-  std::int64_t numbers = 0;
+  std::int64_t numbers = this->Events.GetNumbersPerPixel();
   for (std::size_t i = 0; i < NumberOfIntegralArrays; ++i)
   {
     numbers +=
@@ -65,7 +65,8 @@ std::int64_t IntegralChoice::GetNumbersPerPixel() const
 //------------------------------------------------------------------------------
 IntegralArrays::IntegralArrays(
   const IntegralChoice& choice, const std::vector<EnergyBin>& bins, std::int64_t pixels)
-  : Bins(bins)
+  : Events(choice.Events, pixels)
+  , Bins(bins)
   , HasBinArrays(choice.HasBinArrays)
 {
   for (std::size_t i = 0; i < NumberOfIntegralArrays; ++i)
@@ -152,6 +153,7 @@ void IntegralArrays::AddTo(vtkImageData* image)
       isFirst = false;
     }
   }
+  this->Events.AddTo(image);
 }
 
 }

@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Integral_IntegralArrays_h
 
 #include "Rendering/Integral/EnergyBins.h"
+#include "Rendering/Integral/EventArrays.h"
 #include "Volume/Caster/MeasuredRays.h"
 #include "Volume/Optics/ScalarNormalization.h"
 
@@ -43,6 +44,7 @@ constexpr std::size_t NumberOfIntegralArrays =
 struct IntegralChoice
 {
   std::array<bool, NumberOfIntegralArrays> Wanted{};
+  EventChoice Events;
   /** Number of energy bins, at least 1 if their array is wanted. */
   int NumberOfBins = 0;
   /** True if the bins' attenuations are arrays, otherwise they are multiples of the scalar. */
@@ -53,7 +55,9 @@ struct IntegralChoice
   bool NeedsScalars() const;
   bool NeedsScalarValues() const;
   /** True if an array needs a volume property. */
-  bool NeedsProperty() const
+  bool NeedsProperty() const { return this->NeedsComposite() || this->Events.NeedsProperty(); }
+  /** True if an array needs the functions of composite blending. */
+  bool NeedsComposite() const
   {
     return this->Has(IntegralArray::RGBA) || this->Has(IntegralArray::OpticalDepth);
   }
@@ -81,6 +85,8 @@ public:
 
   /** Adds the arrays to the points of an image; the first one becomes the active scalars. */
   void AddTo(vtkImageData* image);
+
+  EventArrays Events;
 
 private:
   void Set(IntegralArray array, std::int64_t pixel, double value)

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Backends/RayCastFrame.h"
+#include "Rendering/Integral/TilePixels.h"
 
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
@@ -30,21 +31,6 @@ RayCastFrame FrameOf(const RayCastTables& tables, const IntegralView& view)
   frame.Optics.CellScalars = tables.Input.GetFieldAssociation() == FieldAssociation::Cells;
   frame.Optics.DataRange = tables.Input.GetNormalizedRange();
   return frame;
-}
-
-/** Calls body(pixel in the image, pixel in the tile) for all pixels of a tile. */
-template <class Body>
-void ForEachPixel(const TileCaster& caster, int tile, Body&& body)
-{
-  const BoundaryRaster::PixelBox box = caster.GetBox(tile);
-  for (int row = box.Bottom; row < box.Top; ++row)
-  {
-    for (int column = box.Left; column < box.Right; ++column)
-    {
-      const int inTile = (row - box.Bottom) * RefractedRayTiles::TileSize + column - box.Left;
-      body(std::int64_t{ row } * caster.GetWidth() + column, static_cast<std::size_t>(inTile));
-    }
-  }
 }
 
 }
@@ -110,6 +96,26 @@ bool IntegralCaster::MeasureScalars(TileCaster::Scene scene, const IntegralChoic
 }
 
 //------------------------------------------------------------------------------
+bool IntegralCaster::MeasureEvents(TileCaster::Scene scene, const EventChoice& choice,
+  const EventContext& context, IntegralArrays& arrays, const Progress& progress)
+{
+  scene.Measuring = RayMeasuring::Events;
+  scene.Blending = choice.Blending;
+  scene.EventOpacity = choice.Opacity;
+  return this->Cast(
+    scene,
+    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+    {
+      const RayStatistics sums = caster.Measure(tile, workspace);
+      ForEachPixel(caster, tile,
+        [&](std::int64_t pixel, std::size_t inTile)
+        { arrays.Events.Set(pixel, workspace.Measured.Events[inTile], context); });
+      return sums;
+    },
+    progress);
+}
+
+//------------------------------------------------------------------------------
 bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables::Table& table,
   IntegralArrays& arrays, const Progress& progress)
 {
@@ -133,7 +139,7 @@ bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables:
 
 //------------------------------------------------------------------------------
 std::string IntegralCaster::Measure(const IntegralChoice& choice, const IntegralView& view,
-  const int size[2], IntegralArrays& arrays, const Progress& progress)
+  const int size[2], const InputCells& cells, IntegralArrays& arrays, const Progress& progress)
 {
   this->Statistics = RayStatistics();
   this->Aborted = false;
@@ -159,6 +165,7 @@ std::string IntegralCaster::Measure(const IntegralChoice& choice, const Integral
   this->DoneCasts = 0;
   this->PlannedCasts = static_cast<int>(choice.NeedsScalars()) +
     static_cast<int>(choice.Has(IntegralArray::RGBA)) +
+    static_cast<int>(choice.Events.IsAnyWanted()) +
     (choice.NeedsBinArrays() ? static_cast<int>(this->Bins.GetTables().size()) : 0);
   if (choice.NeedsScalars() && !this->MeasureScalars(scene, choice, arrays, progress))
   {
@@ -167,6 +174,15 @@ std::string IntegralCaster::Measure(const IntegralChoice& choice, const Integral
   for (std::size_t i = 0; choice.NeedsBinArrays() && i < this->Bins.GetTables().size(); ++i)
   {
     if (!this->MeasureBins(scene, this->Bins.GetTables()[i], arrays, progress))
+    {
+      return std::string();
+    }
+  }
+  if (choice.Events.IsAnyWanted())
+  {
+    const EventContext context{ cells, this->Input.GetInputCells(), this->Input.GetNormalization(),
+      IndicesOf(this->Property.GetIsosurfaces()), view.Center, view.Rays.ViewToWorld };
+    if (!this->MeasureEvents(scene, choice.Events, context, arrays, progress))
     {
       return std::string();
     }

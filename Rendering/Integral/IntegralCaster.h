@@ -26,10 +26,11 @@ public:
 
   /**
    * Measures the rays of a view. The tables must be up to date for the arrays that are wanted.
+   * @param cells cells of the input; used for events only, for which Input must know them.
    * @return an error, or an empty text; also after an abort, see WasAborted().
    */
   std::string Measure(const IntegralChoice& choice, const IntegralView& view, const int size[2],
-    IntegralArrays& arrays, const Progress& progress);
+    const InputCells& cells, IntegralArrays& arrays, const Progress& progress);
 
   /** Notes an image without rays. */
   void ClearStatistics() { this->Statistics = RayStatistics(); }
@@ -49,6 +50,8 @@ private:
   bool Cast(const TileCaster::Scene& scene, const TileBody& body, const Progress& progress);
   bool MeasureScalars(TileCaster::Scene scene, const IntegralChoice& choice, IntegralArrays& arrays,
     const Progress& progress);
+  bool MeasureEvents(TileCaster::Scene scene, const EventChoice& choice,
+    const EventContext& context, IntegralArrays& arrays, const Progress& progress);
   bool MeasureBins(TileCaster::Scene scene, const EnergyBinTables::Table& table,
     IntegralArrays& arrays, const Progress& progress);
 

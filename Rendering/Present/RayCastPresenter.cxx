@@ -3,8 +3,10 @@
 #include "Rendering/Present/RayCastPresenter.h"
 
 #include "vtkTetrahedraComposeFS.h"
+#include "vtkTetrahedraDepthFS.h"
 #include "vtkTetrahedraSelectFS.h"
 
+#include "vtkNew.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -261,13 +263,12 @@ std::string RayCastPresenter::Resize(int width, int height)
 }
 
 //------------------------------------------------------------------------------
-/** Makes the program that draws the image, or that draws where it is visible, the current one. */
-std::string RayCastPresenter::ReadyDrawer(bool selecting)
+/** Makes the program of a drawer the current one. */
+std::string RayCastPresenter::ReadyDrawer(
+  std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source)
 {
-  std::unique_ptr<vtkOpenGLQuadHelper>& drawer = selecting ? this->Selector : this->Composer;
   if (!drawer)
   {
-    const char* source = selecting ? vtkTetrahedraSelectFS : vtkTetrahedraComposeFS;
     drawer = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source, "");
   }
   else
@@ -307,7 +308,9 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   this->LimitToFilled(viewport);
-  const std::string error = this->ReadyDrawer(output.Selecting);
+  const std::string error = output.Selecting
+    ? this->ReadyDrawer(this->Selector, vtkTetrahedraSelectFS)
+    : this->ReadyDrawer(this->Composer, vtkTetrahedraComposeFS);
   if (!error.empty())
   {
     return error;
@@ -349,6 +352,46 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
 }
 
 //------------------------------------------------------------------------------
+std::string RayCastPresenter::WriteDepths(const std::vector<float>& depths, const int size[2])
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable depthTestScope(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blendScope(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable cullScope(state, GL_CULL_FACE);
+  vtkOpenGLState::ScopedglDepthMask depthMaskScope(state);
+  vtkOpenGLState::ScopedglDepthFunc depthFuncScope(state);
+  vtkOpenGLState::ScopedglColorMask colorMaskScope(state);
+  vtkOpenGLState::ScopedglActiveTexture activeTextureScope(state);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_LESS);
+  state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  const std::string error = this->ReadyDrawer(this->DepthWriter, vtkTetrahedraDepthFS);
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkNew<vtkTextureObject> texture;
+  texture->SetContext(this->Window);
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  // VTK does not change the data, although it does not say so.
+  if (!texture->Create2DFromRaw(static_cast<unsigned int>(size[0]),
+        static_cast<unsigned int>(size[1]), 1, VTK_FLOAT, const_cast<float*>(depths.data())))
+  {
+    return "no image of depths can be made on the graphics device";
+  }
+  texture->Activate();
+  this->DepthWriter->Program->SetUniformi("depths", texture->GetTextureUnit());
+  this->DepthWriter->Render();
+  texture->Deactivate();
+  texture->ReleaseGraphicsResources(this->Window);
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
 void RayCastPresenter::Release(vtkWindow* window)
 {
   vtkOpenGLRenderWindow* owner =
@@ -361,6 +404,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Under.Release(owner);
   this->Composer.reset();
   this->Selector.reset();
+  this->DepthWriter.reset();
   this->Image = nullptr;
   this->Size[0] = this->Size[1] = 0;
   this->HasDepthsOfImage = false;

@@ -54,6 +54,13 @@ public:
   std::string Present(const RayCastOutput& output, bool sameFrame,
     const std::function<std::string(RayCastTarget&)>& makeImage);
 
+  /**
+   * Writes depths to the depth buffer of the current viewport where they are nearer than what is
+   * there.
+   * @param depths window depths of an image of the given size, rows from below; 2 for none.
+   */
+  std::string WriteDepths(const std::vector<float>& depths, const int size[2]);
+
   /** Waits until the device has drawn what it was told to. */
   void Finish();
 
@@ -78,7 +85,7 @@ public:
 private:
   bool HoldsImageOfDepths(bool sameFrame);
   std::string Resize(int width, int height);
-  std::string ReadyDrawer(bool selecting);
+  std::string ReadyDrawer(std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void LimitToFilled(const int viewport[4]);
 
@@ -88,6 +95,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Image;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
+  std::unique_ptr<vtkOpenGLQuadHelper> DepthWriter;
   int Size[2] = { 0, 0 };
   /** Box outside of which the image is zero. */
   RayCastImageBox Filled{ 0, 0, 0, 0 };

@@ -166,17 +166,19 @@ void VolumePropertyTables::NormalizeTables(
     this->GradientIntervals = BuildIntervals(this->GradientPoints, ScalarNormalization());
   }
   this->Isosurfaces.clear();
-  for (const TransferFunctionPoint& point : this->SurfacePoints)
+  for (std::size_t i = 0; i < this->SurfacePoints.size(); ++i)
   {
+    const TransferFunctionPoint& point = this->SurfacePoints[i];
     const double scalar = normalization(point.Scalar);
     // No isosurface is met outside the range of the data, and NaN is not a value.
     if (scalar >= -1.0 && scalar <= 1.0)
     {
-      this->Isosurfaces.push_back({ static_cast<float>(scalar),
-        static_cast<float>(std::clamp(point.Attenuation, 0.0, 1.0)), glm::vec3(point.Color) });
+      this->Isosurfaces.push_back(
+        { static_cast<float>(scalar), static_cast<float>(std::clamp(point.Attenuation, 0.0, 1.0)),
+          glm::vec3(point.Color), static_cast<std::int32_t>(i) });
     }
   }
-  std::sort(this->Isosurfaces.begin(), this->Isosurfaces.end(),
+  std::stable_sort(this->Isosurfaces.begin(), this->Isosurfaces.end(),
     [](const Isosurface& a, const Isosurface& b) { return a.Scalar < b.Scalar; });
   const auto end = std::unique(this->Isosurfaces.begin(), this->Isosurfaces.end(),
     [](const Isosurface& a, const Isosurface& b) { return a.Scalar == b.Scalar; });

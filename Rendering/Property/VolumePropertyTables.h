@@ -26,6 +26,8 @@ struct Isosurface
   float Scalar;
   float Opacity;
   glm::vec3 Color;
+  /** Position in the property's list; of equal values, the first one. */
+  std::int32_t Index;
 };
 
 /** Tables of a volume property; rebuilt only when the property has changed. */

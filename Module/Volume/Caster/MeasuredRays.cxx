@@ -73,4 +73,23 @@ MeasuredBin ReadBins(const float* values)
   return measured;
 }
 
+//------------------------------------------------------------------------------
+void TakeEvents(const RayEventState& state, const LegLine& line, MeasuredEvents& events)
+{
+  for (std::size_t kind = 0; kind < events.Events.size(); ++kind)
+  {
+    if ((state.Fresh >> kind & 1u) == 0)
+    {
+      continue;
+    }
+    const RayEvent& event = state.Events[kind];
+    const double distance = line.Distance(event.Depth);
+    const double along = distance - line.Distance.AtBegin;
+    events.Events[kind] = { distance, line.Begin + along * line.PerDistance,
+      line.DrawnDepth + along * line.DrawnPerDistance, event.Scalar, event.Cell, event.Surface };
+  }
+  events.State = state;
+  events.State.Fresh = 0;
+}
+
 }

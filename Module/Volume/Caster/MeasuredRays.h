@@ -3,12 +3,16 @@
 #ifndef meniscus_Volume_Caster_MeasuredRays_h
 #define meniscus_Volume_Caster_MeasuredRays_h
 
+#include "Volume/Packet/Data/RayEvents.h"
 #include "Volume/Packet/Data/RayMeasuring.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
+
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
@@ -44,6 +48,32 @@ struct MeasuredBin
   void Join(const MeasuredBin& behind);
 };
 
+/** An event of a ray (RayEventKind). */
+struct MeasuredEvent
+{
+  /** Distance along the ray in world units. */
+  double Distance = 0.0;
+  /** Place in the frame of the view; behind interfaces the true one. */
+  glm::dvec3 Place{ 0.0 };
+  /** Depth in that frame at which the place is drawn. */
+  double DrawnDepth = 0.0;
+  /** Normalised scalar. */
+  double Scalar = 0.0;
+  /** Cell of the mesh; negative if there is no such event. */
+  std::int32_t Cell = -1;
+  /** Index of the isosurface, ascending by their scalars; negative for a medium. */
+  std::int32_t Surface = -1;
+
+  bool IsFound() const { return this->Cell >= 0; }
+};
+
+/** Events of a ray, and the state that its next leg continues. */
+struct MeasuredEvents
+{
+  RayEventState State;
+  std::array<MeasuredEvent, NumberOfRayEvents> Events;
+};
+
 /** Distance along a ray as a function of the depth on one of its legs. */
 struct LegDistance
 {
@@ -63,11 +93,28 @@ MeasuredScalar ReadScalars(const float* values, const LegDistance& distance);
 /** Reads NumberOfMeasuredBins values of a leg. */
 MeasuredBin ReadBins(const float* values);
 
+/** The straight line of a leg in the frame of the view. */
+struct LegLine
+{
+  LegDistance Distance;
+  /** Place at Distance.BeginDepth, and the step per world unit of distance. */
+  glm::dvec3 Begin{ 0.0 };
+  glm::dvec3 PerDistance{ 0.0 };
+  /** Drawn depth at Begin, and per world unit of distance. */
+  double DrawnDepth = 0.0;
+  double DrawnPerDistance = 0.0;
+};
+
+/** Takes over the state of a ray at the end of a leg, and places the events found in it. */
+void TakeEvents(const RayEventState& state, const LegLine& line, MeasuredEvents& events);
+
 /** Measurements of a tile's rays. Pixels are numbered in rows of RefractedRayTiles::TileSize. */
 struct MeasuredRays
 {
   std::array<MeasuredScalar, RefractedRayTiles::RaysOfTile> Scalars;
   std::array<MeasuredBin, RefractedRayTiles::RaysOfTile> Bins;
+  /** Empty until events are measured. */
+  std::vector<MeasuredEvents> Events;
 };
 
 }

@@ -65,6 +65,13 @@ public:
     return (turned.FromView * leg.Begin).z * FixedPointRays::GridPerDepth - turned.Rays.GetPivot();
   }
 
+  /** As SightLegEntries. */
+  double GetStepsPerDepth(int frame, const RayLeg& leg) const
+  {
+    const glm::dmat3& turn = this->Scene.Frames->Get(frame).FromView;
+    return 1.0 / ((turn * leg.Step).z * FixedPointRays::GridPerDepth);
+  }
+
   /** Buffers of one thread. */
   struct Workspace
   {

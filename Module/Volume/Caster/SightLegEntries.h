@@ -42,6 +42,9 @@ public:
     return depth * FixedPointRays::GridPerDepth - this->Rays.GetPivot();
   }
 
+  /** Steps of a leg (RayLeg::Step) per grid unit of its frame's depth. */
+  double GetStepsPerDepth(int, const RayLeg&) const { return 1.0 / FixedPointRays::GridPerDepth; }
+
   /** Buffers of one thread. */
   struct Workspace
   {

@@ -4,8 +4,12 @@
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
+#include "Volume/Packet/Models/RayEventSegments.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meniscus
 {
@@ -98,7 +102,18 @@ void TileCaster::CastBatch(const LegBatch& batch, PacketJob& job, Workspace& wor
   job.NumberOfRays = static_cast<std::int32_t>(batch.Rays.size());
   job.Entries = batch.Entries;
   job.Results = workspace.Results.data();
-  if (job.Measuring != RayMeasuring::None)
+  if (job.Measuring == RayMeasuring::Events)
+  {
+    workspace.EventStates.clear();
+    for (const LegBatch::Origin& origin : batch.Origins)
+    {
+      const auto pixel = static_cast<std::size_t>(origin.Pixel);
+      workspace.EventStates.push_back(workspace.Measured.Events[pixel].State);
+    }
+    job.Events = workspace.EventStates.data();
+    job.EventLimits.LargestAttenuation = BoundAttenuation(job);
+  }
+  else if (job.Measuring != RayMeasuring::None)
   {
     workspace.Values.resize(NumberOfMeasuredScalars * batch.Rays.size());
     job.Values = workspace.Values.data();
@@ -148,6 +163,19 @@ void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& 
   distance.AtBegin = this->Legs.GetLengthBefore(leg.Tile, pixel, leg.Number, from);
   distance.BeginDepth = entries.GetBeginDepth(frame, line, from);
   distance.PerDepth = batch.Rays[ray].LengthPerDepth;
+  if (this->Input.Measuring == RayMeasuring::Events)
+  {
+    const glm::dmat3& toWorld = this->Legs.GetSight().ViewToWorld;
+    const double perStep = glm::length(toWorld * line.Step);
+    // In double precision, since a place far from the camera is a small part of the distance.
+    distance.PerDepth = perStep * entries.GetStepsPerDepth(frame, line);
+    const double drawn = leg.Number == 0 ? from : line.Depth;
+    const glm::dvec3 begin = leg.Number == 0 ? line.Begin + from * line.Step : line.Begin;
+    TakeEvents(workspace.EventStates[ray],
+      { distance, begin, line.Step / perStep, drawn, 1.0 / perStep },
+      workspace.Measured.Events[at]);
+    return;
+  }
   workspace.Measured.Scalars[at].Join(
     ReadScalars(workspace.Values.data() + NumberOfMeasuredScalars * ray, distance));
 }
@@ -243,7 +271,7 @@ RayStatistics TileCaster::Cast(
 }
 
 //------------------------------------------------------------------------------
-RayStatistics TileCaster::Measure(int tile, Workspace& workspace) const
+RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* opaqueDepth) const
 {
   TileWork work{ PacketJob{}, workspace, nullptr, RayStatistics() };
   this->SetOptics(work.Job);
@@ -255,11 +283,17 @@ RayStatistics TileCaster::Measure(int tile, Workspace& workspace) const
   {
     workspace.Measured.Bins.fill(MeasuredBin());
   }
+  else if (this->Input.Measuring == RayMeasuring::Events)
+  {
+    work.Job.EventLimits.Opacity = this->Input.EventOpacity;
+    work.Job.EventLimits.OpticalDepth = -std::log1p(-this->Input.EventOpacity);
+    workspace.Measured.Events.assign(RefractedRayTiles::RaysOfTile, { EmptyRayEvents(), {} });
+  }
   else
   {
     workspace.Measured.Scalars.fill(MeasuredScalar());
   }
-  this->CastLegs(tile, nullptr, work);
+  this->CastLegs(tile, opaqueDepth, work);
   for (std::int32_t pixel = 0; pixel < RefractedRayTiles::RaysOfTile; ++pixel)
   {
     const std::int32_t steps = workspace.Joined.GetSteps(pixel);

@@ -51,6 +51,8 @@ public:
     RayMeasuring Measuring = RayMeasuring::None;
     /** True if bins have an attenuation and an emission, instead of three values. */
     bool Emitting = false;
+    /** Accumulated opacity at which RayEventKind::OpacityReachedEvent is, in [0, 1]. */
+    double EventOpacity = 0.5;
     /** Depth in the frame of the rays from which distances along a ray count. */
     double MeasuredFrom = 0.0;
     /**
@@ -115,6 +117,7 @@ public:
     JoinedRays Joined;
     /** Values of a batch that is measured, and the measurements of the tile. */
     std::vector<float> Values;
+    std::vector<RayEventState> EventStates;
     MeasuredRays Measured;
   };
 
@@ -125,10 +128,11 @@ public:
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
   /**
-   * Measures the rays of a tile, to the end; Workspace::Measured has the results, for scalars or
-   * for bins. A ray that meets nothing has zeros.
+   * Measures the rays of a tile; Workspace::Measured has the results, for scalars, bins or events.
+   * A ray that meets nothing has zeros.
+   * @param opaqueDepth as in Cast(); null, so that rays are measured to the end, for none.
    */
-  RayStatistics Measure(int tile, Workspace& workspace) const;
+  RayStatistics Measure(int tile, Workspace& workspace, const float* opaqueDepth = nullptr) const;
 
 private:
   FrameOptics SightOptics() const;

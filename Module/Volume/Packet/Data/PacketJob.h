@@ -11,6 +11,7 @@
 #include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Packet/Data/RayEvents.h"
 #include "Volume/Packet/Data/RayMeasuring.h"
 
 #include <cstdint>
@@ -89,6 +90,9 @@ struct PacketJob
    * other models.
    */
   float* Values;
+  /** For RayMeasuring::Events, the events of each ray so far; null for other models. */
+  RayEventState* Events;
+  RayEventLimits EventLimits;
 };
 
 }

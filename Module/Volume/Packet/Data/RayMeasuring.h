@@ -21,7 +21,9 @@ enum class RayMeasuring
   ScalarsAndOpticalDepth,
   /** Integrals of three values per vertex, or of three values per cell (MeasuredBins). */
   VertexBins,
-  CellBins
+  CellBins,
+  /** Places at which something is seen, by the blend mode (RayEventKind). */
+  Events
 };
 
 /** Indices of the values that a ray measures of the scalar. */

@@ -9,6 +9,7 @@
 #include "Volume/Packet/Models/MultiComponentModel.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PreIntegratedModel.h"
+#include "Volume/Packet/Models/RayEventModel.h"
 #include "Volume/Packet/Models/ScalarMeasureModel.h"
 #include "Volume/Packet/Walk/PacketWalk.h"
 
@@ -99,6 +100,41 @@ void CastBlendMode(const PacketJob& job)
   }
 }
 
+/** Finds events of a medium, with the values that its attenuation depends on. */
+template <class Simd>
+void FindMediumEvents(const PacketJob& job)
+{
+  const bool hasFactor = job.Medium && job.Medium->NumberOfOpacityIntervals > 0;
+  const bool ofVertices = job.Medium && job.VertexGradients;
+  if (job.Mixture != ComponentMixture::None)
+  {
+    if (ofVertices)
+    {
+      PacketWalk<Simd, RayEventModel<Simd, 2, false, false>>(job).Run();
+    }
+    else if (hasFactor)
+    {
+      PacketWalk<Simd, RayEventModel<Simd, 1, true, false>>(job).Run();
+    }
+    else
+    {
+      PacketWalk<Simd, RayEventModel<Simd, 1, false, false>>(job).Run();
+    }
+  }
+  else if (hasFactor && ofVertices)
+  {
+    PacketWalk<Simd, RayEventModel<Simd, 1, false, false>>(job).Run();
+  }
+  else if (hasFactor)
+  {
+    PacketWalk<Simd, RayEventModel<Simd, 0, true, false>>(job).Run();
+  }
+  else
+  {
+    PacketWalk<Simd, RayEventModel<Simd, 0, false, false>>(job).Run();
+  }
+}
+
 /** Measures rays instead of drawing them. */
 template <class Simd>
 void MeasurePackets(const PacketJob& job)
@@ -113,6 +149,16 @@ void MeasurePackets(const PacketJob& job)
       break;
     case RayMeasuring::CellBins:
       PacketWalk<Simd, BinMeasureModel<Simd, true>>(job).Run();
+      break;
+    case RayMeasuring::Events:
+      if (job.Blending == BlendMode::Isosurfaces)
+      {
+        PacketWalk<Simd, RayEventModel<Simd, 0, false, true>>(job).Run();
+      }
+      else
+      {
+        FindMediumEvents<Simd>(job);
+      }
       break;
     default:
       PacketWalk<Simd, ScalarMeasureModel<Simd, false>>(job).Run();

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Depths that frames write, and picks that end at opaque geometry: these need a window.
+#include "PixelRays.h"
+#include "RayCastScene.h"
+#include "TestMeshes.h"
+
+#include <vtkCamera.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTetrahedraVolumePicker.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+#include <vtkWorldPointPicker.h>
+
+#include <cmath>
+
+using namespace meniscus::test;
+using Mapper = vtkTetrahedraRayCastMapper;
+
+namespace
+{
+
+constexpr int Size = 64;
+constexpr double Near = 2.0;
+constexpr double Far = 9.0;
+
+/** A cube in which attenuation is the way t from its front; seen along -z from a distance of 5. */
+struct DepthScene
+{
+  explicit DepthScene(bool parallel)
+    : Scene(MakeBlock(3, [](double, double, double z) { return 0.5 - 0.5 * z; }),
+        MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 0.5), Size, Size)
+  {
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->AddPoint(0.0, 0.0);
+    opacity->AddPoint(1.0, 1.0);
+    this->Scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
+    this->Scene.GetRayCaster()->SetBackend(BackendUnderTest());
+    vtkCamera* camera = this->Scene.GetRenderer()->GetActiveCamera();
+    camera->SetParallelProjection(parallel);
+    camera->SetPosition(0.0, 0.0, 5.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetParallelScale(1.5);
+    camera->SetClippingRange(Near, Far);
+  }
+  double RenderAndRead(int column, int row)
+  {
+    this->Scene.GetWindow()->Render();
+    return this->Scene.GetRenderer()->GetZ(column, row);
+  }
+
+  RayCastScene Scene;
+};
+
+/** Window depth of a distance in front of the camera. */
+double WindowDepth(bool parallel, double z)
+{
+  return parallel ? (z - Near) / (Far - Near) : Far * (z - Near) / (z * (Far - Near));
+}
+
+/**
+ * Depths are stored with 24 bits at least and read as floats: half a unit each. The caster's own
+ * error is 1e-6 of the diagonal, sqrt(12), at most; the derivative of the window depth by z is at
+ * most Far / (Near (Far - Near)).
+ */
+const double Tolerance =
+  std::ldexp(1.0, -24) + 1.0e-6 * std::sqrt(12.0) * Far / (Near * (Far - Near));
+
+}
+
+//------------------------------------------------------------------------------
+TEST(TetrahedraRayCastDepth, ClosedForm)
+{
+  for (const bool parallel : { true, false })
+  {
+    DepthScene scene(parallel);
+    Mapper* mapper = scene.Scene.GetRayCaster();
+    // The ray of this pixel is parallel to the axis up to half a pixel.
+    const int middle = Size / 2;
+    EXPECT_EQ(scene.RenderAndRead(middle, middle), 1.0);
+    const PixelRays rays(scene.Scene.GetRenderer());
+    const auto direction = rays.GetRay(middle, middle).Direction;
+    const double oblique = std::sqrt(
+      direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    mapper->SetDepthWriting(Mapper::FIRST_VISIBLE_DEPTH);
+    EXPECT_NEAR(scene.RenderAndRead(middle, middle), WindowDepth(parallel, 4.0), Tolerance);
+    EXPECT_EQ(scene.RenderAndRead(0, 0), 1.0);
+    // The same frame again.
+    EXPECT_NEAR(scene.RenderAndRead(middle, middle), WindowDepth(parallel, 4.0), Tolerance);
+    mapper->SetDepthWriting(Mapper::OPACITY_DEPTH);
+    for (const double opacity : { 0.5, 0.3 })
+    {
+      mapper->SetDepthOpacity(opacity);
+      // 1 - exp(-oblique t t / 2) = opacity.
+      const double z = 4.0 + std::sqrt(-2.0 * std::log1p(-opacity) / oblique);
+      EXPECT_NEAR(scene.RenderAndRead(middle, middle), WindowDepth(parallel, z), Tolerance)
+        << parallel << " " << opacity;
+    }
+    // Never reached: 1 - exp(-2).
+    mapper->SetDepthOpacity(0.9);
+    EXPECT_EQ(scene.RenderAndRead(middle, middle), 1.0);
+    mapper->SetDepthWriting(Mapper::NO_DEPTH);
+    EXPECT_EQ(scene.RenderAndRead(middle, middle), 1.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(TetrahedraRayCastDepth, OtherPickersSeeTheVolume)
+{
+  DepthScene scene(false);
+  scene.Scene.GetRayCaster()->SetDepthWriting(Mapper::OPACITY_DEPTH);
+  scene.Scene.GetWindow()->Render();
+  vtkNew<vtkWorldPointPicker> other;
+  vtkNew<vtkTetrahedraVolumePicker> picker;
+  picker->SetPlaceToOpacityReached();
+  const int middle = Size / 2;
+  vtkRenderer* renderer = scene.Scene.GetRenderer();
+  ASSERT_EQ(picker->Pick(middle, middle, 0.0, renderer), 1);
+  other->Pick(middle, middle, 0.0, renderer);
+  // Depth 24 bits, times the largest derivative of z by the window depth.
+  EXPECT_NEAR(other->GetPickPosition()[2], picker->GetPickPosition()[2],
+    2.0 * Tolerance * Far * (Far - Near) / Near);
+}
+
+//------------------------------------------------------------------------------
+/** The picture is the same with depths, and nearer opaque geometry keeps its depth. */
+TEST(TetrahedraRayCastDepth, PictureAndOpaqueGeometry)
+{
+  DepthScene scene(false);
+  const FloatImage without = scene.Scene.RenderFloat();
+  scene.Scene.GetRayCaster()->SetDepthWriting(Mapper::FIRST_VISIBLE_DEPTH);
+  ExpectSamePicture(without, scene.Scene.RenderFloat(), "with depths");
+  const int middle = Size / 2;
+  vtkRenderer* renderer = scene.Scene.GetRenderer();
+  const double distance = AddBlackSquare(renderer, -1.5);
+  renderer->GetActiveCamera()->SetClippingRange(Near, Far);
+  EXPECT_NEAR(scene.RenderAndRead(middle, middle), WindowDepth(false, distance), Tolerance);
+}
+
+//------------------------------------------------------------------------------
+TEST(TetrahedraRayCastDepth, PicksEndAtOpaqueGeometry)
+{
+  DepthScene scene(true);
+  vtkRenderer* renderer = scene.Scene.GetRenderer();
+  const double distance = AddBlackSquare(renderer, -0.5);
+  renderer->GetActiveCamera()->SetClippingRange(Near, Far);
+  EXPECT_DOUBLE_EQ(distance, 4.5);
+  vtkNew<vtkTetrahedraVolumePicker> picker;
+  const int middle = Size / 2;
+  using Picker = vtkTetrahedraVolumePicker;
+  const double half = 4.0 + std::sqrt(2.0 * std::log(2.0));
+  // Without a frame there is no depth to end at.
+  picker->UseOpaqueDepthOn();
+  ASSERT_EQ(picker->Pick(middle, middle, 0.0, renderer), 1);
+  EXPECT_NEAR(picker->GetDepthOf(Picker::OPACITY_REACHED), half, 4.0e-6);
+  scene.Scene.GetWindow()->Render();
+  picker->UseOpaqueDepthOff();
+  ASSERT_EQ(picker->Pick(middle, middle, 0.0, renderer), 1);
+  EXPECT_NEAR(picker->GetDepthOf(Picker::OPACITY_REACHED), half, 4.0e-6);
+  picker->UseOpaqueDepthOn();
+  ASSERT_EQ(picker->Pick(middle, middle, 0.0, renderer), 1);
+  EXPECT_TRUE(std::isnan(picker->GetDepthOf(Picker::OPACITY_REACHED)));
+  EXPECT_NEAR(picker->GetDepthOf(Picker::FIRST_VISIBLE), 4.0, 4.0e-6);
+  // Attenuation rises up to the square.
+  EXPECT_NEAR(picker->GetDepth(), 4.5, 4.0e-6);
+}

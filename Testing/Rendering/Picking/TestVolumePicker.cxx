@@ -1,0 +1,500 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Closed forms of picks, VTK's convention for pickers, and input that cannot be used. No frame is
+// drawn and no display is needed.
+#include "RayCastScene.h"
+#include "TestMeshes.h"
+
+#include <vtkActor.h>
+#include <vtkAssembly.h>
+#include <vtkAssemblyNode.h>
+#include <vtkAssemblyPath.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
+#include <vtkFixedPointVolumeRayCastMapper.h>
+#include <vtkImageData.h>
+#include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSMPTools.h>
+#include <vtkTetrahedraRayIntegral.h>
+#include <vtkTetrahedraVolumePicker.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace meniscus::test;
+using Picker = vtkTetrahedraVolumePicker;
+
+namespace
+{
+
+constexpr int Size = 40;
+/** Pixel whose ray does not go through an edge of a block. */
+constexpr int Column = 23;
+constexpr int Row = 18;
+
+/** A volume in a window, seen along -z without perspective, the view 3 units high. */
+struct PickScene
+{
+  PickScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
+    : Scene(grid, property, Size, Size)
+  {
+    vtkCamera* camera = this->Scene.GetRenderer()->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetPosition(0.0, 0.0, 5.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetParallelScale(1.5);
+    camera->SetClippingRange(0.1, 100.0);
+  }
+  int Pick() { return this->Chooser->Pick(Column, Row, 0.0, this->Scene.GetRenderer()); }
+  vtkTetrahedraRayCastMapper* Mapper() { return this->Scene.GetRayCaster(); }
+
+  RayCastScene Scene;
+  vtkNew<Picker> Chooser;
+};
+
+double PlaceOf(int pixel)
+{
+  return 3.0 * (pixel + 0.5) / Size - 1.5;
+}
+
+/** Attenuation that is linear in the scalar, from 0 at 0 to `perScalar` at 1. */
+vtkSmartPointer<vtkVolumeProperty> MakeRamp(double perScalar)
+{
+  auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / perScalar);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(0.0, 0.0);
+  opacity->AddPoint(1.0, 1.0);
+  property->SetScalarOpacity(opacity);
+  return property;
+}
+
+/** Counts the pick events of a picker. */
+struct EventCounter
+{
+  explicit EventCounter(vtkObject* object)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long event, void* data, void*)
+      { static_cast<EventCounter*>(data)->Events.push_back(event); });
+    for (const auto event :
+      { vtkCommand::StartPickEvent, vtkCommand::PickEvent, vtkCommand::EndPickEvent })
+    {
+      object->AddObserver(event, this->Command);
+    }
+  }
+  std::vector<unsigned long> Events;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+}
+
+//------------------------------------------------------------------------------
+/** The scalar is (1 - z) / 2 in [-1, 1]^3: attenuation grows as k t with the way t. */
+TEST(VolumePicker, LinearFieldInACube)
+{
+  const double k = 0.8;
+  PickScene scene(
+    MakeBlock(3, [](double, double, double z) { return 0.5 - 0.5 * z; }), MakeRamp(2.0 * k));
+  ASSERT_EQ(scene.Pick(), 1);
+  // Opacity 1 - exp(-k t t / 2) is 0.5 at t = sqrt(2 ln 2 / k); k t exp(-k t t / 2) is largest at
+  // t = 1 / sqrt(k). The camera is 4 in front of the cube. The bound is 1e-6 of the diagonal.
+  const double bound = 1.0e-6 * std::sqrt(12.0);
+  EXPECT_NEAR(scene.Chooser->GetDepthOf(Picker::FIRST_VISIBLE), 4.0, bound);
+  EXPECT_NEAR(scene.Chooser->GetDepthOf(Picker::OPACITY_REACHED),
+    4.0 + std::sqrt(2.0 * std::log(2.0) / k), bound);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.0 + 1.0 / std::sqrt(k), bound);
+  EXPECT_NEAR(scene.Chooser->GetValue(), 0.5 / std::sqrt(k), 1.0e-6);
+  double* position = scene.Chooser->GetPickPosition();
+  EXPECT_NEAR(position[0], PlaceOf(Column), bound);
+  EXPECT_NEAR(position[1], PlaceOf(Row), bound);
+  EXPECT_NEAR(position[2], 1.0 - 1.0 / std::sqrt(k), bound);
+  EXPECT_EQ(scene.Chooser->GetSurfaceIndex(), -1);
+  EXPECT_EQ(scene.Chooser->GetFlatBlockIndex(), -1);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * The distance from the centre, interpolated in cells of edge h = 2 / 40, is too large by at most
+ * (3 h h) / (8 r): the surface r = 0.7 is met within that, over the cosine of the angle.
+ */
+TEST(VolumePicker, SphericalIsosurface)
+{
+  auto property = MakeConstantProperty(0.9, 1.0, 1.0, 1.0, 1.0);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.3);
+  property->GetIsoSurfaceValues()->SetValue(1, 0.7);
+  PickScene scene(MakeBlock(40, RadialField()), property);
+  scene.Mapper()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.Chooser->SetPlaceToFirstVisible();
+  ASSERT_EQ(scene.Pick(), 1);
+  const double x = PlaceOf(Column);
+  const double y = PlaceOf(Row);
+  const double z = std::sqrt(0.49 - x * x - y * y);
+  const double h = 2.0 / 40.0;
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0 - z, 3.0 * h * h / (8.0 * 0.6) * 0.7 / z);
+  EXPECT_EQ(scene.Chooser->GetSurfaceIndex(), 1);
+  EXPECT_NEAR(scene.Chooser->GetValue(), 0.7, 1.0e-6);
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumePicker, ViewportAndRenderer)
+{
+  PickScene scene(MakeBlock(2, ConstantField(0.5)), MakeRamp(2.0));
+  vtkRenderer* renderer = scene.Scene.GetRenderer();
+  const double none[][2] = { { -1.0, 5.0 }, { 5.0, -0.5 }, { Size, 5.0 }, { 5.0, 1.0e30 },
+    { std::nan(""), 5.0 } };
+  for (const auto& place : none)
+  {
+    EXPECT_EQ(scene.Chooser->Pick(place[0], place[1], 0.0, renderer), 0) << place[0];
+    EXPECT_EQ(scene.Chooser->GetViewProp(), nullptr);
+  }
+  // All places of a pixel are one pick.
+  double first[3];
+  ASSERT_EQ(scene.Chooser->Pick(Column, Row, 0.0, renderer), 1);
+  scene.Chooser->GetPickPosition(first);
+  ASSERT_EQ(scene.Chooser->Pick(Column + 0.99, Row + 0.5, 0.0, renderer), 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(scene.Chooser->GetPickPosition()[axis], first[axis]);
+  }
+  // In the right half of the window, the left half is outside.
+  renderer->SetViewport(0.5, 0.0, 1.0, 1.0);
+  EXPECT_EQ(scene.Chooser->Pick(Size / 2 - 1, Row, 0.0, renderer), 0);
+  EXPECT_EQ(scene.Chooser->Pick(3 * Size / 4, Row, 0.0, renderer), 1);
+
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(scene.Chooser);
+  EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, nullptr), 0);
+  vtkNew<vtkRenderer> windowless;
+  EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, windowless), 0);
+  ASSERT_EQ(observer->Errors.size(), 2u);
+  EXPECT_NE(observer->Errors[0].find("no renderer"), std::string::npos);
+  EXPECT_NE(observer->Errors[1].find("no render window"), std::string::npos);
+  EXPECT_EQ(scene.Chooser->GetCellId(), -1);
+  EXPECT_TRUE(std::isnan(scene.Chooser->GetDepth()));
+}
+
+//------------------------------------------------------------------------------
+/** Cells next to a scalar that is not finite are not met; the ray goes on behind them. */
+TEST(VolumePicker, NaNOnTheRay)
+{
+  Grid grid = MakeBlock(4, ConstantField(0.5));
+  PickScene scene(grid, MakeRamp(2.0));
+  scene.Chooser->SetPlaceToFirstVisible();
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.0, 1.0e-6);
+  vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    if (grid->GetPoint(i)[2] > 0.9)
+    {
+      scalars->SetTuple1(i, std::nan(""));
+    }
+  }
+  scalars->Modified();
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.5, 1.0e-6);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    scalars->SetTuple1(i, std::numeric_limits<double>::infinity());
+  }
+  scalars->Modified();
+  EXPECT_EQ(scene.Pick(), 0);
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumePicker, NothingToPick)
+{
+  // Nothing visible.
+  PickScene scene(MakeBlock(2, ConstantField(-1.0)), MakeRamp(2.0));
+  EXPECT_EQ(scene.Pick(), 0);
+  // An empty mesh, one without extent, no input, no mapper.
+  vtkNew<vtkUnstructuredGrid> empty;
+  scene.Mapper()->SetInputData(empty);
+  EXPECT_EQ(scene.Pick(), 0);
+  scene.Mapper()->SetInputData(
+    MakeGrid({ 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }, { 0, 1, 2, 3 }, ConstantField(1.0)));
+  EXPECT_EQ(scene.Pick(), 0);
+  scene.Mapper()->RemoveAllInputs();
+  EXPECT_EQ(scene.Pick(), 0);
+  scene.Scene.GetVolume()->SetMapper(nullptr);
+  EXPECT_EQ(scene.Pick(), 0);
+  // The volume of another mapper, and a surface.
+  vtkNew<vtkFixedPointVolumeRayCastMapper> other;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  other->SetInputData(image);
+  scene.Scene.GetVolume()->SetMapper(other);
+  vtkNew<vtkActor> actor;
+  scene.Scene.GetRenderer()->AddActor(actor);
+  EXPECT_EQ(scene.Pick(), 0);
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumePicker, PropsAndEvents)
+{
+  PickScene scene(MakeBlock(2, ConstantField(0.5)), MakeRamp(2.0));
+  vtkVolume* far = scene.Scene.GetVolume();
+  EventCounter counter(scene.Chooser);
+  // A nearer copy, as a part of an assembly that moves it.
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputData(MakeBlock(2, ConstantField(0.25)));
+  vtkNew<vtkVolume> near;
+  near->SetMapper(mapper);
+  near->SetProperty(far->GetProperty());
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(near);
+  assembly->SetPosition(0.0, 0.0, 1.0);
+  scene.Scene.GetRenderer()->AddViewProp(assembly);
+  const vtkMTimeType before = far->GetMTime();
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_EQ(far->GetMTime(), before);
+  EXPECT_EQ(scene.Chooser->GetMapper(), mapper);
+  EXPECT_EQ(scene.Chooser->GetViewProp(), assembly);
+  EXPECT_EQ(scene.Chooser->GetAssembly(), assembly);
+  EXPECT_EQ(scene.Chooser->GetPath()->GetLastNode()->GetViewProp(), near);
+  EXPECT_NEAR(scene.Chooser->GetPickPosition()[2], 2.0, 1.0e-5);
+  EXPECT_NEAR(scene.Chooser->GetMapperPosition()[2], 1.0, 1.0e-5);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 3.0, 1.0e-5);
+  const std::vector<unsigned long> all{ vtkCommand::StartPickEvent, vtkCommand::PickEvent,
+    vtkCommand::EndPickEvent };
+  EXPECT_EQ(counter.Events, all);
+  // Not pickable, invisible, or not in the list.
+  assembly->PickableOff();
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_EQ(scene.Chooser->GetVolume(), far);
+  EXPECT_EQ(scene.Chooser->GetMapper(), scene.Mapper());
+  far->VisibilityOff();
+  counter.Events.clear();
+  EXPECT_EQ(scene.Pick(), 0);
+  const std::vector<unsigned long> missed{ vtkCommand::StartPickEvent, vtkCommand::EndPickEvent };
+  EXPECT_EQ(counter.Events, missed);
+  far->VisibilityOn();
+  assembly->PickableOn();
+  scene.Chooser->PickFromListOn();
+  EXPECT_EQ(scene.Pick(), 0);
+  scene.Chooser->AddPickList(far);
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_EQ(scene.Chooser->GetVolume(), far);
+  EXPECT_EQ(scene.Chooser->GetMapper()->GetDataSetInput(), scene.Chooser->GetDataSet());
+}
+
+//------------------------------------------------------------------------------
+/** Blocks of different size, one of them a surface: cell, data set and flat index. */
+TEST(VolumePicker, CompositeInput)
+{
+  Grid front = MakeBlock(2, ConstantField(0.01));
+  TransformPoints(front, { 0.0, 0.0, 2.5 }, 1.0);
+  Grid back = MakeBlock(3, ConstantField(2.0));
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(1, back);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  vtkNew<vtkPolyData> surface;
+  blocks->SetBlock(0, surface);
+  blocks->SetBlock(1, front);
+  blocks->SetBlock(2, inner);
+  PickScene scene(front, MakeRamp(2.0));
+  scene.Mapper()->SetInputData(blocks);
+  ASSERT_EQ(scene.Pick(), 1);
+  // Flat indices: 0 the root, 1 the surface, 2 front, 3 inner, 4 its empty block, 5 back.
+  EXPECT_EQ(scene.Chooser->GetFlatBlockIndexOf(Picker::FIRST_VISIBLE), 2);
+  EXPECT_EQ(scene.Chooser->GetFlatBlockIndex(), 5);
+  EXPECT_EQ(scene.Chooser->GetDataSet(), back);
+  EXPECT_EQ(scene.Chooser->GetCompositeDataSet(), blocks);
+  double* bounds = back->GetCell(scene.Chooser->GetCellId())->GetBounds();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_GE(scene.Chooser->GetPickPosition()[axis], bounds[2 * axis] - 1.0e-5);
+    EXPECT_LE(scene.Chooser->GetPickPosition()[axis], bounds[2 * axis + 1] + 1.0e-5);
+  }
+  vtkNew<vtkTetrahedraRayIntegral> filter;
+  filter->SetInputData(blocks);
+  filter->SetImageSize(Size, Size);
+  filter->SetCamera(scene.Scene.GetRenderer()->GetActiveCamera());
+  filter->SetVolumeProperty(scene.Scene.GetVolume()->GetProperty());
+  filter->ComputeIntegralOff();
+  filter->ComputeLargestContributionOn();
+  filter->Update();
+  vtkPointData* data = filter->GetOutput()->GetPointData();
+  ASSERT_NE(data->GetArray("LargestContributionBlock"), nullptr);
+  const vtkIdType pixel = Row * Size + Column;
+  EXPECT_EQ(data->GetArray("LargestContributionBlock")->GetTuple1(pixel), 5);
+  EXPECT_EQ(
+    data->GetArray("LargestContributionCellId")->GetTuple1(pixel), scene.Chooser->GetCellId());
+}
+
+//------------------------------------------------------------------------------
+/** Cells that are divided: the voxel of an image, and its scalar, as point and as cell data. */
+TEST(VolumePicker, VoxelsAndCellData)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(5, 5, 5);
+  image->SetOrigin(-1.0, -1.0, -1.0);
+  image->SetSpacing(0.5, 0.5, 0.5);
+  vtkNew<vtkDoubleArray> ofCells;
+  ofCells->SetName("cells");
+  for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+  {
+    // The third layer from the front is visible.
+    ofCells->InsertNextValue(i / 16 == 1 ? 0.5 + 0.001 * static_cast<double>(i) : 0.0);
+  }
+  image->GetCellData()->SetScalars(ofCells);
+  PickScene scene(MakeBlock(1, ConstantField(1.0)), MakeRamp(2.0));
+  scene.Mapper()->SetInputData(static_cast<vtkDataSet*>(image.Get()));
+  scene.Mapper()->SetScalarModeToUseCellData();
+  ASSERT_EQ(scene.Pick(), 1);
+  const double position[3] = { PlaceOf(Column), PlaceOf(Row), -0.25 };
+  int ijk[3];
+  double coordinates[3];
+  image->ComputeStructuredCoordinates(position, ijk, coordinates);
+  const vtkIdType cell = image->ComputeCellId(ijk);
+  EXPECT_EQ(scene.Chooser->GetCellId(), cell);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0, 1.0e-5);
+  EXPECT_NEAR(scene.Chooser->GetValue(), ofCells->GetValue(cell), 1.0e-6);
+  // The map of cells is that of the mesh for scalars of cells: nothing to look up.
+  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 0);
+}
+
+//------------------------------------------------------------------------------
+/** Gradient opacity hides all but the steep half; independent components add up. */
+TEST(VolumePicker, GradientOpacityAndComponents)
+{
+  const auto field = [](double, double, double z) { return z > 0.0 ? 0.1 * z : 4.0 * z; };
+  auto property = MakeConstantProperty(0.5, 1.0, 1.0, 1.0, 1.0);
+  vtkNew<vtkPiecewiseFunction> steep;
+  steep->AddPoint(1.0, 0.0);
+  steep->AddPoint(1.001, 1.0);
+  property->SetGradientOpacity(steep);
+  PickScene scene(MakeBlock(4, field), property);
+  scene.Mapper()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  scene.Chooser->SetPlaceToFirstVisible();
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0, 1.0e-5);
+
+  Grid grid = MakeBlock(2, ConstantField(0.0));
+  vtkNew<vtkDoubleArray> pair;
+  pair->SetNumberOfComponents(2);
+  pair->SetName("pair");
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    pair->InsertNextTuple2(0.3, 0.5);
+  }
+  grid->GetPointData()->SetScalars(pair);
+  auto both = MakeRamp(2.0);
+  both->SetIndependentComponents(1);
+  vtkNew<vtkPiecewiseFunction> second;
+  second->AddPoint(0.0, 0.0);
+  second->AddPoint(1.0, 0.6);
+  both->SetScalarOpacity(1, second);
+  PickScene mixed(grid, both);
+  mixed.Chooser->SetPlaceToOpacityReached();
+  ASSERT_EQ(mixed.Pick(), 1);
+  // Attenuation 2 * 0.3 + 0.6 * 0.5.
+  EXPECT_NEAR(mixed.Chooser->GetDepth(), 4.0 + std::log(2.0) / 0.9, 1.0e-6 * std::sqrt(12.0));
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumePicker, OtherModesAndThresholds)
+{
+  PickScene scene(
+    MakeBlock(3, [](double, double, double z) { return 0.5 - 0.5 * z; }), MakeRamp(2.0));
+  scene.Chooser->SetPlaceToOpacityReached();
+  scene.Chooser->SetOpacityThreshold(0.0);
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.0, 1.0e-6);
+  // A medium never reaches 1, nor 0.9 in this one: 1 - exp(-2).
+  for (const double opacity : { 1.0, 0.9 })
+  {
+    scene.Chooser->SetOpacityThreshold(opacity);
+    EXPECT_EQ(scene.Pick(), 0);
+  }
+  scene.Mapper()->SetBlendMode(vtkVolumeMapper::AVERAGE_INTENSITY_BLEND);
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.0, 1.0e-6);
+  scene.Mapper()->SetBlendMode(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND);
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 6.0, 1.0e-6);
+  scene.Mapper()->SetBlendMode(vtkVolumeMapper::ADDITIVE_BLEND);
+  scene.Chooser->SetOpacityThreshold(0.5);
+  ASSERT_EQ(scene.Pick(), 1);
+  EXPECT_NEAR(scene.Chooser->GetDepth(), 4.0 + std::sqrt(2.0 * std::log(2.0)), 4.0e-6);
+}
+
+//------------------------------------------------------------------------------
+/** Picks look up what changed, and nothing else; results do not depend on the threads. */
+TEST(VolumePicker, CountersAndThreads)
+{
+  Grid grid = MakeBlock(5, WavyField(2.0));
+  PickScene scene(grid, MakeRamp(2.0));
+  ASSERT_EQ(scene.Pick(), 1);
+  const double depth = scene.Chooser->GetDepth();
+  const vtkIdType cell = scene.Chooser->GetCellId();
+  vtkSMPTools::Initialize(1);
+  ASSERT_EQ(scene.Pick(), 1);
+  vtkSMPTools::Initialize();
+  EXPECT_EQ(scene.Chooser->GetDepth(), depth);
+  EXPECT_EQ(scene.Chooser->GetCellId(), cell);
+  const double bytes = static_cast<double>(scene.Mapper()->GetHostBytes());
+  scene.Scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
+  scene.Pick();
+  EXPECT_EQ(scene.Mapper()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 1);
+  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
+  EXPECT_EQ(static_cast<double>(scene.Mapper()->GetHostBytes()), bytes);
+  grid->GetPointData()->GetScalars()->SetTuple1(0, 0.3);
+  grid->GetPointData()->GetScalars()->Modified();
+  scene.Pick();
+  EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 2);
+  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
+}
+
+//------------------------------------------------------------------------------
+TEST(VolumePicker, ImageBadInput)
+{
+  vtkNew<vtkTetrahedraRayIntegral> filter;
+  filter->SetInputData(MakeBlock(2, ConstantField(0.5)));
+  filter->SetImageSize(4, 4);
+  filter->ComputeIntegralOff();
+  filter->ComputeFirstVisibleOn();
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(filter);
+  const auto expectError = [&](const char* text)
+  {
+    observer->Errors.clear();
+    filter->Update();
+    ASSERT_EQ(observer->Errors.size(), 1u) << text;
+    EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->Errors[0];
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  };
+  expectError("Events need a volume property");
+  filter->SetVolumeProperty(MakeRamp(1.0));
+  filter->SetEventBlendMode(17);
+  expectError("no blend mode of number 17");
+  filter->SetEventBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  filter->ComputeRGBAOn();
+  expectError("Events of isosurfaces cannot be");
+  filter->SetEventOpacity(2.0);
+  EXPECT_EQ(filter->GetEventOpacity(), 1.0);
+  filter->SetEventBlendMode(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND);
+  filter->ComputeRGBAOff();
+  filter->SetVolumeProperty(nullptr);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 16);
+}
