@@ -7,6 +7,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
 
+from .. import vtkTetrahedraVolumePicker
 from .colors import COLOR_MAPS
 from .reading import ReadingError
 from .scene import AXES, BLEND_MODES
@@ -20,6 +21,7 @@ l      light
 x y z  cut at the middle; again: not
 < >    move the cut
 , .    time step
+v      value under the cursor
 r      whole mesh
 s      save picture
 h      this help
@@ -111,6 +113,7 @@ class Window:
             "comma": lambda: self._go_by(-1),
             "period": lambda: self._go_by(1),
             "r": scene.reset_camera,
+            "v": self._pick,
             "s": self._save,
             "h": lambda: self.help.SetVisibility(not self.help.GetVisibility()),
             "q": self.interactor.TerminateApp,
@@ -174,13 +177,24 @@ class Window:
         if steps > 1:
             self._time.SetValue(self.scene.step)
 
+    def _pick(self):
+        picker = vtkTetrahedraVolumePicker()
+        if not picker.Pick(*self.interactor.GetEventPosition(), 0, self.scene.renderer):
+            return "Nothing is under the cursor"
+        place = ", ".join(f"{x:.4g}" for x in picker.GetPickPosition())
+        return f"{self.scene.array} {picker.GetValue():.5g} at ({place}), cell {picker.GetCellId()}"
+
     def _save(self):
         write_picture(self.window, "meniscus.png")
 
     def _apply(self, action):
+        """Runs an action; shows the text that it returns, or the state of the scene."""
         try:
-            action()
-            self._tell()
+            answer = action()
+            if isinstance(answer, str):
+                self.message.SetInput(answer)
+            else:
+                self._tell()
         except ReadingError as error:
             self.message.SetInput(str(error))
         self.window.Render()

@@ -4,6 +4,7 @@
 import contextlib
 import io
 import os
+import re
 import shutil
 import tempfile
 import unittest
@@ -261,6 +262,18 @@ class TestCommand(unittest.TestCase):
             press(keys)
             self.assertEqual(get(), value, keys)
         self.assertIn("time 0 (1 of 2)", window.message.GetInput())
+        window.interactor.SetEventPosition(80, 60)
+        press("v")
+        # The field is the distance from the centre at the vertices. Interpolated, it differs by at
+        # most a cell's diameter, since distances change by no more than places.
+        found = re.fullmatch(r"r ([0-9.]+) at \((.*), (.*), (.*)\), cell ([0-9]+)",
+                             window.message.GetInput())
+        value, x, y, z, cell = (float(group) for group in found.groups())
+        self.assertAlmostEqual(radius(x, y, z), value, delta=3 ** 0.5 * 2 / CELLS)
+        self.assertLess(cell, scene.data.GetNumberOfCells())
+        window.interactor.SetEventPosition(0, 0)
+        press("v")
+        self.assertIn("Nothing", window.message.GetInput())
         # A step that cannot be read is a message in the window.
         os.remove(removed)
         press("period")
