@@ -52,6 +52,11 @@ struct RayEventState
   double Transmittance;
   /** Contribution of LargestContributionEvent, or the extreme. */
   double Largest;
+  /**
+   * Number of isosurfaces at or below the last scalar; negative if the next segment does not
+   * continue the last one.
+   */
+  std::int32_t SurfacesBelow;
   /** Bit i is set if event i was found in this leg. */
   std::uint32_t Fresh;
 };

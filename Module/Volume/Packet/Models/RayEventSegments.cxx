@@ -255,6 +255,38 @@ bool AddMedium(const PacketJob& job, const RayEventSegment& segment, RayEventSta
     (mayContribute || !Has(state, FirstVisibleEvent) || !Has(state, OpacityReachedEvent));
 }
 
+/** Adds a surface at a share of the segment. */
+void AddSurface(const PacketJob& job, const RayEventSegment& segment, const PacketSurface& surface,
+  double share, RayEventState& state)
+{
+  const double weight = state.Transmittance * surface.Opacity;
+  if (!(weight > 0.0))
+  {
+    return;
+  }
+  state.Transmittance -= weight;
+  const auto set = [&](RayEventKind kind)
+  {
+    SetEvent(state, kind, segment, share, surface.Scalar,
+      static_cast<std::int32_t>(&surface - job.Surfaces));
+  };
+  if (!Has(state, FirstVisibleEvent))
+  {
+    set(FirstVisibleEvent);
+  }
+  // Opacities are floats, and so is the threshold that they are compared with.
+  if (!Has(state, OpacityReachedEvent) &&
+    static_cast<float>(1.0 - state.Transmittance) >= static_cast<float>(job.EventLimits.Opacity))
+  {
+    set(OpacityReachedEvent);
+  }
+  if (weight > state.Largest)
+  {
+    state.Largest = weight;
+    set(LargestContributionEvent);
+  }
+}
+
 /** The same surfaces in the same order as CrossSurfaces(). */
 bool AddSurfaces(const PacketJob& job, const RayEventSegment& segment, RayEventState& state)
 {
@@ -265,43 +297,26 @@ bool AddSurfaces(const PacketJob& job, const RayEventSegment& segment, RayEventS
     return std::upper_bound(first, end, scalar,
       [](double value, const PacketSurface& surface) { return value < surface.Scalar; });
   };
-  const PacketSurface* now = firstAbove(segment.From);
+  const PacketSurface* const atFrom = firstAbove(segment.From);
   const PacketSurface* const last = firstAbove(segment.To);
-  while (now != last && state.Transmittance > 0.0)
+  const PacketSurface* now = state.SurfacesBelow < 0 ? atFrom : first + state.SurfacesBelow;
+  const auto cross = [&](const PacketSurface* to, bool isAtStart)
   {
-    const bool upward = now < last;
-    const PacketSurface& surface = upward ? *now : *(now - 1);
-    now += upward ? 1 : -1;
-    const double weight = state.Transmittance * surface.Opacity;
-    if (!(weight > 0.0))
+    while (now != to && state.Transmittance > 0.0)
     {
-      continue;
+      const bool upward = now < to;
+      const PacketSurface& surface = upward ? *now : *(now - 1);
+      now += upward ? 1 : -1;
+      const double share = isAtStart || job.CellScalars
+        ? 0.0
+        : std::clamp((surface.Scalar - segment.From) / (segment.To - segment.From), 0.0, 1.0);
+      AddSurface(job, segment, surface, share, state);
     }
-    const double share = job.CellScalars
-      ? 0.0
-      : std::clamp((surface.Scalar - segment.From) / (segment.To - segment.From), 0.0, 1.0);
-    state.Transmittance -= weight;
-    const auto set = [&](RayEventKind kind)
-    {
-      SetEvent(
-        state, kind, segment, share, surface.Scalar, static_cast<std::int32_t>(&surface - first));
-    };
-    if (!Has(state, FirstVisibleEvent))
-    {
-      set(FirstVisibleEvent);
-    }
-    // Opacities are floats, and so is the threshold that they are compared with.
-    if (!Has(state, OpacityReachedEvent) &&
-      static_cast<float>(1.0 - state.Transmittance) >= static_cast<float>(job.EventLimits.Opacity))
-    {
-      set(OpacityReachedEvent);
-    }
-    if (weight > state.Largest)
-    {
-      state.Largest = weight;
-      set(LargestContributionEvent);
-    }
-  }
+  };
+  // Those that were passed in segments without length.
+  cross(atFrom, true);
+  cross(last, false);
+  state.SurfacesBelow = static_cast<std::int32_t>(last - first);
   const bool mayContribute = state.Transmittance > state.Largest;
   return state.Transmittance > 0.0 &&
     (mayContribute || !Has(state, FirstVisibleEvent) || !Has(state, OpacityReachedEvent));
@@ -333,6 +348,7 @@ RayEventState EmptyRayEvents()
     event = { 0.0, 0.0, -1, -1 };
   }
   state.Transmittance = 1.0;
+  state.SurfacesBelow = -1;
   return state;
 }
 
