@@ -40,6 +40,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 using namespace meniscus::test;
 using Picker = vtkTetrahedraVolumePicker;
@@ -519,6 +520,53 @@ TEST(VolumePicker, CountersAndThreads)
   scene.Pick();
   EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 2);
   EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
+}
+
+//------------------------------------------------------------------------------
+/** One event alone is the same as among all three, and its rays end earlier. */
+TEST(VolumePicker, ImageOfOneEvent)
+{
+  const auto makeImage = [](int wanted)
+  {
+    auto filter = vtkSmartPointer<vtkTetrahedraRayIntegral>::New();
+    filter->SetInputData(MakeBlock(6, WavyField(2.0)));
+    filter->SetImageSize(Size, Size);
+    filter->SetDirection(-1.0, -2.0, -0.7);
+    filter->SetVolumeProperty(MakeRamp(3.0));
+    filter->SetEventOpacity(0.2);
+    filter->ComputeIntegralOff();
+    filter->SetComputeFirstVisible(wanted & 1);
+    filter->SetComputeOpacityReached(wanted >> 1 & 1);
+    filter->SetComputeLargestContribution(wanted >> 2 & 1);
+    filter->Update();
+    return filter;
+  };
+  const auto all = makeImage(7);
+  const char* const names[3] = { "FirstVisible", "OpacityReached", "LargestContribution" };
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    const auto one = makeImage(1 << kind);
+    EXPECT_EQ(one->GetOutput()->GetPointData()->GetNumberOfArrays(), 4);
+    int found = 0;
+    for (const char* part : { "Depth", "Value", "CellId" })
+    {
+      const std::string name = std::string(names[kind]) + part;
+      vtkDataArray* alone = one->GetOutput()->GetPointData()->GetArray(name.c_str());
+      vtkDataArray* among = all->GetOutput()->GetPointData()->GetArray(name.c_str());
+      ASSERT_TRUE(alone && among) << name;
+      for (vtkIdType i = 0; i < Size * Size; ++i)
+      {
+        const double value = alone->GetTuple1(i);
+        found += !std::isnan(value) && value >= 0.0;
+        EXPECT_TRUE(
+          value == among->GetTuple1(i) || (std::isnan(value) && std::isnan(among->GetTuple1(i))))
+          << name << " " << i;
+      }
+    }
+    EXPECT_GT(found, Size * Size / 2) << names[kind];
+    EXPECT_LE(one->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
+  }
+  EXPECT_LT(2 * makeImage(1)->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
 }
 
 //------------------------------------------------------------------------------

@@ -47,7 +47,7 @@ struct RayEvent
 struct RayEventState
 {
   RayEvent Events[NumberOfRayEvents];
-  /** Optical depth of the medium passed, and transmittance of the surfaces met. */
+  /** Optical depth of the medium passed, and transmittance of the medium or the surfaces. */
   double OpticalDepth;
   double Transmittance;
   /** Contribution of LargestContributionEvent, or the extreme. */

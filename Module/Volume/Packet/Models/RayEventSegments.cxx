@@ -142,7 +142,7 @@ void SetInPiece(RayEventState& state, RayEventKind kind, const RayEventSegment& 
 void TryLargest(const RayEventSegment& segment, const Piece& piece, RayEventState& state)
 {
   const double bound = std::max(piece.Density, piece.DensityTo) / piece.Length;
-  if (!(bound > state.Largest))
+  if (!(bound * state.Transmittance > state.Largest))
   {
     return;
   }
@@ -150,7 +150,7 @@ void TryLargest(const RayEventSegment& segment, const Piece& piece, RayEventStat
   {
     const double density = Mix(piece.Density, piece.DensityTo, share);
     const double contribution =
-      density / piece.Length * std::exp(-state.OpticalDepth - piece.DepthUpTo(share));
+      density / piece.Length * state.Transmittance * std::exp(-piece.DepthUpTo(share));
     if (contribution > state.Largest)
     {
       state.Largest = contribution;
@@ -194,6 +194,7 @@ void AddPiece(
   }
   TryLargest(segment, piece, state);
   state.OpticalDepth += depth;
+  state.Transmittance = std::exp(-state.OpticalDepth);
 }
 
 /** The functions that attenuate: that of the scalar, and those of independent components. */
@@ -249,9 +250,9 @@ bool AddMedium(const PacketJob& job, const RayEventSegment& segment, RayEventSta
     begin = end;
   }
   // Behind an optical depth of 745, nothing is left in double precision.
-  const double left = std::exp(-state.OpticalDepth);
-  const bool mayContribute = job.EventLimits.LargestAttenuation * left > state.Largest;
-  return left > 0.0 &&
+  const bool mayContribute =
+    job.EventLimits.LargestAttenuation * state.Transmittance > state.Largest;
+  return state.Transmittance > 0.0 &&
     (mayContribute || !Has(state, FirstVisibleEvent) || !Has(state, OpacityReachedEvent));
 }
 
