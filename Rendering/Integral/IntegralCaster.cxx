@@ -102,6 +102,11 @@ bool IntegralCaster::MeasureEvents(TileCaster::Scene scene, const EventChoice& c
   scene.Measuring = RayMeasuring::Events;
   scene.Blending = choice.Blending;
   scene.EventOpacity = choice.Opacity;
+  scene.WantedEvents = 0;
+  for (std::size_t kind = 0; kind < choice.Wanted.size(); ++kind)
+  {
+    scene.WantedEvents |= static_cast<std::uint32_t>(choice.Wanted[kind]) << kind;
+  }
   return this->Cast(
     scene,
     [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)

@@ -111,6 +111,7 @@ std::string RayPicker::CastDepths(RayCastTables& tables, const RayCastFrame& fra
   {
     return error;
   }
+  scene.WantedEvents = 1u << kind;
   const std::size_t pixels = static_cast<std::size_t>(size[0]) * size[1];
   depths.assign(pixels, 2.0f);
   const std::vector<float> farPlane(pixels, 1.0f);

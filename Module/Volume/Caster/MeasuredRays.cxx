@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -71,6 +72,16 @@ MeasuredBin ReadBins(const float* values)
   std::copy_n(values, 3, measured.Integrals.begin());
   measured.Light = values[3];
   return measured;
+}
+
+//------------------------------------------------------------------------------
+void IgnoreEvent(RayEventKind kind, RayEventState& state)
+{
+  state.Events[kind].Cell = 0;
+  if (kind == LargestContributionEvent)
+  {
+    state.Largest = std::numeric_limits<double>::infinity();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -105,6 +105,9 @@ struct LegLine
   double DrawnPerDistance = 0.0;
 };
 
+/** Marks an event as settled, so that rays need not go on for its sake; it is never found. */
+void IgnoreEvent(RayEventKind kind, RayEventState& state);
+
 /** Takes over the state of a ray at the end of a leg, and places the events found in it. */
 void TakeEvents(const RayEventState& state, const LegLine& line, MeasuredEvents& events);
 

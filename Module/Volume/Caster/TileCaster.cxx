@@ -21,6 +21,22 @@ bool IsOfBins(RayMeasuring measuring)
   return measuring == RayMeasuring::VertexBins || measuring == RayMeasuring::CellBins;
 }
 
+/** Events of a ray that begins. In modes that show one place, all of them are found together. */
+RayEventState FirstState(const TileCaster::Scene& scene)
+{
+  RayEventState state = EmptyRayEvents();
+  const bool areApart =
+    GetBlendModel(scene.Blending).HidesBehind() || scene.Blending == BlendMode::Additive;
+  for (int kind = 0; areApart && kind < NumberOfRayEvents; ++kind)
+  {
+    if ((scene.WantedEvents >> kind & 1u) == 0)
+    {
+      IgnoreEvent(static_cast<RayEventKind>(kind), state);
+    }
+  }
+  return state;
+}
+
 }
 
 struct TileCaster::TileWork
@@ -287,7 +303,8 @@ RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* o
   {
     work.Job.EventLimits.Opacity = this->Input.EventOpacity;
     work.Job.EventLimits.OpticalDepth = -std::log1p(-this->Input.EventOpacity);
-    workspace.Measured.Events.assign(RefractedRayTiles::RaysOfTile, { EmptyRayEvents(), {} });
+    workspace.Measured.Events.assign(
+      RefractedRayTiles::RaysOfTile, { FirstState(this->Input), {} });
   }
   else
   {

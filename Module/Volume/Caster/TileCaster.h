@@ -21,6 +21,7 @@
 #include "Volume/Rays/RayStatistics.h"
 #include "Volume/Refracted/RayLegs.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -53,6 +54,8 @@ public:
     bool Emitting = false;
     /** Accumulated opacity at which RayEventKind::OpacityReachedEvent is, in [0, 1]. */
     double EventOpacity = 0.5;
+    /** Bit i is set if event i (RayEventKind) is wanted: rays end when all of them are known. */
+    std::uint32_t WantedEvents = (1u << NumberOfRayEvents) - 1u;
     /** Depth in the frame of the rays from which distances along a ray count. */
     double MeasuredFrom = 0.0;
     /**

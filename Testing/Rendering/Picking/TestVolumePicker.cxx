@@ -21,8 +21,11 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
+#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkRefractingInterface.h>
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSMPTools.h>
@@ -37,6 +40,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 using namespace meniscus::test;
 using Picker = vtkTetrahedraVolumePicker;
@@ -150,6 +154,59 @@ TEST(VolumePicker, SphericalIsosurface)
   EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0 - z, 3.0 * h * h / (8.0 * 0.6) * 0.7 / z);
   EXPECT_EQ(scene.Chooser->GetSurfaceIndex(), 1);
   EXPECT_NEAR(scene.Chooser->GetValue(), 0.7, 1.0e-6);
+}
+
+//------------------------------------------------------------------------------
+/** A pane of glass shifts the ray: the true place behind it, and the length of the path. */
+TEST(VolumePicker, ThroughAPane)
+{
+  PickScene scene(MakeBlock(3, ConstantField(0.5)), MakeRamp(2.0));
+  vtkCamera* camera = scene.Scene.GetRenderer()->GetActiveCamera();
+  camera->ParallelProjectionOff();
+  camera->SetViewAngle(40.0);
+  const double index = 1.5;
+  // Seen from above, rays meet the plane z = 3 first.
+  for (const double z : { 3.0, 2.0 })
+  {
+    vtkNew<vtkPlaneSource> plane;
+    plane->SetOrigin(-9.0, -9.0, z);
+    plane->SetPoint1(9.0, -9.0, z);
+    plane->SetPoint2(-9.0, 9.0, z);
+    plane->Update();
+    scene.Mapper()->AddMembraneData(plane->GetOutput());
+  }
+  vtkNew<vtkRefractingInterfaceCollection> interfaces;
+  for (int i = 0; i < 2; ++i)
+  {
+    vtkNew<vtkRefractingInterface> item;
+    item->SetExteriorIndexOfRefraction(i == 0 ? 1.0 : index);
+    item->SetInteriorIndexOfRefraction(i == 0 ? index : 1.0);
+    interfaces->AddItem(item);
+  }
+  scene.Mapper()->SetInterfaces(interfaces);
+  scene.Chooser->SetPlaceToFirstVisible();
+  ASSERT_EQ(scene.Pick(), 1);
+  const double slope = std::tan(vtkMath::RadiansFromDegrees(20.0));
+  const double across[2] = { slope * (2.0 * (Column + 0.5) / Size - 1.0),
+    slope * (2.0 * (Row + 0.5) / Size - 1.0) };
+  const double tangent = std::hypot(across[0], across[1]);
+  const double inside = std::tan(std::asin(std::sin(std::atan(tangent)) / index));
+  // From z = 5: three units of depth in air, one in glass.
+  const double bound = 1.0e-6 * std::sqrt(12.0);
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    EXPECT_NEAR(
+      scene.Chooser->GetPickPosition()[axis], across[axis] * (3.0 + inside / tangent), bound);
+  }
+  EXPECT_NEAR(scene.Chooser->GetPickPosition()[2], 1.0, bound);
+  EXPECT_NEAR(
+    scene.Chooser->GetDepth(), 3.0 * std::hypot(1.0, tangent) + std::hypot(1.0, inside), bound);
+  // A list that does not fit the surfaces is an error, and nothing is picked.
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(scene.Mapper());
+  scene.Mapper()->RemoveAllMembranes();
+  EXPECT_EQ(scene.Pick(), 0);
+  EXPECT_EQ(observer->Errors.size(), 1u);
 }
 
 //------------------------------------------------------------------------------
@@ -463,6 +520,53 @@ TEST(VolumePicker, CountersAndThreads)
   scene.Pick();
   EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 2);
   EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
+}
+
+//------------------------------------------------------------------------------
+/** One event alone is the same as among all three, and its rays end earlier. */
+TEST(VolumePicker, ImageOfOneEvent)
+{
+  const auto makeImage = [](int wanted)
+  {
+    auto filter = vtkSmartPointer<vtkTetrahedraRayIntegral>::New();
+    filter->SetInputData(MakeBlock(6, WavyField(2.0)));
+    filter->SetImageSize(Size, Size);
+    filter->SetDirection(-1.0, -2.0, -0.7);
+    filter->SetVolumeProperty(MakeRamp(3.0));
+    filter->SetEventOpacity(0.2);
+    filter->ComputeIntegralOff();
+    filter->SetComputeFirstVisible(wanted & 1);
+    filter->SetComputeOpacityReached(wanted >> 1 & 1);
+    filter->SetComputeLargestContribution(wanted >> 2 & 1);
+    filter->Update();
+    return filter;
+  };
+  const auto all = makeImage(7);
+  const char* const names[3] = { "FirstVisible", "OpacityReached", "LargestContribution" };
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    const auto one = makeImage(1 << kind);
+    EXPECT_EQ(one->GetOutput()->GetPointData()->GetNumberOfArrays(), 4);
+    int found = 0;
+    for (const char* part : { "Depth", "Value", "CellId" })
+    {
+      const std::string name = std::string(names[kind]) + part;
+      vtkDataArray* alone = one->GetOutput()->GetPointData()->GetArray(name.c_str());
+      vtkDataArray* among = all->GetOutput()->GetPointData()->GetArray(name.c_str());
+      ASSERT_TRUE(alone && among) << name;
+      for (vtkIdType i = 0; i < Size * Size; ++i)
+      {
+        const double value = alone->GetTuple1(i);
+        found += !std::isnan(value) && value >= 0.0;
+        EXPECT_TRUE(
+          value == among->GetTuple1(i) || (std::isnan(value) && std::isnan(among->GetTuple1(i))))
+          << name << " " << i;
+      }
+    }
+    EXPECT_GT(found, Size * Size / 2) << names[kind];
+    EXPECT_LE(one->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
+  }
+  EXPECT_LT(2 * makeImage(1)->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
 }
 
 //------------------------------------------------------------------------------

@@ -471,3 +471,23 @@ TEST(VolumePickerTruth, ThroughAMembrane)
   EXPECT_LE(tally.Worst, DepthTolerance * truth.Diagonal());
   EXPECT_EQ(block.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 0);
 }
+
+//------------------------------------------------------------------------------
+TEST(VolumePickerTruth, DataMeshes)
+{
+  for (const char* name : { "blunt_fin", "combustor" })
+  {
+    Grid grid = ReadDataMesh(name);
+    if (!grid)
+    {
+      GTEST_SKIP() << "no mesh " << name;
+    }
+    double range[2];
+    grid->GetPointData()->GetScalars()->GetRange(range);
+    RayCastScene scene(grid,
+      MakeProperty(FunctionKind::Smooth, range, DiagonalOf(grid->GetBounds()) / 8.0), Width,
+      Height);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 32.0, 21.0);
+    ExpectPicks(scene, MediumOf(scene, 0.3), 0.3, 5, name, 0.8, 0.8);
+  }
+}

@@ -47,11 +47,16 @@ struct RayEvent
 struct RayEventState
 {
   RayEvent Events[NumberOfRayEvents];
-  /** Optical depth of the medium passed, and transmittance of the surfaces met. */
+  /** Optical depth of the medium passed, and transmittance of the medium or the surfaces. */
   double OpticalDepth;
   double Transmittance;
   /** Contribution of LargestContributionEvent, or the extreme. */
   double Largest;
+  /**
+   * Number of isosurfaces at or below the last scalar; negative if the next segment does not
+   * continue the last one.
+   */
+  std::int32_t SurfacesBelow;
   /** Bit i is set if event i was found in this leg. */
   std::uint32_t Fresh;
 };

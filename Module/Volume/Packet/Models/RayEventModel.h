@@ -34,13 +34,17 @@ public:
   }
 
   void Reset(Mask lanes) { this->OnBits |= Simd::Bits(lanes); }
-  void Enter(Mask) {}
+  /** The next segment of a lane does not continue the last one. */
+  void Enter(Mask lanes) { this->ApartBits |= Simd::Bits(lanes); }
 
   /** Processes whole segments: none is left pending. */
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
   {
-    const unsigned int bits = Simd::Bits(SegmentsOf<Simd>(lanes, from, to, length)) & this->OnBits;
+    const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+    // Scalars before and behind a cell without one are not connected.
+    this->Enter(Simd::AndNot(lanes, valid));
+    const unsigned int bits = Simd::Bits(valid) & this->OnBits;
     if (bits != 0)
     {
       this->Process(bits, from, to, length, place);
@@ -75,6 +79,7 @@ private:
 
   const PacketJob& Job;
   unsigned int OnBits = (1u << Simd::Width) - 1u;
+  unsigned int ApartBits = (1u << Simd::Width) - 1u;
 };
 
 //------------------------------------------------------------------------------
@@ -134,7 +139,13 @@ void RayEventModel<Simd, Triples, CellGradients, Surfaces>::Process(
         segment.Gradients[end] = CellGradients ? gradient : ends[end];
       }
     }
-    if (!AddToEvents(this->Job, segment, this->Job.Events[place.Rays[lane]]))
+    RayEventState& state = this->Job.Events[place.Rays[lane]];
+    if (this->ApartBits >> lane & 1u)
+    {
+      state.SurfacesBelow = -1;
+      this->ApartBits &= ~(1u << lane);
+    }
+    if (!AddToEvents(this->Job, segment, state))
     {
       this->OnBits &= ~(1u << lane);
     }

@@ -142,7 +142,7 @@ void SetInPiece(RayEventState& state, RayEventKind kind, const RayEventSegment& 
 void TryLargest(const RayEventSegment& segment, const Piece& piece, RayEventState& state)
 {
   const double bound = std::max(piece.Density, piece.DensityTo) / piece.Length;
-  if (!(bound > state.Largest))
+  if (!(bound * state.Transmittance > state.Largest))
   {
     return;
   }
@@ -150,7 +150,7 @@ void TryLargest(const RayEventSegment& segment, const Piece& piece, RayEventStat
   {
     const double density = Mix(piece.Density, piece.DensityTo, share);
     const double contribution =
-      density / piece.Length * std::exp(-state.OpticalDepth - piece.DepthUpTo(share));
+      density / piece.Length * state.Transmittance * std::exp(-piece.DepthUpTo(share));
     if (contribution > state.Largest)
     {
       state.Largest = contribution;
@@ -194,6 +194,7 @@ void AddPiece(
   }
   TryLargest(segment, piece, state);
   state.OpticalDepth += depth;
+  state.Transmittance = std::exp(-state.OpticalDepth);
 }
 
 /** The functions that attenuate: that of the scalar, and those of independent components. */
@@ -249,10 +250,42 @@ bool AddMedium(const PacketJob& job, const RayEventSegment& segment, RayEventSta
     begin = end;
   }
   // Behind an optical depth of 745, nothing is left in double precision.
-  const double left = std::exp(-state.OpticalDepth);
-  const bool mayContribute = job.EventLimits.LargestAttenuation * left > state.Largest;
-  return left > 0.0 &&
+  const bool mayContribute =
+    job.EventLimits.LargestAttenuation * state.Transmittance > state.Largest;
+  return state.Transmittance > 0.0 &&
     (mayContribute || !Has(state, FirstVisibleEvent) || !Has(state, OpacityReachedEvent));
+}
+
+/** Adds a surface at a share of the segment. */
+void AddSurface(const PacketJob& job, const RayEventSegment& segment, const PacketSurface& surface,
+  double share, RayEventState& state)
+{
+  const double weight = state.Transmittance * surface.Opacity;
+  if (!(weight > 0.0))
+  {
+    return;
+  }
+  state.Transmittance -= weight;
+  const auto set = [&](RayEventKind kind)
+  {
+    SetEvent(state, kind, segment, share, surface.Scalar,
+      static_cast<std::int32_t>(&surface - job.Surfaces));
+  };
+  if (!Has(state, FirstVisibleEvent))
+  {
+    set(FirstVisibleEvent);
+  }
+  // Opacities are floats, and so is the threshold that they are compared with.
+  if (!Has(state, OpacityReachedEvent) &&
+    static_cast<float>(1.0 - state.Transmittance) >= static_cast<float>(job.EventLimits.Opacity))
+  {
+    set(OpacityReachedEvent);
+  }
+  if (weight > state.Largest)
+  {
+    state.Largest = weight;
+    set(LargestContributionEvent);
+  }
 }
 
 /** The same surfaces in the same order as CrossSurfaces(). */
@@ -265,43 +298,26 @@ bool AddSurfaces(const PacketJob& job, const RayEventSegment& segment, RayEventS
     return std::upper_bound(first, end, scalar,
       [](double value, const PacketSurface& surface) { return value < surface.Scalar; });
   };
-  const PacketSurface* now = firstAbove(segment.From);
+  const PacketSurface* const atFrom = firstAbove(segment.From);
   const PacketSurface* const last = firstAbove(segment.To);
-  while (now != last && state.Transmittance > 0.0)
+  const PacketSurface* now = state.SurfacesBelow < 0 ? atFrom : first + state.SurfacesBelow;
+  const auto cross = [&](const PacketSurface* to, bool isAtStart)
   {
-    const bool upward = now < last;
-    const PacketSurface& surface = upward ? *now : *(now - 1);
-    now += upward ? 1 : -1;
-    const double weight = state.Transmittance * surface.Opacity;
-    if (!(weight > 0.0))
+    while (now != to && state.Transmittance > 0.0)
     {
-      continue;
+      const bool upward = now < to;
+      const PacketSurface& surface = upward ? *now : *(now - 1);
+      now += upward ? 1 : -1;
+      const double share = isAtStart || job.CellScalars
+        ? 0.0
+        : std::clamp((surface.Scalar - segment.From) / (segment.To - segment.From), 0.0, 1.0);
+      AddSurface(job, segment, surface, share, state);
     }
-    const double share = job.CellScalars
-      ? 0.0
-      : std::clamp((surface.Scalar - segment.From) / (segment.To - segment.From), 0.0, 1.0);
-    state.Transmittance -= weight;
-    const auto set = [&](RayEventKind kind)
-    {
-      SetEvent(
-        state, kind, segment, share, surface.Scalar, static_cast<std::int32_t>(&surface - first));
-    };
-    if (!Has(state, FirstVisibleEvent))
-    {
-      set(FirstVisibleEvent);
-    }
-    // Opacities are floats, and so is the threshold that they are compared with.
-    if (!Has(state, OpacityReachedEvent) &&
-      static_cast<float>(1.0 - state.Transmittance) >= static_cast<float>(job.EventLimits.Opacity))
-    {
-      set(OpacityReachedEvent);
-    }
-    if (weight > state.Largest)
-    {
-      state.Largest = weight;
-      set(LargestContributionEvent);
-    }
-  }
+  };
+  // Those that were passed in segments without length.
+  cross(atFrom, true);
+  cross(last, false);
+  state.SurfacesBelow = static_cast<std::int32_t>(last - first);
   const bool mayContribute = state.Transmittance > state.Largest;
   return state.Transmittance > 0.0 &&
     (mayContribute || !Has(state, FirstVisibleEvent) || !Has(state, OpacityReachedEvent));
@@ -333,6 +349,7 @@ RayEventState EmptyRayEvents()
     event = { 0.0, 0.0, -1, -1 };
   }
   state.Transmittance = 1.0;
+  state.SurfacesBelow = -1;
   return state;
 }
 

@@ -168,6 +168,20 @@ TEST(RayEvents, Surfaces)
   EXPECT_EQ(ray.At(LargestContributionEvent).Surface, 2);
   EXPECT_EQ(ray.At(LargestContributionEvent).Cell, 2);
   EXPECT_EQ(ray.At(FirstVisibleEvent).Surface, 1);
+
+  // A value that is passed between two segments is met where the second one begins, unless they
+  // are apart.
+  EventRay gap({}, 0.6);
+  gap.Job = ray.Job;
+  gap.Add(0.0, 1.0, -1.0, -0.25);
+  EXPECT_TRUE(gap.Add(1.0, 2.0, 0.25, 0.25));
+  EXPECT_EQ(gap.At(FirstVisibleEvent).Surface, 1);
+  EXPECT_EQ(gap.At(FirstVisibleEvent).Depth, 1.0);
+  gap.State = EmptyRayEvents();
+  gap.Add(0.0, 1.0, -1.0, -0.25);
+  gap.State.SurfacesBelow = -1;
+  gap.Add(1.0, 2.0, 0.25, 0.25);
+  EXPECT_LT(gap.At(FirstVisibleEvent).Cell, 0);
 }
 
 //------------------------------------------------------------------------------
