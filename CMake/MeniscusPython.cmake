@@ -29,9 +29,13 @@ endif ()
 set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
-foreach (_meniscus_helpers IN ITEMS integrals pyvista)
-  configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_helpers}.py"
-    "${_meniscus_package}/${_meniscus_helpers}.py" COPYONLY)
+set(_meniscus_sources
+  __main__ integrals pyvista
+  viewer/__init__ viewer/colors viewer/command viewer/levels viewer/reading viewer/scene viewer/web
+  viewer/window)
+foreach (_meniscus_source IN LISTS _meniscus_sources)
+  configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
+    "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
 endforeach ()
 
 # Types for editors and type checkers, from the signatures that the wrappers put into doc strings.
@@ -48,9 +52,23 @@ add_custom_target(meniscus_stubs ALL DEPENDS "${_meniscus_stubs}")
 install(
   FILES
     "${_meniscus_package}/__init__.py"
+    "${_meniscus_package}/__main__.py"
     "${_meniscus_package}/integrals.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
     "${_meniscus_stubs}"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
   COMPONENT   python)
+install(
+  DIRECTORY   "${PROJECT_SOURCE_DIR}/Python/viewer"
+  DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
+  COMPONENT   python
+  FILES_MATCHING PATTERN "*.py")
+# The command `meniscus`; in a wheel it is an entry point.
+if (NOT SKBUILD)
+  install(
+    PROGRAMS    "${PROJECT_SOURCE_DIR}/Python/meniscus-command"
+    DESTINATION "${CMAKE_INSTALL_BINDIR}"
+    RENAME      meniscus
+    COMPONENT   python)
+endif ()

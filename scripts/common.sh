@@ -17,6 +17,8 @@ PACKAGES_DOCS=(doxygen python3)
 PACKAGES_TIDY=(clang-tidy-14)
 # The second compiler.
 PACKAGES_CLANG=(clang-14)
+# The page of `meniscus --web` in a browser.
+PACKAGES_WEB=(chromium chromium-driver python3-venv python3-numpy python3-pil)
 # Pictures to compare with; its include files are not needed.
 PACKAGES_POVRAY=(povray)
 # paraview-dev does not declare all packages that its CMake files look for; python3-paraview

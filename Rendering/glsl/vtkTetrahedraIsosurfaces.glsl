@@ -15,6 +15,7 @@ const float BEYOND = 3.0e+38;
 
 int surfacesBelow;   // number of isovalues not above the scalar
 vec2 surfaceRange;   // isovalues next to the scalar
+bool isRangeKnown;   // true: the range is that of the last segment's end
 
 void loadSurfaceRange()
 {
@@ -36,6 +37,7 @@ void startPart(float scalar)
   }
   surfacesBelow = low;
   loadSurfaceRange();
+  isRangeKnown = false;
 }
 
 // Adds a surface at a fraction of the pending segment.
@@ -63,31 +65,32 @@ void addSurface(int index, float at)
   transmittance -= transmittance * alpha;
 }
 
-// Adds one surface per turn, front to back.
+// Adds one surface per turn, front to back. The scalar passes all values between the ends of
+// successive segments in a segment without length, which is skipped: where a segment begins outside
+// of the range, surfaces are added at its start, unless it is the first one of its part.
 bool integratePiece()
 {
-  // A segment that begins outside of the range first moves the range. After that segmentDone is 1.
+  // After the range contains the segment's start, segmentDone is 1.
   bool inside = segmentDone > 0.0 ||
     (segmentStart >= surfaceRange.x && segmentStart < surfaceRange.y);
   float target = inside ? segmentEnd : segmentStart;
   bool upward = target >= surfaceRange.y;
   bool downward = target < surfaceRange.x;
-  if (inside)
+  isRangeKnown = isRangeKnown || inside;
+  segmentDone = inside ? 1.0 : 0.0;
+  if (upward || downward)
   {
-    segmentDone = 1.0;
-    if (upward || downward)
+    if (isRangeKnown)
     {
-      float isovalue = upward ? surfaceRange.y : surfaceRange.x;
 #if CELL_SCALARS
       float at = 0.0;
 #else
-      float at = clamp((isovalue - segmentStart) / (segmentEnd - segmentStart), 0.0, 1.0);
+      float isovalue = upward ? surfaceRange.y : surfaceRange.x;
+      float at =
+        inside ? clamp((isovalue - segmentStart) / (segmentEnd - segmentStart), 0.0, 1.0) : 0.0;
 #endif
       addSurface(upward ? surfacesBelow : surfacesBelow - 1, at);
     }
-  }
-  if (upward || downward)
-  {
     surfacesBelow += upward ? 1 : -1;
     loadSurfaceRange();
   }

@@ -205,6 +205,13 @@ bool advance(int exitDepth, float exitScalar)
 #endif
 #else
   faceScalar = exitScalar;
+#if SEES_JUMPS
+  // Scalars before and behind a cell without one are not connected.
+  if (to > from && !counts)
+  {
+    startPart(exitScalar);
+  }
+#endif
 #endif
   return counts;
 }
@@ -222,9 +229,20 @@ float meetFace(
   vec2 weights = areas.zx * inverse;
   float ahead = dot(weights, vec2(q.z - p.z, r.z - p.z));
   depth = real ? p.z + int(roundEven(ahead)) : depth;
+#if SEES_JUMPS
+  // Relative to the corner with the largest weight: where the corners with weight have one scalar,
+  // as along an edge in an isosurface, the result is exactly that scalar.
+  vec3 scalars = vec3(vertexScalar(p), vertexScalar(q), vertexScalar(r));
+  float weight = areas.y * inverse;
+  float first = weight >= max(weights.x, weights.y)
+    ? scalars.x
+    : (weights.x >= weights.y ? scalars.y : scalars.z);
+  float met = first + dot(vec3(weight, weights), scalars - vec3(first));
+#else
   float first = vertexScalar(p);
-  scalar =
-    real ? first + dot(weights, vec2(vertexScalar(q), vertexScalar(r)) - vec2(first)) : scalar;
+  float met = first + dot(weights, vec2(vertexScalar(q), vertexScalar(r)) - vec2(first));
+#endif
+  scalar = real ? met : scalar;
   return real ? inverse : 0.0;
 }
 

@@ -26,6 +26,7 @@ COMMANDS = [
     (r"mpirun -np 2 pvserver$", ["Testing/Plugin/RunServer.py"]),
     (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
     (r"env/bin/pip install ", ["scripts/wheel"]),
+    (r"pip install trame trame-vuetify trame-rca$", ["scripts/web"]),
 ]
 # Programs of the project, with the folders whose sources contain their options.
 PROGRAMS = {
@@ -61,6 +62,12 @@ def command_faults(root, command):
         sources = "\n".join(text_below(root, folder) for folder in PROGRAMS[program.group(1)])
         return ["%s has no option %s" % (program.group(1), option)
                 for option in re.findall(r"--[a-z]+", command) if option not in sources]
+    if command.startswith("meniscus "):
+        # Testing/Python/TestViewer.py runs the options, scripts/web runs --web.
+        with open(os.path.join(root, "Python/viewer/command.py")) as file:
+            known = file.read()
+        return ["meniscus has no option " + option
+                for option in re.findall(r"--[a-z]+", command) if '"%s"' % option not in known]
     files = [files for pattern, files in COMMANDS if re.match(pattern, command)]
     if not files:
         return ["no test runs: " + command]

@@ -248,6 +248,13 @@ Grid MakeSeam(int n)
 }
 
 //------------------------------------------------------------------------------
+Grid MakeScrambled(vtkUnstructuredGrid* grid, const Field& field, RandomNumbers& random)
+{
+  Arrays arrays(grid);
+  Scramble(arrays, random);
+  return arrays.ToGrid(field);
+}
+
 Grid MakeRandomMesh(RandomNumbers& random)
 {
   Arrays arrays = random.Below(2) ? PartOfBlock(random) : DividedTetrahedron(random);

@@ -40,6 +40,12 @@ Grid MakeSeam(int n);
 Grid MakeRandomMesh(RandomNumbers& random);
 
 /**
+ * A copy of a tetrahedral grid with points, cells and the vertices of each cell in random order;
+ * scalars are given by the field.
+ */
+Grid MakeScrambled(vtkUnstructuredGrid* grid, const Field& field, RandomNumbers& random);
+
+/**
  * Disconnected and invalidly connected cells: random vertices, repeated vertices and cells, faces
  * of more than two cells.
  */

@@ -11,6 +11,7 @@
 #include <vtkRectilinearGrid.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVolumeMapper.h>
 
 #include <algorithm>
 #include <cmath>
@@ -259,11 +260,28 @@ void CheckRectilinear(VolumeTrial& trial)
   trial.ExpectSame(trial.GetStage().Render(), "rectilinear grid");
 }
 
+// Isosurfaces that run through vertices.
+void TakeValuesOfVertices(VolumeCase& test, RandomNumbers& random)
+{
+  test.Look.Blend = vtkVolumeMapper::ISOSURFACE_BLEND;
+  test.Look.IsoValues.clear();
+  for (int i = 1 + random.Below(3); i > 0; --i)
+  {
+    const auto vertex = random.Below(static_cast<int>(test.MakeMesh().Tuples()));
+    test.Look.IsoValues.push_back(test.MakeMesh().GetValue(static_cast<std::size_t>(vertex), 0));
+  }
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
 std::vector<VolumeRelation> MeshRelations()
 {
+  CaseNeeds vertexValues;
+  vertexValues.Tetrahedra = true;
+  vertexValues.OneComponent = true;
+  vertexValues.NoCellData = true;
+  vertexValues.NoGradients = true;
   CaseNeeds opaqueOutside = NoVertexGradients();
   opaqueOutside.Composite = true;
   opaqueOutside.OneComponent = true;
@@ -285,6 +303,15 @@ std::vector<VolumeRelation> MeshRelations()
       [](VolumeCase& test, RandomNumbers& random) { ShufflePoints(test.MakeMesh(), random); }),
     RelationOf("order of points, linear", 3, MakeLinear(),
       [](VolumeCase& test, RandomNumbers& random) { ShufflePoints(test.MakeMesh(), random); }),
+    { "order of points and cells, isovalues of vertices", 4, vertexValues,
+      [](VolumeTrial& trial)
+      {
+        VolumeCase changed = trial.MakeScene();
+        ShufflePoints(changed.MakeMesh(), trial.MakeRandom());
+        ShuffleCells(changed.MakeMesh(), trial.MakeRandom());
+        trial.ExpectSame(changed, "isovalues of vertices");
+      },
+      TakeValuesOfVertices },
     RelationOf("points of no cell", 2, CaseNeeds(),
       [](VolumeCase& test, RandomNumbers& random) { AddIdlePoints(test.MakeMesh(), random); }),
     RelationOf("points given per cell", 4, NoVertexGradients(),

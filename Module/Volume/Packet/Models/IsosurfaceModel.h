@@ -16,6 +16,9 @@ namespace meniscus
 /**
  * Isosurfaces, met where the scalar, linear along a segment, passes an isovalue; scalars of cells
  * pass isovalues on the faces where they jump. A scalar equal to an isovalue counts as above it.
+ * Segments without length are skipped, though the scalar may pass an isovalue in them (by rounding,
+ * along an edge in a surface): a segment that begins beyond the isovalues next to the last scalar
+ * meets those between at its start.
  * Packets test all segments; the few that meet a surface are processed one by one (CrossSurfaces).
  * The same interface as CompositeModel.
  */
@@ -38,10 +41,8 @@ public:
 
   void Reset(Mask lanes)
   {
-    // An empty range: the first segment determines its own.
     this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
-    this->Lower = Simd::Select(lanes, Simd::Splat(1.0f), this->Lower);
-    this->Upper = Simd::Select(lanes, Simd::Splat(-1.0f), this->Upper);
+    this->Enter(lanes);
     const unsigned int bits = Simd::Bits(lanes);
     for (int lane = 0; lane < Simd::Width; ++lane)
     {
@@ -57,6 +58,8 @@ public:
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
   {
     const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+    // Scalars before and behind a cell without one are not connected.
+    this->Enter(Simd::AndNot(lanes, valid));
     const auto beyond = [this](Float scalar)
     { return (scalar < this->Lower) | Simd::Not(scalar < this->Upper); };
     const unsigned int crossing = Simd::Bits(valid & (beyond(from) | beyond(to)));
@@ -67,7 +70,12 @@ public:
     return Simd::FromBits(0);
   }
   Mask Advance(Mask lanes) { return lanes; }
-  void Enter(Mask) {}
+  /** Makes the range empty: the first segment of a part determines its own. */
+  void Enter(Mask lanes)
+  {
+    this->Lower = Simd::Select(lanes, Simd::Splat(1.0f), this->Lower);
+    this->Upper = Simd::Select(lanes, Simd::Splat(-1.0f), this->Upper);
+  }
 
   Mask IsOn() const
   {
@@ -137,6 +145,8 @@ void IsosurfaceModel<Simd>::Cross(unsigned int lanes, Float from, Float to, cons
     {
       const PacketSegment segment{ starts[lane], ends[lane], startDepths[lane], endDepths[lane],
         cellFaces[lane], place.Rays[lane] };
+      state.Lower = lower[lane];
+      state.Upper = upper[lane];
       CrossSurfaces(this->Job, segment, state);
       lower[lane] = state.Lower;
       upper[lane] = state.Upper;

@@ -134,6 +134,19 @@ glm::dvec3 FadedColor(
   return glm::mix(scattered, color, glm::dvec3(seen[0], seen[1], seen[2]));
 }
 
+/** Adds a surface at a fraction of the segment. */
+void AddSurface(const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface,
+  double at, PacketSurfaceState& state)
+{
+  const glm::dvec3 color = FadedColor(job, segment, LitColor(job, segment, surface, at), at);
+  const float weight = state.Transmittance * surface.Opacity;
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    state.Color[channel] += weight * static_cast<float>(color[channel]);
+  }
+  state.Transmittance -= weight;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -146,25 +159,26 @@ void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSur
     return std::upper_bound(first, end, scalar,
       [](float value, const PacketSurface& surface) { return value < surface.Scalar; });
   };
-  const PacketSurface* now = firstAbove(segment.From);
+  const PacketSurface* const atFrom = firstAbove(segment.From);
   const PacketSurface* const last = firstAbove(segment.To);
-  while (now != last && state.Transmittance > job.TerminationTransmittance)
+  const bool isKnown = state.Lower <= state.Upper;
+  const PacketSurface* now = isKnown ? firstAbove(state.Lower) : atFrom;
+  const auto cross = [&](const PacketSurface* to, bool isAtStart)
   {
-    const bool upward = now < last;
-    const PacketSurface& surface = upward ? *now : *(now - 1);
-    now += upward ? 1 : -1;
-    const double change = double{ segment.To } - segment.From;
-    const double at = job.CellScalars
-      ? 0.0
-      : std::clamp((double{ surface.Scalar } - segment.From) / change, 0.0, 1.0);
-    const glm::dvec3 color = FadedColor(job, segment, LitColor(job, segment, surface, at), at);
-    const float weight = state.Transmittance * surface.Opacity;
-    for (int channel = 0; channel < 3; ++channel)
+    while (now != to && state.Transmittance > job.TerminationTransmittance)
     {
-      state.Color[channel] += weight * static_cast<float>(color[channel]);
+      const bool upward = now < to;
+      const PacketSurface& surface = upward ? *now : *(now - 1);
+      now += upward ? 1 : -1;
+      const double change = double{ segment.To } - segment.From;
+      const double at = isAtStart || job.CellScalars
+        ? 0.0
+        : std::clamp((double{ surface.Scalar } - segment.From) / change, 0.0, 1.0);
+      AddSurface(job, segment, surface, at, state);
     }
-    state.Transmittance -= weight;
-  }
+  };
+  cross(atFrom, true);
+  cross(last, false);
   constexpr float beyond = std::numeric_limits<float>::max();
   state.Lower = last == first ? -beyond : (last - 1)->Scalar;
   state.Upper = last == end ? beyond : last->Scalar;

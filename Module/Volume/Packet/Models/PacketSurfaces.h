@@ -16,7 +16,7 @@ struct PacketSurfaceState
   /** Premultiplied colour. */
   float Color[3];
   float Transmittance;
-  /** Isovalues next to the scalar, the lower one included. */
+  /** Isovalues next to the last scalar, the lower one included; unknown if Lower > Upper. */
   float Lower;
   float Upper;
 };

@@ -385,14 +385,30 @@ inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
   const Mask real = total > Simd::Splat(0.0f);
   const Float inverse = Simd::Splat(1.0f) / total;
   // Products are fused in every instruction set: in needles most of the sum cancels.
-  const auto mean = [&](Float a, Float b, Float c)
+  const auto meanFrom = [&](Float a, Float b, Float c, Float areaAB, Float areaCA)
   {
-    const Float sum = Simd::SubtractProduct(this->AreaAB * (a - c), this->AreaCA, b - a);
+    const Float sum = Simd::SubtractProduct(areaAB * (a - c), areaCA, b - a);
     return Simd::SubtractProduct(a, sum, inverse);
   };
+  const auto mean = [&](Float a, Float b, Float c)
+  { return meanFrom(a, b, c, this->AreaAB, this->AreaCA); };
   FacePoint met;
   met.Depth = mean(this->A.Depth, this->B.Depth, this->C.Depth);
   met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
+  if constexpr (Model::SeesJumps)
+  {
+    // Relative to the corner with the largest weight: where the corners with weight have one
+    // scalar, as along an edge in an isosurface, the result is exactly that scalar.
+    const Mask notA = Simd::Max(this->AreaAB, this->AreaCA) > this->AreaBC;
+    const Mask c = notA & (this->AreaAB > this->AreaCA);
+    const auto rotate = [&](Float ofA, Float ofB, Float ofC)
+    { return Simd::Select(c, ofC, Simd::Select(notA, ofB, ofA)); };
+    const Float first = rotate(this->A.Scalar, this->B.Scalar, this->C.Scalar);
+    const Float second = rotate(this->B.Scalar, this->C.Scalar, this->A.Scalar);
+    const Float third = rotate(this->C.Scalar, this->A.Scalar, this->B.Scalar);
+    met.Scalar = meanFrom(first, second, third, rotate(this->AreaAB, this->AreaBC, this->AreaCA),
+      rotate(this->AreaCA, this->AreaAB, this->AreaBC));
+  }
   for (int i = 0; i < VertexValues::Size; ++i)
   {
     met.Values.Of[i] = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);

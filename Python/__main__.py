@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`python -m meniscus` is the command `meniscus`."""
+import sys
+
+from .viewer.command import main
+
+sys.exit(main())

@@ -1,0 +1,10 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `meniscus`: draws meshes from files as volumes, in a window, a page or a picture.
+
+reading: meshes, time steps and surfaces from files.
+levels: isosurface areas of a scalar, and the transfer function that is derived from them.
+scene: the volume and its settings; has no window of its own.
+window, web: a desktop window with keys and sliders, and a page served by trame.
+command: arguments and messages.
+"""

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `meniscus MESH [...]`."""
+import argparse
+import os
+import sys
+
+from .colors import COLOR_MAPS
+from .reading import MeshSeries, ReadingError, read_surface
+from .scene import AXES, BACKENDS, BLEND_MODES, MeshScene
+from .window import Window, make_window, write_picture
+
+DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
+steps of one mesh. In the window, h shows the keys."""
+
+
+def _pair_of(text, separator, kind):
+    parts = [kind(part) for part in text.lower().split(separator)]
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a pair separated by '{separator}'")
+    return tuple(parts)
+
+
+def _size(text):
+    size = _pair_of(text, "x", int)
+    if min(size) < 1:
+        raise argparse.ArgumentTypeError("both sizes must be at least 1")
+    return size
+
+
+def make_parser():
+    parser = argparse.ArgumentParser(prog="meniscus", description=DESCRIPTION)
+    parser.add_argument("mesh", nargs="+", metavar="MESH", help="file that VTK can read, or a .pvd")
+    parser.add_argument("--array", help="array to show; default: the first one")
+    parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
+                        help="range of the colour map")
+    parser.add_argument("--colors", default=next(iter(COLOR_MAPS)), metavar="NAME",
+                        help="colour map: " + ", ".join(COLOR_MAPS))
+    parser.add_argument("--blend", default="composite", metavar="MODE",
+                        help="blend mode: " + ", ".join(BLEND_MODES))
+    parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
+                        help="isosurfaces of these values")
+    parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
+                        help="makes the volume denser (above 1) or thinner")
+    parser.add_argument("--light", action="store_true", help="lights the volume")
+    parser.add_argument("--clip", metavar="AXIS[:SHARE]",
+                        help="removes the part below a share (default 0.5) of the extent along "
+                        + ", ".join(AXES))
+    parser.add_argument("--step", type=int, default=0, metavar="NUMBER",
+                        help="time step, from 0; negative: from the last one back")
+    parser.add_argument("--water", metavar="SURFACE",
+                        help="file of a refracting surface through which the volume is seen; its "
+                        "normals point to the eye's side")
+    parser.add_argument("--index", type=float, default=1.333,
+                        help="index of refraction behind the surface; default: 1.333")
+    parser.add_argument("--backend", default="automatic", metavar="NAME",
+                        help="caster of rays: " + ", ".join(BACKENDS))
+    parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
+                        default=(1.0, 0.7, 1.0), help="vector from the mesh to the eye")
+    parser.add_argument("--up", choices=list(AXES), default="y", help="upward axis; default: y")
+    parser.add_argument("--size", type=_size, default=(1024, 768), metavar="WxH",
+                        help="size of the window or picture")
+    parser.add_argument("--output", metavar="PICTURE.png",
+                        help="writes a picture and opens no window")
+    parser.add_argument("--web", action="store_true", help="serves the window as a page")
+    parser.add_argument("--port", type=int, default=8080, help="port of the page; default: 8080")
+    return parser
+
+
+def _split_clip(text):
+    axis, _, share = text.partition(":")
+    try:
+        return axis, float(share) if share else 0.5
+    except ValueError:
+        raise ReadingError(f"--clip: '{share}' is not a number") from None
+
+
+def make_scene(options):
+    scene = MeshScene(MeshSeries(options.mesh))
+    steps = len(scene.series.get_times())
+    if not -steps <= options.step < steps:
+        raise ReadingError(f"There is no time step {options.step}; the mesh has {steps}")
+    if options.array or options.range:
+        scene.set_array(options.array or scene.array, options.range and tuple(options.range))
+    if options.step % steps:
+        scene.set_step(options.step % steps)
+    scene.set_colors(options.colors)
+    scene.set_density(options.density)
+    scene.set_blend(options.blend)
+    if options.isovalues:
+        scene.set_isovalues(options.isovalues)
+    scene.set_lit(options.light)
+    scene.set_backend(options.backend)
+    if options.clip:
+        scene.set_clip(*_split_clip(options.clip))
+    if options.water:
+        scene.set_surface(read_surface(options.water), options.index)
+    scene.reset_camera(options.view, AXES[options.up])
+    return scene
+
+
+def _show(scene, options):
+    if options.output:
+        window = make_window(scene, options.size, offscreen=True)
+        window.Render()
+        write_picture(window, options.output)
+    elif options.web:
+        from .web import make_server
+        make_server(scene).start(port=options.port, open_browser=False)
+    elif not os.environ.get("DISPLAY") and sys.platform.startswith("linux"):
+        raise ReadingError("There is no display; use --output PICTURE.png or --web")
+    else:
+        Window(scene, options.size).start()
+
+
+def main(arguments=None):
+    """Runs the command; returns its exit status."""
+    options = make_parser().parse_args(arguments)
+    try:
+        _show(make_scene(options), options)
+    except ReadingError as error:
+        print(f"meniscus: {error}", file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,245 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mesh as a volume, with its settings; windows, pages and pictures show it."""
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkVolume)
+from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
+
+from .. import vtkTetrahedraRayCastMapper
+from .colors import COLOR_MAPS, fill_colors, make_table
+from .levels import Levels
+from .reading import ReadingError, arrays_of, leaves_of
+
+BLEND_MODES = {
+    "composite": vtkVolumeMapper.COMPOSITE_BLEND,
+    "maximum": vtkVolumeMapper.MAXIMUM_INTENSITY_BLEND,
+    "minimum": vtkVolumeMapper.MINIMUM_INTENSITY_BLEND,
+    "average": vtkVolumeMapper.AVERAGE_INTENSITY_BLEND,
+    "additive": vtkVolumeMapper.ADDITIVE_BLEND,
+    "isosurface": vtkVolumeMapper.ISOSURFACE_BLEND,
+}
+BACKENDS = {
+    "automatic": vtkTetrahedraRayCastMapper.AUTOMATIC,
+    "opengl": vtkTetrahedraRayCastMapper.OPENGL,
+    "compute": vtkTetrahedraRayCastMapper.COMPUTE,
+    "native": vtkTetrahedraRayCastMapper.NATIVE,
+}
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
+ISOSURFACE_OPACITY = 0.4
+
+
+def _bounds_of(data):
+    bounds = [leaf.GetBounds() for leaf in leaves_of(data) if leaf.GetNumberOfCells()]
+    return [min(b[i] for b in bounds) if i % 2 == 0 else max(b[i] for b in bounds)
+            for i in range(6)]
+
+
+class MeshScene:
+    """The volume of a MeshSeries in a vtkRenderer (attribute renderer).
+
+    Every setter takes effect with the next frame. A name that does not exist is a ReadingError.
+    """
+
+    def __init__(self, series):
+        self.series = series
+        self.step = 0
+        self.data = series.read(0)
+        self.bounds = _bounds_of(self.data)
+        self.diagonal = sum((self.bounds[2 * i + 1] - self.bounds[2 * i]) ** 2
+                            for i in range(3)) ** 0.5
+        self.colors = next(iter(COLOR_MAPS))
+        self.density = 1.0
+        self.blend = "composite"
+        self.isovalues = None  # None: chosen by volume
+        self.limits = None  # None: the range of the first step's values
+        self.clip_axis = None
+        self.mapper = vtkTetrahedraRayCastMapper()
+        self.mapper.SetInputData(self.data)
+        self.volume = vtkVolume()
+        self.volume.SetMapper(self.mapper)
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(*BACKGROUND[0])
+        self.renderer.SetBackground2(*BACKGROUND[1])
+        self.renderer.GradientBackgroundOn()
+        self.renderer.AddVolume(self.volume)
+        self._add_bar()
+        self._clip_plane = vtkPlane()
+        look = self.volume.GetProperty()
+        look.SetAmbient(0.35)
+        look.SetDiffuse(0.7)
+        look.SetSpecular(0.25)
+        look.SetSpecularPower(25.0)
+        names = self.get_arrays()
+        if not names:
+            raise ReadingError("The mesh has no arrays")
+        self.set_array(names[0])
+
+    def _add_bar(self):
+        self.bar = vtkScalarBarActor()
+        self.bar.SetNumberOfLabels(5)
+        self.bar.SetMaximumWidthInPixels(90)
+        self.bar.SetPosition(0.88, 0.08)
+        self.bar.SetHeight(0.8)
+        self.bar.UnconstrainedFontSizeOn()
+        self.bar.SetVerticalTitleSeparation(8)
+        for text in (self.bar.GetTitleTextProperty(), self.bar.GetLabelTextProperty()):
+            text.SetColor(0.1, 0.1, 0.15)
+            text.SetFontSize(14)
+            text.ShadowOff()
+            text.ItalicOff()
+            text.BoldOff()
+        self.renderer.AddViewProp(self.bar)
+
+    def get_arrays(self):
+        """Names of the arrays that can be shown: those of points, then those of cells."""
+        return list(arrays_of(self.data))
+
+    def get_range(self):
+        """Range of the colour map."""
+        return self.limits or (self.levels.low, self.levels.high)
+
+    def set_array(self, name, limits=None):
+        """Shows an array; of one with several components, the magnitude.
+
+        limits: range of the colour map; default: the range of the values.
+        """
+        arrays = arrays_of(self.data)
+        if name not in arrays:
+            raise ReadingError(f"The mesh has no array '{name}'; it has " + ", ".join(arrays))
+        association, components = arrays[name]
+        self.array = name
+        self.limits = limits
+        if association == "points":
+            self.mapper.SetScalarModeToUsePointFieldData()
+        else:
+            self.mapper.SetScalarModeToUseCellFieldData()
+        self.mapper.SelectScalarArray(name)
+        self.mapper.SetVectorMode(self.mapper.MAGNITUDE if components > 1
+                                  else self.mapper.DISABLED)
+        self.levels = Levels(self.data, name, association)
+        self._update_functions()
+
+    def _update_functions(self):
+        low, high = self.get_range()
+        look = self.volume.GetProperty()
+        fill_colors(look.GetRGBTransferFunction(), self.colors, low, high)
+        opacity = look.GetScalarOpacity()
+        opacity.RemoveAllPoints()
+        if self.blend == "isosurface":
+            opacity.AddSegment(low, ISOSURFACE_OPACITY, high, ISOSURFACE_OPACITY)
+        elif self.blend in ("maximum", "minimum", "average"):
+            opacity.AddSegment(low, 0.0, high, 1.0)
+        else:
+            for scalar, coefficient in self.levels.get_opacity():
+                opacity.AddPoint(scalar, coefficient)
+        look.SetScalarOpacityUnitDistance(self.diagonal / self.density)
+        contours = look.GetIsoSurfaceValues()
+        values = self.isovalues or self.levels.get_isovalues()
+        contours.SetNumberOfContours(len(values))
+        for index, value in enumerate(values):
+            contours.SetValue(index, value)
+        self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), low, high))
+        self.bar.SetTitle(self.array)
+
+    def set_colors(self, name):
+        if name not in COLOR_MAPS:
+            raise ReadingError(f"There is no colour map '{name}'; known are "
+                               + ", ".join(COLOR_MAPS))
+        self.colors = name
+        self._update_functions()
+
+    def set_density(self, factor):
+        """Multiplies all attenuation coefficients by a factor > 0; 1 is the default."""
+        if not factor > 0.0:
+            raise ReadingError("The density must be above 0")
+        self.density = factor
+        self._update_functions()
+
+    def set_blend(self, name):
+        if name not in BLEND_MODES:
+            raise ReadingError(f"There is no blend mode '{name}'; known are "
+                               + ", ".join(BLEND_MODES))
+        self.blend = name
+        self.mapper.SetBlendMode(BLEND_MODES[name])
+        self._update_functions()
+
+    def set_isovalues(self, values):
+        """Shows isosurfaces of these values; None: values chosen by volume."""
+        self.isovalues = sorted(values) if values else None
+        self.set_blend("isosurface")
+
+    def set_lit(self, lit):
+        self.volume.GetProperty().SetShade(bool(lit))
+
+    def is_lit(self):
+        return bool(self.volume.GetProperty().GetShade())
+
+    def set_backend(self, name):
+        if name not in BACKENDS:
+            raise ReadingError(f"There is no backend '{name}'; known are " + ", ".join(BACKENDS))
+        self.mapper.SetBackend(BACKENDS[name])
+
+    def set_clip(self, axis, share=0.5):
+        """Removes the part of the mesh below a share of its extent along an axis; None: nothing."""
+        self.mapper.RemoveAllClippingPlanes()
+        self.clip_axis = axis
+        self.clip_share = share
+        if axis is None:
+            return
+        if axis not in AXES:
+            raise ReadingError(f"There is no axis '{axis}'; they are x, y and z")
+        number = list(AXES).index(axis)
+        low, high = self.bounds[2 * number], self.bounds[2 * number + 1]
+        self._clip_plane.SetNormal(*AXES[axis])
+        self._clip_plane.SetOrigin(*(component * (low + share * (high - low))
+                                     for component in AXES[axis]))
+        self.mapper.AddClippingPlane(self._clip_plane)
+
+    def set_step(self, step):
+        """Shows another time step; the functions stay, so that colours can be compared."""
+        self.step = step
+        self.data = self.series.read(step)
+        if self.array not in arrays_of(self.data):
+            raise ReadingError(f"Time step {step} has no array '{self.array}'")
+        self.mapper.SetInputData(self.data)
+
+    def set_surface(self, surface, index, before=1.0):
+        """Shows the volume through a refracting surface, whose border is drawn.
+
+        surface: vtkPolyData. index, before: of refraction on the far and on the near side of it,
+            where its normals point to the near side.
+        """
+        if not (index > 0.0 and before > 0.0):
+            raise ReadingError("Indices of refraction must be above 0")
+        self.mapper.SetMembraneData(surface)
+        self.mapper.SetExteriorIndexOfRefraction(before)
+        self.mapper.SetInteriorIndexOfRefraction(index)
+        border = vtkFeatureEdges()
+        border.SetInputData(surface)
+        border.BoundaryEdgesOn()
+        border.FeatureEdgesOff()
+        border.NonManifoldEdgesOff()
+        border.ManifoldEdgesOff()
+        border.ColoringOff()
+        lines = vtkPolyDataMapper()
+        lines.SetInputConnection(border.GetOutputPort())
+        actor = vtkActor()
+        actor.SetMapper(lines)
+        actor.GetProperty().SetColor(0.1, 0.3, 0.6)
+        actor.GetProperty().LightingOff()
+        self.renderer.AddActor(actor)
+
+    def reset_camera(self, direction=(1.0, 0.7, 1.0), up=(0.0, 1.0, 0.0)):
+        """Looks at the volume from a direction, given as a vector to the eye."""
+        camera = self.renderer.GetActiveCamera()
+        center = [0.5 * (self.bounds[2 * i] + self.bounds[2 * i + 1]) for i in range(3)]
+        camera.SetFocalPoint(*center)
+        camera.SetPosition(*(center[i] + direction[i] for i in range(3)))
+        camera.SetViewUp(*up)
+        self.renderer.ResetCamera(self.bounds)
+        camera.Zoom(1.1)
+        self.renderer.ResetCameraClippingRange()

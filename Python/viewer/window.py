@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A window with keys and sliders, and pictures without one."""
+from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
+from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
+
+from .colors import COLOR_MAPS
+from .reading import ReadingError
+from .scene import AXES, BLEND_MODES
+
+KEYS = """a      next array
+c      next colour map
+b      next blend mode
+i      isosurfaces
+l      light
++ -    denser, thinner
+x y z  cut at the middle; again: not
+< >    move the cut
+, .    time step
+r      whole mesh
+s      save picture
+h      this help
+q      quit"""
+DENSITY_STEP = 1.25
+CLIP_STEP = 0.05
+
+
+def make_window(scene, size, offscreen):
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(offscreen)
+    window.SetSize(*size)
+    window.SetMultiSamples(0 if offscreen else 4)
+    window.SetWindowName("Meniscus")
+    window.AddRenderer(scene.renderer)
+    return window
+
+
+def write_picture(window, name):
+    """Writes the window's picture; a file that cannot be written is a ReadingError."""
+    try:
+        with open(name, "wb"):
+            pass
+    except OSError as error:
+        raise ReadingError(f"{name}: {error.strerror}") from None
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(picture.GetOutputPort())
+    writer.SetFileName(name)
+    writer.Write()
+
+
+def _next_of(names, name, forward=True):
+    names = list(names)
+    return names[(names.index(name) + (1 if forward else -1)) % len(names)]
+
+
+class Window:
+    """A MeshScene in a window with the keys of KEYS and sliders for density and time."""
+
+    def __init__(self, scene, size=(1024, 768), offscreen=False):
+        self.scene = scene
+        self.window = make_window(scene, size, offscreen)
+        self.interactor = vtkRenderWindowInteractor()
+        self.interactor.SetRenderWindow(self.window)
+        style = vtkInteractorStyleTrackballCamera()
+        # Replaces the style's own keys.
+        style.AddObserver("CharEvent", lambda *_: None)
+        self.interactor.SetInteractorStyle(style)
+        self.interactor.AddObserver("KeyPressEvent", self._press)
+        self.message = vtkTextActor()
+        self.message.GetTextProperty().SetColor(0.1, 0.1, 0.15)
+        self.message.GetTextProperty().SetFontSize(16)
+        self.message.SetPosition(12, 12)
+        self.scene.renderer.AddViewProp(self.message)
+        self.help = vtkTextActor()
+        self.help.SetInput(KEYS)
+        text = self.help.GetTextProperty()
+        text.SetFontFamilyToCourier()
+        text.SetFontSize(16)
+        text.SetColor(0.1, 0.1, 0.15)
+        text.SetVerticalJustificationToTop()
+        self.help.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+        self.help.SetPosition(0.02, 0.97)
+        self.help.VisibilityOff()
+        self.scene.renderer.AddViewProp(self.help)
+        self.actions = self._make_actions()
+        self._sliders = []
+        self._density = self._add_slider("density", -2.0, 2.0, 0.0, 0.10, self._slide_density)
+        steps = len(scene.series.get_times())
+        if steps > 1:
+            self._time = self._add_slider("time step", 0, steps - 1, 0, 0.40, self._slide_time)
+        self._tell()
+
+    def _make_actions(self):
+        scene = self.scene
+        actions = {
+            "a": lambda: scene.set_array(_next_of(scene.get_arrays(), scene.array)),
+            "c": lambda: scene.set_colors(_next_of(COLOR_MAPS, scene.colors)),
+            "b": lambda: scene.set_blend(_next_of(BLEND_MODES, scene.blend)),
+            "i": self._toggle_isosurfaces,
+            "l": lambda: scene.set_lit(not scene.is_lit()),
+            "plus": lambda: self._change_density(DENSITY_STEP),
+            "minus": lambda: self._change_density(1.0 / DENSITY_STEP),
+            "less": lambda: self._move_clip(-CLIP_STEP),
+            "greater": lambda: self._move_clip(CLIP_STEP),
+            "comma": lambda: self._go_by(-1),
+            "period": lambda: self._go_by(1),
+            "r": scene.reset_camera,
+            "s": self._save,
+            "h": lambda: self.help.SetVisibility(not self.help.GetVisibility()),
+            "q": self.interactor.TerminateApp,
+        }
+        for axis in AXES:
+            actions[axis] = lambda axis=axis: scene.set_clip(
+                None if scene.clip_axis == axis else axis)
+        return actions
+
+    def _add_slider(self, title, low, high, value, left, changed):
+        look = vtkSliderRepresentation2D()
+        look.SetMinimumValue(low)
+        look.SetMaximumValue(high)
+        look.SetValue(value)
+        look.SetTitleText(title)
+        look.ShowSliderLabelOff()
+        look.SetTubeWidth(0.004)
+        look.SetSliderLength(0.012)
+        look.SetSliderWidth(0.018)
+        look.SetEndCapWidth(0.0)
+        look.SetTitleHeight(0.018)
+        look.GetTitleProperty().SetColor(0.1, 0.1, 0.15)
+        look.GetTitleProperty().ShadowOff()
+        look.GetTubeProperty().SetColor(0.5, 0.55, 0.6)
+        look.GetSliderProperty().SetColor(0.1, 0.35, 0.65)
+        for point, x in ((look.GetPoint1Coordinate(), left), (look.GetPoint2Coordinate(),
+                                                              left + 0.25)):
+            point.SetCoordinateSystemToNormalizedDisplay()
+            point.SetValue(x, 0.10)
+        widget = vtkSliderWidget()
+        widget.SetInteractor(self.interactor)
+        widget.SetRepresentation(look)
+        widget.SetAnimationModeToJump()
+        widget.AddObserver("InteractionEvent", lambda *_: self._apply(changed))
+        widget.EnabledOn()
+        self._sliders.append(widget)
+        return look
+
+    def _slide_density(self):
+        self.scene.set_density(10.0 ** self._density.GetValue())
+
+    def _slide_time(self):
+        step = round(self._time.GetValue())
+        if step != self.scene.step:
+            self.scene.set_step(step)
+
+    def _change_density(self, factor):
+        self.scene.set_density(self.scene.density * factor)
+
+    def _toggle_isosurfaces(self):
+        self.scene.set_blend("composite" if self.scene.blend == "isosurface" else "isosurface")
+
+    def _move_clip(self, change):
+        if self.scene.clip_axis is not None:
+            share = min(1.0, max(0.0, self.scene.clip_share + change))
+            self.scene.set_clip(self.scene.clip_axis, share)
+
+    def _go_by(self, change):
+        steps = len(self.scene.series.get_times())
+        self.scene.set_step((self.scene.step + change) % steps)
+        if steps > 1:
+            self._time.SetValue(self.scene.step)
+
+    def _save(self):
+        write_picture(self.window, "meniscus.png")
+
+    def _apply(self, action):
+        try:
+            action()
+            self._tell()
+        except ReadingError as error:
+            self.message.SetInput(str(error))
+        self.window.Render()
+
+    def _press(self, interactor, _event):
+        action = self.actions.get(interactor.GetKeySym())
+        if action is not None:
+            self._apply(action)
+
+    def _tell(self):
+        scene = self.scene
+        parts = [scene.array, scene.blend]
+        times = scene.series.get_times()
+        if len(times) > 1:
+            parts.append(f"time {times[scene.step]:g} ({scene.step + 1} of {len(times)})")
+        if scene.clip_axis is not None:
+            parts.append(f"cut along {scene.clip_axis}")
+        self.message.SetInput("   ".join(parts) + "   (h: help)")
+
+    def start(self):
+        self.window.Render()
+        self.interactor.Start()

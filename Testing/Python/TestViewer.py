@@ -1,0 +1,271 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `meniscus`: files, transfer functions, settings, keys, pictures and messages."""
+import contextlib
+import io
+import os
+import shutil
+import tempfile
+import unittest
+
+from meniscus.viewer import levels, reading
+from meniscus.viewer.command import main, make_parser, make_scene
+from meniscus.viewer.window import Window
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter,
+    vtkXMLUnstructuredGridWriter)
+
+CELLS = 16  # per axis
+
+
+def make_block(fields):
+    """Tetrahedra of the cube [-1, 1]^3 with the point arrays {name: function of a point}."""
+    block = vtkImageData()
+    block.SetDimensions(CELLS + 1, CELLS + 1, CELLS + 1)
+    block.SetOrigin(-1, -1, -1)
+    block.SetSpacing(2 / CELLS, 2 / CELLS, 2 / CELLS)
+    for name, field in fields.items():
+        array = vtkDoubleArray()
+        array.SetName(name)
+        for point in range(block.GetNumberOfPoints()):
+            array.InsertNextValue(field(*block.GetPoint(point)))
+        block.GetPointData().AddArray(array)
+    tetrahedra = vtkDataSetTriangleFilter()
+    tetrahedra.SetInputData(block)
+    tetrahedra.Update()
+    return tetrahedra.GetOutput()
+
+
+def write(writer, data, name):
+    writer.SetInputData(data)
+    writer.SetFileName(name)
+    if not writer.Write():
+        raise OSError(name)
+    return name
+
+
+def read_picture(name):
+    reader = vtkPNGReader()
+    reader.SetFileName(name)
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+
+
+def radius(x, y, z):
+    return (x * x + y * y + z * z) ** 0.5
+
+
+class TestLevels(unittest.TestCase):
+    def test_areas_of_spheres(self):
+        found = levels.Levels(make_block({"r": radius}), "r", "points")
+        width = (found.high - found.low) / levels.BINS
+        quarter, half, whole = (found.areas[int((r - found.low) / width)] for r in (0.25, 0.5, 1.0))
+        # Areas grow with the square of the radius. Two levels in three cross the layer of a cell's
+        # width of 1/8 to either side: the mean square over it is up to (1/16)^2 / 3 above.
+        self.assertAlmostEqual(half / quarter, 4, delta=0.5)
+        self.assertAlmostEqual(whole / half, 4, delta=0.5)
+
+    def test_planes_have_one_opacity(self):
+        found = levels.Levels(make_block({"z": lambda x, y, z: z}), "z", "points")
+        opacity = [value for _, value in found.get_opacity()]
+        # Each plane crosses the same number of cells, but for those that lie on faces.
+        self.assertLess(max(opacity) - min(opacity), 4 * min(opacity) + 4)
+
+    def test_mean_opacity(self):
+        found = levels.Levels(make_block({"r": radius}), "r", "points")
+        opacity = [value for _, value in found.get_opacity()]
+        mean = sum(v * o for v, o in zip(found.volumes, opacity)) / found.volumes.sum()
+        self.assertAlmostEqual(mean / 3 ** 0.5, levels.OPTICAL_DEPTH)
+        self.assertAlmostEqual(found.volumes.sum(), 8.0)
+
+    def test_isovalues_divide_the_volume(self):
+        found = levels.Levels(make_block({"z": lambda x, y, z: z}), "z", "points")
+        # Values are centres of bins of the width 2 / 64; a cell counts for the bin of its middle.
+        for value, exact in zip(found.get_isovalues(), (-0.5, 0.0, 0.5)):
+            self.assertAlmostEqual(value, exact, delta=1 / CELLS + 2 / levels.BINS)
+
+    def test_constant_field(self):
+        found = levels.Levels(make_block({"c": lambda *_: 3.0}), "c", "points")
+        self.assertEqual((found.low, found.high), (3.0, 3.0))
+        self.assertEqual(found.get_isovalues(), [3.0])
+        self.assertTrue(all(value > 0 for _, value in found.get_opacity()))
+
+    def test_values_that_are_not_finite(self):
+        found = levels.Levels(
+            make_block({"n": lambda x, y, z: float("nan") if x > 0 else z}), "n", "points")
+        self.assertEqual((found.low, found.high), (-1.0, 1.0))
+
+
+class TestCommand(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        block = make_block({"r": radius, "z": lambda x, y, z: z})
+        cls.mesh = write(vtkXMLUnstructuredGridWriter(), block, cls.name("mesh.vtu"))
+        moved = make_block({"r": lambda x, y, z: radius(x - 0.7, y, z), "z": lambda x, y, z: z})
+        cls.later = write(vtkXMLUnstructuredGridWriter(), moved, cls.name("later.vtu"))
+        water = vtkPlaneSource()
+        water.SetOrigin(-3, 1.5, -3)
+        water.SetPoint1(-3, 1.5, 3)
+        water.SetPoint2(3, 1.5, -3)
+        water.Update()
+        cls.water = write(vtkXMLPolyDataWriter(), water.GetOutput(), cls.name("water.vtp"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def name(cls, file):
+        return os.path.join(cls.folder.name, file)
+
+    def run_command(self, *arguments):
+        """Exit status and standard error."""
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = main(list(arguments))
+        return status, errors.getvalue()
+
+    def draw(self, *arguments):
+        """The picture of a command."""
+        picture = self.name("picture.png")
+        if os.path.exists(picture):
+            os.remove(picture)
+        status, errors = self.run_command(*arguments, "--output", picture, "--size", "160x120")
+        self.assertEqual((status, errors), (0, ""))
+        return read_picture(picture)
+
+    def test_every_option_changes_the_picture(self):
+        plain = self.draw(self.mesh)
+        self.assertEqual(plain.shape, (160 * 120, 3))
+        self.assertGreater(plain.max() - plain.min(), 50)
+        self.assertEqual(abs(self.draw(self.mesh) - plain).max(), 0)
+        for options in (["--array", "z"], ["--colors", "fire"], ["--blend", "maximum"],
+                        ["--isovalues", "0.8"], ["--density", "4"], ["--light"],
+                        ["--clip", "x"], ["--clip", "z:0.7"], ["--range", "0.5", "1"],
+                        ["--view", "0", "1", "3"], ["--up", "z"], ["--water", self.water]):
+            with self.subTest(options=options):
+                self.assertGreater(abs(self.draw(self.mesh, *options) - plain).max(), 20)
+
+    def test_index_one_does_not_refract(self):
+        # Only the border of the surface is drawn in addition: at most a line around the picture.
+        through = self.draw(self.mesh, "--water", self.water, "--index", "1")
+        changed = (abs(through - self.draw(self.mesh)).max(axis=1) > 2).mean()
+        self.assertLess(changed, 0.05)
+
+    def test_time_steps(self):
+        first, last = self.draw(self.mesh), self.draw(self.mesh, self.later, "--step", "-1")
+        self.assertGreater(abs(first - last).max(), 20)
+        self.assertEqual(abs(self.draw(self.mesh, self.later) - first).max(), 0)
+        collection = self.name("steps.pvd")
+        with open(collection, "w") as file:
+            file.write('<VTKFile type="Collection"><Collection>'
+                       '<DataSet timestep="2.5" file="later.vtu"/>'
+                       '<DataSet timestep="0" file="mesh.vtu"/></Collection></VTKFile>')
+        self.assertEqual(abs(self.draw(collection, "--step", "1") - last).max(), 0)
+
+    def test_other_data_sets(self):
+        block = reading.MeshSeries([self.mesh]).read(0)
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, block)
+        name = write(vtkXMLMultiBlockDataWriter(), blocks, self.name("blocks.vtm"))
+        # The same cells: the mapper's pictures of both are equal up to rounding.
+        self.assertLessEqual(abs(self.draw(name) - self.draw(self.mesh)).max(), 2)
+        image = vtkImageData()
+        image.SetDimensions(5, 5, 5)
+        vectors = vtkDoubleArray()
+        vectors.SetName("velocity")
+        vectors.SetNumberOfComponents(3)
+        for point in range(image.GetNumberOfPoints()):
+            vectors.InsertNextTuple(image.GetPoint(point))
+        image.GetPointData().AddArray(vectors)
+        name = write(vtkXMLImageDataWriter(), image, self.name("vectors.vti"))
+        self.assertGreater(self.draw(name).std(), 5)
+
+    def test_messages(self):
+        broken = self.name("broken.vtu")
+        with open(broken, "w") as file:
+            file.write("<VTKFile")
+        empty = vtkUnstructuredGrid()
+        empty.SetPoints(reading.MeshSeries([self.mesh]).read(0).GetPoints())
+        empty = write(vtkXMLUnstructuredGridWriter(), empty, self.name("empty.vtu"))
+        bare = vtkUnstructuredGrid()
+        bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
+        bare.GetPointData().Initialize()
+        bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
+        text = self.name("notes.txt")
+        open(text, "w").close()
+        for arguments, message in (
+                ([self.name("absent.vtu")], "no such file"),
+                ([self.folder.name], "folder"),
+                ([text], "'.txt'"),
+                ([broken], "broken.vtu"),
+                ([empty], "no cells"),
+                ([bare], "no arrays"),
+                ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
+                ([self.mesh, "--colors", "q"], "no colour map 'q'"),
+                ([self.mesh, "--blend", "q"], "no blend mode 'q'"),
+                ([self.mesh, "--backend", "q"], "no backend 'q'"),
+                ([self.mesh, "--density", "0"], "above 0"),
+                ([self.mesh, "--clip", "q"], "no axis 'q'"),
+                ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
+                ([self.mesh, "--step", "1"], "no time step 1"),
+                ([self.mesh, "--water", self.name("absent.stl")], "no such file"),
+                ([self.mesh, "--water", empty], "no surface"),
+                ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),
+                ([self.mesh, "--output", self.name("no/folder.png")], "No such file")):
+            with self.subTest(arguments=arguments):
+                if "--output" not in arguments:
+                    arguments = [*arguments, "--output", self.name("none.png")]
+                status, errors = self.run_command(*arguments)
+                self.assertEqual(status, 1)
+                self.assertIn(message, errors)
+                self.assertTrue(errors.startswith("meniscus: "), errors)
+                self.assertFalse(os.path.exists(self.name("none.png")))
+
+    def test_without_a_display(self):
+        display = os.environ.pop("DISPLAY", None)
+        try:
+            status, errors = self.run_command(self.mesh)
+        finally:
+            if display is not None:
+                os.environ["DISPLAY"] = display
+        self.assertEqual(status, 1)
+        self.assertIn("--output", errors)
+
+    def test_keys(self):
+        removed = shutil.copy(self.later, self.name("removed.vtu"))
+        scene = make_scene(make_parser().parse_args([self.mesh, removed]))
+        window = Window(scene, (160, 120), offscreen=True)
+        window.window.Render()
+
+        def press(key):
+            window.interactor.SetKeySym(key)
+            window.interactor.InvokeEvent("KeyPressEvent")
+
+        for keys, get, value in (
+                ("a", lambda: scene.array, "z"), ("a", lambda: scene.array, "r"),
+                ("c", lambda: scene.colors, "blue-purple"), ("b", lambda: scene.blend, "maximum"),
+                ("i", lambda: scene.blend, "isosurface"), ("i", lambda: scene.blend, "composite"),
+                ("l", scene.is_lit, True), ("plus", lambda: scene.density, 1.25),
+                ("minus", lambda: scene.density, 1.0), ("x", lambda: scene.clip_axis, "x"),
+                ("greater", lambda: scene.clip_share, 0.55), ("x", lambda: scene.clip_axis, None),
+                ("period", lambda: scene.step, 1), ("comma", lambda: scene.step, 0),
+                ("h", window.help.GetVisibility, 1)):
+            press(keys)
+            self.assertEqual(get(), value, keys)
+        self.assertIn("time 0 (1 of 2)", window.message.GetInput())
+        # A step that cannot be read is a message in the window.
+        os.remove(removed)
+        press("period")
+        self.assertIn("no such file", window.message.GetInput())
+
+
+if __name__ == "__main__":
+    unittest.main()
