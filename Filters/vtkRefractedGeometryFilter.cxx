@@ -105,6 +105,7 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
   options.PointsPrecision = self->OutputPointsPrecision;
   options.Schlick = self->ReflectanceModel == SCHLICK;
   options.VirtualNormals = self->VirtualNormals;
+  options.TrueGeometry = self->TrueGeometry;
   options.Reflects = self->Mode == REFLECTION;
   const double* light = self->LightDirection;
   const double length = std::hypot(light[0], light[1], light[2]);

@@ -366,6 +366,18 @@ public:
 
   /** @{ */
   /**
+   * Set/Get whether the output has the point arrays `TruePosition` (3 doubles, world), the place of
+   * the point that is seen, and, for a geometry with point normals, `TrueNormal` (3 doubles, unit
+   * length), its own normal there. vtkRefractionPass lights objects by them. Changing it does not
+   * solve any point again. Default is off.
+   */
+  vtkSetMacro(TrueGeometry, bool);
+  vtkGetMacro(TrueGeometry, bool);
+  vtkBooleanMacro(TrueGeometry, bool);
+  /** @} */
+
+  /** @{ */
+  /**
    * Set/Get the precision of the output points, one of vtkAlgorithm::DesiredOutputPrecision.
    * Default is DEFAULT_PRECISION, that of the input points. All computations use double precision.
    */
@@ -479,6 +491,7 @@ private:
   bool CloseSeams = true;
   int ReflectanceModel = FRESNEL;
   bool VirtualNormals = false;
+  bool TrueGeometry = false;
   double LightDirection[3] = { 0.0, 0.0, 0.0 };
   int OutputPointsPrecision = DEFAULT_PRECISION;
   vtkSmartPointer<vtkCamera> Camera;

@@ -27,6 +27,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "ReflectanceModel: " << (this->ReflectanceModel == SCHLICK ? "SCHLICK" : "FRESNEL") << "\n";
   os << indent << "VirtualNormals: " << (this->VirtualNormals ? "on" : "off") << "\n";
+  os << indent << "TrueGeometry: " << (this->TrueGeometry ? "on" : "off") << "\n";
   os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
      << ", " << this->LightDirection[2] << ")\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";

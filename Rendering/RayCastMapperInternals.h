@@ -27,6 +27,10 @@ public:
    */
   double FullImageTime = 0.0;
 
+  /** Medium behind the membrane of the frame, and that of the caller of RenderPart(). */
+  meniscus::RefractionMedium Medium;
+  meniscus::RefractionMedium Surroundings;
+
   /** Last warning about data sets that are left out. */
   std::string LastInputWarning;
   bool WarnedIntegration = false;

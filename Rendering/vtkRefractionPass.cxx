@@ -2,35 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Rendering/Pass/MembraneComposer.h"
+#include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/PictureSize.h"
-#include "Rendering/Pass/RefractionMedium.h"
 #include "Rendering/Pass/RefractionTarget.h"
+#include "Rendering/Pass/TrueSpaceLighting.h"
 #include "Rendering/Pass/ViewBounds.h"
+#include "Rendering/Property/MediumUniforms.h"
+#include "Rendering/RefractionPassList.h"
+#include "Volume/Optics/RefractionMedium.h"
 
 #include "vtkRefractedGeometryFilter.h"
-#include "vtkRefractingInterface.h"
-#include "vtkRefractingInterfaceCollection.h"
-#include "vtkRefractionMembraneFS.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
-#include "vtkDataObject.h"
-#include "vtkMatrix3x3.h"
-#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpaquePass.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
-#include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
-#include "vtkOpenGLTexture.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3D.h"
-#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
@@ -39,49 +32,20 @@
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkTexture.h"
 #include "vtkTextureObject.h"
+#include "vtkTimeStamp.h"
 #include "vtkTranslucentPass.h"
 #include "vtkVolume.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkRefractionPass);
 
-namespace
-{
-
-//------------------------------------------------------------------------------
-vtkTetrahedraRayCastMapper* RayCasterOf(vtkVolume* volume)
-{
-  return vtkTetrahedraRayCastMapper::SafeDownCast(volume->GetMapper());
-}
-
-//------------------------------------------------------------------------------
-bool Append(std::string& shader, const std::string& tag, const std::string& code)
-{
-  return vtkShaderProgram::Substitute(shader, tag, tag + "\n" + code + "\n", false);
-}
-
-} // anonymous namespace
-
 //------------------------------------------------------------------------------
 class vtkRefractionPass::vtkInternals
 {
 public:
-  struct Refraction
-  {
-    vtkSmartPointer<vtkActor> Membrane;
-    /** Actor of a filter's virtual geometry, or a volume. */
-    vtkSmartPointer<vtkProp3D> Object;
-    vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
-    bool IsReflection = false; ///< seen in the membrane, not through it
-
-    vtkVolume* GetVolume() const { return vtkVolume::SafeDownCast(this->Object); }
-    double GetRelativeIndex() const;
-  };
   enum class Stages
   {
     Objects,
@@ -89,7 +53,7 @@ public:
     Membrane
   };
 
-  std::vector<Refraction> Refractions;
+  meniscus::RefractionList Refractions;
   vtkSmartPointer<vtkRenderPass> ScenePass;
   vtkSmartPointer<vtkTexture> Reflection;
   vtkNew<vtkOpaquePass> Opaque;
@@ -102,92 +66,18 @@ public:
   meniscus::RefractionTarget Objects;
   meniscus::RefractionTarget Mirrored;
   meniscus::RefractionTarget Membrane;
-  std::unique_ptr<vtkOpenGLQuadHelper> Composers[2]; // without and with a cube map
+  meniscus::MembraneComposer Composer;
+  meniscus::TrueSpaceLighting Lighting;
+  /** Last time that an object's shader changed. */
+  vtkTimeStamp ShaderTime;
+  std::string LastLightWarning;
+  vtkTypeInt64 SkippedLights = 0;
 
   vtkTypeInt64 Drawn = 0;
   vtkTypeInt64 Skipped = 0;
 
-  void AdjustClippingRange(vtkRenderer* renderer) const;
-  std::vector<vtkActor*> ListMembranes() const;
-  std::vector<vtkProp*> ListObjects(vtkActor* membrane, bool areReflections) const;
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
 };
-
-//------------------------------------------------------------------------------
-/** Index of the interior relative to the exterior. */
-double vtkRefractionPass::vtkInternals::Refraction::GetRelativeIndex() const
-{
-  vtkRefractingInterfaceCollection* interfaces = nullptr;
-  if (this->Filter)
-  {
-    return this->Filter->GetRelativeIndexOfRefraction();
-  }
-  if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
-  {
-    interfaces = mapper->GetInterfaces();
-  }
-  if (!interfaces)
-  {
-    return 1.0;
-  }
-  vtkRefractingInterface* first = interfaces->GetFirstInterface();
-  return first->GetInteriorIndexOfRefraction() / first->GetExteriorIndexOfRefraction();
-}
-
-//------------------------------------------------------------------------------
-/** Membranes come first: objects behind a membrane that is out of view are ignored. */
-void vtkRefractionPass::vtkInternals::AdjustClippingRange(vtkRenderer* renderer) const
-{
-  for (vtkActor* membrane : this->ListMembranes())
-  {
-    const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
-    if (!bounds)
-    {
-      continue;
-    }
-    meniscus::HoldInClippingRange(renderer, bounds);
-    const bool inView = bounds[0] <= bounds[1] && meniscus::MayBeInView(renderer, bounds);
-    for (const Refraction& refraction : this->Refractions)
-    {
-      if (inView && refraction.Membrane == membrane && refraction.Object->GetVisibility())
-      {
-        meniscus::HoldInClippingRange(renderer, refraction.Object->GetBounds());
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Membranes in the order in which they were added. */
-std::vector<vtkActor*> vtkRefractionPass::vtkInternals::ListMembranes() const
-{
-  std::vector<vtkActor*> membranes;
-  for (const Refraction& refraction : this->Refractions)
-  {
-    if (std::find(membranes.begin(), membranes.end(), refraction.Membrane) == membranes.end())
-    {
-      membranes.push_back(refraction.Membrane);
-    }
-  }
-  return membranes;
-}
-
-//------------------------------------------------------------------------------
-/** Visible objects, without volumes. */
-std::vector<vtkProp*> vtkRefractionPass::vtkInternals::ListObjects(
-  vtkActor* membrane, bool areReflections) const
-{
-  std::vector<vtkProp*> props;
-  for (const Refraction& refraction : this->Refractions)
-  {
-    if (refraction.Filter && refraction.IsReflection == areReflections &&
-      refraction.Membrane == membrane && refraction.Object->GetVisibility())
-    {
-      props.push_back(refraction.Object);
-    }
-  }
-  return props;
-}
 
 //------------------------------------------------------------------------------
 vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
@@ -235,13 +125,9 @@ void vtkRefractionPass::AddRefraction(
   }
   if (auto* mapper = vtkPolyDataMapper::SafeDownCast(object->GetMapper()))
   {
-    mapper->MapDataArrayToVertexAttribute(
-      "refractionDepth", "RefractionDepth", vtkDataObject::FIELD_ASSOCIATION_POINTS);
-    // Without this array, behind one interface, OpenGL reads 0.
-    mapper->MapDataArrayToVertexAttribute(
-      "innerReflectance", "InnerReflectance", vtkDataObject::FIELD_ASSOCIATION_POINTS);
+    meniscus::MapMediumArrays(mapper);
   }
-  this->Internals->Refractions.push_back({ membrane, object, filter });
+  this->Internals->Refractions.All.push_back({ membrane, object, filter });
   this->Modified();
 }
 
@@ -255,43 +141,40 @@ void vtkRefractionPass::AddReflection(
     vtkErrorMacro("A reflection needs a membrane, an object and a filter in Mode REFLECTION.");
     return;
   }
-  this->Internals->Refractions.push_back({ membrane, object, filter, true });
+  this->Internals->Refractions.All.push_back({ membrane, object, filter, true });
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::AddVolume(vtkActor* membrane, vtkVolume* volume)
 {
-  if (!membrane || !volume || !RayCasterOf(volume))
+  if (!membrane || !volume || !meniscus::RayCasterOf(volume))
   {
     vtkErrorMacro("AddVolume needs a membrane, and a volume with a vtkTetrahedraRayCastMapper.");
     return;
   }
-  this->Internals->Refractions.push_back({ membrane, volume, nullptr });
+  this->Internals->Refractions.All.push_back({ membrane, volume, nullptr });
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::RemoveRefraction(vtkProp3D* object)
 {
-  auto& all = this->Internals->Refractions;
-  all.erase(std::remove_if(all.begin(), all.end(),
-              [object](const vtkInternals::Refraction& one) { return one.Object == object; }),
-    all.end());
+  this->Internals->Refractions.Remove(object);
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::RemoveAllRefractions()
 {
-  this->Internals->Refractions.clear();
+  this->Internals->Refractions.All.clear();
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 int vtkRefractionPass::GetNumberOfRefractions()
 {
-  return static_cast<int>(this->Internals->Refractions.size());
+  return static_cast<int>(this->Internals->Refractions.All.size());
 }
 
 //------------------------------------------------------------------------------
@@ -323,51 +206,73 @@ vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
-  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
+vtkTypeInt64 vtkRefractionPass::GetNumberOfSkippedLights() const
 {
-  if (this->Internals->Stage == vtkInternals::Stages::Mirrored)
+  return this->Internals->SkippedLights;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
+{
+  const meniscus::ShaderSources sources{ vertexShader, geometryShader, fragmentShader };
+  switch (this->Internals->Stage)
   {
-    return true; // no medium is in front of what a membrane reflects
+    case vtkInternals::Stages::Mirrored:
+      break; // no medium is in front of what a membrane reflects
+    case vtkInternals::Stages::Membrane:
+      meniscus::AppendToShader(
+        fragmentShader, "  //VTK::Light::Impl", "  gl_FragData[0] = vec4(normalVCVSOutput, 1.0);");
+      break;
+    case vtkInternals::Stages::Objects:
+    {
+      const meniscus::Refraction* refraction = this->Internals->Refractions.Find(prop);
+      if (refraction && refraction->IsLitInTrueSpace)
+      {
+        meniscus::LightInTrueSpace(sources);
+      }
+      meniscus::SeeThroughMedium(sources);
+      break;
+    }
   }
-  const std::string light = "  //VTK::Light::Impl";
-  if (this->Internals->Stage == vtkInternals::Stages::Membrane)
-  {
-    Append(fragmentShader, light, "  gl_FragData[0] = vec4(normalVCVSOutput, 1.0);");
-    return true;
-  }
-  const std::string declarations = "//VTK::Normal::Dec";
-  const std::string code = "//VTK::Normal::Impl";
-  std::string inFragment;
-  for (const std::string name : { "refractionDepth", "innerReflectance" })
-  {
-    const std::string fromVertex = name + "VSOutput";
-    const std::string fromGeometry = name + "GSOutput";
-    Append(vertexShader, declarations, "in float " + name + ";\nout float " + fromVertex + ";");
-    Append(vertexShader, code, "  " + fromVertex + " = " + name + ";");
-    Append(geometryShader, declarations,
-      "in float " + fromVertex + "[];\nout float " + fromGeometry + ";");
-    Append(geometryShader, code, fromGeometry + " = " + fromVertex + "[i];");
-    inFragment += "in float " + fromVertex + ";\n";
-  }
-  Append(fragmentShader, declarations,
-    inFragment + "uniform float innerReflects;\n" + meniscus::RefractionMedium::DeclareInShader());
-  Append(fragmentShader, light,
-    "  gl_FragData[0].rgb = (1.0 - innerReflects * innerReflectanceVSOutput) *\n"
-    "    inMedium(gl_FragData[0].rgb, max(refractionDepthVSOutput, 0.0));");
   return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractionPass::SetShaderParameters(
-  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
+  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
-  this->Internals->Medium.SetUniforms(program);
+  vtkInternals& internals = *this->Internals;
+  meniscus::SetMediumUniforms(program, internals.Medium);
   if (program->IsUniformUsed("innerReflects"))
   {
     program->SetUniformf("innerReflects", this->ReflectanceModel == NONE ? 0.0f : 1.0f);
   }
+  const meniscus::Refraction* refraction = internals.Refractions.Find(prop);
+  auto* object = vtkActor::SafeDownCast(prop);
+  if (refraction && object)
+  {
+    internals.Lighting.SetUniforms(
+      program, object, refraction->GetLastRelativeIndex(), this->LightAttenuation);
+  }
   return true;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractionPass::GetShaderStageMTime()
+{
+  return this->Internals->ShaderTime;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::SetLighting(int lighting)
+{
+  const int clamped = std::clamp(lighting, int{ VIRTUAL_SPACE }, int{ TRUE_SPACE });
+  if (clamped != this->Lighting)
+  {
+    this->Lighting = clamped;
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -397,9 +302,10 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
   vtkRenderer* renderer = state->GetRenderer();
   if (this->AdjustClippingRange)
   {
-    internals.AdjustClippingRange(renderer);
+    internals.Refractions.AdjustClippingRange(renderer);
   }
   this->UpdateMedium();
+  this->ChooseLighting();
   this->NumberOfRenderedProps = 0;
   if (internals.ScenePass)
   {
@@ -411,7 +317,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
   {
     return;
   }
-  for (vtkActor* membrane : internals.ListMembranes())
+  for (vtkActor* membrane : internals.Refractions.ListMembranes())
   {
     const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
     if (bounds && bounds[0] <= bounds[1] && meniscus::MayBeInView(renderer, bounds))
@@ -456,11 +362,12 @@ void vtkRefractionPass::DrawMembrane(
   state->Push();
   state->PushFramebufferBindings();
   const bool ready = internals.Objects.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR) &&
-    (internals.ListObjects(membrane, true).empty() ||
+    (internals.Refractions.ListObjects(membrane, true).empty() ||
       internals.Mirrored.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR)) &&
     internals.Membrane.Ready(window, size[0], size[1], VTK_FLOAT);
   if (ready)
   {
+    this->UpdateLighting(renderer, membrane);
     this->DrawObjects(renderer, state, membrane);
     this->DrawSurface(renderer, state, membrane);
   }
@@ -487,7 +394,7 @@ void vtkRefractionPass::DrawObjects(
   vtkInternals& internals = *this->Internals;
   for (const bool areReflections : { true, false })
   {
-    std::vector<vtkProp*> props = internals.ListObjects(membrane, areReflections);
+    std::vector<vtkProp*> props = internals.Refractions.ListObjects(membrane, areReflections);
     if (areReflections && props.empty())
     {
       continue;
@@ -512,7 +419,7 @@ void vtkRefractionPass::DrawObjects(
 /** Draws a part of the membrane's volumes over the contents of the framebuffer. */
 void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part)
 {
-  for (const auto& refraction : this->Internals->Refractions)
+  for (const auto& refraction : this->Internals->Refractions.All)
   {
     vtkVolume* volume = refraction.GetVolume();
     if (volume && refraction.Membrane == membrane && volume->GetVisibility())
@@ -520,9 +427,9 @@ void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, i
       // The renderer does the same for its own props.
       volume->SetAllocatedRenderTime(renderer->GetAllocatedRenderTime(), renderer);
       volume->Update();
-      if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(volume))
+      if (vtkTetrahedraRayCastMapper* mapper = meniscus::RayCasterOf(volume))
       {
-        mapper->RenderPart(renderer, volume, part);
+        mapper->RenderPart(renderer, volume, part, this->Internals->Medium);
         ++this->NumberOfRenderedProps;
       }
     }
@@ -555,107 +462,69 @@ void vtkRefractionPass::Compose(
   vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
   vtkInternals& internals = *this->Internals;
-  vtkTexture* cubeMap = internals.FindCubeMap(renderer);
-  if (cubeMap)
+  double background[3];
+  renderer->GetBackground(background);
+  meniscus::MembraneLook look;
+  look.Behind = internals.Objects.Color;
+  look.Mirrored = internals.Refractions.ListObjects(membrane, true).empty()
+    ? nullptr
+    : internals.Mirrored.Color.Get();
+  look.Normal = internals.Membrane.Color;
+  look.Depth = internals.Membrane.Depth;
+  look.CubeMap = internals.FindCubeMap(renderer);
+  look.Backdrop = internals.Medium.BackdropOf(background);
+  using Model = meniscus::MembraneLook::Reflectances;
+  static_assert(int(Model::None) == NONE && int(Model::Schlick) == SCHLICK &&
+      int(Model::Fresnel) == FRESNEL && int(Model::Mirror) == MIRROR,
+    "the same numbers");
+  look.Reflectance = static_cast<Model>(this->ReflectanceModel);
+  look.RelativeIndex = internals.Refractions.FirstOf(membrane).GetRelativeIndex();
+  const std::string error = internals.Composer.Compose(renderer, window, look);
+  if (!error.empty())
   {
-    cubeMap->Render(renderer);
-  }
-  auto& composer = internals.Composers[cubeMap ? 1 : 0];
-  if (!composer)
-  {
-    std::string source = vtkRefractionMembraneFS;
-    const auto define = [](const char* name, int value)
-    { return "#define " + std::string(name) + " " + std::to_string(value) + "\n"; };
-    vtkShaderProgram::Substitute(source, "//VTK::Environment::Dec",
-      define("HAS_ENVIRONMENT", cubeMap ? 1 : 0) + define("NO_REFLECTANCE", NONE) +
-        define("SCHLICK", SCHLICK) + define("MIRROR", MIRROR));
-    composer = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
-  }
-  else
-  {
-    window->GetShaderCache()->ReadyShaderProgram(composer->Program);
-  }
-  if (!composer->Program || !composer->Program->GetCompiled())
-  {
-    vtkErrorMacro("The shader of membranes does not compile on this graphics device.");
-    return;
-  }
-  vtkOpenGLState* state = window->GetState();
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDisable(GL_BLEND);
-  vtkTextureObject* const color = internals.Objects.Color;
-  const bool mirrors = !internals.ListObjects(membrane, true).empty();
-  vtkTextureObject* const mirrored = mirrors ? internals.Mirrored.Color.Get() : color;
-  vtkTextureObject* const normal = internals.Membrane.Color;
-  vtkTextureObject* const depth = internals.Membrane.Depth;
-  const auto bind = [&composer](vtkTextureObject* texture, const char* name)
-  {
-    texture->Activate();
-    composer->Program->SetUniformi(name, texture->GetTextureUnit());
-  };
-  bind(color, "refracted");
-  bind(mirrored, "mirroredScene"); // any image if it is not read
-  composer->Program->SetUniformi("mirrorsScene", mirrors);
-  bind(normal, "membraneNormal");
-  bind(depth, "membraneDepth");
-  if (cubeMap)
-  {
-    composer->Program->SetUniformi("environment", cubeMap->GetTextureUnit());
-  }
-  this->SetOptics(renderer, membrane, composer->Program);
-  composer->Render();
-  if (cubeMap)
-  {
-    cubeMap->PostRender(renderer);
-  }
-  for (vtkTextureObject* texture : { color, mirrored, normal, depth })
-  {
-    texture->Deactivate();
+    vtkErrorMacro(<< error);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractionPass::SetOptics(
-  vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program)
+/** Takes the lights over for the objects of a membrane; reports those that are left out. */
+void vtkRefractionPass::UpdateLighting(vtkRenderer* renderer, vtkActor* membrane)
 {
-  const auto& refractions = this->Internals->Refractions;
-  const auto ofMembrane = std::find_if(refractions.begin(), refractions.end(),
-    [membrane](const vtkInternals::Refraction& one) { return one.Membrane == membrane; });
-  vtkCamera* camera = renderer->GetActiveCamera();
-  vtkNew<vtkMatrix4x4> clipToView;
-  clipToView->DeepCopy(
-    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
-  clipToView->Invert();
-  clipToView->Transpose(); // OpenGL's order
-  vtkMatrix4x4* worldToView = camera->GetModelViewTransformMatrix();
-  vtkNew<vtkMatrix3x3> viewToWorld;
-  for (int i = 0; i < 3; ++i)
+  vtkInternals& internals = *this->Internals;
+  if (this->Lighting != TRUE_SPACE)
   {
-    for (int j = 0; j < 3; ++j)
+    return;
+  }
+  const std::string warning = internals.Lighting.Update(renderer, membrane);
+  internals.SkippedLights += internals.Lighting.GetNumberOfSkippedLights();
+  if (!warning.empty() && warning != internals.LastLightWarning)
+  {
+    vtkWarningMacro(<< warning << ".");
+  }
+  internals.LastLightWarning = warning;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Decides which objects are lit in true space. Mappers make their shaders again if that has
+ * changed.
+ */
+void vtkRefractionPass::ChooseLighting()
+{
+  vtkInternals& internals = *this->Internals;
+  for (meniscus::Refraction& refraction : internals.Refractions.All)
+  {
+    const bool before = refraction.IsLitInTrueSpace;
+    const std::string error = refraction.ChooseLighting(this->Lighting == TRUE_SPACE);
+    if (!error.empty())
     {
-      // The inverse of a rotation in OpenGL's order.
-      viewToWorld->SetElement(i, j, worldToView->GetElement(i, j));
+      vtkErrorMacro(<< error << ". The object is lit in virtual space.");
+    }
+    if (before != refraction.IsLitInTrueSpace)
+    {
+      internals.ShaderTime.Modified();
     }
   }
-  program->SetUniformMatrix("clipToView", clipToView);
-  if (program->IsUniformUsed("viewToWorld"))
-  {
-    program->SetUniformMatrix("viewToWorld", viewToWorld);
-  }
-  double behind[3];
-  float background[3];
-  float backdrop[3];
-  renderer->GetBackground(behind);
-  const std::array<double, 3> seen = this->Internals->Medium.BackdropOf(behind);
-  std::copy_n(behind, 3, background);
-  std::copy_n(seen.begin(), 3, backdrop);
-  program->SetUniform3f("background", background);
-  program->SetUniform3f("backdrop", backdrop);
-  program->SetUniformi("parallelView", camera->GetParallelProjection());
-  program->SetUniformi("reflectanceModel", this->ReflectanceModel);
-  program->SetUniformf("relativeIndex", static_cast<float>(ofMembrane->GetRelativeIndex()));
 }
 
 //------------------------------------------------------------------------------
@@ -669,7 +538,7 @@ void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
   internals.Opaque->ReleaseGraphicsResources(window);
   internals.Translucent->ReleaseGraphicsResources(window);
   internals.Surface->ReleaseGraphicsResources(window);
-  for (auto& refraction : internals.Refractions)
+  for (auto& refraction : internals.Refractions.All)
   {
     refraction.Object->ReleaseGraphicsResources(window);
   }
@@ -680,10 +549,7 @@ void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
   internals.Objects.Release(window);
   internals.Mirrored.Release(window);
   internals.Membrane.Release(window);
-  for (auto& composer : internals.Composers)
-  {
-    composer.reset();
-  }
+  internals.Composer.Release();
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -700,6 +566,10 @@ void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MediumColor: " << this->MediumColor[0] << " " << this->MediumColor[1] << " "
      << this->MediumColor[2] << "\n";
   os << indent << "InfiniteMedium: " << (this->InfiniteMedium ? "on" : "off") << "\n";
+  os << indent << "Lighting: " << (this->Lighting == TRUE_SPACE ? "TRUE_SPACE" : "VIRTUAL_SPACE")
+     << "\n";
+  os << indent << "LightAttenuation: " << (this->LightAttenuation ? "on" : "off") << "\n";
+  os << indent << "NumberOfSkippedLights: " << this->GetNumberOfSkippedLights() << "\n";
   os << indent << "AdjustClippingRange: " << (this->AdjustClippingRange ? "on" : "off") << "\n";
   os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";
   os << indent << "NumberOfMembranesSkipped: " << this->GetNumberOfMembranesSkipped() << "\n";

@@ -25,9 +25,9 @@
  *
  *     (1 - F) T + F R.
  *
- * T is the colour of the virtual geometry, lit by the renderer's lights and seen through the medium
- * behind the membrane: L s + M (1 - s) with the object's light L, the colour M that the medium
- * scatters towards the eye (MediumColor), and the share s. That is exp(-k d) per channel
+ * T is the colour of the virtual geometry, lit by the renderer's lights (Lighting) and seen through
+ * the medium behind the membrane: L s + M (1 - s) with the object's light L, the colour M that the
+ * medium scatters towards the eye (MediumColor), and the share s. That is exp(-k d) per channel
  * (Beer-Lambert) or linear in d (MediumModel), where d is the array RefractionDepth, the true path
  * from sight point to object. Where there is no virtual geometry, T is the renderer's background,
  * or that behind an infinite medium (InfiniteMedium). F is the Fresnel
@@ -46,7 +46,8 @@
  * other, and the state of the window is not changed.
  *
  * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, are
- * added by AddVolume(). Their attenuation is that of their own transfer functions.
+ * added by AddVolume(). They are seen through the same medium, so that a volume and an object at
+ * the same depth look alike, unless their mapper has a medium of its own.
  *
  * @note The membrane and the image behind it have one sample per pixel.
  * @note The background, and volumes, are dimmed by the first of several interfaces only.
@@ -214,6 +215,52 @@ public:
   vtkBooleanMacro(InfiniteMedium, bool);
   /** @} */
 
+  /** Space in which objects behind membranes are lit. */
+  enum LightingModels
+  {
+    VIRTUAL_SPACE = 0, ///< by VTK: at the virtual position, with the normals of the filter's output
+    TRUE_SPACE = 1     ///< at the true position, with the true normal and refracted directions
+  };
+
+  /** @{ */
+  /**
+   * Set/Get how objects behind membranes are lit. With VIRTUAL_SPACE, the default, VTK's lighting
+   * is exact for a light at the eye with VirtualNormals of the filter, and no more than plausible
+   * for others.
+   *
+   * TRUE_SPACE lights each fragment at its true position, with its true normal (or that of its
+   * facet, if the object has no point normals) and the direction back along the refracted ray to
+   * its sight point. TrueGeometry of the filter must be on; otherwise there is an error, and the
+   * object is lit in virtual space. The lights are those of the renderer, up to 16: directional,
+   * positional and spot, with VTK's falloff and Phong's model, on both sides of a surface. Lights
+   * behind the membrane shine straight. The rays of those in front of it are refracted, by Snell's
+   * law at a flat membrane; at another one, by the plane that fits its points best. That plane also
+   * decides on which side a light is. Lights on it (within rounding), or along it at infinity, are
+   * left out, with a warning; GetNumberOfSkippedLights() counts them in each drawing of a membrane.
+   * Behind several interfaces, lights in front of the first one are refracted as if the media
+   * between were not there, which is exact for parallel planes and lights at infinity.
+   *
+   * Not modelled: shadows, Fresnel loss and focusing of the light at the membrane, light that the
+   * membrane reflects back into the water, and light that has more than one way to a point. The
+   * material is the ambient, diffuse and specular one; physically based shading has no effect.
+   */
+  void SetLighting(int lighting);
+  vtkGetMacro(Lighting, int);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get whether the medium also attenuates light on its way to the object, with TRUE_SPACE:
+   * from a positional light in it, or from the membrane. Default is on.
+   */
+  vtkSetMacro(LightAttenuation, bool);
+  vtkGetMacro(LightAttenuation, bool);
+  vtkBooleanMacro(LightAttenuation, bool);
+  /** @} */
+
+  /** Number of lights left out since construction: see SetLighting(). */
+  vtkTypeInt64 GetNumberOfSkippedLights() const;
+
   /** @{ */
   /**
    * Set/Get whether the camera's clipping range is widened if it does not contain the membranes in
@@ -246,6 +293,8 @@ public:
     std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
   bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
     vtkOpenGLVertexArrayObject* vao = nullptr) override;
+  /** Last time that the shader code of an object changed. */
+  vtkMTimeType GetShaderStageMTime() override;
   /** @} */
 
 protected:
@@ -263,7 +312,8 @@ private:
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void UpdateMedium();
-  void SetOptics(vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program);
+  void ChooseLighting();
+  void UpdateLighting(vtkRenderer* renderer, vtkActor* membrane);
 
   bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
@@ -272,6 +322,8 @@ private:
   double MediumRange[2] = { 0.0, 1.0 };
   double MediumColor[3] = { 0.0, 0.0, 0.0 };
   bool InfiniteMedium = false;
+  int Lighting = VIRTUAL_SPACE;
+  bool LightAttenuation = true;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -397,8 +397,8 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
   // exact values.
   this->WarnOnce(wanted && !optics.IsPlainMedium() && !optics.CellScalars,
     this->Internals->WarnedIntegration,
-    "Pre-integration is not available with shading, gradient opacity and several components; "
-    "integrating exactly.");
+    "Pre-integration is not available with shading, gradient opacity, several components and a "
+    "medium behind a membrane; integrating exactly.");
   optics.PreIntegrated = wanted && optics.IsPlainMedium();
   if (optics.PreIntegrated)
   {
@@ -527,6 +527,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
     this->Gradients == VERTEX_GRADIENTS;
+  // Rays that are refracted nowhere see through no medium; other modes show no light.
+  if (frame.Refracting.Wanted && frame.Optics.Model().HidesBehind())
+  {
+    frame.Optics.Medium = internals.Medium;
+  }
   return error;
 }
 
@@ -541,6 +546,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
     vtkErrorMacro("The renderer has no OpenGL window; nothing is rendered.");
     return false;
   }
+  this->UpdateMedium();
   const meniscus::TetrahedralMesh& mesh = internals.Input.GetMesh();
   // A mesh without extent has no cell that a ray could cross.
   if (mesh.GetNumberOfActiveCells() == 0 || mesh.GetRadius() == 0.0)
@@ -570,6 +576,15 @@ bool vtkTetrahedraRayCastMapper::Draw(
   }
   vtkOpenGLCheckErrorMacro("failed after Render");
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part,
+  const meniscus::RefractionMedium& surroundings)
+{
+  this->Internals->Surroundings = surroundings;
+  this->RenderPart(renderer, volume, part);
+  this->Internals->Surroundings = meniscus::RefractionMedium();
 }
 
 //------------------------------------------------------------------------------

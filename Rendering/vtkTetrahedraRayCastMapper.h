@@ -116,6 +116,7 @@ class RayCastMembrane;
 struct RayCastFrame;
 struct ViewContext;
 struct RayCastOptics;
+struct RefractionMedium;
 struct ScalarSelection;
 struct VolumePick;
 }
@@ -325,9 +326,9 @@ public:
    * a table as in the paper, over the scalars at both ends of a segment and its length
    * (SetPreIntegrationScalarSize(), SetPreIntegrationLengthSize()). The table is built when the
    * transfer function, a size or the longest edge of the volume in world coordinates has changed.
-   * It exists for composite blending of one component without lighting and gradient opacity;
-   * otherwise segments are integrated exactly, after a warning if PRE_INTEGRATED would have made a
-   * difference.
+   * It exists for composite blending of one component without lighting, gradient opacity and a
+   * medium behind a membrane; otherwise segments are integrated exactly, after a warning if
+   * PRE_INTEGRATED would have made a difference.
    */
   vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
@@ -592,6 +593,39 @@ public:
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
+  /** Share of the light that the medium behind the membrane transmits over a distance d. */
+  enum MediumModels
+  {
+    EXPONENTIAL = 0, ///< exp(-k d), with k of MediumAttenuationCoefficients
+    LINEAR = 1       ///< 1 up to MediumRange[0], 0 from MediumRange[1] on, linear in between
+  };
+
+  /** @{ */
+  /**
+   * Set/Get the medium behind the membrane, through which refracted rays see the volume, with
+   * COMPOSITE_BLEND and ISOSURFACE_BLEND: light of the colour c that is emitted at a path length d
+   * behind the first sight point is seen as s c + (1 - s) M, with the medium's colour M
+   * (MediumColor, default black) and the share s of the medium's model (MediumModel, default
+   * EXPONENTIAL). The opacity of the volume is not changed. So a volume looks like an object of the
+   * same colour that vtkRefractionPass draws at the same place, and what lies behind the volume
+   * must have been faded by its own distance, as by that pass.
+   *
+   * The coefficients per world length, of red, green and blue, are those of EXPONENTIAL and >= 0.
+   * Zeros, the default, stand for the medium of the vtkRefractionPass that draws the volume, and
+   * for a clear medium without one. The range of LINEAR is 0 <= MediumRange[0] <= MediumRange[1],
+   * default (0, 1). Numbers without a meaning are an error of Render(), which then draws a clear
+   * medium. A clear medium, straight rays and other blend modes cost nothing.
+   */
+  vtkSetClampMacro(MediumModel, int, EXPONENTIAL, LINEAR);
+  vtkGetMacro(MediumModel, int);
+  vtkSetVector3Macro(MediumAttenuationCoefficients, double);
+  vtkGetVector3Macro(MediumAttenuationCoefficients, double);
+  vtkSetVector2Macro(MediumRange, double);
+  vtkGetVector2Macro(MediumRange, double);
+  vtkSetVector3Macro(MediumColor, double);
+  vtkGetVector3Macro(MediumColor, double);
+  /** @} */
+
   /** Part of the volume that RenderPart() draws. */
   enum MembraneParts
   {
@@ -604,6 +638,11 @@ public:
    * vtkRefractionPass.
    */
   void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part);
+#ifndef __VTK_WRAP__
+  /** The same behind a medium that is used if the mapper's own is clear. */
+  void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part,
+    const meniscus::RefractionMedium& surroundings);
+#endif
 
   /** Frees all graphics resources; the next Render() creates them again. */
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -627,6 +666,7 @@ private:
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
   bool UpdateMembrane(meniscus::RayCastMembrane& membrane);
+  void UpdateMedium();
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
@@ -653,6 +693,10 @@ private:
   int PreIntegrationLengthSize = 16;
   int Gradients = VERTEX_GRADIENTS;
   int MembranePart = WHOLE;
+  int MediumModel = EXPONENTIAL;
+  double MediumAttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
+  double MediumRange[2] = { 0.0, 1.0 };
+  double MediumColor[3] = { 0.0, 0.0, 0.0 };
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;

@@ -178,6 +178,13 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfInterfaces: " << this->Interfaces->GetNumberOfItems() << "\n";
   os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
+  const auto& coefficients = this->MediumAttenuationCoefficients;
+  os << indent << "MediumModel: " << this->MediumModel << "\n";
+  os << indent << "MediumAttenuationCoefficients: " << coefficients[0] << " " << coefficients[1]
+     << " " << coefficients[2] << "\n";
+  os << indent << "MediumRange: " << this->MediumRange[0] << " " << this->MediumRange[1] << "\n";
+  os << indent << "MediumColor: " << this->MediumColor[0] << " " << this->MediumColor[1] << " "
+     << this->MediumColor[2] << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
   os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";

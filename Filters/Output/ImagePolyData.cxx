@@ -135,9 +135,9 @@ public:
 
     this->InterpolatePointArrays();
     MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
-    if (ChangesNormals(options))
+    if (NeedsTruePoints(options))
     {
-      ChangeNormals(this->Points, this->FindTruePoints(), options, this->Output);
+      UseTruePoints(this->Points, this->FindTruePoints(), options, this->Output);
     }
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType cells = this->Input->GetNumberOfCells();

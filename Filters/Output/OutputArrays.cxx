@@ -74,6 +74,52 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
 }
 
 //------------------------------------------------------------------------------
+void AddTrueGeometry(const std::vector<glm::dvec3>& truePoints, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  vtkDataArray* inputNormals = data->GetNormals();
+  const auto positions = MakeArray<vtkDoubleArray>("TruePosition", 3, truePoints.size());
+  const auto normals =
+    MakeArray<vtkDoubleArray>("TrueNormal", 3, inputNormals ? truePoints.size() : 0);
+  for (std::size_t k = 0; k < truePoints.size(); ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    positions->SetTypedTuple(i, &truePoints[k].x);
+    if (inputNormals)
+    {
+      glm::dvec3 normal(0.0);
+      inputNormals->GetTuple(i, &normal.x);
+      const double length = glm::length(normal);
+      normal = length > 0.0 && std::isfinite(length) ? normal / length : glm::dvec3(0.0);
+      normals->SetTypedTuple(i, &normal.x);
+    }
+  }
+  data->AddArray(positions);
+  if (inputNormals)
+  {
+    data->AddArray(normals);
+  }
+}
+
+//------------------------------------------------------------------------------
+void UseTruePoints(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  if (options.TrueGeometry)
+  {
+    AddTrueGeometry(truePoints, output);
+  }
+  if (options.VirtualNormals)
+  {
+    MakeVirtualNormals(vertices, truePoints, options, output);
+  }
+  else if (options.Reflects)
+  {
+    MirrorNormals(vertices, truePoints, options, output);
+  }
+}
+
+//------------------------------------------------------------------------------
 void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
 {

@@ -35,6 +35,7 @@ struct OutputOptions
   int PointsPrecision = 0; ///< vtkAlgorithm::DesiredOutputPrecision
   bool Schlick = false;
   bool VirtualNormals = false;
+  bool TrueGeometry = false;
   bool Reflects = false; ///< true: images of a mirror
   bool IsLightAtEye = true;
   glm::dvec3 Light{ 0.0 }; ///< unit vector to a light at infinity
@@ -52,6 +53,12 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
   vtkPolyData* output);
 
 /**
+ * Adds the arrays TruePosition and, if the output has normals, TrueNormal: these, with length 1
+ * where they have one.
+ */
+void AddTrueGeometry(const std::vector<glm::dvec3>& truePoints, vtkPolyData* output);
+
+/**
  * Replaces the output's normals by normals that preserve the lighting of the true points (x, y, z
  * each); the true normals are kept as an array. Has no effect without normals.
  */
@@ -62,19 +69,15 @@ void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
 void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
 
-/** True if the options ask for other normals than those of the input. */
-inline bool ChangesNormals(const OutputOptions& options)
+/** True if the options ask for arrays that depend on the true points. */
+inline bool NeedsTruePoints(const OutputOptions& options)
 {
-  return options.VirtualNormals || options.Reflects;
+  return options.VirtualNormals || options.Reflects || options.TrueGeometry;
 }
 
-/** Makes the normals that the options ask for. */
-inline void ChangeNormals(const std::vector<const VirtualVertex*>& vertices,
-  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
-{
-  (options.VirtualNormals ? MakeVirtualNormals : MirrorNormals)(
-    vertices, truePoints, options, output);
-}
+/** Makes the arrays of the true points, and the normals, that the options ask for. */
+void UseTruePoints(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
 
 /** Creates the additional cell arrays. */
 void MakeCellArrays(const std::vector<vtkIdType>& sources,

@@ -42,14 +42,14 @@ public:
     this->CopyArrays(this->Input->GetPointData(), this->Input->GetNumberOfPoints(),
       this->SourcePoints, this->Output->GetPointData());
     MakePoints(this->Input, this->Images, this->SourcePoints, this->Surface, options, this->Output);
-    if (ChangesNormals(options))
+    if (NeedsTruePoints(options))
     {
       std::vector<glm::dvec3> truePoints(this->SourcePoints.size());
       for (std::size_t i = 0; i < truePoints.size(); ++i)
       {
         this->Input->GetPoint(this->SourcePoints[i], &truePoints[i].x);
       }
-      ChangeNormals(this->Images, truePoints, options, this->Output);
+      UseTruePoints(this->Images, truePoints, options, this->Output);
     }
 
     this->Output->SetVerts(this->CopyVertices(this->Input->GetVerts()));

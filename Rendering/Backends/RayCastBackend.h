@@ -138,6 +138,8 @@ struct RayCastFeatures
   bool ClippingPlanes = false;
   /** Rays are refracted at a membrane, or only the part before or behind it is wanted. */
   bool Membrane = false;
+  /** The medium behind the membrane takes and scatters light. */
+  bool Medium = false;
 };
 
 /** One frame to draw: the mapper's tables, brought up to date, and the rays. */

@@ -123,6 +123,7 @@ RayCastFeatures RayCastRequest::GetFeatures() const
   features.ClippingPlanes = !optics.ClippingPlanes.empty();
   features.Membrane =
     this->Frame.Refracting.Wanted || this->Frame.Refracting.Part != MembranePart::Whole;
+  features.Medium = this->Frame.Refracting.Wanted && optics.IsFaded();
   return features;
 }
 

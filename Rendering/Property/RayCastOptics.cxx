@@ -105,7 +105,7 @@ bool operator==(const RayCastOptics& a, const RayCastOptics& b)
       optics.NumberOfFunctions, optics.DataRange, optics.PreIntegrated, optics.CompactCells,
       optics.WideCells, optics.NumberOfLegs, optics.LongLists, optics.Shading,
       optics.GradientOpacity, optics.VertexGradients, optics.GradientToFrame,
-      optics.GradientMagnitude, optics.Lighting, optics.ClippingPlanes);
+      optics.GradientMagnitude, optics.Lighting, optics.ClippingPlanes, optics.Medium);
   };
   return members(a) == members(b);
 }

@@ -5,6 +5,7 @@
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
+#include "Volume/Optics/RefractionMedium.h"
 #include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Rays/ClippingPlanes.h"
@@ -57,7 +58,10 @@ struct RayCastOptics
   double GradientMagnitude = 1.0;
   SurfaceLighting Lighting;
   std::vector<RayClippingPlane> ClippingPlanes;
+  /** Medium behind the first interface; clear for blend modes that show no light. */
+  RefractionMedium Medium;
 
+  bool IsFaded() const { return !this->Medium.IsClear(); }
   bool IsRefracting() const { return this->NumberOfLegs > 1; }
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
@@ -71,11 +75,14 @@ struct RayCastOptics
   }
   /** Description of the blend mode. */
   const BlendModel& Model() const { return GetBlendModel(this->Blending); }
-  /** True for a medium of one scalar of the vertices by the transfer function alone. */
+  /**
+   * True for a medium of one scalar of the vertices by the transfer function alone, seen through
+   * no other medium.
+   */
   bool IsPlainMedium() const
   {
     return this->Model().IsMedium() && !this->UsesGradients() && !this->HasComponents() &&
-      !this->CellScalars;
+      !this->CellScalars && !this->IsFaded();
   }
 };
 

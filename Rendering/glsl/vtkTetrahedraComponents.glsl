@@ -143,6 +143,15 @@ bool integratePiece()
       sqrt(max(0.0, density.x * density.x + 2.0 * LARGEST_GAUSS_DEPTH * slope))));
     depth = LARGEST_GAUSS_DEPTH;
   }
+#if FADED
+  float limit = fadedPart(segmentDone, reached);
+  if (limit < part)
+  {
+    part = limit;
+    depth = part * (density.x + 0.5 * part * slope);
+    whole = false;
+  }
+#endif
 
   vec3 emitted = vec3(0.0);
   for (int q = 0; q < 3; ++q)
@@ -161,6 +170,9 @@ bool integratePiece()
     colorHere = shade(colorHere, mix(segmentDone, reached, at));
 #endif
     vec3 here = (density.x + at * slope) * colorHere;
+#endif
+#if FADED
+    here = faded(density.x + at * slope, here, mix(segmentDone, reached, at));
 #endif
     emitted += GAUSS_WEIGHTS[q] * exp(-at * (density.x + 0.5 * at * slope)) * here;
   }

@@ -21,12 +21,20 @@ float absorbedOnAverage(float t, float a)
   return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * MEAN_ABSORBED_5(t)))));
 }
 
+#if FADED
+#define LARGEST_PIECE_DEPTH LARGEST_GAUSS_DEPTH
+#else
+#define LARGEST_PIECE_DEPTH 1.0
+#endif
+
 // Integrates the next piece of the pending segment: up to the end of the segment, to that of the
-// transfer function's interval or to an optical depth of 1. Returns true if the segment is done.
+// transfer function's interval or to an optical depth of LARGEST_PIECE_DEPTH. Returns true if the
+// segment is done.
 //
 // Density-emitter integral with linear attenuation and colour: Moreland and Angel, "A Fast High
 // Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is
-// written cf (1 - psi) + cb (psi - zeta), free of cancellation.
+// written cf (1 - psi) + cb (psi - zeta), free of cancellation. With a medium in front, Gauss' rule
+// of three points.
 bool integratePiece()
 {
 #if SHADING || GRADIENT_OPACITY
@@ -47,13 +55,36 @@ bool integratePiece()
   float slope = densities.y - densities.x;
   float depth = 0.5 * (densities.x + densities.y);
   float part = 1.0;
-  bool whole = depth <= 1.0;
+  bool whole = depth <= LARGEST_PIECE_DEPTH;
   if (!whole)
   {
-    // part (density + part slope / 2) = 1, the root without cancellation.
-    part = min(1.0, 2.0 / (densities.x + sqrt(max(0.0, densities.x * densities.x + 2.0 * slope))));
-    depth = 1.0;
+    // part (density + part slope / 2) = D, the root without cancellation.
+    part = min(1.0, 2.0 * LARGEST_PIECE_DEPTH / (densities.x +
+      sqrt(max(0.0, densities.x * densities.x + 2.0 * LARGEST_PIECE_DEPTH * slope))));
+    depth = LARGEST_PIECE_DEPTH;
   }
+#if FADED
+  float limit = fadedPart(segmentDone, reached);
+  if (limit < part)
+  {
+    part = limit;
+    depth = part * (densities.x + 0.5 * part * slope);
+    whole = false;
+  }
+  for (int q = 0; q < 3; ++q)
+  {
+    float at = part * (0.5 + float(q - 1) * GAUSS_PLACE);
+    float done = mix(segmentDone, reached, at);
+    vec3 emitted = intervalColor + mix(offsets.x, offsets.y, at) * intervalColorSlope;
+#if SHADING
+    emitted = shade(emitted, done);
+#endif
+    float weight = q == 1 ? MIDDLE_GAUSS_WEIGHT : OUTER_GAUSS_WEIGHT;
+    color += transmittance * part * weight * (densities.x + at * slope) *
+      exp(-at * (densities.x + 0.5 * at * slope)) * faded(1.0, emitted, done);
+  }
+  transmittance -= transmittance * absorbed(depth);
+#else
   float gone = absorbed(depth);
   float front = absorbedOnAverage(depth, part * densities.x);
   vec3 colorStart = intervalColor + offsets.x * intervalColorSlope;
@@ -66,6 +97,7 @@ bool integratePiece()
 #endif
   color += transmittance * (colorStart * gone + colorChange * max(0.0, gone - front));
   transmittance -= transmittance * gone;
+#endif
 
   segmentDone = whole ? reached : segmentDone + part * (reached - segmentDone);
   segmentScalar = whole ? to : segmentScalar + part * (to - segmentScalar);

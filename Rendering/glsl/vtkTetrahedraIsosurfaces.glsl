@@ -58,6 +58,9 @@ void addSurface(int index, float at)
   light(gradient, mix(segmentStartDepth, segmentEndDepth, at), reflected, highlight);
   emitted = emitted * reflected + highlight;
 #endif
+#if FADED
+  emitted = faded(1.0, emitted, at);
+#endif
   color += transmittance * alpha * emitted;
   transmittance -= transmittance * alpha;
 }

@@ -72,6 +72,9 @@ float legPerDepth;   // depth in that frame per drawn depth
 float legEnd;        // depth there at which the leg meets the next interface, or NOWHERE
 int legEndAt;        // the same in grid units
 int cycleStart;      // link to the face inside the mesh by which the walk began; otherwise -1
+#if FADED
+float legPath;       // world length of the legs behind the first interface up to this one
+#endif
 ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
 const int NEAR_FACE = -2;
 #endif
@@ -644,6 +647,10 @@ bool setUpNextLeg(float opaque, out int lastDepth)
   bool arrived =
     rayLeg >= firstLeg && endDepth == legEndAt && entryFaces.x < 0 && !moreEntries;
   bool inside = depthNow >= endDepth;
+#if FADED
+  legPath +=
+    rayLeg > 0 ? (legEnd - legStart) * (rayLengthPerDepth * GRID_PER_DEPTH) : 0.0;
+#endif
   ++rayLeg;
   ivec2 pixel = ivec2(rayTilePixel);
   RefractedRayLine line = fetchRefractedRayLine(pixel, rayLeg);
@@ -687,6 +694,9 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   legDepth = 0.0;
   legStart = 0.0;
   legPerDepth = 1.0;
+#if FADED
+  legPath = 0.0;
+#endif
   cycleStart = -1;
   findLegEnd(ivec2(pixel));
   limitRay(opaque);

@@ -31,7 +31,7 @@ endforeach ()
 foreach (part RefractionMembraneFS TetrahedraRays TetrahedraWalk TetrahedraComposite
     TetrahedraComponents TetrahedraMedium TetrahedraLights TetrahedraIsosurfaces
     TetrahedraProjection TetrahedraPreIntegrated TetrahedraTransferFunction TetrahedraPlaceFS
-    TetrahedraEntryTilesFS)
+    TetrahedraEntryTilesFS MediumTransmittance TetrahedraFading)
   if (NOT "${links}" MATCHES "Rendering/glsl/vtk${part}.glsl>Module/")
     message(SEND_ERROR "vtk${part}.glsl names no twin in Module/")
   endif ()

@@ -266,4 +266,52 @@ TEST(RefractedGeometryLight, BadNormalsAndLights)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
 }
 
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryLight, TrueGeometryIsThatOfTheImages)
+{
+  const auto grid = MakeLitGrid(-60.0);
+  AddTruth(grid); // "Truth", which the filter interpolates as it does any array
+  vtkDataArray* given = grid->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < given->GetNumberOfTuples(); ++i)
+  {
+    const glm::dvec3 longer = 3.0 * GetTuple(given, i);
+    given->SetTuple(i, &longer.x);
+  }
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(32)));
+    filter->SetImages(images);
+    filter->VirtualNormalsOn(); // TrueNormal stays the true one
+    filter->Update();
+    EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("TruePosition"));
+    const vtkTypeInt64 solved = filter->GetNumberOfSolvedVertices();
+    filter->TrueGeometryOn();
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfSolvedVertices(), solved);
+    vtkPointData* data = filter->GetOutput()->GetPointData();
+    vtkDataArray* positions = data->GetArray("TruePosition");
+    vtkDataArray* normals = data->GetArray("TrueNormal");
+    ASSERT_TRUE(positions && normals) << images;
+    ASSERT_GT(positions->GetNumberOfTuples(), 0);
+    for (vtkIdType i = 0; i < positions->GetNumberOfTuples(); ++i)
+    {
+      const glm::dvec3 place = GetTuple(positions, i);
+      // Sums of weighted coordinates below 100: a few roundings of 2^-53.
+      EXPECT_LT(glm::distance(place, GetTuple(data->GetArray("Truth"), i)), 1e-12);
+      EXPECT_NEAR(glm::distance(place, GetTuple(data->GetArray("SightPoint"), i)),
+        data->GetArray("RefractionDepth")->GetTuple1(i), 1e-9);
+      const glm::dvec3 normal = GetTuple(data->GetArray("Bumps"), i);
+      EXPECT_LT(glm::distance(GetTuple(normals, i), glm::normalize(normal)), 1e-14);
+    }
+  }
+  grid->GetPointData()->SetNormals(nullptr);
+  grid->GetPointData()->RemoveArray("Bumps");
+  const auto filter = MakeCurved(grid, MakeFlatMembrane());
+  filter->TrueGeometryOn();
+  filter->Update();
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("TruePosition"));
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("TrueNormal"));
+}
+
 }

@@ -5,12 +5,14 @@
 #include <vtkActor.h>
 #include <vtkAppendPolyData.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
 #include <vtkConeSource.h>
 #include <vtkCubeSource.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkLight.h>
 #include <vtkMath.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -29,6 +31,8 @@
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
 
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -49,6 +53,11 @@ constexpr glm::dvec3 Eye{ 60.0, 260.0, -130.0 };
 constexpr glm::dvec3 Target{ 0.0, -20.0, 0.0 };
 constexpr glm::dvec3 Background{ 0.25, 0.3, 0.35 };
 constexpr double Far = 1000.0;
+// A lamp in the water, between the objects.
+constexpr glm::dvec3 LampPlace{ 0.0, -30.0, 15.0 };
+constexpr double LampAmbient = 0.1;
+constexpr double LampDiffuse = 0.9;
+constexpr glm::dvec3 LampFalloff{ 0.6, 0.004, 0.0001 };
 constexpr int TextureSize = 256;
 constexpr int SkySize = 128;
 
@@ -378,6 +387,34 @@ void PoolScene::SetOptics(const PoolOptics& optics)
   this->Pass->SetReflectionTexture(optics.Sky ? this->Sky.Get() : nullptr);
   this->Pass->SetAttenuationCoefficients(
     optics.Attenuation.r, optics.Attenuation.g, optics.Attenuation.b);
+  this->Pass->SetMediumColor(optics.Scattered.r, optics.Scattered.g, optics.Scattered.b);
+  this->SetLamp(optics.Lamp);
+}
+
+//------------------------------------------------------------------------------
+void PoolScene::SetLamp(bool isOn)
+{
+  this->Pass->SetLighting(isOn ? vtkRefractionPass::TRUE_SPACE : vtkRefractionPass::VIRTUAL_SPACE);
+  for (const Part& part : this->Parts)
+  {
+    vtkProperty* property = part.Actor->GetProperty();
+    property->SetLighting(isOn);
+    property->SetAmbient(LampAmbient);
+    property->SetDiffuse(LampDiffuse);
+    part.Filter->SetTrueGeometry(isOn);
+  }
+  vtkRenderer* renderer = this->Window.GetRenderer();
+  renderer->RemoveAllLights();
+  if (isOn)
+  {
+    vtkNew<vtkLight> lamp;
+    lamp->SetLightTypeToSceneLight();
+    lamp->PositionalOn();
+    lamp->SetConeAngle(90.0);
+    lamp->SetPosition(LampPlace.x, LampPlace.y, LampPlace.z);
+    lamp->SetAttenuationValues(LampFalloff.x, LampFalloff.y, LampFalloff.z);
+    renderer->AddLight(lamp);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -417,6 +454,28 @@ void PoolScene::ShowObjects(bool show)
 }
 
 //------------------------------------------------------------------------------
+/** Light of the lamp that a facet reflects to a sight ray, without the water's colour. */
+double PoolScene::LampAt(const PoolSight& sight) const
+{
+  const Part& part = this->Parts[static_cast<std::size_t>(sight.Part)];
+  glm::dvec3 corners[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    part.Data->GetPoint(
+      part.Data->GetPolys()->GetConnectivityArray()->GetComponent(3 * sight.Cell + k, 0),
+      &corners[k].x);
+  }
+  const glm::dvec3 normal =
+    glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const glm::dvec3 toLamp = LampPlace - (sight.Start + sight.Distance * sight.Behind);
+  const double distance = glm::length(toLamp);
+  const double facing = glm::dot(normal, toLamp) / distance;
+  // The lit side is the one that is seen.
+  const double lit = glm::dot(normal, sight.Behind) < 0.0 ? facing : -facing;
+  return std::max(lit, 0.0) / glm::dot(LampFalloff, glm::dvec3(1.0, distance, distance * distance));
+}
+
+//------------------------------------------------------------------------------
 glm::dvec3 PoolScene::Shade(const PoolSight& sight) const
 {
   glm::dvec3 color = Background;
@@ -431,7 +490,14 @@ glm::dvec3 PoolScene::Shade(const PoolSight& sight) const
         sight.Weights[2] * corners[2];
       color = GetSample(part.Image, uv.x, uv.y);
     }
-    color *= glm::exp(-sight.Distance * this->Optics.Attenuation);
+    if (this->Optics.Lamp)
+    {
+      const double way = glm::distance(LampPlace, sight.Start + sight.Distance * sight.Behind);
+      color *=
+        LampAmbient + LampDiffuse * this->LampAt(sight) * glm::exp(-way * this->Optics.Attenuation);
+    }
+    const glm::dvec3 seen = glm::exp(-sight.Distance * this->Optics.Attenuation);
+    color = glm::min(seen * color + (1.0 - seen) * this->Optics.Scattered, glm::dvec3(1.0));
   }
   const double cosine = -glm::dot(sight.Ray, sight.Normal);
   const double reflected = this->Optics.Fresnel ? MakeFresnel(cosine) : 0.0;
@@ -471,7 +537,9 @@ PoolPicture PoolScene::Trace() const
         sight.Ray = ray;
         sight.Normal = this->Field.GetNormal(start.x, start.z);
         const glm::dvec3 behind = this->Field.Refract(Eye, start, 1.0).value_or(start) - start;
-        pool.Find(start, glm::normalize(behind), cell, sight);
+        sight.Start = start;
+        sight.Behind = glm::normalize(behind);
+        pool.Find(start, sight.Behind, cell, sight);
         isWater[static_cast<std::size_t>(i)] = 1;
         picture.Colors[static_cast<std::size_t>(i)] = this->Shade(sight);
       }

@@ -40,6 +40,10 @@ struct PoolOptics
   bool Fresnel = false;
   bool Sky = false;
   glm::dvec3 Attenuation{ 0.0 };
+  /** True: a lamp in the water lights the parts, otherwise they are of one brightness. */
+  bool Lamp = false;
+  /** Colour that the medium scatters. */
+  glm::dvec3 Scattered{ 0.0 };
 };
 
 /** Colour of the sky in a direction, smooth. */
@@ -64,6 +68,8 @@ struct PoolSight
   vtkIdType Cell = -1;
   glm::dvec3 Weights{ 0.0 }; ///< barycentric weights of the cell's corners
   double Distance = 0.0;     ///< distance behind the water
+  glm::dvec3 Start{ 0.0 };   ///< place where the ray meets the water
+  glm::dvec3 Behind{ 0.0 };  ///< direction behind the water, a unit vector; used with a lamp
 };
 
 class PoolScene
@@ -102,6 +108,9 @@ public:
   const reference::HeightField& MakeField() const { return this->Field; }
 
 private:
+  void SetLamp(bool isOn);
+  double LampAt(const PoolSight& sight) const;
+
   struct Part
   {
     vtkSmartPointer<vtkPolyData> Data;

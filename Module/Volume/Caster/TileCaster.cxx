@@ -37,6 +37,18 @@ RayEventState FirstState(const TileCaster::Scene& scene)
   return state;
 }
 
+/** A medium in single precision. */
+PacketFading Pack(const RefractionMedium& medium)
+{
+  const auto toFloat = [](double value) { return static_cast<float>(value); };
+  PacketFading fading{};
+  fading.IsLinear = medium.Kind == RefractionMedium::Model::Linear;
+  std::transform(medium.Attenuation.begin(), medium.Attenuation.end(), fading.Attenuation, toFloat);
+  std::transform(medium.Range.begin(), medium.Range.end(), fading.Range, toFloat);
+  std::transform(medium.Color.begin(), medium.Color.end(), fading.Color, toFloat);
+  return fading;
+}
+
 }
 
 struct TileCaster::TileWork
@@ -62,6 +74,10 @@ TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
       table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
       static_cast<float>(table.GetLengthsPerOctave()), static_cast<float>(table.GetMiddle()),
       static_cast<float>(table.GetPerHalfRange()) };
+  }
+  if (scene.Medium)
+  {
+    this->Fading = Pack(*scene.Medium);
   }
   if (this->Legs.GetNumberOfLegs() > 1)
   {
@@ -197,6 +213,24 @@ void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& 
 }
 
 //------------------------------------------------------------------------------
+/** Computes the way through the medium behind the first interface to the rays of a batch. */
+template <class Entries>
+void TileCaster::FindPaths(const Entries& entries, int frame, const TileLeg& leg,
+  const LegBatch& batch, Workspace& workspace) const
+{
+  workspace.Paths.resize(batch.Rays.size());
+  for (std::size_t i = 0; i < batch.Rays.size(); ++i)
+  {
+    const std::int32_t pixel = batch.Origins[i].Pixel;
+    RayLeg line;
+    this->Legs.Find(leg.Tile, pixel, leg.Number, line);
+    workspace.Paths[i] =
+      static_cast<float>(this->Legs.GetLengthBehindMembrane(leg.Tile, pixel, leg.Number) -
+        entries.GetBeginDepth(frame, line, 0.0) * batch.Rays[i].LengthPerDepth);
+  }
+}
+
+//------------------------------------------------------------------------------
 /** Casts one leg, frame by frame, and joins the results, or shows them if there is no other leg. */
 template <class Entries>
 void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& found,
@@ -205,11 +239,17 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
   PacketJob& job = work.Job;
   Workspace& workspace = work.Buffers;
   entries.Collect(leg, job, workspace.Joined, found);
+  job.Fading = this->Input.Medium && leg.Number > 0 ? &this->Fading : nullptr;
   for (int frame = 0; frame < Entries::NumberOfFrames; ++frame)
   {
     entries.GetFrame(frame).Describe(job);
     while (const LegBatch* batch = entries.NextBatch(frame, found))
     {
+      if (job.Fading)
+      {
+        this->FindPaths(entries, frame, leg, *batch, workspace);
+        job.PathsAtPivot = workspace.Paths.data();
+      }
       this->CastBatch(*batch, job, workspace);
       if (!job.KeepsValues)
       {

@@ -14,6 +14,7 @@
 #include "Volume/Caster/SightLegEntries.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/PreIntegration.h"
+#include "Volume/Optics/RefractionMedium.h"
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Rays/ClippingPlanes.h"
@@ -70,6 +71,8 @@ public:
     const PreIntegrationTable* PreIntegration = nullptr;
     /** Lighting of isosurfaces and of composite blending; null for none. */
     const SurfaceLighting* Lighting = nullptr;
+    /** Medium behind the first interface, through which pictures are seen; null for none. */
+    const RefractionMedium* Medium = nullptr;
     /**
      * Gradient of the scalar per vertex, in normalised model coordinates; null if gradients of
      * cells are used.
@@ -117,6 +120,8 @@ public:
     SightLegEntries::Workspace Sight;
     RefractedLegEntries::Workspace Refracted;
     std::vector<PacketResult> Results;
+    /** PacketJob::PathsAtPivot of a batch. */
+    std::vector<float> Paths;
     JoinedRays Joined;
     /** Values of a batch that is measured, and the measurements of the tile. */
     std::vector<float> Values;
@@ -146,6 +151,9 @@ private:
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,
     TileWork& work) const;
+  template <class Entries>
+  void FindPaths(const Entries& entries, int frame, const TileLeg& leg, const LegBatch& batch,
+    Workspace& workspace) const;
   void CastBatch(const LegBatch& batch, PacketJob& job, Workspace& workspace) const;
   template <class Entries>
   void JoinMeasured(const Entries& entries, int frame, const TileLeg& leg, const LegBatch& batch,
@@ -156,6 +164,7 @@ private:
   Scene Input;
   RayLegs Legs;
   PacketSegmentTable SegmentTable{};
+  PacketFading Fading{};
   SightLegEntries Sight;
   std::unique_ptr<RefractedLegEntries> Refracted;
 };

@@ -73,13 +73,25 @@ bool RayLegs::Find(int tile, int pixel, int number, RayLeg& leg) const
 //------------------------------------------------------------------------------
 double RayLegs::GetLengthBefore(int tile, int pixel, int number, double depth) const
 {
+  if (number == 0)
+  {
+    return 0.0;
+  }
+  RayLeg sight;
+  this->Find(tile, pixel, 0, sight);
+  return (sight.End - depth) * glm::length(this->Sight.ViewToWorld * sight.Step) +
+    this->GetLengthBehindMembrane(tile, pixel, number);
+}
+
+//------------------------------------------------------------------------------
+double RayLegs::GetLengthBehindMembrane(int tile, int pixel, int number) const
+{
   double length = 0.0;
-  for (int k = 0; k < number; ++k)
+  for (int k = 1; k < number; ++k)
   {
     RayLeg leg;
     this->Find(tile, pixel, k, leg);
-    const double begin = k == 0 ? depth : leg.Depth;
-    length += (leg.End - begin) * glm::length(this->Sight.ViewToWorld * leg.Step);
+    length += (leg.End - leg.Depth) * glm::length(this->Sight.ViewToWorld * leg.Step);
   }
   return length;
 }

@@ -102,6 +102,8 @@ public:
    * @pre Find() returns true.
    */
   double GetLengthBefore(int tile, int pixel, int number, double depth) const;
+  /** The same from the beginning of leg 1, the first sight point; 0 for legs 0 and 1. */
+  double GetLengthBehindMembrane(int tile, int pixel, int number) const;
 
 private:
   RayFrame Sight;

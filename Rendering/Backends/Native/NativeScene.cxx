@@ -70,6 +70,7 @@ TileCaster::Scene NativeScene::Make(
   scene.Set = this->Set;
   scene.CellScalars = optics.CellScalars ? tables.Input.GetCellScalars().data() : nullptr;
   scene.Lighting = optics.Shading ? &optics.Lighting : nullptr;
+  scene.Medium = optics.IsFaded() ? &optics.Medium : nullptr;
   scene.VertexGradients =
     optics.VertexGradients ? tables.VertexGradients.GetValues().data() : nullptr;
   scene.CellGradients =

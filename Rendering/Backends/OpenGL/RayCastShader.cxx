@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Backends/OpenGL/ShaderConstants.h"
+#include "Rendering/Property/MediumUniforms.h"
 
 #include "TetrahedraShaderParts.h"
 
@@ -45,6 +46,10 @@ std::string ModelSource(const RayCastOptics& optics)
     source += vtkTetrahedraTransferFunction;
   }
   source += optics.UsesGradients() ? vtkTetrahedraLights : "";
+  if (optics.IsFaded() && optics.IsRefracting())
+  {
+    source += std::string(vtkMediumTransmittance) + vtkTetrahedraFading;
+  }
   source += model.IsMedium() ? vtkTetrahedraMedium : "";
   return source + (optics.HasComponents() ? vtkTetrahedraComponents : PartOf(model.Mode));
 }
@@ -105,7 +110,9 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
   define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
   define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
-  define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
+  const bool faded = optics.IsFaded() && optics.IsRefracting();
+  define("FADED", faded ? 1 : 0);
+  define("NEEDS_POSITION", optics.UsesGradients() || faded ? 1 : 0);
   define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lighting.Lights.size()));
   define("NUMBER_OF_CLIPPING_PLANES", static_cast<int>(optics.ClippingPlanes.size()));
   return text.str();
@@ -144,6 +151,7 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
       static_cast<float>(1.0 / width) };
     program->SetUniform2f("rangeShare", share);
   }
+  SetMediumUniforms(program, optics.Medium);
   if (!optics.UsesGradients())
   {
     return;

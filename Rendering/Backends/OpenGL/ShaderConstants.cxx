@@ -84,6 +84,7 @@ std::string MediumConstants()
   std::string text = Define("LARGEST_DEPTH", LargestDepth) +
     Define("LARGEST_GAUSS_DEPTH", LargestGaussDepth) + Define("GAUSS_PLACE", GaussPlace) +
     Define("OUTER_GAUSS_WEIGHT", GaussWeights[0]) + Define("MIDDLE_GAUSS_WEIGHT", GaussWeights[1]) +
+    Define("LARGEST_FADED_DEPTH", LargestFadedDepth) + Define("INVISIBLE_DEPTH", InvisibleDepth) +
     Define("LARGEST_CHANGE", LargestChange) +
     DefinePolynomial("ABSORBED_PER_DEPTH", AbsorptionFit::ThickAbsorbed);
   int power = 0;

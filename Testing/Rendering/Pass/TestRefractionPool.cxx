@@ -108,6 +108,19 @@ TEST(RefractionPool, LooksLikeRaysThroughTheExactWaves)
   EXPECT_LT(MeasureCase(scene, "all", { true, true, attenuation }).Percent(), 0.5);
 }
 
+TEST(RefractionPool, ALampInColouredWaterLightsTruePlaces)
+{
+  PoolScene scene(Cells);
+  PoolOptics optics;
+  optics.Lamp = true;
+  EXPECT_LT(MeasureCase(scene, "lamp", optics).Percent(), 0.5);
+  optics.Attenuation = glm::dvec3(0.02, 0.008, 0.004);
+  optics.Scattered = glm::dvec3(0.05, 0.2, 0.25);
+  optics.Fresnel = true;
+  optics.Sky = true;
+  EXPECT_LT(MeasureCase(scene, "lamp in coloured water", optics).Percent(), 0.5);
+}
+
 TEST(RefractionPool, WavesThatMoveAreFollowed)
 {
   PoolScene scene(Cells);

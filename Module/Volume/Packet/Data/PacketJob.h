@@ -54,6 +54,13 @@ struct PacketJob
   const PacketSegmentTable* SegmentTable;
   /** Effects of gradients on the medium; null if there are none. */
   const GradientShading* Medium;
+  /** Medium between the rays and the first interface; null for none. */
+  const PacketFading* Fading;
+  /**
+   * With Fading, one number per ray: world length of the way through the medium up to the ray's
+   * point at the pivot.
+   */
+  const float* PathsAtPivot;
   /** Isosurfaces in the order of their scalars. */
   const PacketSurface* Surfaces;
   std::int32_t NumberOfSurfaces;

@@ -61,6 +61,15 @@ struct GradientShading
   std::int32_t NumberOfLights;
 };
 
+/** A RefractionMedium in single precision. */
+struct PacketFading
+{
+  bool IsLinear;
+  float Attenuation[3];
+  float Range[2];
+  float Color[3];
+};
+
 /** A PreIntegrationTable. */
 struct PacketSegmentTable
 {

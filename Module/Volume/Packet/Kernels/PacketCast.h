@@ -16,21 +16,28 @@
 namespace meniscus
 {
 
-/** Instantiates Model for a medium; effects of gradients are compiled only where there are some. */
-template <class Simd, template <class...> class Model>
+/** Effect of a clear medium between the rays and the first interface: none. */
+template <class, class Optics>
+using PacketClearMedium = Optics;
+
+/**
+ * Instantiates Model for a medium; effects of gradients are compiled only where there are some.
+ * Between is PacketClearMedium or PacketFadedMedium.
+ */
+template <class Simd, template <class...> class Model, template <class, class> class Between>
 void CastMedium(const PacketJob& job)
 {
   if (!job.Medium)
   {
-    PacketWalk<Simd, Model<Simd, PacketNoGradientShading<Simd>>>(job).Run();
+    PacketWalk<Simd, Model<Simd, Between<Simd, PacketNoGradientShading<Simd>>>>(job).Run();
   }
   else if (job.VertexGradients)
   {
-    PacketWalk<Simd, Model<Simd, PacketGradientShading<Simd, true>>>(job).Run();
+    PacketWalk<Simd, Model<Simd, Between<Simd, PacketGradientShading<Simd, true>>>>(job).Run();
   }
   else
   {
-    PacketWalk<Simd, Model<Simd, PacketGradientShading<Simd, false>>>(job).Run();
+    PacketWalk<Simd, Model<Simd, Between<Simd, PacketGradientShading<Simd, false>>>>(job).Run();
   }
 }
 
@@ -41,44 +48,44 @@ template <class Simd, class Medium>
 using PacketColorsAsTheyAre =
   MultiComponentModel<Simd, ComponentMixture::RedGreenBlueOpacity, 1, Medium>;
 /** Gradients have no effect on independent components. */
-template <class Simd, int Functions>
+template <class Simd, int Functions, template <class, class> class Between>
 using PacketIndependent = MultiComponentModel<Simd, ComponentMixture::Independent, Functions,
-  PacketNoGradientShading<Simd>>;
+  Between<Simd, PacketNoGradientShading<Simd>>>;
 
-template <class Simd>
+template <class Simd, template <class, class> class Between>
 void CastIndependent(const PacketJob& job)
 {
   if (job.NumberOfOtherIntervals[2] > 0)
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 4>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 4, Between>>(job).Run();
   }
   else if (job.NumberOfOtherIntervals[1] > 0)
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 3>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 3, Between>>(job).Run();
   }
   else
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 2>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 2, Between>>(job).Run();
   }
 }
 
 /** Casts a medium of one scalar by Model, of several components by MultiComponentModel. */
-template <class Simd, template <class...> class Model>
+template <class Simd, template <class...> class Model, template <class, class> class Between>
 void CastComposite(const PacketJob& job)
 {
   switch (job.Mixture)
   {
     case ComponentMixture::Independent:
-      CastIndependent<Simd>(job);
+      CastIndependent<Simd, Between>(job);
       break;
     case ComponentMixture::ColorAndOpacity:
-      CastMedium<Simd, PacketColorAndOpacity>(job);
+      CastMedium<Simd, PacketColorAndOpacity, Between>(job);
       break;
     case ComponentMixture::RedGreenBlueOpacity:
-      CastMedium<Simd, PacketColorsAsTheyAre>(job);
+      CastMedium<Simd, PacketColorsAsTheyAre, Between>(job);
       break;
     default:
-      CastMedium<Simd, Model>(job);
+      CastMedium<Simd, Model, Between>(job);
   }
 }
 
@@ -92,7 +99,7 @@ void CastBlendMode(const PacketJob& job)
   static_assert(Model<Simd>::SeesJumps == description.SeesJumps());
   if constexpr (description.IsMedium())
   {
-    CastComposite<Simd, Model>(job);
+    CastComposite<Simd, Model, PacketClearMedium>(job);
   }
   else
   {

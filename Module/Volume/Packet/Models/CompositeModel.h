@@ -7,6 +7,7 @@
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/BlendedColor.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 
@@ -25,7 +26,9 @@ namespace meniscus
  * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written
  * cf (1 - psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (AbsorptionFit).
  *
- * Medium defines the effect of gradients: PacketNoGradientShading or PacketGradientShading.
+ * Medium defines the effect of gradients: PacketNoGradientShading or PacketGradientShading; with
+ * PacketFadedMedium around it, parts are of optical depth <= 1/2 and integrated by Gauss' rule of
+ * three points.
  */
 template <class Simd, class Medium = PacketNoGradientShading<Simd>>
 class CompositeModel : public BlendedColor<Simd>
@@ -91,14 +94,22 @@ private:
     Float Density;
     Float DensityTo;
     Float Depth;
-    /** Lanes whose segment goes on above or below the interval; lanes with a depth above 1. */
+    /**
+     * Lanes whose segment goes on above or below the interval; lanes whose part is shortened,
+     * because of its depth or of the medium in front of it.
+     */
     Mask Upward;
     Mask Downward;
     Mask Thick;
+    /** Fraction of the part that may be integrated at once; used if the medium fades. */
+    Float Limit;
   };
   [[gnu::always_inline]] Part FindPart() const;
   [[gnu::always_inline]] void ShortenThick(Part& part) const;
   [[gnu::always_inline]] void AddPart(const Part& part);
+  void AddFadedPart(const Part& part);
+  /** Largest optical depth of a part. */
+  static constexpr float LargestPartDepth = Medium::Fades ? LargestGaussDepth : 1.0f;
 
   template <std::size_t Size>
   static Float Polynomial(Float x, const Float (&coefficients)[Size], int terms = Size);
@@ -214,29 +225,48 @@ inline auto CompositeModel<Simd, Medium>::FindPart() const -> Part
   part.DensityTo = this->Optics.ApplyGradientOpacity(
     densityAt(part.To - fields.Lower), Simd::Fma(part.Share, this->Ahead, done));
   part.Depth = Simd::Splat(0.5f) * (part.Density + part.DensityTo);
-  part.Thick = part.Depth > one;
+  part.Thick = part.Depth > Simd::Splat(LargestPartDepth);
+  if constexpr (Medium::Fades)
+  {
+    part.Limit = this->Optics.LimitPart(done, Simd::Fma(part.Share, this->Ahead, done));
+    part.Thick = part.Thick | (part.Limit < one);
+  }
   return part;
 }
 
 //------------------------------------------------------------------------------
-/** Shortens the thick parts to an optical depth of 1. */
+/** Shortens the thick parts to the largest optical depth. */
 template <class Simd, class Medium>
 inline void CompositeModel<Simd, Medium>::ShortenThick(Part& part) const
 {
-  // share (density + share (densityTo - density) / 2) = 1, the root without cancellation.
+  // share (density + share (densityTo - density) / 2) = D, the root without cancellation.
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
   const Float largest = Simd::Splat(LargestDepth);
   const Float density = Simd::Min(part.Density, largest);
   const Float change = Simd::Min(part.DensityTo, largest) - density;
-  const Float root = Simd::Sqrt(Simd::Max(Simd::Fma(density, density, change + change), zero));
-  const Float share =
-    Simd::Select(part.Thick, Simd::Min(Simd::Splat(2.0f) / (density + root), one), one);
+  const Float twice =
+    LargestPartDepth == 1.0f ? change + change : Simd::Splat(2.0f * LargestPartDepth) * change;
+  const Float root = Simd::Sqrt(Simd::Max(Simd::Fma(density, density, twice), zero));
+  Float share = Simd::Select(
+    part.Thick, Simd::Min(Simd::Splat(2.0f * LargestPartDepth) / (density + root), one), one);
+  if constexpr (Medium::Fades)
+  {
+    share = Simd::Min(share, Simd::Select(part.Thick, part.Limit, one));
+  }
   part.To = Simd::Select(part.Thick, Simd::Fma(share, part.To - this->From, this->From), part.To);
   part.Length = part.Length * share;
   part.Share = part.Share * share;
   part.Density = density * share;
-  part.Depth = Simd::Min(part.Depth, one);
+  if constexpr (Medium::Fades)
+  {
+    part.DensityTo = share * Simd::Fma(share, change, density);
+    part.Depth = Simd::Splat(0.5f) * (part.Density + part.DensityTo);
+  }
+  else
+  {
+    part.Depth = Simd::Min(part.Depth, one);
+  }
   part.Upward = Simd::AndNot(part.Upward, part.Thick);
   part.Downward = Simd::AndNot(part.Downward, part.Thick);
 }
@@ -289,6 +319,42 @@ inline void CompositeModel<Simd, Medium>::AddPart(const Part& part)
 }
 
 //------------------------------------------------------------------------------
+/** The same behind a medium that fades the light, by Gauss' rule of three points. */
+template <class Simd, class Medium>
+inline void CompositeModel<Simd, Medium>::AddFadedPart(const Part& part)
+{
+  const auto& fields = this->Intervals.GetFields();
+  const Float one = Simd::Splat(1.0f);
+  const Float slope = part.DensityTo - part.Density;
+  const Float done = one - this->Ahead;
+  constexpr float places[3] = { 0.5f - GaussPlace, 0.5f, 0.5f + GaussPlace };
+  constexpr float weights[3] = { GaussWeights[0], GaussWeights[1], GaussWeights[0] };
+  for (int q = 0; q < 3; ++q)
+  {
+    const Float at = Simd::Splat(places[q]);
+    const Float doneHere = Simd::Fma(at * part.Share, this->Ahead, done);
+    const Float offset = Simd::Fma(at, part.To - this->From, this->From) - fields.Lower;
+    Float emission[3];
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      emission[channel] = Simd::Fma(offset, fields.ColorSlope[channel], fields.Color[channel]);
+    }
+    this->Optics.Shade(emission, doneHere);
+    this->Optics.Fade(one, emission, doneHere);
+    const Float before = at * Simd::Fma(Simd::Splat(0.5f) * at, slope, part.Density);
+    const Float weight = Simd::Splat(weights[q]) * this->Transmittance *
+      Simd::Fma(at, slope, part.Density) * (one - Absorbed<Simd>(Simd::Min(before, one)));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      this->Color[channel] = Simd::Fma(weight, emission[channel], this->Color[channel]);
+    }
+  }
+  this->Ahead = this->Ahead - part.Share * this->Ahead;
+  this->Transmittance =
+    this->Transmittance - this->Transmittance * Absorbed<Simd>(Simd::Min(part.Depth, one));
+}
+
+//------------------------------------------------------------------------------
 template <class Simd, class Medium>
 inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
 {
@@ -303,7 +369,14 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
   {
     this->ShortenThick(part);
   }
-  this->AddPart(part);
+  if constexpr (Medium::Fades)
+  {
+    this->AddFadedPart(part);
+  }
+  else
+  {
+    this->AddPart(part);
+  }
   const Mask more =
     lanes & (part.Upward | part.Downward | part.Thick) & (this->Transmittance > this->Termination);
   this->Remaining = Simd::Select(more, this->Remaining - part.Length, Simd::Splat(0.0f));

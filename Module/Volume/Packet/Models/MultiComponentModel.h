@@ -234,6 +234,17 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(P
     piece.Part = Simd::Select(thick, part, one);
     piece.Depth = Simd::Min(piece.Depth, largest);
   }
+  if constexpr (Medium::Fades)
+  {
+    const Float limit = this->Optics.LimitPart(this->Done, piece.Reached);
+    const Mask limited = limit < piece.Part;
+    piece.Whole = Simd::AndNot(piece.Whole, limited);
+    piece.Part = Simd::Select(limited, limit, piece.Part);
+    const Float slope = piece.DensityTo - piece.Density;
+    const Float depth =
+      piece.Part * Simd::Fma(Simd::Splat(0.5f) * piece.Part, slope, piece.Density);
+    piece.Depth = Simd::Select(limited, depth, piece.Depth);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -296,6 +307,11 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(con
     const Float at = piece.Part * Simd::Splat(places[q]);
     Float emission[3];
     this->Emission(piece, at, emission);
+    if constexpr (Medium::Fades)
+    {
+      this->Optics.Fade(
+        Mix(piece.Density, piece.DensityTo, at), emission, Mix(this->Done, piece.Reached, at));
+    }
     const Float before = at * Simd::Fma(Simd::Splat(0.5f) * at, slope, piece.Density);
     const Float weight = Simd::Splat(weights[q]) * this->Transmittance * piece.Part *
       (one - Absorbed<Simd>(Simd::Min(before, one)));

@@ -22,6 +22,7 @@ public:
   using Mask = typename Simd::Mask;
 
   static constexpr bool UsesGradients = false;
+  static constexpr bool Fades = false;
   static constexpr bool UsesCellGradients = false;
   /** Number of vectors per vertex that it uses, the first of the interpolated values. */
   static constexpr int NumberOfTriples = 0;
@@ -50,6 +51,7 @@ public:
   using Mask = typename Simd::Mask;
 
   static constexpr bool UsesGradients = true;
+  static constexpr bool Fades = false;
   static constexpr bool UsesCellGradients = !OfVertices;
   static constexpr int NumberOfTriples = OfVertices ? 1 : 0;
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraIsosurfaces.glsl (surfaces that a segment meets)
 #include "Volume/Packet/Models/PacketSurfaces.h"
+#include "Volume/Optics/RefractionMedium.h"
 #include "Volume/Optics/SurfaceLighting.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -11,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace meniscus
@@ -109,11 +112,33 @@ glm::dvec3 LitColor(
   return emitted * light.Reflected + light.Highlight;
 }
 
+/** Fades a colour that is seen at a fraction of a segment; see PacketFadedMedium. */
+glm::dvec3 FadedColor(
+  const PacketJob& job, const PacketSegment& segment, const glm::dvec3& color, double at)
+{
+  if (!job.Fading)
+  {
+    return color;
+  }
+  const PacketFading& fading = *job.Fading;
+  const double depth = segment.StartDepth + at * (double{ segment.EndDepth } - segment.StartDepth);
+  const double path =
+    std::max(0.0, job.PathsAtPivot[segment.Ray] + depth * job.Rays[segment.Ray].LengthPerDepth);
+  RefractionMedium medium;
+  medium.Kind =
+    fading.IsLinear ? RefractionMedium::Model::Linear : RefractionMedium::Model::Exponential;
+  std::copy_n(fading.Attenuation, 3, medium.Attenuation.begin());
+  std::copy_n(fading.Range, 2, medium.Range.begin());
+  const std::array<double, 3> seen = medium.SeenFrom(path);
+  const glm::dvec3 scattered(fading.Color[0], fading.Color[1], fading.Color[2]);
+  return glm::mix(scattered, color, glm::dvec3(seen[0], seen[1], seen[2]));
+}
+
 /** Adds a surface at a fraction of the segment. */
 void AddSurface(const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface,
   double at, PacketSurfaceState& state)
 {
-  const glm::dvec3 color = LitColor(job, segment, surface, at);
+  const glm::dvec3 color = FadedColor(job, segment, LitColor(job, segment, surface, at), at);
   const float weight = state.Transmittance * surface.Opacity;
   for (int channel = 0; channel < 3; ++channel)
   {

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_RefractionMedium_h
-#define meniscus_Rendering_Pass_RefractionMedium_h
+#ifndef meniscus_Volume_Optics_RefractionMedium_h
+#define meniscus_Volume_Optics_RefractionMedium_h
 
 #include <array>
 #include <string>
-
-class vtkShaderProgram;
 
 namespace meniscus
 {
@@ -36,16 +34,16 @@ struct RefractionMedium
 
   /** Text of the error for numbers without a meaning; empty if there is none. */
   std::string DescribeFault() const;
+  /** True if all light passes the medium, at any distance. */
+  bool IsClear() const;
 
   /** Share of the light per channel from a distance. */
   std::array<double, 3> SeenFrom(double distance) const;
   /** Colour seen where nothing lies behind the membrane. */
   std::array<double, 3> BackdropOf(const double (&background)[3]) const;
-
-  /** Declarations of uniforms and of the function `vec3 inMedium(vec3 color, float distance)`. */
-  static std::string DeclareInShader();
-  void SetUniforms(vtkShaderProgram* program) const;
 };
+
+bool operator==(const RefractionMedium& a, const RefractionMedium& b);
 
 }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Rendering/Pass/RefractionMedium.h"
-
-#include "vtkShaderProgram.h"
+// Twin: Rendering/glsl/vtkMediumTransmittance.glsl (share of the light)
+#include "Volume/Optics/RefractionMedium.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace meniscus
 {
@@ -28,6 +28,14 @@ std::string RefractionMedium::DescribeFault() const
     return "The medium's range must be two distances in ascending order";
   }
   return std::string();
+}
+
+//------------------------------------------------------------------------------
+bool RefractionMedium::IsClear() const
+{
+  return this->Kind == Model::Exponential &&
+    std::all_of(this->Attenuation.begin(), this->Attenuation.end(),
+      [](double coefficient) { return coefficient == 0.0; });
 }
 
 //------------------------------------------------------------------------------
@@ -62,46 +70,13 @@ std::array<double, 3> RefractionMedium::BackdropOf(const double (&background)[3]
 }
 
 //------------------------------------------------------------------------------
-std::string RefractionMedium::DeclareInShader()
+bool operator==(const RefractionMedium& a, const RefractionMedium& b)
 {
-  return R"(
-uniform bool mediumIsLinear;
-uniform vec3 mediumAttenuation;
-uniform vec2 mediumRange;
-uniform vec3 mediumColor;
-
-vec3 inMedium(vec3 color, float distance)
-{
-  vec3 seen = exp(-mediumAttenuation * distance);
-  if (mediumIsLinear)
+  const auto members = [](const RefractionMedium& medium)
   {
-    float width = mediumRange.y - mediumRange.x;
-    seen = vec3(width > 0.0 ? clamp((mediumRange.y - distance) / width, 0.0, 1.0)
-                            : (distance < mediumRange.y ? 1.0 : 0.0));
-  }
-  return mix(mediumColor, color, seen);
-}
-)";
-}
-
-//------------------------------------------------------------------------------
-void RefractionMedium::SetUniforms(vtkShaderProgram* program) const
-{
-  if (!program->IsUniformUsed("mediumAttenuation"))
-  {
-    return;
-  }
-  const auto toFloat = [](double value) { return static_cast<float>(value); };
-  float attenuation[3];
-  float color[3];
-  float range[2];
-  std::transform(this->Attenuation.begin(), this->Attenuation.end(), attenuation, toFloat);
-  std::transform(this->Color.begin(), this->Color.end(), color, toFloat);
-  std::transform(this->Range.begin(), this->Range.end(), range, toFloat);
-  program->SetUniformi("mediumIsLinear", this->Kind == Model::Linear ? 1 : 0);
-  program->SetUniform3f("mediumAttenuation", attenuation);
-  program->SetUniform3f("mediumColor", color);
-  program->SetUniform2f("mediumRange", range);
+    return std::tie(medium.Kind, medium.Attenuation, medium.Range, medium.Color, medium.IsInfinite);
+  };
+  return members(a) == members(b);
 }
 
 }

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Pass_ObjectShader_h
+#define meniscus_Rendering_Pass_ObjectShader_h
+
+#include <string>
+
+class vtkPolyDataMapper;
+
+namespace meniscus
+{
+
+/** Sources of the shaders of a mapper, with VTK's tags. */
+struct ShaderSources
+{
+  std::string& Vertex;
+  std::string& Geometry;
+  std::string& Fragment;
+};
+
+/** Inserts code behind a tag of a source. */
+void AppendToShader(std::string& source, const std::string& tag, const std::string& code);
+
+/** Maps the arrays of a refracted object to the vertex attributes that SeeThroughMedium() reads. */
+void MapMediumArrays(vtkPolyDataMapper* mapper);
+/** Replaces the colour of a refracted object by that which is seen through the medium. */
+void SeeThroughMedium(const ShaderSources& sources);
+
+/**
+ * Maps the arrays of true positions to the vertex attributes that LightInTrueSpace() reads.
+ * @param sightPoint name of the array of the points of refraction next to the object.
+ */
+void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint);
+/** Replaces the lighting of a refracted object; before SeeThroughMedium(). */
+void LightInTrueSpace(const ShaderSources& sources);
+
+}
+
+#endif

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Pass/TrueSpaceLighting.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkMapper.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Relative rounding error of the numbers of the shader, which are floats. */
+constexpr double Rounding = 1.0 / 16777216.0;
+
+vtkPolyData* DataOf(vtkActor* actor)
+{
+  vtkMapper* mapper = actor->GetMapper();
+  return mapper ? vtkPolyData::SafeDownCast(mapper->GetInput()) : nullptr;
+}
+
+template <std::size_t Size, class Numbers>
+std::array<float, Size> ToFloats(const Numbers& numbers)
+{
+  std::array<float, Size> floats;
+  for (std::size_t i = 0; i < Size; ++i)
+  {
+    floats[i] = static_cast<float>(numbers[i]);
+  }
+  return floats;
+}
+
+}
+
+//------------------------------------------------------------------------------
+std::string TrueSpaceLighting::DescribeMissing(vtkActor* object)
+{
+  vtkPolyData* data = DataOf(object);
+  // An output without points has no arrays and shows nothing.
+  return !data || data->GetNumberOfPoints() == 0 || data->GetPointData()->HasArray("TruePosition")
+    ? std::string()
+    : "An object has no array TruePosition; turn on TrueGeometry of its filter";
+}
+
+//------------------------------------------------------------------------------
+/** Fits a plane to the membrane's points, in world coordinates; its normal points to the eye. */
+void TrueSpaceLighting::FitPlane(vtkActor* membrane)
+{
+  vtkPolyData* data = DataOf(membrane);
+  Fit& fit = this->Fits[membrane];
+  if (data && data->GetNumberOfPoints() > 0 && fit.Time != data->GetMTime())
+  {
+    vtkPlane::ComputeBestFittingPlane(data->GetPoints(), fit.Origin, fit.Normal);
+    fit.Time = data->GetMTime();
+  }
+  vtkMatrix4x4* matrix = membrane->GetMatrix();
+  double place[4] = { fit.Origin[0], fit.Origin[1], fit.Origin[2], 1.0 };
+  double normal[4] = { fit.Normal[0], fit.Normal[1], fit.Normal[2], 0.0 };
+  matrix->MultiplyPoint(place, place);
+  // Normals are transformed by the inverse of the transpose.
+  vtkNew<vtkMatrix4x4> inverse;
+  vtkMatrix4x4::Invert(matrix, inverse);
+  inverse->Transpose();
+  inverse->MultiplyPoint(normal, normal);
+  vtkMath::Normalize(normal);
+  const double height = vtkMath::Dot(normal, this->Eye.data()) - vtkMath::Dot(normal, place);
+  const double sign = height < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    this->Plane[i] = sign * normal[i];
+  }
+  this->Plane[3] = -sign * vtkMath::Dot(normal, place);
+  this->Reach = 0.0;
+  if (const double* bounds = membrane->GetBounds())
+  {
+    for (int i = 0; i < 6; ++i)
+    {
+      this->Reach = std::max(this->Reach, std::fabs(bounds[i]));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if it cannot be told on which side of the surface a light is: its height is within the
+ * rounding error of the sum of three products of floats.
+ */
+bool TrueSpaceLighting::IsOnSurface(const double (&position)[4], const double (&about)[3]) const
+{
+  double height = 0.0;
+  double size = position[3] * this->Reach;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    height += this->Plane[i] * position[i];
+  }
+  for (const double coordinate : about)
+  {
+    size = std::max(size, std::fabs(coordinate));
+  }
+  return !(std::fabs(height) > 4.0 * Rounding * size);
+}
+
+//------------------------------------------------------------------------------
+/** Adds a light. Returns false if it is on the surface, or not finite. */
+bool TrueSpaceLighting::Add(vtkLight* light)
+{
+  double position[4];
+  double focus[3];
+  double axis[3];
+  light->GetTransformedPosition(position);
+  light->GetTransformedFocalPoint(focus);
+  vtkMath::Subtract(focus, position, axis);
+  if (vtkMath::Normalize(axis) == 0.0 && !light->GetPositional())
+  {
+    return false;
+  }
+  const bool isPositional = light->GetPositional() != 0;
+  position[3] = isPositional ? 1.0 : 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] = isPositional ? position[i] : -axis[i];
+  }
+  const double about[3] = { position[0], position[1], position[2] };
+  if (this->IsOnSurface(position, about))
+  {
+    return false;
+  }
+  const double* diffuse = light->GetDiffuseColor();
+  const double color[3] = { light->GetIntensity() * diffuse[0], light->GetIntensity() * diffuse[1],
+    light->GetIntensity() * diffuse[2] };
+  const bool hasCone = isPositional && light->GetConeAngle() < 90.0;
+  const double cone[4] = { axis[0], axis[1], axis[2],
+    hasCone ? std::cos(vtkMath::RadiansFromDegrees(light->GetConeAngle())) : -2.0 };
+  const double* values = light->GetAttenuationValues();
+  const double falloff[4] = { values[0], values[1], values[2], light->GetExponent() };
+  this->Lights.push_back(
+    { ToFloats<4>(position), ToFloats<3>(color), ToFloats<4>(cone), ToFloats<4>(falloff) });
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::string TrueSpaceLighting::Update(vtkRenderer* renderer, vtkActor* membrane)
+{
+  renderer->GetActiveCamera()->GetPosition(this->Eye.data());
+  this->FitPlane(membrane);
+  this->Lights.clear();
+  this->Skipped = 0;
+  int beyond = 0;
+  vtkLightCollection* lights = renderer->GetLights();
+  vtkCollectionSimpleIterator iterator;
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (!light->GetSwitch())
+    {
+      continue;
+    }
+    const bool hasRoom = this->Lights.size() < static_cast<std::size_t>(LargestNumber);
+    beyond += hasRoom ? 0 : 1;
+    this->Skipped += hasRoom && this->Add(light) ? 0 : 1;
+  }
+  std::string warning;
+  if (beyond > 0)
+  {
+    warning = std::to_string(beyond) + " lights exceed the limit of " +
+      std::to_string(LargestNumber) + "; they are left out";
+  }
+  else if (this->Skipped > 0)
+  {
+    warning = std::to_string(this->Skipped) +
+      " lights are on the membrane's plane, along it or without a direction; they are left out";
+  }
+  return warning;
+}
+
+//------------------------------------------------------------------------------
+void TrueSpaceLighting::SetUniforms(
+  vtkShaderProgram* program, vtkActor* object, double index, bool lightIsFaded) const
+{
+  if (!program->IsUniformUsed("surfacePlane"))
+  {
+    return;
+  }
+  std::vector<float> positions;
+  std::vector<float> colors;
+  std::vector<float> cones;
+  std::vector<float> falloffs;
+  const auto append = [](std::vector<float>& to, const auto& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  for (const Light& light : this->Lights)
+  {
+    append(positions, light.Position);
+    append(colors, light.Color);
+    append(cones, light.Cone);
+    append(falloffs, light.Falloff);
+  }
+  const int number = static_cast<int>(this->Lights.size());
+  program->SetUniformi("trueLights", number);
+  if (number > 0)
+  {
+    program->SetUniform4fv("trueLightPosition", number, positions.data());
+    program->SetUniform3fv("trueLightColor", number, colors.data());
+    program->SetUniform4fv("trueLightCone", number, cones.data());
+    program->SetUniform4fv("trueLightFalloff", number, falloffs.data());
+  }
+  vtkProperty* property = object->GetProperty();
+  const double* color = property->GetSpecularColor();
+  const double share = property->GetSpecular();
+  const double specular[3] = { share * color[0], share * color[1], share * color[2] };
+  program->SetUniform4f("surfacePlane", ToFloats<4>(this->Plane).data());
+  program->SetUniformf("surfaceIndex", static_cast<float>(index));
+  program->SetUniform3f("trueEye", ToFloats<3>(this->Eye).data());
+  program->SetUniform3f("trueSpecular", ToFloats<3>(specular).data());
+  program->SetUniformf("trueSpecularPower", static_cast<float>(property->GetSpecularPower()));
+  program->SetUniformi("lightIsFaded", lightIsFaded ? 1 : 0);
+}
+
+}

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Property_MediumUniforms_h
+#define meniscus_Rendering_Property_MediumUniforms_h
+
+#include "Volume/Optics/RefractionMedium.h"
+
+class vtkShaderProgram;
+
+namespace meniscus
+{
+
+/** Sets the uniforms of vtkMediumTransmittance.glsl, if the program uses them. */
+void SetMediumUniforms(vtkShaderProgram* program, const RefractionMedium& medium);
+
+}
+
+#endif

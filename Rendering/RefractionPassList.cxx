@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/RefractionPassList.h"
+
+#include "Rendering/Pass/ObjectShader.h"
+#include "Rendering/Pass/TrueSpaceLighting.h"
+#include "Rendering/Pass/ViewBounds.h"
+
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+vtkPolyDataMapper* Refraction::GetMapper() const
+{
+  auto* actor = vtkActor::SafeDownCast(this->Object);
+  return actor ? vtkPolyDataMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+double Refraction::GetRelativeIndex() const
+{
+  vtkRefractingInterfaceCollection* interfaces = nullptr;
+  if (this->Filter)
+  {
+    return this->Filter->GetRelativeIndexOfRefraction();
+  }
+  if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
+  {
+    interfaces = mapper->GetInterfaces();
+  }
+  if (!interfaces)
+  {
+    return 1.0;
+  }
+  vtkRefractingInterface* first = interfaces->GetFirstInterface();
+  return first->GetInteriorIndexOfRefraction() / first->GetExteriorIndexOfRefraction();
+}
+
+//------------------------------------------------------------------------------
+double Refraction::GetLastRelativeIndex() const
+{
+  vtkRefractingInterfaceCollection* interfaces =
+    this->Filter ? this->Filter->GetInterfaces() : nullptr;
+  const int number = interfaces ? interfaces->GetNumberOfItems() : 0;
+  return number > 1 ? interfaces->GetInterface(number - 1)->GetInteriorIndexOfRefraction() /
+      interfaces->GetFirstInterface()->GetExteriorIndexOfRefraction()
+                    : this->GetRelativeIndex();
+}
+
+//------------------------------------------------------------------------------
+std::string Refraction::ChooseLighting(bool isWanted)
+{
+  auto* object = vtkActor::SafeDownCast(this->Object);
+  vtkPolyDataMapper* mapper = this->GetMapper();
+  this->IsLitInTrueSpace = isWanted && mapper && this->Filter && !this->IsReflection &&
+    object->GetProperty()->GetLighting();
+  std::string missing;
+  if (this->IsLitInTrueSpace)
+  {
+    mapper->GetInputAlgorithm()->Update();
+    missing = TrueSpaceLighting::DescribeMissing(object);
+    this->IsLitInTrueSpace = missing.empty();
+  }
+  if (this->IsLitInTrueSpace)
+  {
+    vtkPolyData* data = mapper->GetInput();
+    const bool hasLast = data && data->GetPointData()->HasArray("LastSightPoint");
+    const std::string name = hasLast ? "LastSightPoint" : "SightPoint";
+    if (name != this->SightArray)
+    {
+      this->SightArray = name;
+      MapTrueArrays(mapper, name);
+    }
+  }
+  const bool isNew = missing != this->LightingError;
+  this->LightingError = missing;
+  return isNew ? missing : std::string();
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkActor*> RefractionList::ListMembranes() const
+{
+  std::vector<vtkActor*> membranes;
+  for (const Refraction& refraction : this->All)
+  {
+    if (std::find(membranes.begin(), membranes.end(), refraction.Membrane) == membranes.end())
+    {
+      membranes.push_back(refraction.Membrane);
+    }
+  }
+  return membranes;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkProp*> RefractionList::ListObjects(vtkActor* membrane, bool areReflections) const
+{
+  std::vector<vtkProp*> props;
+  for (const Refraction& refraction : this->All)
+  {
+    if (refraction.Filter && refraction.IsReflection == areReflections &&
+      refraction.Membrane == membrane && refraction.Object->GetVisibility())
+    {
+      props.push_back(refraction.Object);
+    }
+  }
+  return props;
+}
+
+//------------------------------------------------------------------------------
+const Refraction& RefractionList::FirstOf(vtkActor* membrane) const
+{
+  return *std::find_if(this->All.begin(), this->All.end(),
+    [membrane](const Refraction& one) { return one.Membrane == membrane; });
+}
+
+//------------------------------------------------------------------------------
+const Refraction* RefractionList::Find(vtkProp* object) const
+{
+  const auto found = std::find_if(this->All.begin(), this->All.end(),
+    [object](const Refraction& one) { return one.Object == object; });
+  return found == this->All.end() ? nullptr : &*found;
+}
+
+//------------------------------------------------------------------------------
+void RefractionList::Remove(vtkProp3D* object)
+{
+  this->All.erase(std::remove_if(this->All.begin(), this->All.end(),
+                    [object](const Refraction& one) { return one.Object == object; }),
+    this->All.end());
+}
+
+//------------------------------------------------------------------------------
+/** Membranes come first: objects behind a membrane that is out of view are ignored. */
+void RefractionList::AdjustClippingRange(vtkRenderer* renderer) const
+{
+  for (vtkActor* membrane : this->ListMembranes())
+  {
+    const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
+    if (!bounds)
+    {
+      continue;
+    }
+    HoldInClippingRange(renderer, bounds);
+    const bool inView = bounds[0] <= bounds[1] && MayBeInView(renderer, bounds);
+    for (const Refraction& refraction : this->All)
+    {
+      if (inView && refraction.Membrane == membrane && refraction.Object->GetVisibility())
+      {
+        HoldInClippingRange(renderer, refraction.Object->GetBounds());
+      }
+    }
+  }
+}
+
+}

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Lighting of refracted geometry by its true positions and normals: see
+// Rendering/Pass/TrueSpaceLighting.h. Points and directions are in world coordinates.
+
+const int MAXIMUM_OF_LIGHTS = 16;
+
+uniform int trueLights;                           // number of lights
+uniform vec4 trueLightPosition[MAXIMUM_OF_LIGHTS]; // or the direction to the light, with w = 0
+uniform vec3 trueLightColor[MAXIMUM_OF_LIGHTS];
+uniform vec4 trueLightCone[MAXIMUM_OF_LIGHTS];    // axis, cosine of the angle (-2: no cone)
+uniform vec4 trueLightFalloff[MAXIMUM_OF_LIGHTS]; // for distance^0, 1, 2; exponent in the cone
+uniform vec4 surfacePlane;   // height above the water: dot(xyz, point) + w
+uniform float surfaceIndex;  // index of refraction behind the membrane relative to that in front
+uniform vec3 trueEye;
+uniform vec3 trueSpecular;
+uniform float trueSpecularPower;
+uniform bool lightIsFaded;   // by its way through the medium
+
+// A ray from a light to a point.
+struct LightRay
+{
+  vec3 toLight;     // unit vector at the point
+  vec3 fromLight;   // unit vector at the light
+  float path;       // length of a positional light's ray
+  float inMedium;   // length of the part behind the membrane
+  bool arrives;
+};
+
+// Height above the membrane of a light, or of the direction to it.
+float heightOfLight(vec4 light)
+{
+  return dot(surfacePlane, light);
+}
+
+// Ray of a light at infinity in front of the membrane to a point behind it, by Snell's law.
+LightRay refractDistantLight(vec3 toLight, float depth)
+{
+  LightRay ray;
+  vec3 n = surfacePlane.xyz;
+  vec3 across = (toLight - dot(toLight, n) * n) / surfaceIndex;
+  float sine2 = dot(across, across);
+  float cosine = sqrt(max(1.0 - sine2, 0.0));
+  ray.arrives = sine2 < 1.0;
+  ray.toLight = across + cosine * n;
+  ray.fromLight = -toLight;
+  ray.path = 0.0;
+  ray.inMedium = cosine > 0.0 ? depth / cosine : 0.0;
+  return ray;
+}
+
+// Ray of a light at a point. The place x where the ray meets the membrane, from below the light
+// towards the point below it, is the root of x / |(x, height)| - n (r - x) / |(r - x, depth)|,
+// which grows with x: 24 bisections leave 2^-24 of r, the precision of floats.
+LightRay refractNearLight(vec3 light, float height, vec3 point, float depth)
+{
+  LightRay ray;
+  vec3 n = surfacePlane.xyz;
+  vec3 between = light - point;
+  vec3 level = between - dot(between, n) * n;
+  float r = length(level);
+  vec3 along = r > 0.0 ? level / r : vec3(0.0);
+  float low = 0.0;
+  float high = r;
+  for (int i = 0; i < 24; ++i)
+  {
+    float x = 0.5 * (low + high);
+    bool beyond = x * length(vec2(r - x, depth)) > surfaceIndex * (r - x) * length(vec2(x, height));
+    low = beyond ? low : x;
+    high = beyond ? x : high;
+  }
+  float x = 0.5 * (low + high);
+  float behind = length(vec2(r - x, depth));
+  float before = length(vec2(x, height));
+  ray.toLight = ((r - x) * along + depth * n) / behind;
+  ray.fromLight = -(x * along + height * n) / before;
+  ray.path = before + behind;
+  ray.inMedium = behind;
+  ray.arrives = true;
+  return ray;
+}
+
+// Ray of a light to a point. Lights on the point's side of the membrane shine straight.
+LightRay traceLight(vec4 light, vec3 point, bool isBehind)
+{
+  float depth = -dot(surfacePlane, vec4(point, 1.0));
+  float height = heightOfLight(light);
+  if (isBehind && depth > 0.0 && height > 0.0)
+  {
+    return light.w == 0.0 ? refractDistantLight(light.xyz, depth)
+                          : refractNearLight(light.xyz, height, point, depth);
+  }
+  LightRay ray;
+  vec3 between = light.xyz - light.w * point;
+  float far = length(between);
+  ray.toLight = between / far;
+  ray.fromLight = -ray.toLight;
+  ray.path = far;
+  ray.inMedium = isBehind && light.w != 0.0 && height < 0.0 ? far : 0.0;
+  ray.arrives = far > 0.0;
+  return ray;
+}
+
+// Phong's model as VTK has it: light of all lights that the surface reflects to the eye.
+vec3 lightInTrueSpace(
+  vec3 ambient, vec3 diffuse, vec3 position, vec3 givenNormal, vec3 sightPoint, bool isBehind)
+{
+  vec3 facet = cross(dFdx(position), dFdy(position));
+  vec3 toSight = sightPoint - position;
+  vec3 toEye = trueEye - position;
+  // Points in front of the membrane are seen straight. So are those on it, whose ray behind it is
+  // shorter than the rounding errors of its ends, 2^-20 of the distance from the eye.
+  bool isSeenStraight = !isBehind || dot(toSight, toSight) < dot(toEye, toEye) * 1.0e-12;
+  vec3 toViewer = normalize(isSeenStraight ? toEye : toSight);
+  bool isGiven = dot(givenNormal, givenNormal) > 0.25;
+  vec3 normal = normalize(isGiven ? givenNormal : facet);
+  // The side of the surface that is seen is that of its facet; a normal belongs to both sides.
+  float side = isGiven ? dot(facet, toViewer) * dot(facet, normal) : dot(normal, toViewer);
+  normal = side < 0.0 ? -normal : normal;
+
+  vec3 color = ambient;
+  for (int i = 0; i < trueLights; ++i)
+  {
+    LightRay ray = traceLight(trueLightPosition[i], position, isBehind);
+    float strength = ray.arrives ? 1.0 : 0.0;
+    if (trueLightPosition[i].w != 0.0)
+    {
+      strength /= dot(trueLightFalloff[i].xyz, vec3(1.0, ray.path, ray.path * ray.path));
+      float inCone = dot(ray.fromLight, trueLightCone[i].xyz);
+      bool hasCone = trueLightCone[i].w >= -1.0;
+      strength *= hasCone && inCone < trueLightCone[i].w ? 0.0 : 1.0;
+      strength *= hasCone ? pow(max(inCone, 0.0), trueLightFalloff[i].w) : 1.0;
+    }
+    vec3 arriving = strength * trueLightColor[i];
+    arriving *= lightIsFaded ? seenThroughMedium(ray.inMedium) : vec3(1.0);
+    float facing = dot(normal, ray.toLight);
+    if (facing > 0.0)
+    {
+      float mirrored = max(dot(reflect(-ray.toLight, normal), toViewer), 0.0);
+      color += arriving *
+        (facing * diffuse + pow(max(mirrored, 1.0e-5), trueSpecularPower) * trueSpecular);
+    }
+  }
+  return color;
+}

@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Lighting in true space, compared with closed forms: the floor of a pool under flat water.
+#include "FlatPool.h"
+#include "RayCastScene.h"
+
+#include <vtkActor.h>
+#include <vtkLight.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRefractionPass.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+using namespace meniscus::test::flatpool;
+
+namespace
+{
+
+constexpr double Ambient = 0.1;
+constexpr double Diffuse = 0.7;
+constexpr double Specular = 0.2;
+constexpr double Power = 12.0;
+const glm::dvec3 Albedo(0.9, 0.6, 0.3);
+
+/** A light, and the ray by which it reaches a point of the floor. */
+struct Lamp
+{
+  glm::dvec3 Color{ 1.0 };
+  /** Place, or for a light at infinity the direction to it. */
+  glm::dvec3 Place{ 0.0 };
+  bool IsDistant = false;
+  glm::dvec3 Axis{ 0.0, 0.0, -1.0 };
+  double ConeAngle = 90.0;
+  double Exponent = 1.0;
+  glm::dvec3 Falloff{ 1.0, 0.0, 0.0 };
+
+  vtkSmartPointer<vtkLight> Make() const
+  {
+    auto light = vtkSmartPointer<vtkLight>::New();
+    light->SetLightTypeToSceneLight();
+    light->SetColor(this->Color.r, this->Color.g, this->Color.b);
+    const glm::dvec3 focus = this->IsDistant ? glm::dvec3(0.0) : this->Place + this->Axis;
+    light->SetPosition(this->Place.x, this->Place.y, this->Place.z);
+    light->SetFocalPoint(focus.x, focus.y, focus.z);
+    light->SetPositional(!this->IsDistant);
+    light->SetConeAngle(this->ConeAngle);
+    light->SetExponent(this->Exponent);
+    light->SetAttenuationValues(this->Falloff.x, this->Falloff.y, this->Falloff.z);
+    return light;
+  }
+};
+
+struct LampRay
+{
+  glm::dvec3 ToLamp;
+  glm::dvec3 FromLamp;
+  double Path;
+  double InWater;
+};
+
+/** Ray from a light to a point below the water z = 0, by Snell's law. */
+LampRay TraceLamp(const Lamp& lamp, const glm::dvec3& point)
+{
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  if (lamp.IsDistant)
+  {
+    const glm::dvec3 to = glm::normalize(lamp.Place);
+    const glm::dvec3 across = glm::dvec3(to.x, to.y, 0.0) / Water;
+    const double cosine = std::sqrt(1.0 - glm::dot(across, across));
+    return { across + cosine * up, -to, 0.0, -point.z / cosine };
+  }
+  const glm::dvec3 between = lamp.Place - point;
+  if (lamp.Place.z < 0.0)
+  {
+    const double path = glm::length(between);
+    return { between / path, -between / path, path, path };
+  }
+  // The angle in air, by bisection: both parts of the way across add up to the distance.
+  const glm::dvec3 level(between.x, between.y, 0.0);
+  const double r = glm::length(level);
+  const auto inWater = [](double angle) { return std::asin(std::sin(angle) / Water); };
+  double low = 0.0;
+  double high = 0.5 * vtkMath::Pi();
+  for (int i = 0; i < 60; ++i)
+  {
+    const double angle = 0.5 * (low + high);
+    const double across = lamp.Place.z * std::tan(angle) - point.z * std::tan(inWater(angle));
+    (across > r ? high : low) = angle;
+  }
+  const glm::dvec3 along = r > 0.0 ? level / r : glm::dvec3(0.0);
+  const double below = inWater(low);
+  return { std::sin(below) * along + std::cos(below) * up,
+    -(std::sin(low) * along + std::cos(low) * up),
+    lamp.Place.z / std::cos(low) - point.z / std::cos(below), -point.z / std::cos(below) };
+}
+
+/** The place of the floor that a pixel shows, and the direction from there to its sight point. */
+struct FloorSight
+{
+  glm::dvec3 Place;
+  glm::dvec3 ToViewer;
+};
+
+FloorSight FloorOf(vtkCamera* camera, const Sight& sight)
+{
+  const double* eye = camera->GetPosition();
+  const glm::dvec3 surface(sight.Point[0], sight.Point[1], 0.0);
+  const glm::dvec3 ray = glm::normalize(surface - glm::dvec3(eye[0], eye[1], eye[2]));
+  const glm::dvec3 refracted(ray.x / Water, ray.y / Water, -sight.RefractedCosine);
+  return { surface + Depth / sight.RefractedCosine * refracted, -refracted };
+}
+
+/** Phong's model with VTK's falloff. */
+glm::dvec3 LitColor(
+  const std::vector<Lamp>& lamps, const FloorSight& floor, const glm::dvec3& coefficients)
+{
+  const glm::dvec3 normal(0.0, 0.0, 1.0);
+  glm::dvec3 color = Ambient * Albedo;
+  for (const Lamp& lamp : lamps)
+  {
+    const LampRay ray = TraceLamp(lamp, floor.Place);
+    double strength = 1.0;
+    if (!lamp.IsDistant)
+    {
+      strength /= lamp.Falloff.x + ray.Path * (lamp.Falloff.y + ray.Path * lamp.Falloff.z);
+      const double inCone = glm::dot(ray.FromLamp, glm::normalize(lamp.Axis));
+      if (lamp.ConeAngle < 90.0)
+      {
+        strength *= inCone < std::cos(vtkMath::RadiansFromDegrees(lamp.ConeAngle))
+          ? 0.0
+          : std::pow(inCone, lamp.Exponent);
+      }
+    }
+    const double facing = std::max(glm::dot(normal, ray.ToLamp), 0.0);
+    const glm::dvec3 mirrored = 2.0 * facing * normal - ray.ToLamp;
+    const double highlight =
+      facing > 0.0 ? std::pow(std::max(glm::dot(mirrored, floor.ToViewer), 0.0), Power) : 0.0;
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] += strength * lamp.Color[c] * std::exp(-coefficients[c] * ray.InWater) *
+        (Diffuse * facing * Albedo[c] + Specular * highlight);
+    }
+  }
+  return color;
+}
+
+class LitPool : public Pool
+{
+public:
+  LitPool()
+  {
+    this->Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+    this->Pass->SetLighting(vtkRefractionPass::TRUE_SPACE);
+    this->Filter->TrueGeometryOn();
+    vtkProperty* property = this->Floor->GetProperty();
+    property->SetColor(Albedo.r, Albedo.g, Albedo.b);
+    property->SetSpecularColor(1.0, 1.0, 1.0);
+    property->SetAmbient(Ambient);
+    property->SetDiffuse(Diffuse);
+    property->SetSpecular(Specular);
+    property->SetSpecularPower(Power);
+    this->GetRenderer()->SetAutomaticLightCreation(false);
+  }
+
+  void SetLamps(const std::vector<Lamp>& lamps)
+  {
+    this->GetRenderer()->RemoveAllLights();
+    for (const Lamp& lamp : lamps)
+    {
+      this->GetRenderer()->AddLight(lamp.Make());
+    }
+  }
+
+  void ExpectLit(const std::string& what, const std::vector<Lamp>& lamps,
+    const glm::dvec3& coefficients = glm::dvec3(0.0))
+  {
+    this->SetLamps(lamps);
+    for (const double x : { 0.0, 1.5 })
+    {
+      this->LookFrom(x, -0.5 * x);
+      ExpectColors(*this, what,
+        [&](const Sight& sight, int channel)
+        {
+          const FloorSight floor = FloorOf(this->GetCamera(), sight);
+          return std::clamp(LitColor(lamps, floor, coefficients)[channel] *
+              std::exp(-coefficients[channel] *
+                glm::distance(floor.Place, glm::dvec3(sight.Point[0], sight.Point[1], 0.0))),
+            0.0, 1.0);
+        });
+    }
+  }
+};
+
+/** A light at infinity in a direction. */
+Lamp Distant(double x, double y, double z)
+{
+  Lamp lamp;
+  lamp.IsDistant = true;
+  lamp.Place = { x, y, z };
+  return lamp;
+}
+
+/** A lamp that shines to all sides. */
+Lamp Near(double x, double y, double z)
+{
+  Lamp lamp;
+  lamp.Place = { x, y, z };
+  lamp.Falloff = { 0.6, 0.2, 0.3 };
+  return lamp;
+}
+
+} // anonymous namespace
+
+TEST(RefractionPassLighting, LightsAtInfinityAreRefracted)
+{
+  LitPool pool;
+  pool.ExpectLit("from above", { Distant(0.0, 0.0, 1.0) });
+  pool.ExpectLit("aslant", { Distant(0.8, -0.3, 0.4) });
+  pool.ExpectLit("grazing", { Distant(1.0, 0.2, 0.01) });
+}
+
+TEST(RefractionPassLighting, LampsInTheWater)
+{
+  LitPool pool;
+  pool.ExpectLit("lamp", { Near(0.7, -0.4, -0.6) });
+  pool.ExpectLit("next to the floor", { Near(-0.5, 0.3, -1.3) });
+}
+
+TEST(RefractionPassLighting, LampsAboveTheWater)
+{
+  LitPool pool;
+  pool.ExpectLit("lamp", { Near(0.7, -0.4, 0.8) });
+  pool.ExpectLit("far to the side", { Near(-6.0, 3.0, 0.5) });
+  pool.ExpectLit("next to the water", { Near(0.2, 0.1, 0.01) });
+}
+
+TEST(RefractionPassLighting, SpotLights)
+{
+  // Exponents make the light vanish at the edge of the cone, which is then smooth.
+  LitPool pool;
+  for (const double height : { -0.4, 1.0 })
+  {
+    Lamp lamp = Near(0.3, 0.2, height);
+    lamp.Axis = { 0.2, -0.1, -1.0 };
+    lamp.ConeAngle = 89.0;
+    lamp.Exponent = 20.0;
+    pool.ExpectLit("spot at " + std::to_string(height), { lamp });
+  }
+}
+
+TEST(RefractionPassLighting, SeveralLightsAddUp)
+{
+  LitPool pool;
+  std::vector<Lamp> lamps{ Distant(0.8, -0.3, 0.4), Near(0.7, -0.4, -0.6), Near(-1.0, 0.5, 0.8) };
+  const glm::dvec3 colors[3] = { { 0.5, 0.1, 0.1 }, { 0.1, 0.6, 0.2 }, { 0.1, 0.2, 0.7 } };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    lamps[i].Color = colors[i];
+  }
+  pool.ExpectLit("three", lamps);
+}
+
+TEST(RefractionPassLighting, TheMediumAttenuatesLightOnItsWay)
+{
+  LitPool pool;
+  const glm::dvec3 coefficients(0.8, 0.2, 0.05);
+  pool.Pass->SetAttenuationCoefficients(coefficients.r, coefficients.g, coefficients.b);
+  const std::vector<Lamp> lamps{ Distant(0.8, -0.3, 0.4), Near(0.7, -0.4, -0.6),
+    Near(-1.0, 0.5, 0.8) };
+  for (const Lamp& lamp : lamps)
+  {
+    pool.ExpectLit("attenuated", { lamp }, coefficients);
+  }
+}
+
+TEST(RefractionPassLighting, WithoutNormalsFacetsAreLit)
+{
+  LitPool pool;
+  pool.Bottom->Update();
+  const auto bare = vtkSmartPointer<vtkPolyData>::New();
+  bare->ShallowCopy(pool.Bottom->GetOutput());
+  bare->GetPointData()->Initialize();
+  pool.Filter->SetInputData(bare);
+  pool.ExpectLit("facets", { Near(0.7, -0.4, -0.6), Distant(0.8, -0.3, 0.4) });
+}
+
+TEST(RefractionPassLighting, BothSidesOfASurfaceAreLit)
+{
+  LitPool pool;
+  pool.Bottom->Update();
+  const auto turned = vtkSmartPointer<vtkPolyData>::New();
+  turned->DeepCopy(pool.Bottom->GetOutput());
+  vtkDataArray* normals = turned->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+  {
+    normals->SetTuple3(i, 0.0, 0.0, -1.0);
+  }
+  pool.Filter->SetInputData(turned);
+  pool.ExpectLit("turned normals", { Near(0.7, -0.4, -0.6) });
+}
+
+TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
+{
+  LitPool pool;
+  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  messages->Observe(pool.Pass);
+  const Lamp good = Near(0.7, -0.4, -0.6);
+  pool.SetLamps({ Near(0.3, 0.1, 0.0), good, Distant(1.0, 0.5, 0.0) });
+  ExpectColors(pool, "two of three left out",
+    [&](const Sight& sight, int channel)
+    { return LitColor({ good }, FloorOf(pool.GetCamera(), sight), glm::dvec3(0.0))[channel]; });
+  EXPECT_EQ(messages->Warnings.size(), 1u);
+  EXPECT_EQ(pool.Pass->GetNumberOfSkippedLights(), 2);
+  pool.Render();
+  EXPECT_EQ(messages->Warnings.size(), 1u) << "one warning for the same lights";
+  std::vector<Lamp> many(18, good);
+  for (Lamp& lamp : many)
+  {
+    lamp.Color = glm::dvec3(1.0 / 16.0);
+  }
+  pool.SetLamps(many);
+  ExpectColors(pool, "more than there is room for",
+    [&](const Sight& sight, int channel)
+    { return LitColor({ good }, FloorOf(pool.GetCamera(), sight), glm::dvec3(0.0))[channel]; });
+  EXPECT_EQ(messages->Warnings.size(), 2u);
+  EXPECT_TRUE(messages->Errors.empty()) << messages->GetText();
+}
+
+TEST(RefractionPassLighting, WithoutTruePositionsThereIsAnError)
+{
+  LitPool pool;
+  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  messages->Observe(pool.Pass);
+  pool.SetLamps({ Near(0.7, -0.4, -0.6) });
+  pool.Filter->TrueGeometryOff();
+  const ByteImage without = pool.Render();
+  EXPECT_EQ(messages->Errors.size(), 1u);
+  pool.Pass->SetLighting(vtkRefractionPass::VIRTUAL_SPACE);
+  EXPECT_EQ(pool.Render().Rgb, without.Rgb);
+  EXPECT_EQ(messages->Errors.size(), 1u);
+  // The arrays may come later.
+  pool.Pass->SetLighting(vtkRefractionPass::TRUE_SPACE);
+  pool.Filter->TrueGeometryOn();
+  pool.ExpectLit("again", { Near(0.7, -0.4, -0.6) });
+  EXPECT_EQ(messages->Errors.size(), 1u);
+}
