@@ -21,10 +21,12 @@ namespace meniscus
 InputReport VolumeInput::UpdateMesh(
   const InputBlocks& input, const std::function<bool(double)>& progress)
 {
-  const bool changed =
-    this->MeshWatch.HasChanged(MeshVersions(input), [&input]() { return DigestMesh(input); });
+  const bool newCells =
+    this->CellWatch.HasChanged(CellVersions(input), [&input]() { return DigestCells(input); });
+  const bool newPoints =
+    this->PointWatch.HasChanged(PointVersions(input), [&input]() { return DigestPoints(input); });
   const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
-  if (!changed && !lacksSources)
+  if (!newCells && !newPoints && !lacksSources)
   {
     return InputReport();
   }
@@ -34,7 +36,26 @@ InputReport VolumeInput::UpdateMesh(
   {
     grids.push_back(part.Grid);
   }
-  return this->BuildMesh(grids, progress);
+  const bool moved = !newCells && !lacksSources && this->MovePoints(grids);
+  return moved ? InputReport() : this->BuildMesh(grids, progress);
+}
+
+//------------------------------------------------------------------------------
+/** Moves the vertices. Returns false if the mesh must be built. */
+bool VolumeInput::MovePoints(const std::vector<vtkDataSet*>& grids)
+{
+  if (this->SplitsByPosition)
+  {
+    return false;
+  }
+  const PointsSource points(grids, ThreadedLoop);
+  if (!this->Mesh.MovePoints(points.GetView(), ThreadedLoop))
+  {
+    return false;
+  }
+  this->MeshVersion.Bump();
+  ++this->PointUpdates;
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -43,6 +64,7 @@ InputReport VolumeInput::BuildMesh(
 {
   this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
+  this->BuildVersion.Bump();
   this->MeshVersion.Bump();
   this->LinkVersion.Bump();
 
@@ -67,8 +89,9 @@ InputReport VolumeInput::BuildMesh(
   control.Progress = progress;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
-    this->MeshWatch.Forget(); // the next call starts again
+    this->CellWatch.Forget(); // the next call starts again
   }
+  this->SplitsByPosition = gridView.SplitsByPosition();
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())
   {
@@ -250,10 +273,10 @@ std::int64_t VolumeInput::GetBytes() const
 //------------------------------------------------------------------------------
 const BoundaryTree& VolumeInput::GetBoundaryTree()
 {
-  if (this->TreeOf != this->LinkVersion)
+  if (this->TreeOf != this->GetBoundaryVersions())
   {
     this->Tree.Build(this->Mesh);
-    this->TreeOf = this->LinkVersion;
+    this->TreeOf = this->GetBoundaryVersions();
   }
   return this->Tree;
 }
