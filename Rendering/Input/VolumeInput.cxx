@@ -273,11 +273,17 @@ std::int64_t VolumeInput::GetBytes() const
 //------------------------------------------------------------------------------
 const BoundaryTree& VolumeInput::GetBoundaryTree()
 {
-  if (this->TreeOf != this->GetBoundaryVersions())
+  const bool sameFaces = this->LinksOfTree == this->LinkVersion;
+  if (sameFaces && this->MeshOfTree == this->MeshVersion)
+  {
+    return this->Tree;
+  }
+  if (!sameFaces || !this->Tree.Refit(this->Mesh))
   {
     this->Tree.Build(this->Mesh);
-    this->TreeOf = this->GetBoundaryVersions();
   }
+  this->LinksOfTree = this->LinkVersion;
+  this->MeshOfTree = this->MeshVersion;
   return this->Tree;
 }
 

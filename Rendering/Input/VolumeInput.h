@@ -131,7 +131,9 @@ private:
   /** True if other positions may divide the input's cells into other tetrahedra. */
   bool SplitsByPosition = false;
   bool ActiveSetStale = true;
-  TableVersions TreeOf;
+  /** Versions of the links and positions that the tree is of. */
+  TableVersion LinksOfTree;
+  TableVersion MeshOfTree;
 
   TableVersion BuildVersion;
   TableVersion MeshVersion;

@@ -3,8 +3,11 @@
 // Meshes whose points move: their tables are those that are built of the moved points, whatever the
 // order of vertices and cells, or MovePoints() says that they are not.
 #include "KernelMeshes.h"
+#include "Volume/Mesh/BoundaryTree.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <gtest/gtest.h>
 
@@ -319,6 +322,59 @@ TEST(MovedPoints, AnEmptyMeshNeedsABuild)
 {
   const MeshArrays arrays = KuhnGrid(2);
   EXPECT_FALSE(TetrahedralMesh().MovePoints(arrays.Points.data()));
+}
+
+TEST(MovedPoints, BoundaryTreeIsFitted)
+{
+  const MeshArrays arrays = KuhnGrid(8);
+  const MeshArrays moved =
+    Moved(arrays, [](const glm::dvec3& p) { return glm::dvec3(p.x + 0.2 * p.y, p.y, -p.z); });
+  TetrahedralMesh mesh = Build(arrays);
+  BoundaryTree tree;
+  tree.Build(mesh);
+  const std::size_t size = tree.GetFaces().size();
+  ASSERT_TRUE(mesh.MovePoints(moved.Points.data()));
+  ASSERT_TRUE(tree.Refit(mesh));
+  // All faces with their orientation after the motion, which mirrors the mesh.
+  std::multiset<OrientedFace> faces;
+  std::multiset<OrientedFace> boundary;
+  for (std::size_t f = 0; f < size; ++f)
+  {
+    faces.insert(MakeOrientedFace(mesh, tree.GetFaces()[f]));
+    boundary.insert(MakeOrientedFace(mesh, mesh.GetBoundary()[f]));
+  }
+  EXPECT_EQ(faces, boundary);
+  // Each box contains the faces of its subtree.
+  const auto& nodes = tree.GetNodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+  {
+    for (auto below = static_cast<std::int32_t>(n); below < nodes[n].Skip; ++below)
+    {
+      if (nodes[below].Face < 0)
+      {
+        continue;
+      }
+      for (const std::int32_t vertex : tree.GetFaces()[nodes[below].Face].Vertices)
+      {
+        const glm::dvec3 offset =
+          glm::abs(glm::dvec3(glm::vec3(mesh.GetPosition(vertex))) - glm::dvec3(nodes[n].Center));
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(offset, glm::dvec3(nodes[n].Half))));
+      }
+    }
+  }
+}
+
+TEST(MovedPoints, ATreeOfScatteredFacesIsBuilt)
+{
+  MeshArrays arrays = KuhnGrid(8);
+  TetrahedralMesh mesh = Build(arrays);
+  BoundaryTree tree;
+  tree.Build(mesh);
+  Jitter(arrays, 0.4, 5);
+  ASSERT_TRUE(mesh.MovePoints(arrays.Points.data()));
+  EXPECT_FALSE(tree.Refit(mesh));
+  tree.Build(mesh);
+  EXPECT_TRUE(tree.Refit(mesh));
 }
 
 TEST(MovedPoints, ThreadsDoNotMatter)
