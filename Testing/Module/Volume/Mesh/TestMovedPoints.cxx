@@ -278,6 +278,7 @@ TEST(MovedPoints, VolumesThatCancelNeedABuild)
   EXPECT_FALSE(mesh.MovePoints(apart.Points.data()));
   // A fold that leaves volume is no reason to cut it.
   folded.Points[3 * 4 + 2] = 0.5;
+  EXPECT_FALSE(mesh.MovePoints(folded.Points.data()));
   mesh = Build(apart);
   ASSERT_TRUE(mesh.MovePoints(folded.Points.data()));
   ExpectSame(mesh, Build(folded));
