@@ -474,9 +474,11 @@ public:
   /** @{ */
   /**
    * Counters of work done since construction:
-   * - builds of the mesh tables;
-   * - updates of the scalars, when their values have changed: where a modification time of any
-   *   object of the input has moved, values are compared by a digest;
+   * - builds of the mesh tables, when values of the cells have changed: where a modification time
+   *   of any object of the input has moved, values are compared by a digest, so that equal cells
+   *   in new arrays, as readers make them in each time step, are the same mesh;
+   * - updates of the positions alone, when points have moved and the cells are the same;
+   * - updates of the scalars, when their values have changed;
    * - reductions of the volume property to control points;
    * - builds of the set of active cells, for a new mesh, for new scalars, or when other scalars
    *   become visible;
@@ -491,6 +493,7 @@ public:
    *   many layers, such as cells that share no points (for other rays or other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
+  vtkTypeInt64 GetNumberOfPointUpdates();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();

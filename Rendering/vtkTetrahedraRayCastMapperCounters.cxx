@@ -9,7 +9,13 @@
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
 {
-  return this->Internals->Input.GetMeshVersion().GetChanges();
+  return this->Internals->Input.GetBuildVersion().GetChanges();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPointUpdates()
+{
+  return this->Internals->Input.GetNumberOfPointUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -191,6 +197,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "UsedImageSampleDistance: " << this->UsedImageSampleDistance << "\n";
   os << indent << "EarlyTerminationOpacity: " << this->EarlyTerminationOpacity << "\n";
   os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
+  os << indent << "NumberOfPointUpdates: " << this->GetNumberOfPointUpdates() << "\n";
   os << indent << "NumberOfScalarUpdates: " << this->GetNumberOfScalarUpdates() << "\n";
   os << indent << "NumberOfTransferFunctionBuilds: " << this->GetNumberOfTransferFunctionBuilds()
      << "\n";

@@ -344,12 +344,14 @@ public:
 
   /** @{ */
   /**
-   * Counters since construction: builds of the mesh, updates of the scalars, determinations of the
-   * cells that count, reductions of the volume property, readings of arrays of energy bins, builds
-   * of the shape of a surface, and casts of an image's rays (one for all measurements of the
-   * scalar, one for RGBA, one for three energy bins with arrays or for one that emits).
+   * Counters since construction: builds of the mesh, updates of the positions alone (points have
+   * moved, the cells are the same), updates of the scalars, determinations of the cells that count,
+   * reductions of the volume property, readings of arrays of energy bins, builds of the shape of a
+   * surface, and casts of an image's rays (one for all measurements of the scalar, one for RGBA,
+   * one for three energy bins with arrays or for one that emits).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
+  vtkTypeInt64 GetNumberOfPointUpdates();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();

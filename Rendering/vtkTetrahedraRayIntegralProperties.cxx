@@ -156,7 +156,13 @@ double vtkTetrahedraRayIntegral::GetBinIntensity(int bin)
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfMeshBuilds()
 {
-  return this->Internals->Input.GetMeshVersion().GetChanges();
+  return this->Internals->Input.GetBuildVersion().GetChanges();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfPointUpdates()
+{
+  return this->Internals->Input.GetNumberOfPointUpdates();
 }
 
 //------------------------------------------------------------------------------

@@ -6,18 +6,22 @@
 
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkExtractBlockUsingDataAssembly.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMergeBlocks.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
 #include "vtkTetrahedraRayCastMapper.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkVolumeProperty.h"
 #include "vtkVolumeRepresentationPreprocessor.h"
 
@@ -133,9 +137,72 @@ void vtkTetrahedraRayCastRepresentation::LetViewPeelVolumes(bool peel)
 int vtkTetrahedraRayCastRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const int succeeded = this->Superclass::RequestData(request, inputs, outputs);
+  // Without the superclass's own step, which divides the cells.
+  const int succeeded = this->TakeWholeCells(inputs[0])
+    ? this->vtkVolumeRepresentation::RequestData(request, inputs, outputs)
+    : this->Superclass::RequestData(request, inputs, outputs);
   this->LeaveOutWithoutArray();
   return this->UpdateMembrane(inputs[MembranePort]) ? succeeded : 0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastRepresentation::TakeWholeCells(vtkInformationVector* input)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const bool isAlone = !controller || controller->GetNumberOfProcesses() == 1;
+  if (!isAlone || this->GetActiveVolumeMapper() != this->Mapper ||
+    input->GetNumberOfInformationObjects() != 1)
+  {
+    return false;
+  }
+  vtkSmartPointer<vtkDataObject> cells = vtkDataObject::GetData(input);
+  if (vtkCompositeDataSet::SafeDownCast(cells))
+  {
+    this->Blocks->SetInputData(cells);
+    this->Blocks->Update();
+    vtkNew<vtkMergeBlocks> merge;
+    merge->SetInputData(this->Blocks->GetOutputDataObject(0));
+    merge->MergePointsOff();
+    merge->Update();
+    this->Blocks->SetInputData(nullptr);
+    cells = merge->GetOutputDataObject(0);
+  }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(cells);
+  // The superclass delivers what is the output of this filter, which is not executed here.
+  this->Preprocessor->SetInputConnection(this->GetInternalOutputPort());
+  auto* output = vtkUnstructuredGrid::SafeDownCast(this->Preprocessor->GetOutputDataObject(0));
+  if (!grid || !output)
+  {
+    return false;
+  }
+  output->ShallowCopy(grid);
+  output->GetBounds(this->DataBounds);
+  if (this->UseSeparateOpacityArray)
+  {
+    this->AppendOpacityComponent(output);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetActiveAssembly(const char* name)
+{
+  this->Blocks->SetAssemblyName(name);
+  this->Superclass::SetActiveAssembly(name);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::AddBlockSelector(const char* selector)
+{
+  this->Blocks->AddSelector(selector);
+  this->Superclass::AddBlockSelector(selector);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::RemoveAllBlockSelectors()
+{
+  this->Blocks->ClearSelectors();
+  this->Superclass::RemoveAllBlockSelectors();
 }
 
 //------------------------------------------------------------------------------

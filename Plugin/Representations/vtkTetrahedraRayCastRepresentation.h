@@ -7,7 +7,8 @@
  *
  * ParaView fills the list of mappers of vtkUnstructuredGridVolumeRepresentation in C++; this class
  * adds vtkTetrahedraRayCastMapper under the name `Tetrahedra ray cast` and forwards its settings.
- * The splitting of cells into tetrahedra and the surface shown during interaction are inherited.
+ * The surface shown during interaction is inherited. On one rank the mapper gets the cells as they
+ * are; ParaView's own volumes divide them into tetrahedra first, in every time step.
  *
  * For an array of several components, the colour map selects one or the length, as for ParaView's
  * volumes of image data. With MultiComponentsMapping, without MapScalars, or with a separate
@@ -32,9 +33,11 @@
 #define vtkTetrahedraRayCastRepresentation_h
 
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
+#include "vtkNew.h"                           // For the mapper
 #include "vtkSmartPointer.h"                  // For the membrane
 #include "vtkUnstructuredGridVolumeRepresentation.h"
 
+class vtkExtractBlockUsingDataAssembly;
 class vtkPolyData;
 class vtkTetrahedraRayCastMapper;
 
@@ -49,6 +52,13 @@ public:
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* inputs, vtkInformation* outputs) override;
   void SetVisibility(bool visible) override;
+
+  /** @{ */
+  /** Choice of the blocks of a composite data set, as in the superclass. */
+  void SetActiveAssembly(const char* name);
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  /** @} */
 
   /** @{ */
   /** Forwarded to the mapper. */
@@ -93,12 +103,19 @@ private:
   vtkTetrahedraRayCastRepresentation(const vtkTetrahedraRayCastRepresentation&) = delete;
   void operator=(const vtkTetrahedraRayCastRepresentation&) = delete;
 
+  /**
+   * Hands the cells of the input over as they are. Returns false if the superclass has to prepare
+   * them: for other mappers, and on several ranks, which exchange and cut cells.
+   */
+  bool TakeWholeCells(vtkInformationVector* input);
   void LeaveOutWithoutArray();
   bool UpdateMembrane(vtkInformationVector* input);
   void WarnOfOrder(vtkDataObject* source);
   void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+  /** Chooses the blocks of a composite data set. */
+  vtkNew<vtkExtractBlockUsingDataAssembly> Blocks;
   /**
    * Membrane gathered on this rank; empty if there is none, because every process must receive a
    * data object.

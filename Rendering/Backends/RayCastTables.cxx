@@ -16,7 +16,7 @@ std::vector<RayCastTableState> RayCastTables::ListWanted(const RayCastFrame& fra
   const TableVersion scalars = this->Input.GetScalarVersion();
   const TableVersion ofVertices = optics.CellScalars ? TableVersion() : scalars;
   std::vector<RayCastTableState> tables{ { RayCastTable::Cells, this->Input.GetLinkVersion() },
-    { RayCastTable::Boundary, this->Input.GetLinkVersion() },
+    { RayCastTable::Boundary, this->Input.GetBoundaryVersions() },
     { RayCastTable::Vertices, { this->Input.GetMeshVersion(), ofVertices } },
     { RayCastTable::Functions, this->Property.GetVersion() } };
   const auto addIf = [&tables](bool wanted, RayCastTable table, TableVersion version)

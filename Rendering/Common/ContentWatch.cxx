@@ -16,13 +16,34 @@ namespace meniscus
 namespace
 {
 
-constexpr std::size_t WordSize = sizeof(std::uint64_t);
+/** Number of elements of the field, a prime. */
+constexpr std::uint64_t FieldSize = (std::uint64_t{ 1 } << 61) - 1;
+/** Bytes of a coefficient: seven, so that it is less than the size of the field. */
+constexpr std::size_t CoefficientSize = 7;
+/** Independent polynomials of a block, which a processor evaluates in parallel. */
+constexpr std::size_t Chains = 4;
 
-std::uint64_t BitsOf(double value)
+/**
+ * Places at which the polynomials of chains, of a block's chains and of all blocks are evaluated:
+ * the first, second and third 61 bits after the point of pi.
+ */
+constexpr std::uint64_t PlaceOfChains = 0x0487ed5110b4611au;
+constexpr std::uint64_t PlaceOfBlocks = 0x0c4c6628b80dc1cdu;
+constexpr std::uint64_t PlaceOfAll = 0x0252049c1114cf98u;
+
+/** The element sum * place + coefficient. Sums stay below FieldSize + 8. */
+std::uint64_t AddCoefficient(std::uint64_t sum, std::uint64_t place, std::uint64_t coefficient)
 {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
+  const auto product = static_cast<unsigned __int128>(sum) * place;
+  const std::uint64_t folded = (static_cast<std::uint64_t>(product) & FieldSize) +
+    static_cast<std::uint64_t>(product >> 61) + coefficient;
+  return (folded & FieldSize) + (folded >> 61);
+}
+
+/** The element as a number below FieldSize. */
+std::uint64_t Reduced(std::uint64_t sum)
+{
+  return sum % FieldSize;
 }
 
 /** True if the values are contiguous in memory, as whole bytes. */
@@ -50,49 +71,49 @@ ObjectVersion ObjectVersion::Own(vtkObject* object)
 }
 
 //------------------------------------------------------------------------------
-std::uint64_t ContentDigest::Step(std::uint64_t state, std::uint64_t word)
-{
-  // Multiplication by an odd factor, and a shift of the upper half into the lower; both are
-  // invertible.
-  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
-  const std::uint64_t product = ((state ^ word) + factor) * factor;
-  return product ^ (product >> 32);
-}
-
-//------------------------------------------------------------------------------
 std::uint64_t ContentDigest::DigestBytes(const unsigned char* bytes, std::size_t size)
 {
-  // Independent chains of steps, which a processor executes in parallel.
-  constexpr std::size_t chains = 4;
-  std::uint64_t states[chains] = { 0, 1, 2, 3 };
-  std::uint64_t words[chains];
+  constexpr std::uint64_t mask = (std::uint64_t{ 1 } << (8 * CoefficientSize)) - 1;
+  std::uint64_t sums[Chains] = { 1, 1, 1, 1 };
+  const auto add = [&sums](std::size_t chain, std::uint64_t coefficient)
+  { sums[chain] = AddCoefficient(sums[chain], PlaceOfChains, coefficient); };
   std::size_t at = 0;
-  for (; at + sizeof(words) <= size; at += sizeof(words))
+  // Whole words are read, of which the last byte is that of the next coefficient.
+  for (; at + Chains * CoefficientSize < size; at += Chains * CoefficientSize)
   {
-    std::memcpy(words, bytes + at, sizeof(words));
-    for (std::size_t i = 0; i < chains; ++i)
+    for (std::size_t chain = 0; chain < Chains; ++chain)
     {
-      states[i] = Step(states[i], words[i]);
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + at + chain * CoefficientSize, sizeof(word));
+      add(chain, word & mask);
     }
   }
-  for (; at < size; at += WordSize)
+  for (; at < size; at += CoefficientSize)
   {
     std::uint64_t word = 0;
-    std::memcpy(&word, bytes + at, std::min(WordSize, size - at));
-    states[0] = Step(states[0], word);
+    std::memcpy(&word, bytes + at, std::min(CoefficientSize, size - at));
+    add(0, word);
   }
-  std::uint64_t state = size;
-  for (const std::uint64_t chain : states)
+  std::uint64_t state = Reduced(size);
+  for (const std::uint64_t sum : sums)
   {
-    state = Step(state, chain);
+    state = AddCoefficient(state, PlaceOfBlocks, Reduced(sum));
   }
-  return state;
+  return Reduced(state);
 }
 
 //------------------------------------------------------------------------------
 void ContentDigest::Add(std::uint64_t word)
 {
-  this->State = Step(this->State, word);
+  // Two coefficients: a word may exceed the field.
+  this->State = AddCoefficient(this->State, PlaceOfAll, word >> 32);
+  this->State = AddCoefficient(this->State, PlaceOfAll, word & 0xffffffffu);
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t ContentDigest::GetValue() const
+{
+  return Reduced(this->State);
 }
 
 //------------------------------------------------------------------------------
@@ -127,8 +148,8 @@ void ContentDigest::Add(vtkDataArray* array)
     this->AddValues(count,
       [array, components](std::size_t i)
       {
-        return BitsOf(array->GetComponent(
-          static_cast<vtkIdType>(i / components), static_cast<int>(i % components)));
+        return array->GetComponent(
+          static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
       });
     return;
   }

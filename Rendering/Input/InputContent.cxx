@@ -26,8 +26,8 @@ namespace meniscus
 namespace
 {
 
-/** Storage of the points and cells of a data set. */
-struct MeshParts
+/** Storage of the points or the cells of a data set. */
+struct Storage
 {
   /** Objects besides the arrays. */
   std::vector<vtkObject*> Holders;
@@ -36,69 +36,138 @@ struct MeshParts
   std::vector<double> Numbers;
   /** True if this is the whole storage; otherwise any modification counts as a change. */
   bool IsComplete = true;
+
+  template <typename T>
+  void AddNumbers(const T* first, int count)
+  {
+    this->Numbers.insert(this->Numbers.end(), first, first + count);
+  }
 };
 
-void AddCells(vtkCellArray* cells, MeshParts& parts)
+/** Objects that may receive Modified() instead of the storage of points or cells. */
+std::vector<vtkObject*> HoldersOf(vtkDataSet* grid)
 {
-  parts.Holders.push_back(cells);
-  if (cells)
-  {
-    parts.Arrays.push_back(cells->GetConnectivityArray());
-    parts.Arrays.push_back(cells->GetOffsetsArray());
-  }
+  return { grid, grid->GetPointData(), grid->GetCellData() };
 }
 
-template <typename T>
-void AddNumbers(const T* first, int count, MeshParts& parts)
+Storage PointsOf(vtkDataSet* grid)
 {
-  parts.Numbers.insert(parts.Numbers.end(), first, first + count);
-}
-
-MeshParts PartsOf(vtkDataSet* grid)
-{
-  MeshParts parts;
-  parts.Holders = { grid, grid->GetPointData(), grid->GetCellData() };
-  parts.Arrays = { grid->GetCellGhostArray(), grid->GetPointGhostArray() };
+  Storage storage;
+  storage.Holders = HoldersOf(grid);
   auto* set = vtkPointSet::SafeDownCast(grid);
   if (vtkPoints* points = set ? set->GetPoints() : nullptr)
   {
-    parts.Holders.push_back(points);
-    parts.Arrays.push_back(points->GetData());
-  }
-  if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
-  {
-    AddCells(unstructured->GetCells(), parts);
-    AddFaces(unstructured, parts.Holders, parts.Arrays);
-  }
-  else if (auto* explicitGrid = vtkExplicitStructuredGrid::SafeDownCast(grid))
-  {
-    AddCells(explicitGrid->GetCells(), parts);
-    AddNumbers(explicitGrid->GetExtent(), 6, parts);
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
-  {
-    AddNumbers(structured->GetExtent(), 6, parts);
+    storage.Holders.push_back(points);
+    storage.Arrays.push_back(points->GetData());
   }
   else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
   {
-    parts.Arrays.push_back(rectilinear->GetXCoordinates());
-    parts.Arrays.push_back(rectilinear->GetYCoordinates());
-    parts.Arrays.push_back(rectilinear->GetZCoordinates());
-    AddNumbers(rectilinear->GetExtent(), 6, parts);
+    storage.Arrays = { rectilinear->GetXCoordinates(), rectilinear->GetYCoordinates(),
+      rectilinear->GetZCoordinates() };
   }
   else if (auto* image = vtkImageData::SafeDownCast(grid))
   {
-    AddNumbers(image->GetExtent(), 6, parts);
-    AddNumbers(image->GetOrigin(), 3, parts);
-    AddNumbers(image->GetSpacing(), 3, parts);
-    parts.Holders.push_back(image->GetDirectionMatrix());
-    AddNumbers(image->GetDirectionMatrix()->GetData(), 9, parts);
+    storage.AddNumbers(image->GetOrigin(), 3);
+    storage.AddNumbers(image->GetSpacing(), 3);
+    // The origin is that of the point with index 0, which need not be in the extent.
+    storage.AddNumbers(image->GetExtent(), 6);
+    storage.Holders.push_back(image->GetDirectionMatrix());
+    storage.AddNumbers(image->GetDirectionMatrix()->GetData(), 9);
+  }
+  return storage;
+}
+
+void AddCells(vtkCellArray* cells, Storage& storage)
+{
+  storage.Holders.push_back(cells);
+  if (cells)
+  {
+    storage.Arrays.push_back(cells->GetConnectivityArray());
+    storage.Arrays.push_back(cells->GetOffsetsArray());
+  }
+}
+
+/** The cells, the ghost flags, and the number of points, of which the cells are made. */
+Storage CellsOf(vtkDataSet* grid)
+{
+  Storage storage;
+  storage.Holders = HoldersOf(grid);
+  storage.Arrays = { grid->GetCellGhostArray(), grid->GetPointGhostArray() };
+  const double sizes[2] = { static_cast<double>(grid->GetNumberOfPoints()),
+    static_cast<double>(grid->GetNumberOfCells()) };
+  storage.AddNumbers(sizes, 2);
+  if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
+  {
+    AddCells(unstructured->GetCells(), storage);
+    AddFaces(unstructured, storage.Holders, storage.Arrays);
+  }
+  else if (auto* explicitGrid = vtkExplicitStructuredGrid::SafeDownCast(grid))
+  {
+    AddCells(explicitGrid->GetCells(), storage);
+    storage.AddNumbers(explicitGrid->GetExtent(), 6);
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
+  {
+    storage.AddNumbers(structured->GetExtent(), 6);
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
+  {
+    storage.AddNumbers(rectilinear->GetExtent(), 6);
+  }
+  else if (auto* image = vtkImageData::SafeDownCast(grid))
+  {
+    storage.AddNumbers(image->GetExtent(), 6);
   }
   else
   {
-    parts.IsComplete = false;
+    storage.IsComplete = false;
   }
-  return parts;
+  return storage;
+}
+
+/** Versions of the objects that store something of each part. */
+std::vector<ObjectVersion> VersionsOf(
+  const InputBlocks& input, Storage (*storageOf)(vtkDataSet* grid))
+{
+  std::vector<ObjectVersion> versions;
+  for (const InputPart& part : input.Parts)
+  {
+    const Storage storage = storageOf(part.Grid);
+    for (vtkObject* holder : storage.Holders)
+    {
+      // Own times are used because the time of a data set or of its attributes includes those of
+      // all arrays.
+      versions.push_back(ObjectVersion::Own(holder));
+    }
+    for (vtkDataArray* array : storage.Arrays)
+    {
+      versions.emplace_back(array);
+    }
+    if (!storage.IsComplete)
+    {
+      versions.emplace_back(part.Grid);
+    }
+  }
+  return versions;
+}
+
+void AddStorage(const Storage& storage, vtkDataSet* grid, ContentDigest& digest)
+{
+  for (vtkDataArray* array : storage.Arrays)
+  {
+    digest.Add(array);
+  }
+  for (const double number : storage.Numbers)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    digest.Add(bits);
+  }
+  if (!storage.IsComplete)
+  {
+    digest.Add(reinterpret_cast<std::uintptr_t>(grid));
+    digest.Add(grid->GetMTime());
+  }
 }
 
 /** Adds the types of the cells, which versions of VTK keep in different arrays. */
@@ -107,7 +176,8 @@ void AddCellTypes(vtkDataSet* grid, ContentDigest& digest)
   if (vtkUnstructuredGrid::SafeDownCast(grid) && grid->GetNumberOfCells() > 0)
   {
     digest.AddValues(static_cast<std::size_t>(grid->GetNumberOfCells()),
-      [grid](std::size_t cell) { return grid->GetCellType(static_cast<vtkIdType>(cell)); });
+      [grid](std::size_t cell)
+      { return static_cast<unsigned char>(grid->GetCellType(static_cast<vtkIdType>(cell))); });
   }
 }
 
@@ -120,55 +190,37 @@ vtkDataSetAttributes* AttributesOf(vtkDataSet* grid, FieldAssociation place)
 }
 
 //------------------------------------------------------------------------------
-std::vector<ObjectVersion> MeshVersions(const InputBlocks& input)
+std::vector<ObjectVersion> CellVersions(const InputBlocks& input)
 {
-  std::vector<ObjectVersion> versions;
-  for (const InputPart& part : input.Parts)
-  {
-    const MeshParts parts = PartsOf(part.Grid);
-    for (vtkObject* holder : parts.Holders)
-    {
-      // Own times are used because the time of a data set or of its attributes includes those of
-      // all arrays.
-      versions.push_back(ObjectVersion::Own(holder));
-    }
-    for (vtkDataArray* array : parts.Arrays)
-    {
-      versions.emplace_back(array);
-    }
-    if (!parts.IsComplete)
-    {
-      versions.emplace_back(part.Grid);
-    }
-  }
-  return versions;
+  return VersionsOf(input, CellsOf);
 }
 
 //------------------------------------------------------------------------------
-std::uint64_t DigestMesh(const InputBlocks& input)
+std::uint64_t DigestCells(const InputBlocks& input)
 {
   ContentDigest digest;
   for (const InputPart& part : input.Parts)
   {
-    const MeshParts parts = PartsOf(part.Grid);
     digest.Add(static_cast<std::uint64_t>(part.Grid->GetDataObjectType()));
-    digest.Add(static_cast<std::uint64_t>(part.Grid->GetNumberOfCells()));
-    for (vtkDataArray* array : parts.Arrays)
-    {
-      digest.Add(array);
-    }
-    for (const double number : parts.Numbers)
-    {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &number, sizeof(bits));
-      digest.Add(bits);
-    }
+    AddStorage(CellsOf(part.Grid), part.Grid, digest);
     AddCellTypes(part.Grid, digest);
-    if (!parts.IsComplete)
-    {
-      digest.Add(reinterpret_cast<std::uintptr_t>(part.Grid));
-      digest.Add(part.Grid->GetMTime());
-    }
+  }
+  return digest.GetValue();
+}
+
+//------------------------------------------------------------------------------
+std::vector<ObjectVersion> PointVersions(const InputBlocks& input)
+{
+  return VersionsOf(input, PointsOf);
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t DigestPoints(const InputBlocks& input)
+{
+  ContentDigest digest;
+  for (const InputPart& part : input.Parts)
+  {
+    AddStorage(PointsOf(part.Grid), part.Grid, digest);
   }
   return digest.GetValue();
 }

@@ -15,13 +15,17 @@ namespace meniscus
 {
 
 /**
- * Versions of the objects that may receive Modified() after an edit of the points or the cells:
- * data sets, their attributes, points, cells and their arrays. Modifications of other arrays are
- * ignored.
+ * Versions of the objects that may receive Modified() after an edit of the cells: data sets, their
+ * attributes, cells and their arrays. Modifications of other arrays are ignored.
  */
-std::vector<ObjectVersion> MeshVersions(const InputBlocks& input);
-/** Digest of the points, the cells and the ghost flags. */
-std::uint64_t DigestMesh(const InputBlocks& input);
+std::vector<ObjectVersion> CellVersions(const InputBlocks& input);
+/** Digest of the cells, the ghost flags and the number of points. */
+std::uint64_t DigestCells(const InputBlocks& input);
+
+/** Versions of the objects that may receive Modified() after an edit of the points. */
+std::vector<ObjectVersion> PointVersions(const InputBlocks& input);
+/** Digest of the positions of the points. */
+std::uint64_t DigestPoints(const InputBlocks& input);
 
 /** Versions of the objects that may receive Modified() after an edit of the scalars. */
 std::vector<ObjectVersion> ScalarVersions(const InputBlocks& input);

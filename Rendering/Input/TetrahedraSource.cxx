@@ -5,6 +5,7 @@
 #include "Rendering/Common/VTKVersions.h"
 
 #include "Common/BlockLoop.h"
+#include "Rendering/Input/GridLayout.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
@@ -13,13 +14,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
-#include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
-#include "vtkSOADataArrayTemplate.h"
-#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -35,37 +30,6 @@ namespace
 
 constexpr unsigned char LeftOut =
   vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-
-template <typename T>
-std::vector<T> CopyValues(vtkDataArray* array)
-{
-  const int components = array->GetNumberOfComponents();
-  std::vector<T> values(components * array->GetNumberOfTuples());
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    values[i] = static_cast<T>(array->GetComponent(
-      static_cast<vtkIdType>(i / components), static_cast<int>(i % components)));
-  }
-  return values;
-}
-
-/** Looks at the coordinates in the array's memory; false for arrays of another layout or type. */
-template <typename T>
-bool ViewCoordinates(vtkDataArray* points, PointsView& view)
-{
-  if (auto* triples = vtkAOSDataArrayTemplate<T>::FastDownCast(points))
-  {
-    view = PointsView(triples->GetPointer(0));
-    return true;
-  }
-  if (auto* axes = vtkSOADataArrayTemplate<T>::FastDownCast(points))
-  {
-    view = PointsView(axes->GetComponentArrayPointer(0), axes->GetComponentArrayPointer(1),
-      axes->GetComponentArrayPointer(2));
-    return true;
-  }
-  return false;
-}
 
 constexpr int NoPoint = -1;
 
@@ -173,19 +137,6 @@ int TetrahedraOf(int type)
   }
 }
 
-/** True if the class of the data set guarantees that all cells have one type. */
-bool HasOneType(vtkDataSet* grid)
-{
-  return vtkImageData::SafeDownCast(grid) || vtkRectilinearGrid::SafeDownCast(grid) ||
-    vtkStructuredGrid::SafeDownCast(grid);
-}
-
-/** True if several threads may read cells at the same time. */
-bool IsThreadSafe(vtkDataSet* grid)
-{
-  return HasOneType(grid) || vtkUnstructuredGrid::SafeDownCast(grid);
-}
-
 /** True if the grid contains only tetrahedra of four points each. */
 bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
 {
@@ -202,12 +153,6 @@ bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
   return cell == cells;
 }
 
-vtkPoints* PointsOf(vtkDataSet* grid)
-{
-  vtkPointSet* set = vtkPointSet::SafeDownCast(grid);
-  return set ? set->GetPoints() : nullptr;
-}
-
 }
 
 /** Tetrahedra of a block of cells. */
@@ -216,6 +161,7 @@ struct TetrahedraSource::Part
   Tetrahedralizer Tetrahedra;
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
+  bool SplitsByPosition = false;
   /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
@@ -302,6 +248,8 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
   }
   else
   {
+    // Its faces are those of the convex hull of its points.
+    this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
     vtkNew<vtkGenericCell> generic;
     grid->GetCell(cell, generic);
     if (generic->GetCellDimension() != 3 || !this->AddByFaces(generic))
@@ -358,20 +306,10 @@ bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
 
 //------------------------------------------------------------------------------
 TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+  : Points(grids, loop)
 {
-  for (vtkDataSet* grid : grids)
-  {
-    this->View.NumberOfPoints += grid->GetNumberOfPoints();
-  }
-  vtkPoints* points = grids.size() == 1 ? PointsOf(grids[0]) : nullptr;
-  if (points)
-  {
-    this->ViewPoints(points->GetData());
-  }
-  else
-  {
-    this->CopyPoints(grids, loop);
-  }
+  this->View.Points = this->Points.GetView();
+  this->View.NumberOfPoints = this->Points.GetNumberOfPoints();
   this->View.MatchPositions = grids.size() > 1;
   auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
   if (single && HasOnlyTetrahedra(single))
@@ -382,38 +320,6 @@ TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const 
   {
     this->Tetrahedralize(grids, loop);
   }
-}
-
-//------------------------------------------------------------------------------
-void TetrahedraSource::ViewPoints(vtkDataArray* points)
-{
-  if (!ViewCoordinates<double>(points, this->View.Points) &&
-    !ViewCoordinates<float>(points, this->View.Points))
-  {
-    this->Points = CopyValues<double>(points);
-    this->View.Points = this->Points.data();
-  }
-}
-
-//------------------------------------------------------------------------------
-void TetrahedraSource::CopyPoints(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
-{
-  this->Points.resize(3 * static_cast<std::size_t>(this->View.NumberOfPoints));
-  double* next = this->Points.data();
-  for (vtkDataSet* grid : grids)
-  {
-    const auto size = static_cast<std::size_t>(grid->GetNumberOfPoints());
-    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
-      [grid, next](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t p = first; p < last; ++p)
-        {
-          grid->GetPoint(static_cast<vtkIdType>(p), next + 3 * p);
-        }
-      });
-    next += 3 * size;
-  }
-  this->View.Points = this->Points.data();
 }
 
 //------------------------------------------------------------------------------
@@ -480,6 +386,7 @@ void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop
   {
     starts.push_back(size);
     size += part.Sources.size();
+    this->PositionsDecide = this->PositionsDecide || part.SplitsByPosition;
     for (const auto& omitted : part.Omitted)
     {
       this->Omitted[omitted.first] += omitted.second;

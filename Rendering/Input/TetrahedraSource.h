@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Input_TetrahedraSource_h
 #define meniscus_Rendering_Input_TetrahedraSource_h
 
+#include "Rendering/Input/PointsSource.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
@@ -12,7 +13,6 @@
 #include <vector>
 
 class vtkCell;
-class vtkDataArray;
 class vtkDataSet;
 class vtkUnstructuredGrid;
 
@@ -41,23 +41,24 @@ public:
    * none.
    */
   std::string DescribeOmitted() const;
+  /** True if other positions of the points could divide a cell into other tetrahedra. */
+  bool SplitsByPosition() const { return this->PositionsDecide; }
 
 private:
   struct Part;
 
-  void ViewPoints(vtkDataArray* points);
-  void CopyPoints(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
   void ViewTetrahedra(vtkUnstructuredGrid* grid);
   void Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
   void TakeParts(const std::vector<Part>& parts, const RangeLoop& loop);
 
+  PointsSource Points;
   TetrahedraView View;
-  std::vector<double> Points;
   std::vector<std::int64_t> Ids;
   /** Cell of each tetrahedron. */
   std::vector<std::int32_t> Sources;
   /** Number of cells that are not drawn, by type. */
   std::map<int, std::int64_t> Omitted;
+  bool PositionsDecide = false;
 };
 
 /** Number of points and tetrahedra of data sets, the latter if no cell is degenerate. */

@@ -99,7 +99,7 @@ int MainComponent(ComponentMixture mixture)
 InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks& parts,
   ComponentMixture mixture, const FunctionFeatures& features)
 {
-  const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
+  const TableVersions versions{ input.GetBuildVersion(), input.GetScalarVersion() };
   const bool same =
     mixture == this->Mixture && (mixture == ComponentMixture::None || this->BuiltInput == versions);
   const TetrahedralMesh& mesh = input.GetMesh();

@@ -36,15 +36,37 @@ std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
 InputReport VolumeInput::UpdateMesh(
   const InputBlocks& input, const std::function<bool(double)>& progress)
 {
-  const bool changed =
-    this->MeshWatch.HasChanged(MeshVersions(input), [&input]() { return DigestMesh(input); });
+  const bool newCells =
+    this->CellWatch.HasChanged(CellVersions(input), [&input]() { return DigestCells(input); });
+  const bool newPoints =
+    this->PointWatch.HasChanged(PointVersions(input), [&input]() { return DigestPoints(input); });
   const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
-  if (!changed && !lacksSources)
+  if (!newCells && !newPoints && !lacksSources)
   {
     return InputReport();
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  return this->BuildMesh(GridsOf(input), progress);
+  const std::vector<vtkDataSet*> grids = GridsOf(input);
+  const bool moved = !newCells && !lacksSources && this->MovePoints(grids);
+  return moved ? InputReport() : this->BuildMesh(grids, progress);
+}
+
+//------------------------------------------------------------------------------
+/** Moves the vertices. Returns false if the mesh must be built. */
+bool VolumeInput::MovePoints(const std::vector<vtkDataSet*>& grids)
+{
+  if (this->SplitsByPosition)
+  {
+    return false;
+  }
+  const PointsSource points(grids, ThreadedLoop);
+  if (!this->Mesh.MovePoints(points.GetView(), ThreadedLoop))
+  {
+    return false;
+  }
+  this->MeshVersion.Bump();
+  ++this->PointUpdates;
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -53,6 +75,7 @@ InputReport VolumeInput::BuildMesh(
 {
   this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
+  this->BuildVersion.Bump();
   this->MeshVersion.Bump();
   this->LinkVersion.Bump();
   this->InputCells = std::vector<std::int32_t>();
@@ -78,8 +101,9 @@ InputReport VolumeInput::BuildMesh(
   control.Progress = progress;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
-    this->MeshWatch.Forget(); // the next call starts again
+    this->CellWatch.Forget(); // the next call starts again
   }
+  this->SplitsByPosition = gridView.SplitsByPosition();
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())
   {
@@ -273,11 +297,17 @@ void VolumeInput::FindInputCells(const InputBlocks& input)
 //------------------------------------------------------------------------------
 const BoundaryTree& VolumeInput::GetBoundaryTree()
 {
-  if (this->TreeOf != this->LinkVersion)
+  const bool sameFaces = this->LinksOfTree == this->LinkVersion;
+  if (sameFaces && this->MeshOfTree == this->MeshVersion)
+  {
+    return this->Tree;
+  }
+  if (!sameFaces || !this->Tree.Refit(this->Mesh))
   {
     this->Tree.Build(this->Mesh);
-    this->TreeOf = this->LinkVersion;
   }
+  this->LinksOfTree = this->LinkVersion;
+  this->MeshOfTree = this->MeshVersion;
   return this->Tree;
 }
 

@@ -30,8 +30,9 @@ class VolumeInput
 public:
   /**
    * Updates the mesh of an input, with all parts in one. An input with equal points and cells
-   * counts as the same. Scalars of cells need 4 more bytes per cell, which are kept from then on; a
-   * mesh without them is built again.
+   * counts as the same; if only points have moved, the cells and their links are kept. Scalars of
+   * cells need 4 more bytes per cell, which are kept from then on; a mesh without them is built
+   * again.
    * @param progress called with the fraction done; returns false to abort, which leaves no mesh and
    *   no report.
    */
@@ -102,17 +103,24 @@ public:
   /** Number of bytes of the tables. */
   std::int64_t GetBytes() const;
 
-  /** Version of the mesh without its links and boundary. */
+  /** Version of the numbering of vertices and cells: changes when the mesh is built. */
+  TableVersion GetBuildVersion() const { return this->BuildVersion; }
+  /** Version of the mesh without its links and boundary: changes when it is built or moved. */
   TableVersion GetMeshVersion() const { return this->MeshVersion; }
+  /** Times that points have moved and the cells were kept. */
+  std::int64_t GetNumberOfPointUpdates() const { return this->PointUpdates; }
   TableVersion GetScalarVersion() const { return this->ScalarVersion; }
   /** Times that it was found out which cells are active. */
   std::int64_t GetActiveSetBuilds() const { return this->ActiveSetBuilds; }
-  /** Version of the mesh's links and boundary. */
+  /** Version of the mesh's links. */
   TableVersion GetLinkVersion() const { return this->LinkVersion; }
+  /** Versions of the boundary: of its faces and of their positions. */
+  TableVersions GetBoundaryVersions() const { return { this->LinkVersion, this->MeshVersion }; }
 
 private:
   InputReport BuildMesh(
     const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress);
+  bool MovePoints(const std::vector<vtkDataSet*>& grids);
 
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
@@ -128,20 +136,27 @@ private:
   /** Version of the values besides the scalars; the default without. */
   TableVersion OthersVersion;
 
-  ContentWatch MeshWatch;
+  ContentWatch CellWatch;
+  ContentWatch PointWatch;
   ContentWatch ScalarWatch;
   FieldAssociation BuiltPlace = FieldAssociation::Points;
   int BuiltComponent = 0;
   TableVersion BuiltFeatures;
   bool KeepsSourceCells = false;
+  /** True if other positions may divide the input's cells into other tetrahedra. */
+  bool SplitsByPosition = false;
   bool ActiveSetStale = true;
-  TableVersion TreeOf;
+  /** Versions of the links and positions that the tree is of. */
+  TableVersion LinksOfTree;
+  TableVersion MeshOfTree;
   std::int64_t InputCellSearches = 0;
 
+  TableVersion BuildVersion;
   TableVersion MeshVersion;
   TableVersion ScalarVersion;
   TableVersion LinkVersion;
   std::int64_t ActiveSetBuilds = 0;
+  std::int64_t PointUpdates = 0;
 };
 
 }

@@ -89,13 +89,13 @@ std::string EnergyBinTables::Update(
     this->EmissionWatch.HasChanged(
       ScalarVersions(emission), [&emission]() { return DigestScalars(emission); });
   if (!newAttenuation && !newEmission && isEmitting == this->Emitting &&
-    attenuation.Place == this->Place && input.GetMeshVersion() == this->BuiltMesh)
+    attenuation.Place == this->Place && input.GetBuildVersion() == this->BuiltMesh)
   {
     return std::string();
   }
   this->Emitting = isEmitting;
   this->Place = attenuation.Place;
-  this->BuiltMesh = input.GetMeshVersion();
+  this->BuiltMesh = input.GetBuildVersion();
   this->Tables.clear();
   const int bins = NumberOfComponents(attenuation);
   const int step = isEmitting ? 1 : 3;

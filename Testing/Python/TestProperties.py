@@ -48,7 +48,8 @@ class TestMapper(PropertyTest):
 
     def test_counters(self):
         self.check_counters(self.mapper, [
-            "NumberOfMeshBuilds", "NumberOfScalarUpdates", "NumberOfTransferFunctionBuilds",
+            "NumberOfMeshBuilds", "NumberOfPointUpdates", "NumberOfScalarUpdates",
+            "NumberOfTransferFunctionBuilds",
             "NumberOfActiveSetBuilds", "UploadedBytes", "NumberOfActiveCells",
             "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays",
             "NumberOfUndecidedRays",

@@ -33,17 +33,28 @@ public:
 
   void Build(const TetrahedralMesh& mesh);
 
+  /**
+   * Fits the boxes to new positions of the vertices and keeps the order of the faces, which takes
+   * linear time. Returns false if Build() makes a better tree: if a ray is expected to meet more
+   * than twice as many boxes as in the tree that was built, by the surface area heuristic.
+   * @pre the mesh has the boundary that the tree was built of, but for positions and orientation.
+   */
+  bool Refit(const TetrahedralMesh& mesh);
+
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
   /** Boundary faces in leaf order. */
   const std::vector<BoundaryFace>& GetFaces() const { return this->Faces; }
 
 private:
+  struct Box;
   struct Item;
-  void BuildSubtree(
-    const TetrahedralMesh& mesh, std::vector<Item>& items, std::size_t first, std::size_t last);
+  void BuildSubtree(std::vector<Item>& items, std::size_t first, std::size_t last);
+  double FitBoxes(const TetrahedralMesh& mesh);
 
   std::vector<Node> Nodes;
   std::vector<BoundaryFace> Faces;
+  /** Expected number of boxes that a ray through the root meets in the tree that was built. */
+  double BuiltCost = 0.0;
 };
 
 }

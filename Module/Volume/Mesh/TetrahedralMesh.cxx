@@ -5,6 +5,7 @@
 #include "Common/BlockLoop.h"
 #include "Common/MortonOrder.h"
 #include "Volume/Mesh/DuplicateCells.h"
+#include "Volume/Mesh/PointBox.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,8 +22,6 @@ namespace meniscus
 namespace
 {
 
-constexpr double Infinity = std::numeric_limits<double>::infinity();
-
 /** Sorts four values without branches, which no branch predictor would foresee. */
 void SortFour(std::array<std::int32_t, 4>& values)
 {
@@ -33,11 +32,6 @@ void SortFour(std::array<std::int32_t, 4>& values)
     values[pair[1]] = std::max(values[pair[0]], values[pair[1]]);
     values[pair[0]] = low;
   }
-}
-
-bool IsFinite(const glm::dvec3& p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 /** Resizes a table. Its memory is reused unless it is far too large. */
@@ -119,6 +113,10 @@ void TetrahedralMesh::Clear()
 //------------------------------------------------------------------------------
 void TetrahedralMesh::ForgetAllButTables()
 {
+  this->Components.clear();
+  this->NumberOfComponents = 0;
+  this->Coincident.clear();
+  this->IsMovable = false;
   this->Rejected = RejectedCells();
   this->CutLinks = 0;
   this->ActiveCells = 0;
@@ -177,6 +175,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
   {
     return MeshStatus::Aborted;
   }
+  this->IsMovable = this->Radius > 0.0 && this->Rejected.PointNotFinite == 0;
   this->OrientCells(control.Loop);
   this->ActiveCells = this->GetNumberOfCells();
   this->CollectBoundary(control.Loop);
@@ -271,37 +270,25 @@ void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std
 //------------------------------------------------------------------------------
 std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
 {
-  struct Part
-  {
-    glm::dvec3 Lower{ Infinity };
-    glm::dvec3 Upper{ -Infinity };
-  };
   const auto numberOfPoints = static_cast<std::size_t>(this->Input.NumberOfPoints);
-  std::vector<Part> parts(NumberOfBlocks(numberOfPoints));
+  std::vector<PointBox> parts(NumberOfBlocks(numberOfPoints));
   std::vector<std::size_t> starts(parts.size());
   ForEachBlock(numberOfPoints, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      Part part;
+      PointBox part;
       for (std::size_t p = first; p < last; ++p)
       {
         if (this->Used[p].load(std::memory_order_relaxed))
         {
-          const glm::dvec3 point = this->Input.Points[p];
-          part.Lower = glm::min(part.Lower, point);
-          part.Upper = glm::max(part.Upper, point);
+          part.Add(this->Input.Points[p]);
           ++starts[block];
         }
       }
       parts[block] = part;
     });
-  Part all;
-  for (const Part& part : parts)
-  {
-    all.Lower = glm::min(all.Lower, part.Lower);
-    all.Upper = glm::max(all.Upper, part.Upper);
-  }
-  this->Mesh.Center = 0.5 * all.Lower + 0.5 * all.Upper;
+  const PointBox all = Enclose(parts);
+  this->Mesh.Center = all.GetCenter();
 
   std::vector<MortonKey> keys(CountsToStarts(starts));
   const MortonCurve curve(all.Lower, all.Upper);
@@ -383,31 +370,27 @@ void TetrahedralMesh::Builder::NumberVertices()
   this->VertexOfPoint.resize(this->Input.NumberOfPoints);
   ResizeTable(this->Mesh.SourcePoints, keys.size());
   ResizeTable(this->Mesh.Positions, keys.size());
-  const double scale = this->Mesh.Radius > 0.0 ? 1.0 / PositionUnit / this->Mesh.Radius : 0.0;
   ForEachBlock(keys.size(), this->Loop,
-    [this, &keys, scale](std::size_t, std::size_t first, std::size_t last)
+    [this, &keys](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t v = first; v < last; ++v)
       {
         const std::size_t point = IndexOf(keys[v]);
         this->VertexOfPoint[point] = static_cast<std::int32_t>(v);
         this->Mesh.SourcePoints[v] = static_cast<std::int32_t>(point);
-        this->Mesh.Positions[v] =
-          glm::round((this->Input.Points[point] - this->Mesh.Center) * scale);
       }
     });
+  this->Mesh.RoundPositions(this->Input.Points, this->Loop);
 }
 
 //------------------------------------------------------------------------------
 /** Removes the keys of cells that have the same four vertices as an earlier cell of the input. */
 void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
 {
-  std::vector<std::int32_t> lowest;
+  std::vector<std::int32_t>& lowest = this->Mesh.Coincident;
   if (this->Input.MatchPositions)
   {
-    const auto& points = this->Mesh.SourcePoints;
-    lowest = FindLowestCoincident(
-      points.size(), [&](std::size_t v) { return this->Input.Points[points[v]]; }, this->Loop);
+    lowest = this->Mesh.FindCoincident(this->Input.Points, this->Loop);
   }
   const auto verticesOf = [this, &lowest](std::size_t cell)
   {

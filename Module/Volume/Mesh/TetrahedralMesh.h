@@ -19,6 +19,9 @@
  *    component is that of the sum of its volumes; one whose volumes cancel, a region filled twice
  *    with different cells of the same points, is taken apart into cells on opposite sides of faces.
  *
+ * Points can move: MovePoints() places the vertices anew and keeps their order, the cells and the
+ * links, none of which depends on positions but in the cases that it reports.
+ *
  * Cells that cannot be seen can be made inactive: links to them read as negative, like the
  * boundary, and GetBoundary() is that of the active cells, so rays enter and leave the mesh there.
  */
@@ -96,6 +99,7 @@ struct RejectedCells
   }
 };
 
+struct ComponentVolume;
 class VisibleScalars;
 
 /** Size of a table in bytes. */
@@ -132,6 +136,22 @@ public:
   /** Builds all tables and replaces earlier contents. The result does not depend on the loop. */
   MeshStatus Build(
     const TetrahedraView& input, const MeshBuildControl& control = MeshBuildControl());
+
+  /**
+   * Moves the points of the mesh; cells and active cells stay. The tables are those that Build()
+   * makes of the moved points, but for the order of vertices and cells, which also decides where a
+   * ring without orientation is cut. It remains the order along the curve of the points given to
+   * Build(), in which neighbours are still neighbours in memory.
+   *
+   * Returns false if Build() must be called, which depends on positions if
+   * - a position is or was not finite: cells are left out;
+   * - positions decide on duplicates (TetrahedraView::MatchPositions), and other points coincide;
+   * - volumes of connected cells cancel or did so: links are cut;
+   * - all points coincided: the order of the vertices is arbitrary.
+   * The tables must not be used then.
+   * @param points as many as those given to Build().
+   */
+  bool MovePoints(const PointsView& points, const RangeLoop& loop = SerialLoop);
 
   std::int64_t GetNumberOfCells() const { return static_cast<std::int64_t>(this->Cells.size()); }
   std::int64_t GetNumberOfVertices() const
@@ -213,7 +233,8 @@ public:
   std::int64_t GetBytes() const
   {
     return BytesOf(this->Cells) + BytesOf(this->Positions) + BytesOf(this->SourcePoints) +
-      BytesOf(this->SourceCells) + BytesOf(this->Boundary) + BytesOf(this->Orientation);
+      BytesOf(this->SourceCells) + BytesOf(this->Boundary) + BytesOf(this->Orientation) +
+      BytesOf(this->Components) + BytesOf(this->Coincident);
   }
   /** Centre of the bounding box of the used points. */
   const glm::dvec3& GetCenter() const { return this->Center; }
@@ -225,6 +246,15 @@ private:
 
   void Clear();
   void ForgetAllButTables();
+  bool MeasurePoints(const PointsView& points, const RangeLoop& loop);
+  void RoundPositions(const PointsView& points, const RangeLoop& loop);
+  std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
+  std::int32_t ComponentOf(std::size_t cell) const
+  {
+    return this->Components.empty() ? 0 : this->Components[cell];
+  }
+  std::vector<ComponentVolume> MeasureComponents(const RangeLoop& loop) const;
+  bool TurnComponents(const RangeLoop& loop);
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
   struct ScalarRange;
@@ -243,6 +273,13 @@ private:
    * negative. The magnitude is 1 for an active cell and 2 for an inactive one.
    */
   std::vector<std::int8_t> Orientation;
+  /** Number of the connected component of each cell; empty if there is one component. */
+  std::vector<std::int32_t> Components;
+  std::int32_t NumberOfComponents = 0;
+  /** Lowest vertex at the position of each vertex; empty if positions do not decide. */
+  std::vector<std::int32_t> Coincident;
+  /** False if Build() has used positions in a way that MovePoints() cannot repeat. */
+  bool IsMovable = false;
   RejectedCells Rejected;
   std::int64_t CutLinks = 0;
   std::int64_t ActiveCells = 0;

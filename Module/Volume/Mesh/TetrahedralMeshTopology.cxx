@@ -3,30 +3,20 @@
 // Topology of the cells of a TetrahedralMesh: links across faces, and orientation.
 #include "Common/BlockLoop.h"
 #include "Volume/Mesh/CellFaces.h"
+#include "Volume/Mesh/ComponentVolume.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace meniscus
 {
 namespace
 {
-
-/** A multiple of the signed volume of the cell with ascending vertices. */
-double SignedVolume(const std::vector<glm::ivec3>& positions, const TetrahedralMesh::Cell& cell)
-{
-  const auto& v = cell.Vertices;
-  const glm::dvec3 origin(positions[v[0]]);
-  return glm::dot(
-    glm::cross(glm::dvec3(positions[v[1]]) - origin, glm::dvec3(positions[v[2]]) - origin),
-    glm::dvec3(positions[v[3]]) - origin);
-}
 
 /**
  * All faces, grouped by their lowest vertex. Three faces of a cell contain its lowest vertex; the
@@ -292,6 +282,12 @@ public:
   {
   }
 
+  /** True if links were cut because volumes cancel. */
+  bool HasTakenApart() const { return this->TakenApart; }
+  std::int32_t GetNumberOfComponents() const { return this->NumberOfComponents; }
+  /** Number of the component of each cell; none if there is one component. */
+  std::vector<std::int32_t> TakeComponents() { return std::move(this->Components); }
+
   /** Returns the number of links cut. */
   std::int64_t Orient()
   {
@@ -306,9 +302,7 @@ private:
   /** Patches of a block (parts connected within it), and its links to later blocks. */
   struct Block
   {
-    std::vector<double> Volumes;
-    /** Sum of the magnitudes of the cells' volumes, by patch. */
-    std::vector<double> Sizes;
+    std::vector<ComponentVolume> Volumes;
     std::vector<std::int32_t> LinksOut;
     std::int64_t CutLinks = 0;
     std::int32_t FirstPatch = 0;
@@ -349,16 +343,14 @@ private:
       numbers[patch] = numbers[root];
       signs[patch] = static_cast<std::int8_t>(sign);
     }
-    block.Volumes.assign(static_cast<std::size_t>(next), 0.0);
-    block.Sizes = block.Volumes;
+    block.Volumes.assign(static_cast<std::size_t>(next), ComponentVolume());
     for (std::size_t c = first; c < last; ++c)
     {
       const std::int32_t patch = this->PatchOf[c];
       this->Orientation[c] = static_cast<std::int8_t>(this->Orientation[c] * signs[patch]);
       this->PatchOf[c] = numbers[patch];
-      const double volume = SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]);
-      block.Volumes[numbers[patch]] += this->Orientation[c] * volume;
-      block.Sizes[numbers[patch]] += std::abs(volume);
+      block.Volumes[numbers[patch]].Add(
+        this->Orientation[c] * SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]));
     }
   }
 
@@ -407,14 +399,12 @@ private:
   {
     std::int32_t numberOfPatches = 0;
     std::int64_t cutLinks = 0;
-    std::vector<double> volumes;
-    std::vector<double> sizes;
+    std::vector<ComponentVolume> volumes;
     for (Block& block : this->Blocks)
     {
       block.FirstPatch = numberOfPatches;
       numberOfPatches += static_cast<std::int32_t>(block.Volumes.size());
       volumes.insert(volumes.end(), block.Volumes.begin(), block.Volumes.end());
-      sizes.insert(sizes.end(), block.Sizes.begin(), block.Sizes.end());
       cutLinks += block.CutLinks;
     }
     SignedSets sets(volumes.size());
@@ -433,7 +423,8 @@ private:
         }
       }
     }
-    return cutLinks + this->ApplySigns(sets, volumes, sizes);
+    this->NumberComponents(sets);
+    return cutLinks + this->ApplySigns(sets, volumes);
   }
 
   std::int32_t PatchAt(std::int32_t cell) const
@@ -441,24 +432,47 @@ private:
     return this->Blocks[cell / BlockSize].FirstPatch + this->PatchOf[cell];
   }
 
+  /** Numbers the components in the order of their first cells. */
+  void NumberComponents(SignedSets& sets)
+  {
+    std::vector<std::int32_t> numbers(sets.GetSize(), -1);
+    for (std::size_t patch = 0; patch < numbers.size(); ++patch)
+    {
+      int sign = 1;
+      const std::int32_t root = sets.Find(static_cast<std::int32_t>(patch), sign);
+      numbers[root] = numbers[root] < 0 ? this->NumberOfComponents++ : numbers[root];
+      numbers[patch] = numbers[root];
+    }
+    if (this->NumberOfComponents == 1)
+    {
+      return;
+    }
+    this->Components.resize(this->Cells.size());
+    ForEachBlock(this->Cells.size(), this->Loop,
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t c = first; c < last; ++c)
+        {
+          this->Components[c] = numbers[this->PatchAt(static_cast<std::int32_t>(c))];
+        }
+      });
+  }
+
   /**
    * Makes the volume of every component positive, and takes apart the components whose volumes
    * cancel. Returns the number of links cut.
    */
-  std::int64_t ApplySigns(
-    SignedSets& sets, const std::vector<double>& volumes, const std::vector<double>& sizes)
+  std::int64_t ApplySigns(SignedSets& sets, const std::vector<ComponentVolume>& volumes)
   {
-    std::vector<double> volumeOfSet(volumes.size(), 0.0);
-    std::vector<double> sizeOfSet(volumes.size(), 0.0);
+    std::vector<ComponentVolume> volumeOfSet(volumes.size());
     std::vector<std::int8_t> signs(volumes.size());
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {
       int sign = 1;
-      // Two statements are needed: the right side of += may be evaluated before the left side,
-      // which sets the sign.
+      // Two statements are needed: the call may be evaluated after its argument, which needs the
+      // sign.
       const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
-      volumeOfSet[set] += sign * volumes[patch];
-      sizeOfSet[set] += sizes[patch];
+      volumeOfSet[set].Add(volumes[patch], sign);
     }
     std::vector<std::uint8_t> cancels(volumes.size());
     bool anyCancels = false;
@@ -466,9 +480,8 @@ private:
     {
       int sign = 1;
       const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
-      signs[patch] = static_cast<std::int8_t>(volumeOfSet[set] < 0.0 ? -sign : sign);
-      cancels[patch] =
-        sizeOfSet[set] > 0.0 && std::abs(volumeOfSet[set]) <= NegligibleVolume * sizeOfSet[set];
+      signs[patch] = static_cast<std::int8_t>(volumeOfSet[set].Sum < 0.0 ? -sign : sign);
+      cancels[patch] = volumeOfSet[set].Cancels(NegligibleVolume);
       anyCancels = anyCancels || cancels[patch];
     }
     ForEachBlock(this->Cells.size(), this->Loop,
@@ -492,6 +505,7 @@ private:
    */
   std::int64_t TakeApart(const std::vector<std::uint8_t>& cancels)
   {
+    this->TakenApart = true;
     const auto isApart = [&](std::int32_t cell) { return cancels[this->PatchAt(cell)] != 0; };
     const auto size = static_cast<std::int32_t>(this->Cells.size());
     for (std::int32_t c = 0; c < size; ++c)
@@ -518,12 +532,6 @@ private:
     return cutLinks;
   }
 
-  /**
-   * Fraction of a component's volume that may remain by rounding where volumes cancel: 2^-52 for
-   * each of up to 2^29 cells.
-   */
-  static constexpr double NegligibleVolume = 1.0 / (1 << 23);
-
   const TetrahedralMesh& Mesh;
   std::vector<TetrahedralMesh::Cell>& Cells;
   std::vector<std::int8_t>& Orientation;
@@ -531,6 +539,9 @@ private:
   /** Index of each cell's patch within its block. */
   std::vector<std::int32_t> PatchOf;
   std::vector<Block> Blocks;
+  std::vector<std::int32_t> Components;
+  std::int32_t NumberOfComponents = 0;
+  bool TakenApart = false;
 };
 
 }
@@ -553,7 +564,11 @@ void TetrahedralMesh::LinkCells(const RangeLoop& loop)
 //------------------------------------------------------------------------------
 void TetrahedralMesh::OrientCells(const RangeLoop& loop)
 {
-  this->CutLinks = Orienter(*this, this->Cells, this->Orientation, loop).Orient();
+  Orienter orienter(*this, this->Cells, this->Orientation, loop);
+  this->CutLinks = orienter.Orient();
+  this->Components = orienter.TakeComponents();
+  this->NumberOfComponents = orienter.GetNumberOfComponents();
+  this->IsMovable = this->IsMovable && !orienter.HasTakenApart();
 }
 
 }

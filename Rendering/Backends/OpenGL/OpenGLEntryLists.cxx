@@ -19,10 +19,10 @@ namespace meniscus
  */
 bool OpenGLEntryLists::AreWanted(const VolumeInput& input, const RayCastFrame& frame)
 {
-  if (this->MeasuredLinks != input.GetLinkVersion())
+  if (this->Measured != input.GetBoundaryVersions())
   {
     this->Boundary = MeasureBoundary(input.GetMesh());
-    this->MeasuredLinks = input.GetLinkVersion();
+    this->Measured = input.GetBoundaryVersions();
   }
   // Half of the tiles have more than the mean.
   constexpr double most = 0.5 * TileCapacity;
@@ -38,12 +38,12 @@ bool OpenGLEntryLists::Update(VolumeInput& input, const RayCastFrame& frame, Ope
     return false;
   }
   const FixedPointRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
-  if (this->LinksOfTiles != input.GetLinkVersion() || !rays.SeesAs(this->RaysOfTiles))
+  if (this->BoundaryOfTiles != input.GetBoundaryVersions() || !rays.SeesAs(this->RaysOfTiles))
   {
     this->Fit = this->Tiles.Build(
       input.GetMesh(), input.GetBoundaryTree().GetFaces(), rays, LongListTileSize, ThreadedLoop);
     this->RaysOfTiles = rays;
-    this->LinksOfTiles = input.GetLinkVersion();
+    this->BoundaryOfTiles = input.GetBoundaryVersions();
     this->Version.Bump();
   }
   const bool uploaded = tables.HasEntryTiles() && this->Uploaded == this->Version;

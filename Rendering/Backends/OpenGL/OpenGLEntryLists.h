@@ -52,13 +52,13 @@ private:
 
   EntryTiles Tiles;
   TableVersion Version;
-  /** Rays and links that the lists are of. */
+  /** Rays and boundary that the lists are of. */
   FixedPointRays RaysOfTiles;
-  TableVersion LinksOfTiles;
+  TableVersions BoundaryOfTiles;
   bool Fit = false;
   TableVersion Uploaded;
   BoundaryMeasure Boundary;
-  TableVersion MeasuredLinks;
+  TableVersions Measured;
 };
 
 }

@@ -124,7 +124,8 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   if (this->Frame.Optics.IsRefracting())
   {
     this->BeginsInside = tables.Membrane.BeginsInside(tables.Input);
-    this->RefractedVersions = { tables.Membrane.GetSightVersion(), tables.Input.GetLinkVersion() };
+    this->RefractedVersions = { tables.Membrane.GetSightVersion(), tables.Input.GetLinkVersion(),
+      tables.Input.GetMeshVersion() };
   }
   else
   {

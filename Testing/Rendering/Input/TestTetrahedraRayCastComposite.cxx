@@ -337,7 +337,7 @@ TEST(TetrahedraRayCastComposite, StructuredGrids)
   ExpectSamePicture(PictureOf(MakeRectilinear(4, MakeLinear())), expected, "rectilinear");
 }
 
-TEST(TetrahedraRayCastComposite, ChangedImagesAreOtherMeshes)
+TEST(TetrahedraRayCastComposite, ChangedImagesMoveOrAreOtherMeshes)
 {
   const auto image = MakeImage(4, MakeLinear());
   AnyScene scene(image);
@@ -348,6 +348,10 @@ TEST(TetrahedraRayCastComposite, ChangedImagesAreOtherMeshes)
   scene.GetWindow()->Render();
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
   image->SetSpacing(0.4, 0.5, 0.5);
+  ExpectSamePicture(scene.MakePicture(), PictureOf(image), "other spacing");
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfPointUpdates(), 1);
+  image->SetExtent(3, 7, 0, 4, 0, 4);
   scene.GetWindow()->Render();
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 2);
 }

@@ -35,15 +35,17 @@ constexpr int Size = 72;
 
 using NamedObjects = std::vector<std::pair<std::string, vtkObject*>>;
 
-// Builds of the mesh, updates of the scalars, uploaded bytes.
+// Builds of the mesh, updates of the positions and of the scalars, uploaded bytes.
 struct Work
 {
   vtkTypeInt64 Mesh;
+  vtkTypeInt64 Points;
   vtkTypeInt64 Scalars;
   vtkTypeInt64 Bytes;
 
   explicit Work(vtkTetrahedraRayCastMapper* mapper)
     : Mesh(mapper->GetNumberOfMeshBuilds())
+    , Points(mapper->GetNumberOfPointUpdates())
     , Scalars(mapper->GetNumberOfScalarUpdates())
     , Bytes(mapper->GetUploadedBytes())
   {
@@ -71,10 +73,17 @@ protected:
     return scene;
   }
 
-  // Makes an edit that is different each time, calls Modified() of one object after another, and
-  // expects the work and the image of new objects.
-  void ExpectSeen(vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit,
-    int meshBuilds)
+  enum class Part
+  {
+    Cells,
+    Points,
+    Scalars
+  };
+
+  // Makes an edit of a part that is different each time, calls Modified() of one object after
+  // another, and expects the work and the image of new objects.
+  void ExpectSeen(
+    vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit, Part part)
   {
     const auto scene = this->MakeScene(data);
     FloatImage last = scene->RenderFloat();
@@ -86,8 +95,10 @@ protected:
       told[i].second->Modified();
       const FloatImage picture = scene->RenderFloat();
       const Work after(scene->GetRayCaster());
-      EXPECT_EQ(after.Mesh - before.Mesh, meshBuilds);
-      EXPECT_EQ(after.Scalars - before.Scalars, 1);
+      EXPECT_EQ(after.Mesh - before.Mesh, part == Part::Cells);
+      EXPECT_EQ(after.Points - before.Points, part == Part::Points);
+      // Other cells have their scalars in another order.
+      EXPECT_EQ(after.Scalars - before.Scalars, part != Part::Points);
       EXPECT_GT(after.Bytes, before.Bytes);
       EXPECT_NE(picture.Rgba, last.Rgba);
       const auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
@@ -126,7 +137,7 @@ TEST_F(TetrahedraRayCastEdits, ScalarsOfPoints)
       // One value: of an inner vertex, which every ray through its cells shows.
       scalars->SetComponent(62, 0, 0.3 + 0.3 * i);
     },
-    0);
+    Part::Scalars);
 }
 
 TEST_F(TetrahedraRayCastEdits, ScalarsOfCells)
@@ -136,7 +147,8 @@ TEST_F(TetrahedraRayCastEdits, ScalarsOfCells)
   this->ExpectSeen(
     this->Mesh,
     { { "array", scalars }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
-    [scalars](int i) { scalars->SetValue(scalars->GetNumberOfTuples() / 2, 0.3 + 0.3 * i); }, 0);
+    [scalars](int i) { scalars->SetValue(scalars->GetNumberOfTuples() / 2, 0.3 + 0.3 * i); },
+    Part::Scalars);
 }
 
 TEST_F(TetrahedraRayCastEdits, Points)
@@ -152,7 +164,7 @@ TEST_F(TetrahedraRayCastEdits, Points)
       points->GetPoint(62, x);
       points->SetPoint(62, x[0], x[1] + 0.02 * (i + 1), x[2]);
     },
-    1);
+    Part::Points);
 }
 
 TEST_F(TetrahedraRayCastEdits, Connectivity)
@@ -168,7 +180,7 @@ TEST_F(TetrahedraRayCastEdits, Connectivity)
       vtkDataArray* ids = cells->GetConnectivityArray();
       ids->SetComponent(4 * (100 + i) + 1, 0, ids->GetComponent(4 * (100 + i), 0));
     },
-    1);
+    Part::Cells);
 }
 
 TEST_F(TetrahedraRayCastEdits, HiddenCells)
@@ -178,7 +190,7 @@ TEST_F(TetrahedraRayCastEdits, HiddenCells)
   this->ExpectSeen(
     this->Mesh,
     { { "array", ghosts }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
-    [ghosts](int i) { ghosts->SetValue(100 + i, vtkDataSetAttributes::HIDDENCELL); }, 1);
+    [ghosts](int i) { ghosts->SetValue(100 + i, vtkDataSetAttributes::HIDDENCELL); }, Part::Cells);
 }
 
 TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
@@ -204,7 +216,7 @@ TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
   grid->GetPointData()->SetScalars(scalars);
   this->ExpectSeen(
     grid, { { "array", axes[1] }, { "grid", grid } },
-    [&axes](int i) { axes[1]->SetValue(3, 0.8 + 0.1 * i); }, 1);
+    [&axes](int i) { axes[1]->SetValue(3, 0.8 + 0.1 * i); }, Part::Points);
 }
 
 TEST_F(TetrahedraRayCastEdits, Membrane)
@@ -268,6 +280,7 @@ TEST_F(TetrahedraRayCastEdits, ModifiedWithoutAnotherValueCostsNothing)
     scene->GetWindow()->Render();
     const Work after(scene->GetRayCaster());
     EXPECT_EQ(after.Mesh, before.Mesh) << object.first;
+    EXPECT_EQ(after.Points, before.Points) << object.first;
     EXPECT_EQ(after.Scalars, before.Scalars) << object.first;
     EXPECT_EQ(after.Bytes, before.Bytes) << object.first;
   }

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Mesh_PointBox_h
+#define meniscus_Volume_Mesh_PointBox_h
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+inline bool IsFinite(const glm::dvec3& p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/** Bounding box of points; empty at first. */
+struct PointBox
+{
+  glm::dvec3 Lower{ std::numeric_limits<double>::infinity() };
+  glm::dvec3 Upper{ -std::numeric_limits<double>::infinity() };
+
+  void Add(const glm::dvec3& point)
+  {
+    this->Lower = glm::min(this->Lower, point);
+    this->Upper = glm::max(this->Upper, point);
+  }
+  glm::dvec3 GetCenter() const { return 0.5 * this->Lower + 0.5 * this->Upper; }
+};
+
+/** Box around several boxes. */
+inline PointBox Enclose(const std::vector<PointBox>& boxes)
+{
+  PointBox all;
+  for (const PointBox& box : boxes)
+  {
+    all.Lower = glm::min(all.Lower, box.Lower);
+    all.Upper = glm::max(all.Upper, box.Upper);
+  }
+  return all;
+}
+
+}
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Positions of a TetrahedralMesh's vertices, and their motion.
+#include "Common/BlockLoop.h"
+#include "Volume/Mesh/ComponentVolume.h"
+#include "Volume/Mesh/DuplicateCells.h"
+#include "Volume/Mesh/PointBox.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Volume of the cells of one component that follow one another in the table. */
+using ComponentRun = std::pair<std::int32_t, ComponentVolume>;
+
+}
+
+//------------------------------------------------------------------------------
+bool TetrahedralMesh::MovePoints(const PointsView& points, const RangeLoop& loop)
+{
+  if (!this->IsMovable || !this->MeasurePoints(points, loop))
+  {
+    return false;
+  }
+  if (!this->Coincident.empty() && this->FindCoincident(points, loop) != this->Coincident)
+  {
+    return false;
+  }
+  this->RoundPositions(points, loop);
+  return this->TurnComponents(loop);
+}
+
+//------------------------------------------------------------------------------
+/** Takes centre and radius from the points of the vertices. Returns false if one is not finite. */
+bool TetrahedralMesh::MeasurePoints(const PointsView& points, const RangeLoop& loop)
+{
+  const std::size_t size = this->SourcePoints.size();
+  std::vector<PointBox> boxes(NumberOfBlocks(size));
+  std::vector<std::uint8_t> finite(boxes.size(), 1);
+  ForEachBlock(size, loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      PointBox box;
+      bool allFinite = true;
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const glm::dvec3 point = points[this->SourcePoints[v]];
+        allFinite = allFinite && IsFinite(point);
+        box.Add(point);
+      }
+      boxes[block] = box;
+      finite[block] = allFinite;
+    });
+  if (std::find(finite.begin(), finite.end(), 0) != finite.end())
+  {
+    return false;
+  }
+  this->Center = Enclose(boxes).GetCenter();
+  std::vector<double> radii(boxes.size(), 0.0);
+  ForEachBlock(size, loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        radii[block] =
+          std::max(radii[block], glm::length(points[this->SourcePoints[v]] - this->Center));
+      }
+    });
+  this->Radius = *std::max_element(radii.begin(), radii.end());
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/** Places the vertices at their points, in fixed point about centre and radius. */
+void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& loop)
+{
+  const double scale = this->Radius > 0.0 ? 1.0 / PositionUnit / this->Radius : 0.0;
+  ForEachBlock(this->SourcePoints.size(), loop,
+    [this, &points, scale](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        this->Positions[v] = glm::round((points[this->SourcePoints[v]] - this->Center) * scale);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+/** Lowest vertex at the position of each vertex. */
+std::vector<std::int32_t> TetrahedralMesh::FindCoincident(
+  const PointsView& points, const RangeLoop& loop) const
+{
+  return FindLowestCoincident(
+    this->SourcePoints.size(), [&](std::size_t v) { return points[this->SourcePoints[v]]; }, loop);
+}
+
+//------------------------------------------------------------------------------
+/** Volume of each connected component. */
+std::vector<ComponentVolume> TetrahedralMesh::MeasureComponents(const RangeLoop& loop) const
+{
+  std::vector<std::vector<ComponentRun>> runs(NumberOfBlocks(this->Cells.size()));
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      std::vector<ComponentRun>& ofBlock = runs[block];
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const std::int32_t component = this->ComponentOf(c);
+        if (ofBlock.empty() || ofBlock.back().first != component)
+        {
+          ofBlock.emplace_back(component, ComponentVolume());
+        }
+        const double volume = SignedVolume(this->Positions, this->Cells[c]);
+        ofBlock.back().second.Add(this->Orientation[c] > 0 ? volume : -volume);
+      }
+    });
+  std::vector<ComponentVolume> volumes(static_cast<std::size_t>(this->NumberOfComponents));
+  for (const std::vector<ComponentRun>& ofBlock : runs)
+  {
+    for (const ComponentRun& run : ofBlock)
+    {
+      volumes[run.first].Add(run.second, 1);
+    }
+  }
+  return volumes;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Makes the volume of every component positive again: the motion may have mirrored it. Returns
+ * false if the volumes of a component cancel. A component without volume stays as it is.
+ */
+bool TetrahedralMesh::TurnComponents(const RangeLoop& loop)
+{
+  const std::vector<ComponentVolume> volumes = this->MeasureComponents(loop);
+  // Sums in another order differ by less than NegligibleVolume, so that Build() finds no volumes
+  // that cancel beyond twice that.
+  if (std::any_of(volumes.begin(), volumes.end(),
+        [](const ComponentVolume& volume) { return volume.Cancels(2.0 * NegligibleVolume); }))
+  {
+    return false;
+  }
+  const auto isMirrored = [](const ComponentVolume& volume) { return volume.Sum < 0.0; };
+  if (std::none_of(volumes.begin(), volumes.end(), isMirrored))
+  {
+    return true;
+  }
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const int sign = isMirrored(volumes[this->ComponentOf(c)]) ? -1 : 1;
+        this->Orientation[c] = static_cast<std::int8_t>(sign * this->Orientation[c]);
+      }
+    });
+  for (BoundaryFace& face : this->Boundary)
+  {
+    const auto cell = static_cast<std::size_t>(face.CellFace) / 4;
+    face.Outward *= isMirrored(volumes[this->ComponentOf(cell)]) ? -1 : 1;
+  }
+  return true;
+}
+
+}

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Time steps of readers, which make new arrays in each step: the mesh is built once, and a step
+costs an update of the scalars, or of the positions if points move."""
+import math
+import os
+import unittest
+
+from meniscus import vtkTetrahedraRayCastMapper, vtkTetrahedraRayIntegral
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkVolume
+
+try:
+    from vtkmodules.vtkIOExodus import vtkExodusIIReader, vtkExodusIIWriter
+except ImportError:
+    vtkExodusIIReader = None
+
+SIZE = 100
+STEPS = 20
+SCALARS = "pressure"
+# Exodus files have one array per component.
+DISPLACEMENTS = ["DISPL" + axis for axis in "XYZ"]
+
+
+def make_mesh():
+    field = vtkRTAnalyticSource()
+    field.SetWholeExtent(-2, 2, -2, 2, -2, 2)
+    tetrahedra = vtkDataSetTriangleFilter()
+    tetrahedra.SetInputConnection(field.GetOutputPort())
+    tetrahedra.Update()
+    mesh = vtkUnstructuredGrid()
+    mesh.CopyStructure(tetrahedra.GetOutput())
+    return mesh
+
+
+def add_array(mesh, name, value_at):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    for i in range(mesh.GetNumberOfPoints()):
+        array.InsertNextValue(value_at(*mesh.GetPoint(i)))
+    mesh.GetPointData().AddArray(array)
+
+
+def make_step(mesh, time):
+    """The mesh with the scalars and displacements of a time."""
+    step = vtkUnstructuredGrid()
+    step.DeepCopy(mesh)
+    add_array(step, SCALARS, lambda x, y, z: 100 + 50 * math.sin(x + time) * math.cos(y - z))
+    for name, scale in zip(DISPLACEMENTS, (0.1, 0.05, 0)):
+        add_array(step, name, lambda x, y, z, scale=scale: scale * time * z)
+    step.GetPointData().SetActiveScalars(SCALARS)
+    return step
+
+
+class Steps(VTKPythonAlgorithmBase):
+    """A source of time steps."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+        self.mesh = make_mesh()
+
+    def RequestInformation(self, request, inputs, outputs):
+        times = [0.2 * step for step in range(STEPS)]
+        info = outputs.GetInformationObject(0)
+        info.Set(vtkStreamingDemandDrivenPipeline.TIME_STEPS(), times, STEPS)
+        info.Set(vtkStreamingDemandDrivenPipeline.TIME_RANGE(), (times[0], times[-1]), 2)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
+        time = info.Get(key) if info.Has(key) else 0.0
+        output = vtkUnstructuredGrid.GetData(outputs)
+        output.ShallowCopy(make_step(self.mesh, time))
+        output.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+        return 1
+
+
+class View:
+    """A window with one volume of an algorithm's output."""
+
+    def __init__(self, source):
+        self.mapper = vtkTetrahedraRayCastMapper()
+        self.mapper.SetInputConnection(source.GetOutputPort())
+        self.mapper.SetScalarModeToUsePointFieldData()
+        self.mapper.SelectScalarArray(SCALARS)
+        volume = vtkVolume()
+        volume.SetMapper(self.mapper)
+        volume.GetProperty().GetRGBTransferFunction().AddRGBSegment(50, 0, 0.2, 1, 150, 1, 0.4, 0)
+        opacity = volume.GetProperty().GetScalarOpacity()
+        opacity.RemoveAllPoints()
+        opacity.AddSegment(50, 0, 150, 1)
+        self.renderer = vtkRenderer()
+        self.renderer.AddVolume(volume)
+        self.window = vtkRenderWindow()
+        self.window.SetSize(SIZE, SIZE)
+        self.window.AddRenderer(self.renderer)
+
+    def draw(self):
+        self.window.Render()
+        pixels = vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, SIZE - 1, SIZE - 1, 0, pixels, 0)
+        return bytes(memoryview(pixels))
+
+    def work(self):
+        return (self.mapper.GetNumberOfMeshBuilds(), self.mapper.GetNumberOfPointUpdates(),
+                self.mapper.GetNumberOfScalarUpdates())
+
+
+class TestTimeSteps(unittest.TestCase):
+    def test_files(self):
+        mesh = make_mesh()
+        names = ["time-step-%d.vtu" % step for step in range(STEPS)]
+        for step, name in enumerate(names):
+            writer = vtkXMLUnstructuredGridWriter()
+            writer.SetInputData(make_step(mesh, 0.2 * step))
+            writer.SetFileName(name)
+            self.assertEqual(writer.Write(), 1)
+        reader = vtkXMLUnstructuredGridReader()
+        view = View(reader)
+        rays = vtkTetrahedraRayIntegral()
+        rays.SetInputConnection(reader.GetOutputPort())
+        rays.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, SCALARS)
+        rays.SetImageSize(10, 10)
+        pictures = set()
+        for step, name in enumerate(names):
+            reader.SetFileName(name)
+            pictures.add(view.draw())
+            self.assertEqual(view.work(), (1, 0, step + 1))
+            rays.Update()
+            self.assertEqual((rays.GetNumberOfMeshBuilds(), rays.GetNumberOfPointUpdates(),
+                              rays.GetNumberOfScalarUpdates()), (1, 0, step + 1))
+        self.assertEqual(len(pictures), STEPS)
+        for name in names:
+            os.remove(name)
+
+    @unittest.skipUnless(vtkExodusIIReader, "VTK has no reader of Exodus files")
+    def test_exodus(self):
+        name = "time-steps.exo"
+        writer = vtkExodusIIWriter()
+        source = Steps()
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(name)
+        writer.WriteAllTimeStepsOn()
+        writer.Write()
+        for displaced in (False, True):
+            with self.subTest(displaced=displaced):
+                reader = vtkExodusIIReader()
+                reader.SetFileName(name)
+                reader.SetApplyDisplacements(displaced)
+                reader.UpdateInformation()
+                reader.SetAllArrayStatus(vtkExodusIIReader.NODAL, 1)
+                times = reader.GetOutputInformation(0).Get(
+                    vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+                self.assertEqual(len(times), STEPS)
+                view = View(reader)
+                pictures = set()
+                for step, time in enumerate(times):
+                    reader.UpdateTimeStep(time)
+                    pictures.add(view.draw())
+                    self.assertEqual(view.work(), (1, step if displaced else 0, step + 1))
+                self.assertEqual(len(pictures), STEPS)
+        os.remove(name)
+
+
+if __name__ == "__main__":
+    unittest.main()
