@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/PictureSize.h"
@@ -451,6 +452,7 @@ void vtkRefractionPass::DrawSurface(
   vtkRenderState surface(renderer);
   surface.SetPropArrayAndCount(&prop, 1);
   surface.SetFrameBuffer(internals.Membrane.Buffer);
+  const meniscus::LightForNormals light(renderer);
   this->PreRender(&surface);
   internals.Opaque->Render(&surface);
   this->PostRender(&surface);

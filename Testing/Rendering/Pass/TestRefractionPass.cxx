@@ -11,6 +11,8 @@
 #include <vtkCamera.h>
 #include <vtkCubeSource.h>
 #include <vtkImageData.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFXAAPass.h>
@@ -69,6 +71,23 @@ TEST(RefractionPass, ClearWaterShowsTheFloor)
   pool.LookFrom(2.5, -1.5);
   ExpectColors(pool, "aside", [](const Sight&, int) { return 1.0; });
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 2);
+}
+
+// VTK passes no normals to shaders where no light is on.
+TEST(RefractionPass, WithoutLights)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  const auto isFloor = [](const Sight&, int) { return 1.0; }; // it does not need light
+  pool.GetRenderer()->AutomaticLightCreationOff();
+  ExpectColors(pool, "no light", isFloor);
+  vtkNew<vtkLight> light;
+  light->SwitchOff();
+  pool.GetRenderer()->AddLight(light);
+  ExpectColors(pool, "a light that is off", isFloor);
+  EXPECT_EQ(pool.GetRenderer()->GetLights()->GetNumberOfItems(), 1);
+  light->SwitchOn();
+  ExpectColors(pool, "a light that is on", isFloor);
 }
 
 TEST(RefractionPass, ReflectanceIsFresnels)
