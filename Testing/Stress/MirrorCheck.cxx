@@ -335,7 +335,7 @@ void MirrorChecker::CheckChains()
   {
     return;
   }
-  constexpr std::size_t count = 2 * CurvedMembraneSolver::Chain + 50;
+  constexpr std::size_t count = CurvedMembraneSolver::Chain + 40;
   std::vector<double> points;
   for (std::size_t i = 0; i < count; ++i)
   {

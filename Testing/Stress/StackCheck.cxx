@@ -688,7 +688,7 @@ void StackChecker::CheckChains()
   {
     return;
   }
-  constexpr std::size_t count = 2 * StackSolver::Chain + 50;
+  constexpr std::size_t count = StackSolver::Chain + 40;
   std::vector<double> points;
   for (std::size_t i = 0; i < count; ++i)
   {
