@@ -125,7 +125,8 @@ vtkSmartPointer<vtkActor> MakeActor(vtkPolyData* data, bool lit)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  mapper->SetScalarModeToUseCellData();
+  mapper->SetScalarModeToUseCellFieldData();
+  mapper->SelectColorArray("Color");
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->SetLighting(lit);
@@ -133,7 +134,7 @@ vtkSmartPointer<vtkActor> MakeActor(vtkPolyData* data, bool lit)
 }
 
 //------------------------------------------------------------------------------
-const double Sun[3] = { -0.45, 0.50, 0.74 };
+const double Sun[3] = { -0.28, 0.22, 0.93 };
 
 /** Sky in a direction: bright at the horizon, with thin clouds and a soft sun. */
 Color GetSky(const double direction[3])
@@ -224,7 +225,7 @@ public:
     this->Renderer->AddLight(sun);
     vtkNew<vtkLight> fill;
     fill->SetLightTypeToHeadlight();
-    fill->SetIntensity(0.25);
+    fill->SetIntensity(0.45);
     this->Renderer->AddLight(fill);
   }
 
@@ -277,12 +278,13 @@ constexpr double PoolHalf = 1.5;
 constexpr double PaneTop = -0.6;
 constexpr double PaneBottom = -0.72;
 constexpr double Floor = -1.9;
+constexpr double RimTop = 0.16;
 
 /** Floor, walls and objects on the floor. */
 vtkSmartPointer<vtkPolyData> MakeRoom()
 {
   vtkNew<vtkAppendPolyData> room;
-  constexpr int cells = 220;
+  constexpr int cells = 100;
   constexpr double tile = 2.0 * PoolHalf / 10.0;
   const auto floor = MakeSheet(PoolHalf, Floor, cells);
   ColorCells(floor,
@@ -298,8 +300,8 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
     vtkNew<vtkPlaneSource> wall;
     wall->SetOrigin(-PoolHalf, PoolHalf, Floor);
     wall->SetPoint1(PoolHalf, PoolHalf, Floor);
-    wall->SetPoint2(-PoolHalf, PoolHalf, 0.25);
-    wall->SetResolution(60, 43);
+    wall->SetPoint2(-PoolHalf, PoolHalf, RimTop);
+    wall->SetResolution(36, 26);
     const auto placed =
       Place(wall, [side](vtkTransform* move) { move->RotateZ(90.0 * side); });
     ColorCells(placed,
@@ -356,11 +358,11 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
 vtkSmartPointer<vtkPolyData> MakeRim()
 {
   vtkNew<vtkAppendPolyData> rim;
-  constexpr double width = 0.45;
+  constexpr double width = 1.6;
   for (int side = 0; side < 4; ++side)
   {
     vtkNew<vtkCubeSource> stone;
-    stone->SetBounds(-PoolHalf - width, PoolHalf, PoolHalf, PoolHalf + width, -0.1, 0.25);
+    stone->SetBounds(-PoolHalf - width, PoolHalf, PoolHalf, PoolHalf + width, -0.1, RimTop);
     rim->AddInputData(Place(stone, [side](vtkTransform* move) { move->RotateZ(90.0 * side); }));
   }
   rim->Update();
@@ -372,10 +374,10 @@ vtkSmartPointer<vtkPolyData> MakeRim()
 /** Multiplies the cells' colours by the light that arrives through the interfaces. */
 void ShineOn(vtkPolyData* data, vtkDataArray* irradiance)
 {
-  vtkDataArray* colors = data->GetCellData()->GetScalars();
+  vtkDataArray* colors = data->GetCellData()->GetArray("Color");
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    const double light = 0.42 + 0.62 * std::min(irradiance->GetTuple1(i), 2.2);
+    const double light = 0.5 + 0.6 * std::min(irradiance->GetTuple1(i), 2.0);
     for (int c = 0; c < 3; ++c)
     {
       colors->SetComponent(i, c, std::min(light * colors->GetComponent(i, c), 255.0));
@@ -385,8 +387,8 @@ void ShineOn(vtkPolyData* data, vtkDataArray* irradiance)
 
 bool DrawPane(const std::string& folder)
 {
-  const DemoWater water(0.35, 0.75);
-  const auto waves = water.MakeMesh(72);
+  const DemoWater water(0.35, 0.42);
+  const auto waves = water.MakeMesh(56);
   const auto top = MakeSheet(2.4, PaneTop, 24);
   const auto bottom = MakeSheet(2.4, PaneBottom, 24);
   vtkNew<vtkRefractingInterfaceCollection> list;
@@ -411,16 +413,16 @@ bool DrawPane(const std::string& folder)
   room->ShallowCopy(light->GetOutput());
   ShineOn(room, room->GetCellData()->GetArray("RefractionIrradiance"));
 
-  const double eye[3] = { 0.35, -4.4, 4.3 };
-  const double target[3] = { 0.0, -0.12, -0.7 };
-  StackWindow window(eye, target, 38.0);
+  const double eye[3] = { 0.2, -3.3, 5.4 };
+  const double target[3] = { 0.02, -0.02, -0.35 };
+  StackWindow window(eye, target, 35.0);
   seen->SetInputData(0, room);
   seen->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   window.Follow(seen);
   UpdateWithProgress(seen, "Virtual geometry behind waves and a pane");
   const auto virtualRoom = MakeActor(seen->GetOutput(), false);
   window.GetPass()->AddRefraction(MakeActor(waves, false), virtualRoom, seen);
-  window.GetPass()->SetAttenuationCoefficients(0.16, 0.06, 0.05);
+  window.GetPass()->SetAttenuationCoefficients(0.12, 0.04, 0.03);
   window.GetRenderer()->AddActor(MakeActor(MakeRim(), true));
   return window.Write(
     folder, "stack-pane", "objects below waves and a pane of glass: three interfaces");
@@ -440,7 +442,7 @@ vtkSmartPointer<vtkPolyData> MakePage()
   const auto paper = MakeSheet(2.2, 0.0, 44);
   ColorCells(paper, MakeColor({ 0.97, 0.95, 0.89 }));
   page->AddInputData(paper);
-  double y = 1.55;
+  double y = 1.5;
   for (const char* line : PageText)
   {
     vtkNew<vtkVectorText> text;
@@ -449,11 +451,11 @@ vtkSmartPointer<vtkPolyData> MakePage()
       [y](vtkTransform* move)
       {
         move->Translate(-1.9, y, 0.004);
-        move->Scale(0.155, 0.20, 1.0);
+        move->Scale(0.132, 0.155, 1.0);
       });
     ColorCells(placed, MakeColor({ 0.10, 0.12, 0.18 }));
     page->AddInputData(placed);
-    y -= 0.33;
+    y -= 0.315;
   }
   page->Update();
   vtkSmartPointer<vtkPolyData> result = page->GetOutput();
@@ -462,9 +464,9 @@ vtkSmartPointer<vtkPolyData> MakePage()
 }
 
 // The magnifying glass: two caps of spheres of one radius around the point Middle.
-constexpr double Middle[3] = { 0.25, 0.05, 1.0 };
+constexpr double Middle[3] = { 0.2, 0.15, 0.75 };
 constexpr double Aperture = 0.92;
-constexpr double CapRadius = 2.4;
+constexpr double CapRadius = 2.6;
 
 /** A cap above (+1) or below (-1) and its sphere. */
 vtkSmartPointer<vtkPolyData> MakeCap(double side, vtkSphere* exact)
@@ -543,13 +545,16 @@ bool DrawLens(const std::string& folder)
   seen->SetInterfaces(list);
   seen->SetInputData(0, page);
   seen->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  const double eye[3] = { 0.15, -2.9, 5.0 };
-  const double target[3] = { 0.05, -0.05, 0.2 };
-  StackWindow window(eye, target, 36.0);
+  const double eye[3] = { 0.15, -2.0, 6.0 };
+  const double target[3] = { 0.02, -0.02, 0.1 };
+  StackWindow window(eye, target, 38.0);
   window.Follow(seen);
   UpdateWithProgress(seen, "Virtual geometry of a page behind a lens");
   window.GetPass()->AddRefraction(
     MakeActor(caps[0], false), MakeActor(seen->GetOutput(), false), seen);
+  const auto table = MakeSheet(8.0, -0.05, 1);
+  ColorCells(table, MakeColor({ 0.42, 0.29, 0.19 }));
+  window.GetRenderer()->AddActor(MakeActor(table, false));
   window.GetRenderer()->AddActor(MakeActor(page, false));
   window.GetRenderer()->AddActor(MakeHolder());
   return window.Write(folder, "stack-lens", "a page under a magnifying glass: two interfaces");

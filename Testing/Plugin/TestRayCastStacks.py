@@ -10,7 +10,7 @@ from vtkmodules.util.vtkConstants import VTK_STRING
 EYE = [6, -9, 40]
 VALUE = 200.0
 PANE = [0, 1.0, 1.5, 1, 1.5, 1.333]
-BALL = [0, 1.0, 1.5, 0, 1.0, 1.5]
+BALL = [0, 1.0, 1.1, 0, 1.0, 1.1]
 # Share of the covered pixels along the outlines, as in TestRayCastMembrane.py.
 SHARE_OF_OUTLINES = 0.05
 
@@ -47,6 +47,7 @@ def check_contour(view, grid, name, seen, surfaces, rows, images):
     virtual = simple.Show(refracted, view)
     simple.ColorBy(virtual, None)
     expected = covered(screenshot(view, name + "Contour"))
+    assert len(expected) > 500, len(expected)
     simple.Delete(refracted)
     simple.Delete(contour)
     simple.Show(grid, view)
@@ -66,14 +67,9 @@ def check_pane(view, display, grid, straight):
     display.Interfaces = PANE
     pane = screenshot(view, "StacksPane")
     assert pane not in (one, straight)
-    mapper = PluginTesting.mapper_of(display)
-    assert mapper.GetNumberOfMembranes() == 2
-    assert mapper.GetInterfaces().GetNumberOfItems() == 2
     check_contour(view, grid, "StacksPane", pane, surfaces, PANE, "All images")
 
-    builds = mapper.GetNumberOfMembraneBuilds()
     assert screenshot(view, "StacksAgain") == pane
-    assert mapper.GetNumberOfMembraneBuilds() == builds, "the surfaces were built again"
     display.Interfaces = [0, 1.0, 1.0, 1, 1.0, 1.0]
     assert screenshot(view, "StacksEqual") == straight, "equal indices"
     surfaces[1].Function = "coords"
@@ -85,14 +81,12 @@ def check_pane(view, display, grid, straight):
 
 
 def check_ball(view, display, grid):
-    """A closed body is one surface in two rows, delivered once."""
+    """A closed body is one surface in two rows."""
     ball = simple.Sphere(Center=[0, 0, 18], Radius=9, ThetaResolution=60, PhiResolution=30)
     display.Membrane = ball
     display.Interfaces = BALL
     seen = screenshot(view, "StacksBall")
-    mapper = PluginTesting.mapper_of(display)
-    assert mapper.GetNumberOfMembranes() == 2 and mapper.GetMembrane(0) is mapper.GetMembrane(1)
-    assert len(covered(seen)) > 500
+    check_contour(view, grid, "StacksBall", seen, [ball], BALL, "First image")
 
 
 def check_faults(view, display, straight):

@@ -20,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -96,8 +95,12 @@ LensScene MakeLens(const std::string& name, double radius, double depth, double 
 std::vector<LensScene> GetScenes()
 {
   constexpr double radius = 40.0;
+  // The focus is about 86 behind the centre. Near it, the ball magnifies the error of linear
+  // interpolation, too: the default tolerance, a tenth of a pixel, is visible.
+  LensScene focus = MakeBall("ball lens near its focus", 2, 75.0, 30.0);
+  focus.Tolerance = 0.0005;
   return { MakeBall("aplanatic ball", 1, radius / Glass, 40.0),
-    MakeBall("ball lens", 2, 58.0, 30.0), MakeLens("biconvex lens", 80.0, 55.0, 30.0),
+    MakeBall("ball lens", 2, 58.0, 30.0), focus, MakeLens("biconvex lens", 80.0, 55.0, 30.0),
     MakeLens("plano-convex lens", 0.0, 75.0, 36.0) };
 }
 
@@ -251,8 +254,7 @@ private:
 // another place, by more than half a pixel, or be covered in one of the two pictures only.
 TEST(StackPictures, BallsAndLensesAgreeWithTracedRays)
 {
-  std::vector<LensScene> scenes = GetScenes();
-  if (std::getenv("BW")) { scenes = { MakeBall("ball 75", 2, 75.0, 30.0), MakeBall("ball 75 fine", 2, 75.0, 30.0) }; scenes[1].Tolerance = 0.0005; }
+  const std::vector<LensScene> scenes = GetScenes();
   Figure figure(static_cast<int>(scenes.size()));
   for (std::size_t i = 0; i < scenes.size(); ++i)
   {
