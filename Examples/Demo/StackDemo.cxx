@@ -185,8 +185,7 @@ vtkSmartPointer<vtkTexture> MakeSky()
         const Color sky = GetSky(directions[face]);
         for (int c = 0; c < 3; ++c)
         {
-          image->SetScalarComponentFromDouble(
-            i, j, 0, c, 255.0 * sky[static_cast<std::size_t>(c)]);
+          image->SetScalarComponentFromDouble(i, j, 0, c, 255.0 * sky[static_cast<std::size_t>(c)]);
         }
       }
     }
@@ -276,9 +275,9 @@ private:
 // The pool is 3 wide. Its water is 0.6 deep, on a pane of glass; air and the floor are below.
 constexpr double PoolHalf = 1.5;
 constexpr double PaneTop = -0.6;
-constexpr double PaneBottom = -0.72;
+constexpr double PaneBottom = -0.7;
 constexpr double Floor = -1.9;
-constexpr double RimTop = 0.16;
+constexpr double RimTop = 0.2;
 
 /** Floor, walls and objects on the floor. */
 vtkSmartPointer<vtkPolyData> MakeRoom()
@@ -301,9 +300,8 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
     wall->SetOrigin(-PoolHalf, PoolHalf, Floor);
     wall->SetPoint1(PoolHalf, PoolHalf, Floor);
     wall->SetPoint2(-PoolHalf, PoolHalf, RimTop);
-    wall->SetResolution(36, 26);
-    const auto placed =
-      Place(wall, [side](vtkTransform* move) { move->RotateZ(90.0 * side); });
+    wall->SetResolution(36, 21); // rows of 0.1, so that the pane has its own
+    const auto placed = Place(wall, [side](vtkTransform* move) { move->RotateZ(90.0 * side); });
     ColorCells(placed,
       [](const double p[3])
       {
@@ -367,7 +365,7 @@ vtkSmartPointer<vtkPolyData> MakeRim()
   }
   rim->Update();
   vtkSmartPointer<vtkPolyData> result = rim->GetOutput();
-  ColorCells(result, MakeColor({ 0.80, 0.76, 0.70 }));
+  ColorCells(result, MakeColor({ 0.56, 0.52, 0.47 }));
   return result;
 }
 
@@ -387,7 +385,7 @@ void ShineOn(vtkPolyData* data, vtkDataArray* irradiance)
 
 bool DrawPane(const std::string& folder)
 {
-  const DemoWater water(0.35, 0.42);
+  const DemoWater water(0.35, 0.55);
   const auto waves = water.MakeMesh(56);
   const auto top = MakeSheet(2.4, PaneTop, 24);
   const auto bottom = MakeSheet(2.4, PaneBottom, 24);
@@ -423,7 +421,10 @@ bool DrawPane(const std::string& folder)
   const auto virtualRoom = MakeActor(seen->GetOutput(), false);
   window.GetPass()->AddRefraction(MakeActor(waves, false), virtualRoom, seen);
   window.GetPass()->SetAttenuationCoefficients(0.12, 0.04, 0.03);
-  window.GetRenderer()->AddActor(MakeActor(MakeRim(), true));
+  const auto rim = MakeActor(MakeRim(), true);
+  rim->GetProperty()->SetAmbient(0.4);
+  rim->GetProperty()->SetDiffuse(0.7);
+  window.GetRenderer()->AddActor(rim);
   return window.Write(
     folder, "stack-pane", "objects below waves and a pane of glass: three interfaces");
 }

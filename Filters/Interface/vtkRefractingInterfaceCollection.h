@@ -27,9 +27,10 @@ public:
   void AddItem(vtkRefractingInterface* interface);
 
   /**
-   * Makes an interface with these indices of refraction, on the side that the normals of its surface
-   * point to and on the other side, adds it behind those of the list, and returns it. Media have no
-   * numbers of their own: which side of an interface is the medium before it depends on the normals.
+   * Makes an interface with these indices of refraction, on the side that the normals of its
+   * surface point to and on the other side, adds it behind those of the list, and returns it. Media
+   * have no numbers of their own: which side of an interface is the medium before it depends on the
+   * normals.
    */
   vtkRefractingInterface* AddInterface(double exterior, double interior);
 

@@ -244,8 +244,8 @@ void vtkTetrahedraRayCastRepresentation::WarnOfOrder(vtkMTimeType time)
   for (int row = 0; row < static_cast<int>(this->Membranes->GetNumberOfBlocks()); ++row)
   {
     vtkPolyData* surface = GetBlock(this->Membranes, row);
-    keepsOrder = keepsOrder && (!surface || surface->GetNumberOfCells() == 0 ||
-        meniscus::IsPlaneAcrossAxis(surface));
+    keepsOrder = keepsOrder &&
+      (!surface || surface->GetNumberOfCells() == 0 || meniscus::IsPlaneAcrossAxis(surface));
   }
   if (!keepsOrder)
   {

@@ -18,8 +18,8 @@
  * Cells of a rank that does not have the selected array are left out, with a warning; ParaView
  * would drop the array on all ranks.
  *
- * Ports 1 to 3 are optional membranes at which rays are refracted: vtkPolyData, or composite data of
- * it. Several of them, and closed bodies, need a table of interfaces (SetInterfaceRow()), which
+ * Ports 1 to 3 are optional membranes at which rays are refracted: vtkPolyData, or composite data
+ * of it. Several of them, and closed bodies, need a table of interfaces (SetInterfaceRow()), which
  * numbers those that are set from 0, in the order of the ports. The parts of all ranks are gathered
  * and delivered to every process that renders. Images of several ranks are composited in the order
  * of straight rays, which is also that of rays refracted at planes across an axis; any other
@@ -115,9 +115,9 @@ private:
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   meniscus::InterfaceTable Table;
   /**
-   * Membranes gathered on this rank, a block for each row of the table; a surface that is in several
-   * rows is in the first of them. One empty block if there is no membrane, because every process
-   * must receive a data object.
+   * Membranes gathered on this rank, a block for each row of the table; a surface that is in
+   * several rows is in the first of them. One empty block if there is no membrane, because every
+   * process must receive a data object.
    */
   vtkSmartPointer<vtkMultiBlockDataSet> Membranes;
   /** Time of the inputs for which the user was last warned. */

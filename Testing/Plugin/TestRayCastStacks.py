@@ -82,11 +82,11 @@ def check_pane(view, display, grid, straight):
 
 def check_ball(view, display, grid):
     """A closed body is one surface in two rows."""
-    ball = simple.Sphere(Center=[0, 0, 18], Radius=9, ThetaResolution=60, PhiResolution=30)
+    ball = simple.Sphere(Center=[0, 0, 24], Radius=14, ThetaResolution=32, PhiResolution=17)
     display.Membrane = ball
     display.Interfaces = BALL
     seen = screenshot(view, "StacksBall")
-    check_contour(view, grid, "StacksBall", seen, [ball], BALL, "First image")
+    check_contour(view, grid, "StacksBall", seen, [ball], BALL, "All images")
 
 
 def check_faults(view, display, straight):

@@ -97,8 +97,7 @@ bool MirrorChecker::SetUp()
   reference::MembraneMesh mesh = this->Test.Mesh;
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
-    mesh.Points[i] =
-      this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
+    mesh.Points[i] = this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
   }
   const glm::dvec3 eye = this->Test.Scale * this->Test.Eye + this->Test.Offset;
   if (this->Mirror.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
@@ -174,8 +173,7 @@ double MirrorChecker::GetCondition(const PatchHit& first, const glm::dvec3& poin
     const double step = (k == 0 ? first.B.x : first.B.y) > 0.5 ? -h : h;
     const glm::dvec2 b = first.B + step * glm::dvec2(k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0);
     const PatchHit near = this->Tracer->Evaluate(first.Facet, b, true);
-    const glm::dvec3 direction =
-      ReflectRay(glm::normalize(near.Position - this->Eye), near.Normal);
+    const glm::dvec3 direction = ReflectRay(glm::normalize(near.Position - this->Eye), near.Normal);
     const double length = glm::dot(point - near.Position, axis) / glm::dot(direction, axis);
     by[k] = (near.Position + length * direction - point) / step;
   }
@@ -185,8 +183,7 @@ double MirrorChecker::GetCondition(const PatchHit& first, const glm::dvec3& poin
 
 //------------------------------------------------------------------------------
 // True if the reflected ray does not meet the mirror again, from either side: its end is in front.
-bool MirrorChecker::IsFree(
-  const PatchHit& first, const glm::dvec3& direction, double length) const
+bool MirrorChecker::IsFree(const PatchHit& first, const glm::dvec3& direction, double length) const
 {
   const double same = Same * this->Tracer->GetSize(first.Facet);
   for (const bool fromFront : { true, false })
@@ -213,8 +210,7 @@ void MirrorChecker::CheckPlanted(int i)
     return;
   }
   const glm::dvec3 direction = ReflectRay(sight, first.Normal);
-  const double length =
-    this->Test.Scale * Side * std::pow(10.0, this->Random.Uniform(-2.0, 0.3));
+  const double length = this->Test.Scale * Side * std::pow(10.0, this->Random.Uniform(-2.0, 0.3));
   const glm::dvec3 point = first.Position + length * direction;
   const bool isFree = this->IsFree(first, direction, length);
   const bool isCertain = -glm::dot(first.Normal, sight) > Marginal &&
@@ -246,8 +242,8 @@ void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* p
   const double same = Same * this->Tracer->GetSize(0) + 8.0 * this->Rounding;
   const auto isKnown = [&](const glm::dvec3& sight)
   {
-    return std::any_of(images.begin(), images.end(), [&](const VirtualVertex& image)
-      { return glm::length(image.SightPoint - sight) < same; });
+    return std::any_of(images.begin(), images.end(),
+      [&](const VirtualVertex& image) { return glm::length(image.SightPoint - sight) < same; });
   };
   for (const VirtualVertex& image : images)
   {
@@ -350,10 +346,8 @@ void MirrorChecker::CheckChains()
     constexpr std::size_t chain = CurvedMembraneSolver::Chain;
     std::vector<VirtualVertex> vertices(count);
     loop((count + chain - 1) / chain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        solver.Solve(
-          points.data(), begin * chain, std::min(count, end * chain), vertices.data());
+      [&](std::size_t begin, std::size_t end) {
+        solver.Solve(points.data(), begin * chain, std::min(count, end * chain), vertices.data());
       });
     return vertices;
   };
@@ -387,8 +381,7 @@ RefractionTally MirrorChecker::Run()
     if (this->Random.Below(6) == 0)
     {
       const glm::dvec3 at = Side * this->Random.Uniform(0.05, 1.5) * this->Random.GetDirection();
-      this->CheckPoint(
-        i, this->Test.Scale * at + this->Test.Offset - this->Frame, nullptr);
+      this->CheckPoint(i, this->Test.Scale * at + this->Test.Offset - this->Frame, nullptr);
     }
     else
     {

@@ -40,8 +40,7 @@ bool Meet(const CurvedPatch& patch, const glm::dvec3& origin, const glm::dvec3& 
     const double determinant = -glm::dot(jet.PositionBy[0], glm::cross(jet.PositionBy[1], ray));
     const double x = -glm::dot(rest, glm::cross(jet.PositionBy[1], ray)) / determinant;
     const double y = -glm::dot(jet.PositionBy[0], glm::cross(rest, ray)) / determinant;
-    const double z =
-      glm::dot(jet.PositionBy[0], glm::cross(jet.PositionBy[1], rest)) / determinant;
+    const double z = glm::dot(jet.PositionBy[0], glm::cross(jet.PositionBy[1], rest)) / determinant;
     b += glm::dvec2(x, y);
     l += z;
     // Written so that a NaN fails.
@@ -92,8 +91,7 @@ std::vector<PatchHit> PatchTracer::FindCrossings(
     const glm::dvec3 away = sphere.Centre - origin;
     const double along = glm::dot(away, direction);
     const glm::dvec3 across = away - along * direction;
-    if (along < least - sphere.Radius ||
-      glm::dot(across, across) > sphere.Radius * sphere.Radius)
+    if (along < least - sphere.Radius || glm::dot(across, across) > sphere.Radius * sphere.Radius)
     {
       continue;
     }

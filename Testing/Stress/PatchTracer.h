@@ -50,10 +50,7 @@ public:
   /** True if a place is on, or within `width` of, an edge without exactly one neighbour. */
   bool IsAtBorder(std::int32_t facet, const glm::dvec2& b, double width) const;
 
-  double GetSize(std::int32_t facet) const
-  {
-    return this->Patches.GetPatch(facet).GetSize();
-  }
+  double GetSize(std::int32_t facet) const { return this->Patches.GetPatch(facet).GetSize(); }
   std::size_t GetNumberOfFacets() const { return this->Spheres.size(); }
 
 private:

@@ -437,9 +437,7 @@ std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t
   };
   const auto add = [&addCheck](const std::string& name, double cases,
                      const std::function<RefractionCase(StressRandom&)>& make)
-  {
-    addCheck(name, cases, [make](StressRandom& random) { return CheckCase(make(random)); });
-  };
+  { addCheck(name, cases, [make](StressRandom& random) { return CheckCase(make(random)); }); };
   add("waves", 12, [](StressRandom& random) { return MakeOrdinary(random, 0); });
   add("domes", 12, [](StressRandom& random) { return MakeOrdinary(random, 1); });
   add("bowls", 12, [](StressRandom& random) { return MakeOrdinary(random, 2); });

@@ -42,7 +42,7 @@ struct StackCase
   double Scale = 1.0;
   glm::dvec3 Offset{ 0.0 };
   glm::dvec3 Eye{ 0.0 };
-  std::uint64_t Seed = 0; ///< of the points
+  std::uint64_t Seed = 0;   ///< of the points
   double BorderShare = 0.1; ///< share of the points on rays through edges and corners of facets
   /** Repeated facets show an image more than once. */
   bool HasRepeatedFacets = false;

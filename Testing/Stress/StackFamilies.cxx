@@ -164,8 +164,7 @@ StackCase MakePanes(StressRandom& random)
 
 StackCase MakeWavySheets(StressRandom& random)
 {
-  return MakeSheets(
-    random, 26.0, 80.0, [&random](int) { return MakeWaves(random, Side, 0.35); });
+  return MakeSheets(random, 26.0, 80.0, [&random](int) { return MakeWaves(random, Side, 0.35); });
 }
 
 // Any surfaces, of different kinds and numbers of facets.
@@ -261,8 +260,9 @@ StackCase MakeBalls(StressRandom& random)
     glass = NextIndex(random, around);
   }
   const double behind = random.Below(3) == 0 ? NextIndex(random, glass) : around;
-  const auto media = [outwards](double outside, double within)
-  { return outwards ? InterfaceMedia{ outside, within } : InterfaceMedia{ within, outside }; };
+  const auto media = [outwards](double outside, double within) {
+    return outwards ? InterfaceMedia{ outside, within } : InterfaceMedia{ within, outside };
+  };
   test.Layers.push_back({ test.Meshes.size() - 1, media(around, glass), outwards });
   test.Layers.push_back({ test.Meshes.size() - 1, media(behind, glass), !outwards });
   SetEye(test, random, 35.0);
@@ -277,11 +277,11 @@ StackCase MakeBalls(StressRandom& random)
 // The eye between the first interface and the second one.
 StackCase MakeEyesBetween(StressRandom& random)
 {
-  StackCase test = MakeSheets(
-    random, 60.0, 90.0, [&random](int) { return MakeWaves(random, Side, 0.3); });
+  StackCase test =
+    MakeSheets(random, 60.0, 90.0, [&random](int) { return MakeWaves(random, Side, 0.3); });
   test.LayersBehindEye = 1;
-  test.Eye =
-    glm::dvec3(random.Uniform(-40.0, 40.0), random.Uniform(-34.0, -26.0), random.Uniform(-40.0, 40.0));
+  test.Eye = glm::dvec3(
+    random.Uniform(-40.0, 40.0), random.Uniform(-34.0, -26.0), random.Uniform(-40.0, 40.0));
   return test;
 }
 
@@ -295,8 +295,8 @@ StackCase MakeCritical(StressRandom& random)
   double y = 0.0;
   for (const double index : indices)
   {
-    AddLayer(test, random,
-      random.Below(2) ? MakePane(random, Side) : MakeWaves(random, Side, 0.3), y, index);
+    AddLayer(test, random, random.Below(2) ? MakePane(random, Side) : MakeWaves(random, Side, 0.3),
+      y, index);
     y -= random.Uniform(35.0, 60.0);
   }
   SetEye(test, random, 15.0);
@@ -408,8 +408,8 @@ MirrorCase MakeBallMirror(StressRandom& random)
 {
   const bool outwards = random.Below(2) == 0;
   const double radius = 0.5 * Side;
-  MirrorCase test = MakeMirror(random,
-    reference::MakeSphere(glm::dvec3(0.0), radius, 2 + random.Below(2), outwards), 20.0);
+  MirrorCase test = MakeMirror(
+    random, reference::MakeSphere(glm::dvec3(0.0), radius, 2 + random.Below(2), outwards), 20.0);
   if (!outwards)
   {
     test.Eye = 0.9 * radius * random.Uniform() * random.GetDirection();

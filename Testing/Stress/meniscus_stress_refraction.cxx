@@ -21,10 +21,9 @@ using namespace meniscus::test;
 namespace
 {
 
-const char* const Usage =
-  "meniscus_stress_refraction [options]\n"
-  "  --family TEXT      only families whose names contain the text\n"
-  "  --intensity X      1 (default) takes a minute; cases grow with it\n";
+const char* const Usage = "meniscus_stress_refraction [options]\n"
+                          "  --family TEXT      only families whose names contain the text\n"
+                          "  --intensity X      1 (default) takes a minute; cases grow with it\n";
 
 struct FamilyResult : ProcessResult
 {
@@ -37,8 +36,9 @@ std::string Encode(const RefractionTally& t)
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
   line << t.Points << ' ' << t.Images << ' ' << t.Uncertain << ' ' << t.GivenUp << ' ' << t.Missed
-       << ' ' << t.False << ' ' << t.Wrong << ' ' << t.Failed << ' ' << t.Largest << ' ' << t.RaysMissed << ' ' << t.RaysReflected << ' '
-       << t.Undecided << ' ' << t.RoundTrips << ' ' << t.LargestRoundTrip << ' ' << t.First;
+       << ' ' << t.False << ' ' << t.Wrong << ' ' << t.Failed << ' ' << t.Largest << ' '
+       << t.RaysMissed << ' ' << t.RaysReflected << ' ' << t.Undecided << ' ' << t.RoundTrips << ' '
+       << t.LargestRoundTrip << ' ' << t.First;
   return line.str();
 }
 
@@ -60,10 +60,7 @@ FamilyResult RunFamily(const RefractionFamily& family, const ProgrammeOptions& o
   FamilyResult result;
   const int only = options.Case;
   const auto start = [&family, only]() -> CaseWork
-  {
-    return [&family, only](int index)
-    { return Encode(family.Check(only < 0 ? index : only)); };
-  };
+  { return [&family, only](int index) { return Encode(family.Check(only < 0 ? index : only)); }; };
   const auto take = [&result, only](int index, const std::string& line)
   {
     const RefractionTally tally = Decode(line);
@@ -89,8 +86,8 @@ void PrintRow(std::ostream& out, const std::string& family, const FamilyResult& 
       << std::scientific << std::setprecision(1) << t.Largest << " | ";
   if (t.RoundTrips > 0)
   {
-    row << t.RaysMissed << " | " << t.RaysReflected << " | " << t.Undecided << " | "
-        << t.RoundTrips << " | " << t.LargestRoundTrip << " | ";
+    row << t.RaysMissed << " | " << t.RaysReflected << " | " << t.Undecided << " | " << t.RoundTrips
+        << " | " << t.LargestRoundTrip << " | ";
   }
   else
   {
@@ -104,7 +101,8 @@ void PrintRow(std::ostream& out, const std::string& family, const FamilyResult& 
 bool RunAll(const ProgrammeOptions& options, std::ostream& out)
 {
   out << "| family | cases | points | images | uncertain | given up | missed | false | wrong | "
-         "failed | stuck | crashed | max error | rays missed | rays reflected | undecided | round trips | "
+         "failed | stuck | crashed | max error | rays missed | rays reflected | undecided | round "
+         "trips | "
          "largest | s |\n"
       << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::vector<std::string> notes;

@@ -139,9 +139,8 @@ void StackMapper::ClipCell(
     primitive.Measure(from, whole[i].Value);
     // The last leg has no end: 0 clips nothing. The cosine, which is the sum of the coordinates,
     // would clip within rounding where a primitive is seen edge-on.
-    whole[i].Value[PrimitiveConstraints] = isLast
-      ? 0.0
-      : glm::dot(primitive.Normal, cell.Cell.Ends[i] - primitive.Corners[0]);
+    whole[i].Value[PrimitiveConstraints] =
+      isLast ? 0.0 : glm::dot(primitive.Normal, cell.Cell.Ends[i] - primitive.Corners[0]);
     whole[i].Limits = 0;
     for (int k = 1; k < PrimitiveConstraints && !primitive.IsLine; ++k)
     {

@@ -43,8 +43,7 @@ double GetSag(const CorneaSurface& surface, double r)
 glm::dvec3 GetNormal(const CorneaSurface& surface, const glm::dvec3& p)
 {
   const double sag = -surface.Vertex - p.y;
-  return glm::normalize(
-    glm::dvec3(p.x, surface.Radius - (1.0 + surface.Asphericity) * sag, p.z));
+  return glm::normalize(glm::dvec3(p.x, surface.Radius - (1.0 + surface.Asphericity) * sag, p.z));
 }
 
 // A square of `side` over the axis, 2 cells^2 facets.
@@ -105,8 +104,8 @@ glm::dvec3 LookAtPoint(const glm::dvec3& eye, const glm::dvec3& point, int cells
   filter->SetEyePosition(eye.x, eye.y, eye.z);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
   AddInterface(filter.Get(), MakeMembrane(MakeMesh(Anterior, 9.0, cells)), 1.0, Anterior.Behind);
-  AddInterface(filter.Get(), MakeMembrane(MakeMesh(Posterior, 9.0, cells)), Anterior.Behind,
-    Posterior.Behind);
+  AddInterface(
+    filter.Get(), MakeMembrane(MakeMesh(Posterior, 9.0, cells)), Anterior.Behind, Posterior.Behind);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
   glm::dvec3 seen(0.0);

@@ -52,7 +52,7 @@ struct LensScene
   double HalfTangent;
   double Depth; // the square is at y = -Depth
   double Size;
-  double Farthest; // length of the last legs to points
+  double Farthest;          // length of the last legs to points
   double Tolerance = 0.005; // default of the filter
 
   PixelCamera GetCamera() const
@@ -73,8 +73,8 @@ LensScene MakeBall(const std::string& name, std::size_t passed, double depth, do
     { 4.0, 200.0, -3.0 }, 0.23, depth, size, 20.0 };
 }
 
-// Convex above, with its vertex at y = 8; below a sphere of `radius`, or a plane if it is 0, through
-// y = -8. 5,000 facets each.
+// Convex above, with its vertex at y = 8; below a sphere of `radius`, or a plane if it is 0,
+// through y = -8. 5,000 facets each.
 LensScene MakeLens(const std::string& name, double radius, double depth, double size)
 {
   constexpr double side = 40.0;
@@ -112,8 +112,8 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(
   filter->SetMembraneModelToCurved();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
-  filter->SetImages(all ? vtkRefractedGeometryFilter::ALL_IMAGES
-                        : vtkRefractedGeometryFilter::FIRST_IMAGE);
+  filter->SetImages(
+    all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
   filter->SetAngularTolerance(scene.Tolerance);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
   // Interfaces of one closed body share its data set.
@@ -122,8 +122,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(
   {
     const bool shared = i > 0 && scene.Meshes[i].Points == scene.Meshes[i - 1].Points;
     surfaces.push_back(shared ? surfaces.back() : MakeMembrane(scene.Meshes[i]));
-    AddInterface(
-      filter.Get(), surfaces.back(), scene.Media[i].Exterior, scene.Media[i].Interior);
+    AddInterface(filter.Get(), surfaces.back(), scene.Media[i].Exterior, scene.Media[i].Interior);
   }
   return filter;
 }
@@ -132,8 +131,8 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(
 // outlines.
 std::optional<ExactPath> TraceScene(const LensScene& scene, const glm::dvec3& direction)
 {
-  const std::vector<ExactSurface> passed(scene.Exact.begin(),
-    scene.Exact.begin() + static_cast<std::ptrdiff_t>(scene.Passed));
+  const std::vector<ExactSurface> passed(
+    scene.Exact.begin(), scene.Exact.begin() + static_cast<std::ptrdiff_t>(scene.Passed));
   auto path = TraceExactly(passed, scene.Eye, direction);
   if (path)
   {
@@ -168,7 +167,8 @@ PlacePicture TraceSquare(const LensScene& scene, const PixelCamera& camera)
 }
 
 //------------------------------------------------------------------------------
-// A board of coloured squares; one row of the figure per scene: the picture, rays, their difference.
+// A board of coloured squares; one row of the figure per scene: the picture, rays, their
+// difference.
 class Figure
 {
 public:
@@ -179,8 +179,8 @@ public:
     this->Image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   }
 
-  void SetRow(int row, const LensScene& scene, const PixelCamera& camera,
-    const PlacePicture& drawn, const PlacePicture& traced)
+  void SetRow(int row, const LensScene& scene, const PixelCamera& camera, const PlacePicture& drawn,
+    const PlacePicture& traced)
   {
     for (int y = 0; y < Side; ++y)
     {
@@ -206,8 +206,8 @@ public:
         }
         for (int column = 0; column < 3; ++column)
         {
-          auto* pixel = static_cast<unsigned char*>(this->Image->GetScalarPointer(
-            column * Side + x, (this->Rows - 1 - row) * Side + y, 0));
+          auto* pixel = static_cast<unsigned char*>(
+            this->Image->GetScalarPointer(column * Side + x, (this->Rows - 1 - row) * Side + y, 0));
           for (std::size_t c = 0; c < 3; ++c)
           {
             const double mean = sums[static_cast<std::size_t>(column)][c] / (Part * Part);
@@ -289,13 +289,13 @@ TEST(StackPictures, VirtualPointsOfBallsAndLensesAreExact)
   {
     const PixelCamera camera = scene.GetCamera();
     std::vector<Point> points;
-    const std::vector<ExactSurface> passed(scene.Exact.begin(),
-      scene.Exact.begin() + static_cast<std::ptrdiff_t>(scene.Passed));
+    const std::vector<ExactSurface> passed(
+      scene.Exact.begin(), scene.Exact.begin() + static_cast<std::ptrdiff_t>(scene.Passed));
     while (points.size() < 2000)
     {
-      const glm::dvec3 ray = glm::normalize(camera.GetForward() +
-        random.Uniform(-0.95, 0.95) * camera.GetRight() +
-        random.Uniform(-0.95, 0.95) * camera.GetUp());
+      const glm::dvec3 ray =
+        glm::normalize(camera.GetForward() + random.Uniform(-0.95, 0.95) * camera.GetRight() +
+          random.Uniform(-0.95, 0.95) * camera.GetUp());
       const auto path = TraceScene(scene, ray);
       if (path)
       {
