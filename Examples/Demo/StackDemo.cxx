@@ -274,8 +274,8 @@ private:
 //------------------------------------------------------------------------------
 // The pool is 3 wide. Its water is 0.6 deep, on a pane of glass; air and the floor are below.
 constexpr double PoolHalf = 1.5;
-constexpr double PaneTop = -0.6;
-constexpr double PaneBottom = -0.7;
+constexpr double PaneTop = -0.597;
+constexpr double PaneBottom = -0.703;
 constexpr double Floor = -1.9;
 constexpr double RimTop = 0.2;
 
@@ -300,12 +300,12 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
     wall->SetOrigin(-PoolHalf, PoolHalf, Floor);
     wall->SetPoint1(PoolHalf, PoolHalf, Floor);
     wall->SetPoint2(-PoolHalf, PoolHalf, RimTop);
-    wall->SetResolution(36, 21); // rows of 0.1, so that the pane has its own
+    wall->SetResolution(36, 21); // rows of 0.1, of which the pane has one
     const auto placed = Place(wall, [side](vtkTransform* move) { move->RotateZ(90.0 * side); });
     ColorCells(placed,
       [](const double p[3])
       {
-        const bool isBand = p[2] > PaneBottom && p[2] < PaneTop;
+        const bool isBand = p[2] > -0.7 && p[2] < -0.6;
         return isBand ? Color{ 0.30, 0.32, 0.34 } : Color{ 0.62, 0.80, 0.80 };
       });
     room->AddInputData(placed);

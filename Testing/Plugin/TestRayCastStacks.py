@@ -43,7 +43,8 @@ def check_contour(view, grid, name, seen, surfaces, rows, images):
     simple.Hide(grid, view)
     contour = simple.Contour(Input=grid, ContourBy=["POINTS", "RTData"], Isosurfaces=[VALUE])
     refracted = simple.RefractedGeometry(Geometry=contour, Membrane=surfaces, EyePosition=EYE,
-                                         Interfaces=rows, Images=images)
+                                         Interfaces=rows, Images=images,
+                                         AngularTolerance=0.05)
     virtual = simple.Show(refracted, view)
     simple.ColorBy(virtual, None)
     expected = covered(screenshot(view, name + "Contour"))
