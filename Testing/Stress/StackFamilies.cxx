@@ -442,11 +442,11 @@ MirrorCase MakeDirtyMirror(StressRandom& random)
 std::vector<StackFamily> StackFamilies()
 {
   return { { "stacks of panes", 8, MakePanes }, { "stacks of waves", 8, MakeWavySheets },
-    { "mixed stacks", 8, MakeMixed }, { "stacks that cross", 1, MakeCrossing },
+    { "mixed stacks", 8, MakeMixed }, { "stacks that cross", 2, MakeCrossing },
     { "stacks with borders", 8, MakeBorders }, { "rough stacks", 8, MakeRough },
-    { "lenses", 8, MakeLenses }, { "balls", 3, MakeBalls },
-    { "eyes between interfaces", 8, MakeEyesBetween }, { "critical angles", 3, MakeCritical },
-    { "dirty stacks", 8, MakeDirty }, { "offset and scaled stacks", 4, MakeOffset } };
+    { "lenses", 8, MakeLenses }, { "balls", 4, MakeBalls },
+    { "eyes between interfaces", 8, MakeEyesBetween }, { "critical angles", 4, MakeCritical },
+    { "dirty stacks", 8, MakeDirty }, { "offset and scaled stacks", 8, MakeOffset } };
 }
 
 //------------------------------------------------------------------------------
