@@ -5,6 +5,7 @@
 // the user's mesh.
 #include "DemoVolumeInput.h"
 #include "RefractionDemo.h"
+#include "StackDemo.h"
 #include "VolumeDemo.h"
 #include "WellDemo.h"
 
@@ -49,5 +50,6 @@ int main(int argc, char* argv[])
   const bool volume = RunVolumeDemo(grid, folder);
   const bool refraction = RunRefractionDemo(folder);
   const bool well = RunWellDemo(folder);
-  return volume && refraction && well ? 0 : 1;
+  const bool stack = RunStackDemo(folder);
+  return volume && refraction && well && stack ? 0 : 1;
 }

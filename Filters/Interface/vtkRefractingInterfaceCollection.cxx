@@ -17,6 +17,17 @@ void vtkRefractingInterfaceCollection::AddItem(vtkRefractingInterface* interface
 }
 
 //------------------------------------------------------------------------------
+vtkRefractingInterface* vtkRefractingInterfaceCollection::AddInterface(
+  double exterior, double interior)
+{
+  vtkNew<vtkRefractingInterface> interface;
+  interface->SetExteriorIndexOfRefraction(exterior);
+  interface->SetInteriorIndexOfRefraction(interior);
+  this->AddItem(interface);
+  return interface;
+}
+
+//------------------------------------------------------------------------------
 vtkRefractingInterface* vtkRefractingInterfaceCollection::GetInterface(int i)
 {
   return vtkRefractingInterface::SafeDownCast(this->GetItemAsObject(i));

@@ -26,6 +26,14 @@ public:
   /** Adds an interface behind those of the list. */
   void AddItem(vtkRefractingInterface* interface);
 
+  /**
+   * Makes an interface with these indices of refraction, on the side that the normals of its
+   * surface point to and on the other side, adds it behind those of the list, and returns it. Media
+   * have no numbers of their own: which side of an interface is the medium before it depends on the
+   * normals.
+   */
+  vtkRefractingInterface* AddInterface(double exterior, double interior);
+
   /** Interface of number `i`, counted from 0, or null if there is none. */
   vtkRefractingInterface* GetInterface(int i);
 

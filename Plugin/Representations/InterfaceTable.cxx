@@ -87,6 +87,16 @@ vtkRefractingInterfaceCollection* InterfaceTable::GetInterfaces()
 }
 
 //------------------------------------------------------------------------------
+int InterfaceTable::GetFirstRowOfSurface(int row) const
+{
+  const auto at = static_cast<std::size_t>(row);
+  return at < this->Surfaces.size()
+    ? static_cast<int>(std::find(this->Surfaces.begin(), this->Surfaces.end(), this->Surfaces[at]) -
+        this->Surfaces.begin())
+    : row;
+}
+
+//------------------------------------------------------------------------------
 // Text of the error for rows that do not fit the number of surfaces; empty if all do.
 std::string InterfaceTable::FindFault(int surfaces) const
 {

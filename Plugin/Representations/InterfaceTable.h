@@ -87,6 +87,11 @@ public:
   vtkRefractingInterface* GetSingle();
   /** List of the rows' interfaces; that of the single one if there are no rows. */
   vtkRefractingInterfaceCollection* GetInterfaces();
+  /** List of the interface that is used without rows. */
+  vtkRefractingInterfaceCollection* GetSingleList() { return this->Single; }
+
+  /** First row with the surface of a row; the row itself without rows. */
+  int GetFirstRowOfSurface(int row) const;
 
   /**
    * Surfaces of a port, with the parts of all ranks, in the order of the rows; in that of the

@@ -4,6 +4,7 @@
 
 #include "MembraneGathering.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
@@ -15,6 +16,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMergeBlocks.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
@@ -25,11 +27,31 @@
 #include "vtkVolumeProperty.h"
 #include "vtkVolumeRepresentationPreprocessor.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 vtkStandardNewMacro(vtkTetrahedraRayCastRepresentation);
 
 namespace
 {
+/** First port of a membrane; its data object, on all ports, is delivered as that of this port. */
 constexpr int MembranePort = 1;
+constexpr int NumberOfPorts = 4;
+
+/** A membrane of the table's row, or null if it is in an earlier row. */
+vtkPolyData* GetBlock(vtkMultiBlockDataSet* membranes, int row)
+{
+  return vtkPolyData::SafeDownCast(membranes->GetBlock(static_cast<unsigned int>(row)));
+}
+
+/** No membrane: one block without cells. */
+vtkSmartPointer<vtkMultiBlockDataSet> MakeNoMembranes()
+{
+  auto membranes = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  membranes->SetBlock(0, vtkNew<vtkPolyData>());
+  return membranes;
+}
 
 /** Bias for the fractions that IceT truncates when it composites the images of the ranks. */
 double ChooseColorBias()
@@ -42,10 +64,11 @@ double ChooseColorBias()
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastRepresentation::vtkTetrahedraRayCastRepresentation()
-  : Membrane(vtkSmartPointer<vtkPolyData>::New())
+  : Membranes(MakeNoMembranes())
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(NumberOfPorts);
   this->AddVolumeMapper("Tetrahedra ray cast", this->Mapper);
+  this->Mapper->SetInterfaces(this->Table.GetInterfaces());
 }
 
 //------------------------------------------------------------------------------
@@ -54,7 +77,7 @@ vtkTetrahedraRayCastRepresentation::~vtkTetrahedraRayCastRepresentation() = defa
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayCastRepresentation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port != MembranePort)
+  if (port < MembranePort)
   {
     return this->Superclass::FillInputPortInformation(port, info);
   }
@@ -75,14 +98,14 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
-    // Every rank has the whole membrane: a client gets that of one of them.
-    vtkPVView::SetPiece(inputs, this, this->Membrane, 0, MembranePort);
+    // Every rank has the whole membranes: a client gets those of one of them.
+    vtkPVView::SetPiece(inputs, this, this->Membranes, 0, MembranePort);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(
       inputs, this, true, false, MembranePort);
-    if (this->Membrane->GetNumberOfPoints() > 0)
+    double bounds[6];
+    this->Membranes->GetBounds(bounds);
+    if (vtkBoundingBox(bounds).IsValid())
     {
-      double bounds[6];
-      this->Membrane->GetBounds(bounds);
       vtkPVRenderView::SetGeometryBounds(inputs, this, bounds, nullptr, MembranePort);
     }
   }
@@ -90,15 +113,44 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
   {
     this->LetViewPeelVolumes(false);
     this->Mapper->SetColorBias(ChooseColorBias());
-    auto* membrane =
-      vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inputs, this, MembranePort));
-    membrane = membrane && membrane->GetNumberOfCells() > 0 ? membrane : nullptr;
-    if (this->Mapper->GetMembrane() != membrane)
+    auto* delivered =
+      vtkMultiBlockDataSet::SafeDownCast(vtkPVView::GetDeliveredPiece(inputs, this, MembranePort));
+    if (delivered)
     {
-      this->Mapper->SetMembraneData(membrane);
+      this->SetMapperMembranes(delivered);
     }
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+// Changes the mapper's inputs only if they are other ones.
+void vtkTetrahedraRayCastRepresentation::SetMapperMembranes(vtkMultiBlockDataSet* delivered)
+{
+  std::vector<vtkPolyData*> surfaces;
+  for (int row = 0; row < static_cast<int>(delivered->GetNumberOfBlocks()); ++row)
+  {
+    surfaces.push_back(GetBlock(delivered, this->Table.GetFirstRowOfSurface(row)));
+  }
+  if (surfaces.size() == 1 && (!surfaces[0] || surfaces[0]->GetNumberOfCells() == 0))
+  {
+    surfaces.clear(); // rays are straight
+  }
+  const auto count = static_cast<int>(surfaces.size());
+  bool isSame = this->Mapper->GetNumberOfMembranes() == count;
+  for (int i = 0; isSame && i < count; ++i)
+  {
+    isSame = this->Mapper->GetMembrane(i) == surfaces[static_cast<std::size_t>(i)];
+  }
+  if (!isSame)
+  {
+    this->Mapper->RemoveAllMembranes();
+    std::for_each(surfaces.begin(), surfaces.end(),
+      [this](vtkPolyData* surface) { this->Mapper->AddMembraneData(surface); });
+  }
+  // A table without surfaces has no effect: rays are straight.
+  this->Mapper->SetInterfaces(
+    surfaces.empty() ? this->Table.GetSingleList() : this->Table.GetInterfaces());
 }
 
 //------------------------------------------------------------------------------
@@ -142,7 +194,7 @@ int vtkTetrahedraRayCastRepresentation::RequestData(
     ? this->vtkVolumeRepresentation::RequestData(request, inputs, outputs)
     : this->Superclass::RequestData(request, inputs, outputs);
   this->LeaveOutWithoutArray();
-  return this->UpdateMembrane(inputs[MembranePort]) ? succeeded : 0;
+  return this->UpdateMembranes(inputs) ? succeeded : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -206,40 +258,63 @@ void vtkTetrahedraRayCastRepresentation::RemoveAllBlockSelectors()
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastRepresentation::UpdateMembrane(vtkInformationVector* input)
+bool vtkTetrahedraRayCastRepresentation::UpdateMembranes(vtkInformationVector** inputs)
 {
-  this->Membrane = vtkSmartPointer<vtkPolyData>::New();
-  if (input->GetNumberOfInformationObjects() == 0)
+  this->Membranes = MakeNoMembranes();
+  vtkNew<vtkInformationVector> ports;
+  vtkMTimeType time = 0;
+  for (int port = MembranePort; port < NumberOfPorts; ++port)
   {
-    return true;
+    if (inputs[port]->GetNumberOfInformationObjects() > 0)
+    {
+      ports->Append(inputs[port]->GetInformationObject(0));
+      vtkDataObject* source = vtkDataObject::GetData(inputs[port]);
+      time = std::max(time, source ? source->GetMTime() : 0);
+    }
   }
-  auto membrane = meniscus::GatherMembrane(vtkDataObject::GetData(input));
-  if (!membrane)
+  std::string fault;
+  const auto gathered = this->Table.GatherSurfaces(ports, true, fault);
+  if (!gathered)
   {
-    vtkErrorMacro("The ranks could not exchange their parts of the membrane; rays are straight.");
+    vtkErrorMacro(<< fault << "; rays are straight.");
     return false;
   }
-  if (membrane->GetNumberOfCells() == 0)
+  for (int row = 0; row < gathered->GetNumberOfInformationObjects(); ++row)
   {
-    vtkWarningMacro("The membrane has no cells; rays are straight.");
+    vtkPolyData* surface = vtkPolyData::GetData(gathered, row);
+    if (surface->GetNumberOfCells() == 0)
+    {
+      vtkWarningMacro("The membrane has no cells; rays are straight.");
+    }
+    // Copied, since the time of a new object tells that it has to be delivered.
+    vtkNew<vtkPolyData> block;
+    block->ShallowCopy(surface);
+    const bool isFirst = this->Table.GetFirstRowOfSurface(row) == row;
+    this->Membranes->SetBlock(static_cast<unsigned int>(row), isFirst ? block.Get() : nullptr);
   }
-  this->Membrane->ShallowCopy(membrane);
-  this->WarnOfOrder(vtkDataObject::GetData(input));
+  this->WarnOfOrder(time);
   return true;
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::WarnOfOrder(vtkDataObject* source)
+void vtkTetrahedraRayCastRepresentation::WarnOfOrder(vtkMTimeType time)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   const bool tells =
     controller && controller->GetNumberOfProcesses() > 1 && controller->GetLocalProcessId() == 0;
-  if (!tells || !source || source->GetMTime() == this->MembraneTime)
+  if (!tells || time == this->MembraneTime)
   {
     return;
   }
-  this->MembraneTime = source->GetMTime();
-  if (this->Membrane->GetNumberOfCells() > 0 && !meniscus::IsPlaneAcrossAxis(this->Membrane))
+  this->MembraneTime = time;
+  bool keepsOrder = true;
+  for (int row = 0; row < static_cast<int>(this->Membranes->GetNumberOfBlocks()); ++row)
+  {
+    vtkPolyData* surface = GetBlock(this->Membranes, row);
+    keepsOrder = keepsOrder &&
+      (!surface || surface->GetNumberOfCells() == 0 || meniscus::IsPlaneAcrossAxis(surface));
+  }
+  if (!keepsOrder)
   {
     vtkWarningMacro("The membrane is not a plane across an axis: the pictures of several ranks are "
                     "composited in the order of straight rays, which may not be that of bent ones, "
@@ -398,13 +473,32 @@ void vtkTetrahedraRayCastRepresentation::SetCompactTables(bool compact)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetExteriorIndexOfRefraction(double index)
 {
-  this->Mapper->SetExteriorIndexOfRefraction(index);
+  this->Table.GetSingle()->SetExteriorIndexOfRefraction(index);
 }
 
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetInteriorIndexOfRefraction(double index)
 {
-  this->Mapper->SetInteriorIndexOfRefraction(index);
+  this->Table.GetSingle()->SetInteriorIndexOfRefraction(index);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetNumberOfInterfaceRows(int rows)
+{
+  if (this->Table.SetNumberOfRows(rows))
+  {
+    this->MarkModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetInterfaceRow(
+  int row, double surface, double exterior, double interior)
+{
+  if (this->Table.SetRow(row, surface, exterior, interior))
+  {
+    this->MarkModified();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -19,11 +19,12 @@
  * Cells of a rank that does not have the selected array are left out, with a warning; ParaView
  * would drop the array on all ranks.
  *
- * Port 1 is an optional membrane at which rays are refracted: vtkPolyData, or composite data of it.
- * The parts of all ranks are gathered and delivered to every process that renders. Images of
- * several ranks are composited in the order of straight rays, which is also that of rays refracted
- * at a plane across an axis; any other membrane causes a warning, once for each change of it. See
- * Documentation/parallel.md.
+ * Ports 1 to 3 are optional membranes at which rays are refracted: vtkPolyData, or composite data
+ * of it. Several of them, and closed bodies, need a table of interfaces (SetInterfaceRow()), which
+ * numbers those that are set from 0, in the order of the ports. The parts of all ranks are gathered
+ * and delivered to every process that renders. Images of several ranks are composited in the order
+ * of straight rays, which is also that of rays refracted at planes across an axis; any other
+ * membrane causes a warning, once for each change of it. See Documentation/parallel.md.
  *
  * While this representation is visible, the view does not peel volumes: translucent geometry is
  * drawn first and the volume over it. ParaView peels volumes by default, which mappers of
@@ -32,12 +33,14 @@
 #ifndef vtkTetrahedraRayCastRepresentation_h
 #define vtkTetrahedraRayCastRepresentation_h
 
+#include "InterfaceTable.h"                   // For the interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the mapper
-#include "vtkSmartPointer.h"                  // For the membrane
+#include "vtkSmartPointer.h"                  // For the membranes
 #include "vtkUnstructuredGridVolumeRepresentation.h"
 
 class vtkExtractBlockUsingDataAssembly;
+class vtkMultiBlockDataSet;
 class vtkPolyData;
 class vtkTetrahedraRayCastMapper;
 
@@ -74,8 +77,18 @@ public:
   void SetImageSampleDistance(double distance);
   void SetMaximumImageSampleDistance(double distance);
   void SetCompactTables(bool compact);
+  /** @} */
+
+  /** @{ */
+  /** Indices of refraction of a single membrane. */
   void SetExteriorIndexOfRefraction(double index);
   void SetInteriorIndexOfRefraction(double index);
+  /** @} */
+
+  /** @{ */
+  /** Table of interfaces, in the order in which rays meet them; see meniscus::InterfaceTable. */
+  void SetNumberOfInterfaceRows(int rows);
+  void SetInterfaceRow(int row, double surface, double exterior, double interior);
   /** @} */
 
   /** @{ */
@@ -109,19 +122,22 @@ private:
    */
   bool TakeWholeCells(vtkInformationVector* input);
   void LeaveOutWithoutArray();
-  bool UpdateMembrane(vtkInformationVector* input);
-  void WarnOfOrder(vtkDataObject* source);
+  bool UpdateMembranes(vtkInformationVector** inputs);
+  void SetMapperMembranes(vtkMultiBlockDataSet* delivered);
+  void WarnOfOrder(vtkMTimeType time);
   void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   /** Chooses the blocks of a composite data set. */
   vtkNew<vtkExtractBlockUsingDataAssembly> Blocks;
+  meniscus::InterfaceTable Table;
   /**
-   * Membrane gathered on this rank; empty if there is none, because every process must receive a
-   * data object.
+   * Membranes gathered on this rank, a block for each row of the table; a surface that is in
+   * several rows is in the first of them. One empty block if there is no membrane, because every
+   * process must receive a data object.
    */
-  vtkSmartPointer<vtkPolyData> Membrane;
-  /** Time of the input for which the user was last warned. */
+  vtkSmartPointer<vtkMultiBlockDataSet> Membranes;
+  /** Time of the inputs for which the user was last warned. */
   vtkMTimeType MembraneTime = 0;
   bool HasStoppedPeeling = false;
 };

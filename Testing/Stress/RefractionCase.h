@@ -55,17 +55,19 @@ struct RefractionCase
   std::vector<std::array<glm::dvec3, 3>> Triangles;
 };
 
-/** Cases of one kind, created one by one. */
+struct RefractionTally;
+
+/** Cases of one kind, created and checked one by one. */
 struct RefractionFamily
 {
   std::string Name;
   int Cases = 0;
-  std::function<RefractionCase(int)> Make;
+  std::function<RefractionTally(int)> Check;
 };
 
 /**
- * All families. The number of cases grows with the intensity; an intensity of 1 takes half a
- * minute.
+ * All families: one interface, lists of interfaces, and mirrors. The number of cases grows with the
+ * intensity; an intensity of 1 takes a minute.
  */
 std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed);
 

@@ -457,6 +457,11 @@ void RefractionTally::Add(const RefractionTally& other)
   this->Wrong += other.Wrong;
   this->Failed += other.Failed;
   this->Largest = std::max(this->Largest, other.Largest);
+  this->RaysMissed += other.RaysMissed;
+  this->RaysReflected += other.RaysReflected;
+  this->Undecided += other.Undecided;
+  this->RoundTrips += other.RoundTrips;
+  this->LargestRoundTrip = std::max(this->LargestRoundTrip, other.LargestRoundTrip);
   if (this->First.empty())
   {
     this->First = other.First;

@@ -36,6 +36,14 @@ struct RefractionTally
   std::int64_t Failed = 0;
   /** Largest distance between a sight point and the true one, in facets. */
   double Largest = 0.0;
+  /** Sight rays through several interfaces that missed a later one, or were totally reflected. */
+  std::int64_t RaysMissed = 0;
+  std::int64_t RaysReflected = 0;
+  /** Points whose search for all images the solver itself counts as undecided. */
+  std::int64_t Undecided = 0;
+  /** Virtual points that were led back, and the largest error, relative to the scene. */
+  std::int64_t RoundTrips = 0;
+  double LargestRoundTrip = 0.0;
   /** First failure as text; empty if there is none. */
   std::string First;
 

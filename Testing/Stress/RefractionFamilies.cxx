@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RefractionCase.h"
+#include "RefractionCheck.h"
+#include "StackCheck.h"
 
 #include <glm/geometric.hpp>
 
@@ -422,18 +423,21 @@ RefractionCase MakeTriangles(StressRandom& random)
 std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed)
 {
   std::vector<RefractionFamily> families;
-  const auto add = [&](const std::string& name, double cases,
-                     const std::function<RefractionCase(StressRandom&)>& make)
+  const auto addCheck = [&](const std::string& name, double cases,
+                          const std::function<RefractionTally(StressRandom&)>& check)
   {
     // Every case has its own random stream, so that it can be run alone.
     const std::uint64_t stream = seed + 0x1000003u * (families.size() + 1);
     families.push_back({ name, std::max(1, static_cast<int>(std::lround(cases * intensity))),
-      [stream, make](int index)
+      [stream, check](int index)
       {
         StressRandom random(stream * 0x2545f4914f6cdd1du + static_cast<std::uint64_t>(index));
-        return make(random);
+        return check(random);
       } });
   };
+  const auto add = [&addCheck](const std::string& name, double cases,
+                     const std::function<RefractionCase(StressRandom&)>& make)
+  { addCheck(name, cases, [make](StressRandom& random) { return CheckCase(make(random)); }); };
   add("waves", 12, [](StressRandom& random) { return MakeOrdinary(random, 0); });
   add("domes", 12, [](StressRandom& random) { return MakeOrdinary(random, 1); });
   add("bowls", 12, [](StressRandom& random) { return MakeOrdinary(random, 2); });
@@ -450,6 +454,16 @@ std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t
   add("folded", 12, MakeFolded);
   add("non-manifold", 12, MakeNonManifold);
   add("triangles", 12, MakeTriangles);
+  for (const StackFamily& family : StackFamilies())
+  {
+    addCheck(family.Name, family.Cases,
+      [make = family.Make](StressRandom& random) { return CheckStack(make(random)); });
+  }
+  for (const MirrorFamily& family : MirrorFamilies())
+  {
+    addCheck(family.Name, family.Cases,
+      [make = family.Make](StressRandom& random) { return CheckMirror(make(random)); });
+  }
   return families;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Membranes, eyes and objects that are difficult for virtual geometry with curved patches, checked
- * by an interval Newton method on the smooth surface or a dense search on the patches. Reports
- * missed, false, wrong and failed answers per family; the exit status is 0 if there are none.
+ * Membranes, lists of interfaces, mirrors, eyes and objects that are difficult for virtual geometry
+ * with curved patches. One membrane is checked by an interval Newton method on the smooth surface
+ * or a dense search on the patches, lists and mirrors by rays through every patch. Reports missed,
+ * false, wrong and failed answers per family; the exit status is 0 if there are none.
  */
 #include "CaseProcess.h"
 #include "ProgrammeOptions.h"
@@ -20,10 +21,9 @@ using namespace meniscus::test;
 namespace
 {
 
-const char* const Usage =
-  "meniscus_stress_refraction [options]\n"
-  "  --family TEXT      only families whose names contain the text\n"
-  "  --intensity X      1 (default) takes half a minute; cases grow with it\n";
+const char* const Usage = "meniscus_stress_refraction [options]\n"
+                          "  --family TEXT      only families whose names contain the text\n"
+                          "  --intensity X      1 (default) takes a minute; cases grow with it\n";
 
 struct FamilyResult : ProcessResult
 {
@@ -36,7 +36,9 @@ std::string Encode(const RefractionTally& t)
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
   line << t.Points << ' ' << t.Images << ' ' << t.Uncertain << ' ' << t.GivenUp << ' ' << t.Missed
-       << ' ' << t.False << ' ' << t.Wrong << ' ' << t.Failed << ' ' << t.Largest << ' ' << t.First;
+       << ' ' << t.False << ' ' << t.Wrong << ' ' << t.Failed << ' ' << t.Largest << ' '
+       << t.RaysMissed << ' ' << t.RaysReflected << ' ' << t.Undecided << ' ' << t.RoundTrips << ' '
+       << t.LargestRoundTrip << ' ' << t.First;
   return line.str();
 }
 
@@ -45,7 +47,8 @@ RefractionTally Decode(const std::string& text)
   std::istringstream line(text);
   RefractionTally t;
   line >> t.Points >> t.Images >> t.Uncertain >> t.GivenUp >> t.Missed >> t.False >> t.Wrong >>
-    t.Failed >> t.Largest;
+    t.Failed >> t.Largest >> t.RaysMissed >> t.RaysReflected >> t.Undecided >> t.RoundTrips >>
+    t.LargestRoundTrip;
   line.ignore(1);
   std::getline(line, t.First);
   return t;
@@ -57,10 +60,7 @@ FamilyResult RunFamily(const RefractionFamily& family, const ProgrammeOptions& o
   FamilyResult result;
   const int only = options.Case;
   const auto start = [&family, only]() -> CaseWork
-  {
-    return [&family, only](int index)
-    { return Encode(CheckCase(family.Make(only < 0 ? index : only))); };
-  };
+  { return [&family, only](int index) { return Encode(family.Check(only < 0 ? index : only)); }; };
   const auto take = [&result, only](int index, const std::string& line)
   {
     const RefractionTally tally = Decode(line);
@@ -83,8 +83,17 @@ void PrintRow(std::ostream& out, const std::string& family, const FamilyResult& 
   row << "| " << family << " | " << r.Cases << " | " << t.Points << " | " << t.Images << " | "
       << t.Uncertain << " | " << t.GivenUp << " | " << t.Missed << " | " << t.False << " | "
       << t.Wrong << " | " << t.Failed << " | " << r.Stuck << " | " << r.Crashed << " | "
-      << std::scientific << std::setprecision(1) << t.Largest << " | " << std::fixed << r.Seconds
-      << " |\n";
+      << std::scientific << std::setprecision(1) << t.Largest << " | ";
+  if (t.RoundTrips > 0)
+  {
+    row << t.RaysMissed << " | " << t.RaysReflected << " | " << t.Undecided << " | " << t.RoundTrips
+        << " | " << t.LargestRoundTrip << " | ";
+  }
+  else
+  {
+    row << "| | " << t.Undecided << " | | | ";
+  }
+  row << std::fixed << r.Seconds << " |\n";
   out << row.str() << std::flush;
 }
 
@@ -92,8 +101,10 @@ void PrintRow(std::ostream& out, const std::string& family, const FamilyResult& 
 bool RunAll(const ProgrammeOptions& options, std::ostream& out)
 {
   out << "| family | cases | points | images | uncertain | given up | missed | false | wrong | "
-         "failed | stuck | crashed | max error | s |\n"
-      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "failed | stuck | crashed | max error | rays missed | rays reflected | undecided | round "
+         "trips | "
+         "largest | s |\n"
+      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   std::vector<std::string> notes;
   FamilyResult sum;
   bool good = true;

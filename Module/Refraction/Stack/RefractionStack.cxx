@@ -328,8 +328,7 @@ PathEnd RefractionStack::TraceFrom(
     jet.PositionBy[k] = glm::dvec3(0.0);
     jet.NormalBy[k] = glm::dvec3(0.0);
   }
-  // Places of an earlier path would be first guesses, on which the last bits depend.
-  path.Points.assign(this->Links.size(), PathPoint());
+  path.Forget(this->Links.size());
   return this->TraceOn(first, jet, count, path,
     [this](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& next)
     { return this->Meet(index, ray, false, point, next); });

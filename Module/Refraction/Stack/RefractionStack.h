@@ -65,6 +65,12 @@ struct StackPath
   glm::dvec3 Sight;              ///< unit direction from the eye
   glm::dvec3 SightBy[2];
 
+  /**
+   * Forgets the places of an earlier path, on which the last bits of the next trace would depend:
+   * whatever comes first in a range of parallel work starts from here.
+   */
+  void Forget(std::size_t interfaces) { this->Points.assign(interfaces, PathPoint()); }
+
   /** Ray behind the last interface that is passed. */
   const RayJet& GetLast() const { return this->Points[this->Count - 1].Ray; }
 };

@@ -144,6 +144,7 @@ void StackBeams::Bound(std::int32_t facet, Samples& samples)
     return;
   }
   StackPath& path = samples[0];
+  path.Forget(count);
   this->Stack->Trace({ facet, glm::dvec2(1.0 / 3.0) }, count, false, path);
   this->PassedByMiddle[i] = static_cast<std::uint32_t>(path.Count);
   for (std::size_t k = 0; k < path.Count; ++k)

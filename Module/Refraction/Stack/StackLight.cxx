@@ -137,6 +137,7 @@ std::vector<double> StackLight::Gather(std::size_t cells, const RangeLoop& loop)
         for (std::size_t i = begin; i < end; ++i)
         {
           shares[i].clear();
+          path.Forget(this->Stack.GetLinks().size());
           const auto facet = static_cast<std::int32_t>(first + i);
           const Corners corners{ this->Trace(facet, { 0.0, 0.0 }, path),
             this->Trace(facet, { 1.0, 0.0 }, path), this->Trace(facet, { 0.0, 1.0 }, path) };

@@ -174,6 +174,7 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
 {
   thread_local std::vector<StackBeams::Candidate> candidates; // kept so that its memory is reused
   this->Beams.FindCandidates(target, candidates);
+  path.Forget(this->Stack.GetLinks().size());
   const std::size_t tries = std::min(candidates.size(), QuickTries);
   for (std::size_t i = 0; i < tries && candidates[i].Size < FarthestGuess; ++i)
   {

@@ -90,7 +90,7 @@ private:
   // Traces a ray from a place, with no memory of other ones.
   int Trace(const glm::dvec2& b, StackPath& path) const
   {
-    path.Points.assign(this->Sheet.Links, PathPoint());
+    path.Forget(this->Sheet.Links);
     const PathEnd end = this->Stack.Trace({ this->Facet, b }, this->Sheet.Links, false, path);
     const auto passed = static_cast<int>(path.Count);
     if (end == PathEnd::Missed)

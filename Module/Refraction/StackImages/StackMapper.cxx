@@ -137,10 +137,10 @@ void StackMapper::ClipCell(
     whole[i].B = cell.Cell.Nodes[i].B;
     whole[i].Edges = 7u & ~(1u << i);
     primitive.Measure(from, whole[i].Value);
-    // The last leg has no end; the cosine has the sign of a place on the ray.
-    whole[i].Value[PrimitiveConstraints] = isLast
-      ? glm::dot(primitive.Normal, from.Ray)
-      : glm::dot(primitive.Normal, cell.Cell.Ends[i] - primitive.Corners[0]);
+    // The last leg has no end: 0 clips nothing. The cosine, which is the sum of the coordinates,
+    // would clip within rounding where a primitive is seen edge-on.
+    whole[i].Value[PrimitiveConstraints] =
+      isLast ? 0.0 : glm::dot(primitive.Normal, cell.Cell.Ends[i] - primitive.Corners[0]);
     whole[i].Limits = 0;
     for (int k = 1; k < PrimitiveConstraints && !primitive.IsLine; ++k)
     {

@@ -41,6 +41,24 @@ TEST(RefractingInterface, ListIsNeverWithoutAnInterface)
   EXPECT_EQ(list->GetFirstInterface()->GetInteriorIndexOfRefraction(), 1.333);
 }
 
+TEST(RefractingInterface, ListsGrowByTheIndicesOfAnInterface)
+{
+  vtkNew<vtkRefractingInterfaceCollection> list;
+  const vtkMTimeType before = list->GetMTime();
+  vtkRefractingInterface* first = list->AddInterface(1.0, 1.5);
+  vtkRefractingInterface* second = list->AddInterface(1.5, 1.333);
+  EXPECT_EQ(second, list->GetInterface(1));
+  EXPECT_GT(list->GetMTime(), before);
+  EXPECT_EQ(list->GetNumberOfItems(), 2);
+  EXPECT_EQ(first, list->GetFirstInterface());
+  EXPECT_EQ(first->GetExteriorIndexOfRefraction(), 1.0);
+  EXPECT_EQ(first->GetInteriorIndexOfRefraction(), 1.5);
+  EXPECT_EQ(second->GetInteriorIndexOfRefraction(), 1.333);
+  // The interface is the only owner of its indices: later changes are those of the list.
+  first->SetInteriorIndexOfRefraction(1.6);
+  EXPECT_EQ(list->GetInterface(0)->GetInteriorIndexOfRefraction(), 1.6);
+}
+
 TEST(RefractingInterface, PropertiesOfAFilterAreThoseOfItsFirstInterface)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;

@@ -430,6 +430,50 @@ TEST(RefractionStackCells, BallShowsTrianglesBeforeWithinAndBehindIt)
 }
 
 //------------------------------------------------------------------------------
+// Cylinders behind waves and a pane: on their silhouettes, triangles are seen edge-on, where the
+// ray's cosine with the triangle changes its sign within a cell.
+TEST(RefractionStackCells, TrianglesSeenEdgeOnAreCoveredAsOtherRaysAre)
+{
+  const auto waves = MakeSurface(MakeWaves(100.0, 0.0, 0.9, 6.0, 16));
+  const auto top = MakeSurface(MakePlane(-20.0, 140.0, 9));
+  const auto bottom = MakeSurface(MakePlane(-24.0, 140.0, 9));
+  Object object;
+  constexpr int around = 96;
+  for (const glm::dvec3& foot : { glm::dvec3(12.0, -60.0, 8.0), glm::dvec3(-15.0, -60.0, -5.0) })
+  {
+    std::array<glm::dvec3, around + 1> ring;
+    for (int i = 0; i <= around; ++i)
+    {
+      const double angle = 2.0 * Pi * i / around;
+      ring[static_cast<std::size_t>(i)] =
+        foot + 6.0 * glm::dvec3(std::cos(angle), 0.0, std::sin(angle));
+    }
+    const glm::dvec3 up(0.0, 30.0, 0.0);
+    for (std::size_t i = 0; i < around; ++i)
+    {
+      object.AddQuad(ring[i], ring[i + 1] - ring[i], up);
+      object.AddTriangle(ring[0] + up, ring[i] + up, ring[i + 1] + up);
+    }
+  }
+  for (int i = 0; i < 2; ++i)
+  {
+    StackSolver solver;
+    SetStack(solver,
+      { { waves, { 1.0, 1.333 } }, { top, { 1.333, 1.52 } }, { bottom, { 1.52, 1.0 } } },
+      { 10.0 - 7.0 * i, 140.0 - 10.0 * i, -60.0 + 11.0 * i });
+    Object seen = object;
+    seen.Map(solver, Tolerance);
+    ExpectExactPoints(solver, seen, 1e-6);
+    if (i == 0)
+    {
+      const Comparison result = Compare(solver, seen, 6000, 36);
+      EXPECT_GT(result.Hits, 200);
+      EXPECT_LE(result.Wrong, result.Rays / 1000) << "of " << result.Rays;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Small triangles, most of which are seen once and are nearly straight: those keep their corners.
 // Together with the divided ones they cover every ray as often as it meets them.
 TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)

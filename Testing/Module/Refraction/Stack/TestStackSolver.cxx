@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Virtual points behind planes and spheres in sequence, against closed forms and exact paths.
+#include "Refraction/Stack/StackLight.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -477,4 +479,70 @@ TEST(RefractionStack, RangesDoNotChangeResults)
     EXPECT_EQ(whole[i].Position, parts[i].Position);
     EXPECT_NEAR(legs[2 * i] + legs[2 * i + 1], whole[i].Depth, 1e-12 * 200.0);
   }
+}
+
+//------------------------------------------------------------------------------
+// Between surfaces that a line crosses once, the places of an earlier ray are first guesses: they
+// must not reach from one range of points, or of patches, to the next.
+TEST(RefractionStack, RangesOfRaysThroughPanesDoNotChangeResults)
+{
+  const auto first = MakeSurface(meniscus::testing::MakeWaves(100.0, 0.0, 0.8, 3.0, 12));
+  const auto second = MakeSurface(MakePlane(-15.0, 120.0, 9));
+  const std::vector<StackInterface> list{ { first, { 1.0, 1.5 } }, { second, { 1.5, 1.333 } } };
+  const glm::dvec3 eye(5.0, 90.0, -8.0);
+  const auto singly = [](std::size_t count, const meniscus::RangeBody& body)
+  {
+    for (std::size_t i = count; i-- > 0;)
+    {
+      body(i, i + 1);
+    }
+  };
+  StackSolver solver;
+  SetStack(solver, list, eye);
+  StackSolver other;
+  ASSERT_EQ(other.SetInterfaces(list).Fault, meniscus::MediaFault::None);
+  ASSERT_EQ(other.SetEye(eye, singly), EyeStatus::Ready);
+  constexpr std::size_t chains = 60;
+  constexpr std::size_t count = chains * StackSolver::Chain;
+  std::vector<double> points;
+  Random random(9);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    points.insert(points.end(), { random(-40.0, 40.0), random(-90.0, -16.0), random(-40.0, 40.0) });
+  }
+  std::vector<meniscus::VirtualVertex> whole(count);
+  std::vector<meniscus::VirtualVertex> parts(count);
+  std::vector<meniscus::StackDetail> details(count);
+  std::vector<double> legs(2 * count);
+  solver.Solve(points.data(), 0, count, whole.data(), details.data(), legs.data());
+  for (std::size_t k = chains; k-- > 0;)
+  {
+    other.Solve(points.data(), k * StackSolver::Chain, (k + 1) * StackSolver::Chain, parts.data(),
+      details.data(), legs.data());
+  }
+  int found = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(whole[i].State, parts[i].State) << i;
+    EXPECT_EQ(whole[i].Position, parts[i].Position) << i;
+    EXPECT_EQ(whole[i].SightPoint, parts[i].SightPoint) << i;
+    found += whole[i].State == ImageState::Found;
+  }
+  EXPECT_GT(found, 3000);
+
+  meniscus::LitTriangles floor;
+  const auto mesh = MakePlane(-50.0, 80.0, 12);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    floor.Points.emplace_back(mesh.Points[i], mesh.Points[i + 1], mesh.Points[i + 2]);
+  }
+  for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
+  {
+    floor.Triangles.push_back({ mesh.Triangles[i], mesh.Triangles[i + 1], mesh.Triangles[i + 2] });
+    floor.Cells.push_back(static_cast<std::int64_t>(i / 3));
+  }
+  const meniscus::StackLight light(solver.GetStack(), floor);
+  const std::vector<double> serial = light.Gather(floor.Cells.size(), meniscus::SerialLoop);
+  EXPECT_EQ(serial, light.Gather(floor.Cells.size(), singly));
+  EXPECT_GT(*std::max_element(serial.begin(), serial.end()), 0.0);
 }

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Examples_Demo_StackDemo_h
+#define meniscus_Examples_Demo_StackDemo_h
+
+#include <string>
+
+/**
+ * Images of several refracting interfaces: objects below waves and a pane of glass, and a page
+ * under a magnifying glass. Returns false if one could not be written.
+ */
+bool RunStackDemo(const std::string& folder);
+
+#endif

@@ -1,0 +1,437 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StackCheck.h"
+
+#include "StackChecker.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+constexpr int PointsPerCase = 24;
+constexpr double Side = 200.0;
+
+template <typename T>
+bool HasSameBits(const T& a, const T& b)
+{
+  return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+bool IsSame(const VirtualVertex& a, const VirtualVertex& b)
+{
+  return HasSameBits(a.Position, b.Position) && HasSameBits(a.SightPoint, b.SightPoint) &&
+    HasSameBits(a.Depth, b.Depth) && HasSameBits(a.Reflectance, b.Reflectance) &&
+    a.Facet == b.Facet && a.State == b.State && a.Orientation == b.Orientation;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<StackInterface> StackChecker::MakeList() const
+{
+  std::vector<StackInterface> list;
+  for (const StackLayer& layer : this->Test.Layers)
+  {
+    list.push_back({ this->Surfaces[layer.Mesh].Surface, layer.Media });
+  }
+  return list;
+}
+
+//------------------------------------------------------------------------------
+// The same list with interfaces of equal indices at both ends and between.
+std::vector<StackInterface> StackChecker::MakePaddedList()
+{
+  std::vector<StackInterface> list;
+  const auto pad = [this, &list](double index)
+  {
+    const int count = 1 + this->Random.Below(2);
+    for (int i = 0; i < count; ++i)
+    {
+      const auto any =
+        static_cast<std::size_t>(this->Random.Below(static_cast<int>(this->Surfaces.size())));
+      list.push_back({ this->Surfaces[any].Surface, { index, index } });
+    }
+  };
+  for (const StackLayer& layer : this->Test.Layers)
+  {
+    pad(layer.GetBefore());
+    list.push_back({ this->Surfaces[layer.Mesh].Surface, layer.Media });
+  }
+  pad(this->Test.Layers.back().GetBehind());
+  return list;
+}
+
+//------------------------------------------------------------------------------
+bool StackChecker::SetSolver(
+  StackSolver& solver, const std::vector<StackInterface>& list, bool threads)
+{
+  const glm::dvec3 eye = this->Test.Scale * this->Test.Eye + this->Test.Offset;
+  return solver.SetInterfaces(list).Fault == MediaFault::None &&
+    solver.SetEye(eye, threads ? RangeLoop(ReversedThreadsLoop) : RangeLoop(SerialLoop)) ==
+    EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+bool StackChecker::SetUp()
+{
+  const double scale = this->Test.Scale;
+  this->Surfaces = std::vector<TracedSurface>(this->Test.Meshes.size());
+  for (std::size_t m = 0; m < this->Test.Meshes.size(); ++m)
+  {
+    reference::MembraneMesh mesh = this->Test.Meshes[m];
+    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+    {
+      mesh.Points[i] = scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
+    }
+    TracedSurface& surface = this->Surfaces[m];
+    if (surface.Surface->SetMembrane(mesh.AsInput()) != MembraneStatus::Ready)
+    {
+      return false;
+    }
+    surface.Tracer = std::make_unique<PatchTracer>(
+      surface.Surface->GetPatches(), surface.Surface->GetMembrane().GetFacets().size());
+  }
+  if (!this->SetSolver(this->Solver, this->MakeList(), false) ||
+    !this->SetSolver(this->Threaded, this->MakeList(), true) ||
+    !this->SetSolver(this->Padded, this->MakePaddedList(), false))
+  {
+    return false;
+  }
+  this->Frame = this->Solver.GetStack().GetOrigin();
+  this->Eye = scale * this->Test.Eye + this->Test.Offset - this->Frame;
+  for (TracedSurface& surface : this->Surfaces)
+  {
+    surface.Shift = surface.Surface->GetMembrane().GetOrigin() - this->Frame;
+  }
+  std::size_t behindEye = this->Test.LayersBehindEye;
+  for (const StackLayer& layer : this->Test.Layers)
+  {
+    if (behindEye > 0)
+    {
+      --behindEye;
+    }
+    else if (layer.GetBefore() != layer.GetBehind())
+    {
+      this->Layers.push_back(&layer);
+    }
+  }
+  this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() *
+    (glm::length(this->Test.Offset) + scale * (glm::length(this->Test.Eye) + 4.0 * Side));
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool StackChecker::HasExpectedLinks() const
+{
+  const std::vector<RefractionStack::Link>& links = this->Solver.GetStack().GetLinks();
+  bool same = links.size() == this->Layers.size();
+  for (std::size_t k = 0; same && k < links.size(); ++k)
+  {
+    same = links[k].Surface == this->GetSurface(k).Surface &&
+      links[k].Passage.FromFront == this->GetLayer(k).FromFront &&
+      links[k].Passage.Before == this->GetLayer(k).GetBefore() &&
+      links[k].Passage.Behind == this->GetLayer(k).GetBehind();
+  }
+  return same;
+}
+
+//------------------------------------------------------------------------------
+PatchHit StackChecker::ChoosePlace()
+{
+  const auto facets = static_cast<int>(this->GetSurface(0).Tracer->GetNumberOfFacets());
+  const auto facet = static_cast<std::int32_t>(this->Random.Below(facets));
+  glm::dvec2 b(this->Random.Uniform(), this->Random.Uniform());
+  b = b.x + b.y > 1.0 ? 1.0 - b : b;
+  if (this->Random.Uniform() < this->Test.BorderShare)
+  {
+    const double t = this->Random.Uniform();
+    const glm::dvec2 places[6] = { { t, 0.0 }, { 0.0, t }, { t, 1.0 - t }, { 0.0, 0.0 },
+      { 1.0, 0.0 }, { 0.0, 1.0 } };
+    b = places[this->Random.Below(6)];
+  }
+  return this->Evaluate(0, facet, b);
+}
+
+//------------------------------------------------------------------------------
+// A point on a ray that was traced before: its image is known.
+void StackChecker::CheckPlanted(int i)
+{
+  PatchHit first = this->ChoosePlace();
+  for (int k = 0; k < 20 && glm::dot(first.Normal, first.Position - this->Eye) >= 0.0; ++k)
+  {
+    first = this->ChoosePlace(); // it faces away
+  }
+  if (glm::dot(first.Normal, first.Position - this->Eye) >= 0.0)
+  {
+    return;
+  }
+  const TracedPath path = this->Trace(first);
+  this->Tally.RaysMissed += path.End == PathEnd::Missed;
+  this->Tally.RaysReflected += path.End == PathEnd::Reflected;
+  if (path.Points.empty())
+  {
+    return;
+  }
+  // The last leg, or sometimes an earlier one.
+  std::size_t count = path.Points.size();
+  if (count > 1 && this->Random.Below(4) == 0)
+  {
+    count = 1 + static_cast<std::size_t>(this->Random.Below(static_cast<int>(count) - 1));
+  }
+  const PatchHit& last = path.Points[count - 1];
+  const glm::dvec3& direction = path.Directions[count - 1];
+  double most = 0.0;
+  if (count < path.Points.size())
+  {
+    most = glm::length(path.Points[count].Position - last.Position);
+  }
+  else if (path.End == PathEnd::Reflected)
+  {
+    most = this->FindCrossings(count, last.Position, direction).front().Distance;
+  }
+  const double length = most > 0.0
+    ? most * this->Random.Uniform(0.02, 0.98)
+    : this->Test.Scale * Side * std::pow(10.0, this->Random.Uniform(-2.0, 0.5));
+  const glm::dvec3 point = last.Position + length * direction;
+  // A ray that misses the next surface shows nothing.
+  const bool isSeen = count < path.Points.size() || path.End != PathEnd::Missed;
+  TracedPath seen = path;
+  seen.Points.resize(count);
+  seen.Directions.resize(count);
+  const bool isCertain = path.IsCertain && this->GetCondition(seen, point) > Marginal;
+  this->Tally.Uncertain += isSeen && !isCertain;
+  this->CheckPoint(i, point, isSeen && isCertain ? &first : nullptr, count);
+}
+
+//------------------------------------------------------------------------------
+// A point anywhere: whatever is reported must be an image.
+void StackChecker::CheckElsewhere(int i)
+{
+  const auto spread = [this] { return this->Random.Uniform(-0.6 * Side, 0.6 * Side); };
+  const glm::dvec3 at(spread(), this->Random.Uniform(-2.0 * Side, 0.5 * Side), spread());
+  const glm::dvec3 world = this->Test.Scale * at + this->Test.Offset;
+  this->CheckPoint(i, world - this->Frame, nullptr, 0);
+}
+
+//------------------------------------------------------------------------------
+void StackChecker::CheckPoint(
+  int i, const glm::dvec3& point, const PatchHit* planted, std::size_t count)
+{
+  ++this->Tally.Points;
+  const glm::dvec3 world = this->ToWorld(point);
+  const glm::dvec3 rounded = world - this->Frame;
+  this->Points.push_back(world);
+  const std::int64_t undecided = this->Solver.GetNumberOfUndecidedSearches();
+  std::vector<StackPath> images;
+  const ImageState state = this->Solver.FindImages(world, images);
+  const bool isDecided = this->Solver.GetNumberOfUndecidedSearches() == undecided;
+  this->Tally.Undecided += !isDecided;
+  StackSolver::Memory memory;
+  StackPath path;
+  const StackVertex first = this->Solver.SolvePoint(world, memory, path);
+  if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
+  {
+    this->Count(&RefractionTally::Failed, i, "no answer", 0);
+    return;
+  }
+  for (const StackPath& image : images)
+  {
+    this->CheckImage(i, rounded, image);
+  }
+  const double size = this->GetSurface(0).Tracer->GetSize(0);
+  const auto isKnown = [&](const glm::dvec3& sight, std::size_t passed)
+  {
+    return std::any_of(images.begin(), images.end(),
+      [&](const StackPath& image)
+      {
+        return image.Count == passed &&
+          (passed == 0 ||
+            glm::length(image.Points[0].Ray.Origin - sight) <
+              SamePlace * size + 8.0 * this->Rounding);
+      });
+  };
+  if (first.State == ImageState::Found)
+  {
+    path.Count = static_cast<std::size_t>(first.Passed);
+    this->CheckImage(i, rounded, path);
+    if (isDecided && !isKnown(first.SightPoint - this->Frame, path.Count))
+    {
+      this->Count(&RefractionTally::Wrong, i, "first image is not among all images", path.Count);
+    }
+  }
+  if (planted)
+  {
+    ++this->Tally.Images;
+    if (!isKnown(planted->Position, count))
+    {
+      this->Count(&RefractionTally::Missed, i,
+        isDecided ? "missed image behind interfaces" : "missed image, reported as undecided",
+        count);
+    }
+    if (first.State != ImageState::Found)
+    {
+      this->Count(&RefractionTally::Missed, i, "no first image behind interfaces", count);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Chains of points between the ones so far: the same bits on one thread and on two, with and
+// without interfaces of equal indices, and images all along.
+void StackChecker::CheckChains()
+{
+  if (this->Points.size() < 2)
+  {
+    return;
+  }
+  constexpr std::size_t count = StackSolver::Chain + 8;
+  constexpr std::size_t checked = 24; // those compared with other lists and with the law
+  std::vector<double> points;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double at = static_cast<double>((this->Points.size() - 1) * i) / count;
+    const auto k = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(k);
+    const glm::dvec3 p = (1.0 - part) * this->Points[k] + part * this->Points[k + 1];
+    points.insert(points.end(), { p.x, p.y, p.z });
+  }
+  const std::size_t components = this->Solver.GetStack().GetNumberOfInterfaces();
+  struct Result
+  {
+    std::vector<VirtualVertex> Vertices;
+    std::vector<StackDetail> Details;
+    std::vector<double> Legs;
+  };
+  const auto solve = [&](const StackSolver& solver, std::size_t end, const RangeLoop& loop)
+  {
+    Result result{ std::vector<VirtualVertex>(count), std::vector<StackDetail>(count),
+      std::vector<double>(count * components + 1) };
+    loop((end + StackSolver::Chain - 1) / StackSolver::Chain,
+      [&](std::size_t firstChain, std::size_t lastChain)
+      {
+        solver.Solve(points.data(), firstChain * StackSolver::Chain,
+          std::min(end, lastChain * StackSolver::Chain), result.Vertices.data(),
+          result.Details.data(), result.Legs.data());
+      });
+    return result;
+  };
+  const Result serial = solve(this->Solver, count, SerialLoop);
+  const Result threaded = solve(this->Threaded, count, ReversedThreadsLoop);
+  const Result padded = solve(this->Padded, checked, SerialLoop);
+  StackSolver::Memory memory;
+  StackPath path;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto number = static_cast<int>(i);
+    for (const Result* other : { &threaded, i < checked ? &padded : &threaded })
+    {
+      const bool same = IsSame(serial.Vertices[i], other->Vertices[i]) &&
+        HasSameBits(serial.Details[i].Transmittance, other->Details[i].Transmittance) &&
+        std::equal(serial.Legs.begin() + static_cast<std::ptrdiff_t>(components * i),
+          serial.Legs.begin() + static_cast<std::ptrdiff_t>(components * (i + 1)),
+          other->Legs.begin() + static_cast<std::ptrdiff_t>(components * i));
+      if (!same)
+      {
+        this->Count(&RefractionTally::Wrong, number,
+          other == &padded ? "other bits with equal indices" : "other bits on two threads", i);
+      }
+    }
+    if (i >= checked)
+    {
+      continue;
+    }
+    const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    const StackVertex vertex = this->Solver.SolvePoint(world, memory, path);
+    if (vertex.State == ImageState::Found)
+    {
+      path.Count = static_cast<std::size_t>(vertex.Passed);
+      this->CheckImage(number, world - this->Frame, path);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+RefractionTally StackChecker::Run()
+{
+  if (!this->SetUp())
+  {
+    this->Count(&RefractionTally::Failed, 0, "surface, list or eye refused", 0);
+    return this->Tally;
+  }
+  if (this->Layers.empty())
+  {
+    this->CheckChains();
+    return this->Tally;
+  }
+  if (!this->HasExpectedLinks())
+  {
+    // Right only if no ray passes all interfaces.
+    for (int i = 0; i < 200; ++i)
+    {
+      const PatchHit first = this->ChoosePlace();
+      const TracedPath path = this->Trace(first);
+      const bool passes = glm::dot(first.Normal, first.Position - this->Eye) < 0.0 &&
+        path.IsCertain && path.End == PathEnd::Passed;
+      if (passes)
+      {
+        this->Count(&RefractionTally::Failed, 0, "the list begins elsewhere; interfaces",
+          this->Solver.GetStack().GetLinks().size());
+        break;
+      }
+    }
+    return this->Tally;
+  }
+  for (int i = 0; i < PointsPerCase; ++i)
+  {
+    if (this->Random.Below(5) == 0)
+    {
+      this->CheckElsewhere(i);
+    }
+    else
+    {
+      this->CheckPlanted(i);
+    }
+  }
+  this->CheckChains();
+  return this->Tally;
+}
+
+//------------------------------------------------------------------------------
+void ReversedThreadsLoop(std::size_t count, const RangeBody& body)
+{
+  constexpr std::size_t ranges = 7;
+  const auto run = [count, &body](std::size_t first)
+  {
+    for (std::size_t k = ranges; k-- > 0;)
+    {
+      if (k % 2 == first && count * k / ranges < count * (k + 1) / ranges)
+      {
+        body(count * k / ranges, count * (k + 1) / ranges);
+      }
+    }
+  };
+  std::thread other(run, 1);
+  run(0);
+  other.join();
+}
+
+//------------------------------------------------------------------------------
+RefractionTally CheckStack(const StackCase& test)
+{
+  return StackChecker(test).Run();
+}
+
+} // namespace test
+} // namespace meniscus

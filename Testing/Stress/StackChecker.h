@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Stress_StackChecker_h
+#define meniscus_Testing_Stress_StackChecker_h
+
+#include "PatchTracer.h"
+#include "Refraction/Stack/StackSolver.h"
+#include "RefractionCheck.h"
+#include "StackCase.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <sstream>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/** Two images are the same, and a crossing is the one at hand, within this part of a facet. */
+constexpr double SamePlace = 1e-5;
+
+/**
+ * Cosines, roots of the radicand in Snell's law, and conditions of the map from the first surface
+ * to the point: what is closer to zero is left open, because rounding or the merging of close
+ * images decides there.
+ */
+constexpr double Marginal = 1e-3;
+
+/** A surface of the case, with its patches as the tracer sees them. */
+struct TracedSurface
+{
+  std::shared_ptr<StackSurface> Surface = std::make_shared<StackSurface>();
+  std::unique_ptr<PatchTracer> Tracer;
+  glm::dvec3 Shift{ 0.0 }; ///< of its origin from that of the list
+};
+
+/** A sight ray that was traced from patch to patch without the kernel. */
+struct TracedPath
+{
+  std::vector<PatchHit> Points;
+  std::vector<glm::dvec3> Directions; ///< behind each interface
+  PathEnd End = PathEnd::Passed;
+  bool IsCertain = true;
+};
+
+/** Solves the points of a case and checks every answer; see CheckStack. */
+class StackChecker
+{
+public:
+  explicit StackChecker(const StackCase& test)
+    : Test(test)
+    , Random(test.Seed)
+  {
+  }
+
+  RefractionTally Run();
+
+private:
+  bool SetUp();
+  bool SetSolver(StackSolver& solver, const std::vector<StackInterface>& list, bool threads);
+  std::vector<StackInterface> MakeList() const;
+  std::vector<StackInterface> MakePaddedList();
+  bool HasExpectedLinks() const;
+
+  glm::dvec3 ToWorld(const glm::dvec3& frame) const { return frame + this->Frame; }
+  const StackLayer& GetLayer(std::size_t k) const { return *this->Layers[k]; }
+  const TracedSurface& GetSurface(std::size_t k) const
+  {
+    return this->Surfaces[this->Layers[k]->Mesh];
+  }
+  std::vector<PatchHit> FindCrossings(
+    std::size_t k, const glm::dvec3& origin, const glm::dvec3& direction) const;
+  PatchHit Evaluate(std::size_t k, std::int32_t facet, const glm::dvec2& b) const;
+  TracedPath Trace(const PatchHit& first) const;
+  double GetCondition(const TracedPath& path, const glm::dvec3& point) const;
+
+  PatchHit ChoosePlace();
+  void CheckPlanted(int i);
+  void CheckElsewhere(int i);
+  void CheckPoint(int i, const glm::dvec3& point, const PatchHit* planted, std::size_t count);
+  void CheckImage(int i, const glm::dvec3& point, const StackPath& path);
+  bool CheckLaw(int i, const glm::dvec3& point, const StackPath& path);
+  bool CheckNearest(const glm::dvec3& point, const StackPath& path) const;
+  void CheckVertex(
+    int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex);
+  void CheckWayBack(
+    int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex);
+  void CheckChains();
+
+  template <typename Value>
+  void Count(std::int64_t RefractionTally::*fault, int i, const char* text, const Value& value)
+  {
+    ++(this->Tally.*fault);
+    if (this->Tally.First.empty())
+    {
+      std::ostringstream line;
+      line.precision(10);
+      line << "point " << i << ": " << text << ", " << value;
+      this->Tally.First = line.str();
+    }
+  }
+
+  const StackCase& Test;
+  StressRandom Random;
+  std::vector<TracedSurface> Surfaces;
+  std::vector<const StackLayer*> Layers; ///< those in front of the eye that refract
+  StackSolver Solver;
+  StackSolver Threaded;
+  StackSolver Padded;
+  glm::dvec3 Frame{ 0.0 }; ///< origin of the list in world coordinates
+  glm::dvec3 Eye{ 0.0 };   ///< relative to it
+  double Rounding = 0.0;   ///< of a position
+  RefractionTally Tally;
+  std::vector<glm::dvec3> Points; ///< all points so far, in world coordinates
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif
