@@ -22,7 +22,7 @@ void VolumeGradients::Update(const VolumeInput& input, const InputBlocks& parts)
     GatherValues(parts, input.GetComponent(), input.GetSources(FieldAssociation::Points));
   const double scale = input.GetNormalization().GradientScale;
   this->Values = this->Place == FieldAssociation::Points
-    ? ComputeVertexGradients(input.GetMesh(), scalars, scale)
+    ? ComputeVertexGradients(input.GetMesh(), scalars, scale, ThreadedLoop)
     : ComputeCellGradients(input.GetMesh(), scalars, scale, ThreadedLoop);
   this->BuiltInput = versions;
   this->Version.Bump();

@@ -88,33 +88,55 @@ std::vector<glm::vec3> ComputeCellGradients(const TetrahedralMesh& mesh,
 }
 
 //------------------------------------------------------------------------------
-std::vector<glm::vec3> ComputeVertexGradients(
-  const TetrahedralMesh& mesh, const std::vector<double>& scalars, double scale)
+/**
+ * Cells are evaluated in parallel, a chunk at a time, and added to their vertices in order, so that
+ * the sums do not depend on the loop.
+ */
+std::vector<glm::vec3> ComputeVertexGradients(const TetrahedralMesh& mesh,
+  const std::vector<double>& scalars, double scale, const RangeLoop& loop)
 {
+  constexpr std::size_t chunk = 16 * BlockSize;
+  const auto& cells = mesh.GetCells();
   const auto size = static_cast<std::size_t>(mesh.GetNumberOfVertices());
   std::vector<glm::dvec3> sums(size, glm::dvec3(0.0));
   std::vector<double> volumes(size, 0.0);
-  for (const TetrahedralMesh::Cell& cell : mesh.GetCells())
+  std::vector<WeightedGradient> weighted(std::min(chunk, cells.size()));
+  for (std::size_t begin = 0; begin < cells.size(); begin += chunk)
   {
-    const WeightedGradient weighted = GradientOf(mesh, cell, scalars, scale);
-    if (!weighted.IsKnown())
+    const std::size_t count = std::min(chunk, cells.size() - begin);
+    ForEachBlock(count, loop,
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          weighted[i] = GradientOf(mesh, cells[begin + i], scalars, scale);
+        }
+      });
+    for (std::size_t i = 0; i < count; ++i)
     {
-      continue;
-    }
-    for (const std::int32_t vertex : cell.Vertices)
-    {
-      sums[vertex] += weighted.Volume > 0.0 ? weighted.Sum : -weighted.Sum;
-      volumes[vertex] += std::abs(weighted.Volume);
+      if (!weighted[i].IsKnown())
+      {
+        continue;
+      }
+      for (const std::int32_t vertex : cells[begin + i].Vertices)
+      {
+        sums[vertex] += weighted[i].Volume > 0.0 ? weighted[i].Sum : -weighted[i].Sum;
+        volumes[vertex] += std::abs(weighted[i].Volume);
+      }
     }
   }
   std::vector<glm::vec3> gradients(size, glm::vec3(0.0f));
-  for (std::size_t i = 0; i < sums.size(); ++i)
-  {
-    if (volumes[i] > 0.0)
+  ForEachBlock(size, loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
     {
-      gradients[i] = Rounded(sums[i] / volumes[i]);
-    }
-  }
+      for (std::size_t i = first; i < last; ++i)
+      {
+        if (volumes[i] > 0.0)
+        {
+          gradients[i] = Rounded(sums[i] / volumes[i]);
+        }
+      }
+    });
   return gradients;
 }
 

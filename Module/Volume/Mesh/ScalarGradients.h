@@ -32,8 +32,8 @@ std::vector<glm::vec3> ComputeCellGradients(const TetrahedralMesh& mesh,
  * It is exact for a linear scalar. Cells without volume or with a scalar that is not finite are
  * ignored; a vertex without other cells has the gradient 0.
  */
-std::vector<glm::vec3> ComputeVertexGradients(
-  const TetrahedralMesh& mesh, const std::vector<double>& scalars, double scale);
+std::vector<glm::vec3> ComputeVertexGradients(const TetrahedralMesh& mesh,
+  const std::vector<double>& scalars, double scale, const RangeLoop& loop = SerialLoop);
 
 }
 

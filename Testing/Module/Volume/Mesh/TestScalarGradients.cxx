@@ -151,6 +151,27 @@ TEST(VertexGradients, MeansAreWeightedByVolume)
   }
 }
 
+TEST(VertexGradients, DoNotDependOnTheLoop)
+{
+  MeshArrays arrays = KuhnGrid(30); // 162,000 cells, more than one chunk
+  Jitter(arrays, 0.005, 7);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  const auto scalars =
+    Evaluate(mesh, [](const glm::dvec3& p) { return std::sin(3.0 * p.x) * p.y + p.z * p.z; });
+  const auto backwards = [](std::size_t count, const RangeBody& body)
+  {
+    for (std::size_t i = count; i > 0; --i)
+    {
+      body(i - 1, i);
+    }
+  };
+  EXPECT_EQ(ComputeVertexGradients(mesh, scalars, 1.0),
+    ComputeVertexGradients(mesh, scalars, 1.0, backwards));
+  EXPECT_EQ(
+    ComputeCellGradients(mesh, scalars, 1.0), ComputeCellGradients(mesh, scalars, 1.0, backwards));
+}
+
 TEST(VertexGradients, CellsWithoutVolumeOrScalarDoNotCount)
 {
   MeshArrays arrays = KuhnGrid(2);
