@@ -49,7 +49,7 @@ float WindowDepthOf(const RayFrame& frame, double depth)
 
 //------------------------------------------------------------------------------
 /** Makes the scene of events of an image whose rays are those of a frame. */
-std::string RayPicker::MakeScene(RayCastTables& tables, RayCastFrame frame, const int (&size)[2],
+std::string RayPicker::MakeScene(RayCastTables& tables, RayCastFrame& frame, const int (&size)[2],
   double opacity, TileCaster::Scene& scene)
 {
   frame.Refracting.Part = MembranePart::Whole;
@@ -101,7 +101,7 @@ std::string RayPicker::Cast(RayCastTables& tables, RayCastFrame frame, const Pic
 }
 
 //------------------------------------------------------------------------------
-std::string RayPicker::CastDepths(RayCastTables& tables, const RayCastFrame& frame, double opacity,
+std::string RayPicker::CastDepths(RayCastTables& tables, RayCastFrame frame, double opacity,
   RayEventKind kind, std::vector<float>& depths)
 {
   const int(&size)[2] = frame.Output.ImageSize;

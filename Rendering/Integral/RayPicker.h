@@ -50,7 +50,7 @@ public:
    * @param kind FirstVisibleEvent or another one.
    * @param depths replaced by one depth per pixel, 2 for rays without the event.
    */
-  std::string CastDepths(RayCastTables& tables, const RayCastFrame& frame, double opacity,
+  std::string CastDepths(RayCastTables& tables, RayCastFrame frame, double opacity,
     RayEventKind kind, std::vector<float>& depths);
 
   /** Bytes of the tables about the last ray. */
@@ -60,7 +60,8 @@ public:
   RayCastMembrane Membrane;
 
 private:
-  std::string MakeScene(RayCastTables& tables, RayCastFrame frame, const int (&size)[2],
+  /** @param frame is changed to one of events; it must outlive the scene, which points into it. */
+  std::string MakeScene(RayCastTables& tables, RayCastFrame& frame, const int (&size)[2],
     double opacity, TileCaster::Scene& scene);
 
   NativeScene Scenes;

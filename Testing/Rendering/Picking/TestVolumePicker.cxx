@@ -134,6 +134,28 @@ TEST(VolumePicker, LinearFieldInACube)
 }
 
 //------------------------------------------------------------------------------
+/** Light changes colours, but no place. */
+TEST(VolumePicker, LightDoesNotMatter)
+{
+  const Grid grid = MakeBlock(5, RadialField());
+  auto property = MakeRamp(3.0);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.7);
+  PickScene scene(grid, property);
+  for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+  {
+    scene.Mapper()->SetBlendMode(mode);
+    property->ShadeOff();
+    ASSERT_EQ(scene.Pick(), 1);
+    const double depth = scene.Chooser->GetDepth();
+    const vtkIdType cell = scene.Chooser->GetCellId();
+    property->ShadeOn();
+    ASSERT_EQ(scene.Pick(), 1);
+    EXPECT_EQ(scene.Chooser->GetDepth(), depth);
+    EXPECT_EQ(scene.Chooser->GetCellId(), cell);
+  }
+}
+
+//------------------------------------------------------------------------------
 /**
  * The distance from the centre, interpolated in cells of edge h = 2 / 40, is too large by at most
  * (3 h h) / (8 r): the surface r = 0.7 is met within that, over the cosine of the angle.
