@@ -72,7 +72,7 @@ public:
   template <typename Visitor>
   void VisitFacets(const TubeBounds& tube, Visitor&& visit) const
   {
-    constexpr double all = std::numeric_limits<double>::max();
+    static constexpr double all = std::numeric_limits<double>::max();
     this->Tree.Visit(tube, all,
       [&visit](std::int32_t facet, const TubeRange& range)
       {
