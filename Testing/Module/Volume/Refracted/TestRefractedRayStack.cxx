@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 using namespace meniscus;
@@ -31,7 +30,6 @@ namespace
 {
 
 constexpr int Size = 96;
-constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr int TileSize = RefractedRayTiles::TileSize;
 constexpr int Columns = (Size + TileSize - 1) / TileSize;
 
