@@ -220,7 +220,7 @@ bool vtkTetrahedraRayCastRepresentation::TakeWholeCells(vtkInformationVector* in
     cells = merge->GetOutputDataObject(0);
   }
   auto* grid = vtkUnstructuredGrid::SafeDownCast(cells);
-  // The superclass delivers what is the output of this filter, which is not executed here.
+  // The superclass delivers the output of this filter, which is filled here and not executed.
   this->Preprocessor->SetInputConnection(this->GetInternalOutputPort());
   auto* output = vtkUnstructuredGrid::SafeDownCast(this->Preprocessor->GetOutputDataObject(0));
   if (!grid || !output)

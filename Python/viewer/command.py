@@ -76,12 +76,11 @@ def _split_clip(text):
 
 
 def make_scene(options):
-    scene = MeshScene(MeshSeries(options.mesh))
+    limits = options.range and tuple(options.range)
+    scene = MeshScene(MeshSeries(options.mesh), options.array, limits)
     steps = len(scene.series.get_times())
     if not -steps <= options.step < steps:
         raise ReadingError(f"There is no time step {options.step}; the mesh has {steps}")
-    if options.array or options.range:
-        scene.set_array(options.array or scene.array, options.range and tuple(options.range))
     if options.step % steps:
         scene.set_step(options.step % steps)
     scene.set_colors(options.colors)

@@ -44,7 +44,8 @@ class MeshScene:
     Every setter takes effect with the next frame. A name that does not exist is a ReadingError.
     """
 
-    def __init__(self, series):
+    def __init__(self, series, array=None, limits=None):
+        """array, limits: see set_array(); default: the first array."""
         self.series = series
         self.step = 0
         self.data = series.read(0)
@@ -73,10 +74,11 @@ class MeshScene:
         look.SetDiffuse(0.7)
         look.SetSpecular(0.25)
         look.SetSpecularPower(25.0)
+        look.SetScalarOpacityUnitDistance(self.diagonal)
         names = self.get_arrays()
         if not names:
             raise ReadingError("The mesh has no arrays")
-        self.set_array(names[0])
+        self.set_array(array or names[0], limits)
 
     def _add_bar(self):
         self.bar = vtkScalarBarActor()
@@ -111,6 +113,8 @@ class MeshScene:
         if name not in arrays:
             raise ReadingError(f"The mesh has no array '{name}'; it has " + ", ".join(arrays))
         association, components = arrays[name]
+        if limits and not limits[0] < limits[1]:
+            raise ReadingError("The range of the colour map must have a lower end below the upper")
         self.array = name
         self.limits = limits
         if association == "points":
@@ -136,7 +140,6 @@ class MeshScene:
         else:
             for scalar, coefficient in self.levels.get_opacity():
                 opacity.AddPoint(scalar, coefficient)
-        look.SetScalarOpacityUnitDistance(self.diagonal / self.density)
         contours = look.GetIsoSurfaceValues()
         values = self.isovalues or self.levels.get_isovalues()
         contours.SetNumberOfContours(len(values))
@@ -157,7 +160,7 @@ class MeshScene:
         if not factor > 0.0:
             raise ReadingError("The density must be above 0")
         self.density = factor
-        self._update_functions()
+        self.volume.GetProperty().SetScalarOpacityUnitDistance(self.diagonal / factor)
 
     def set_blend(self, name):
         if name not in BLEND_MODES:

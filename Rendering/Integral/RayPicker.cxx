@@ -20,7 +20,7 @@ namespace meniscus
 namespace
 {
 
-/** Reduces the rays of a frame, and what is affine in the pixel, to one pixel. */
+/** Reduces the rays and clipping planes of a frame, affine functions of the pixel, to one pixel. */
 void CropToPixel(const PickedPixel& pixel, RayCastFrame& frame)
 {
   const int(&size)[2] = frame.Output.ImageSize;

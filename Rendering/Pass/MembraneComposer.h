@@ -29,7 +29,7 @@ struct MembraneLook
     Mirror
   };
 
-  /** Premultiplied image of what lies behind the membrane. */
+  /** Premultiplied image of the scene behind the membrane. */
   vtkTextureObject* Behind = nullptr;
   /** The same of the mirrored scene; null for none. */
   vtkTextureObject* Mirrored = nullptr;

@@ -97,7 +97,7 @@ void TrueSpaceLighting::FitPlane(vtkActor* membrane)
 
 //------------------------------------------------------------------------------
 /**
- * True if it cannot be told on which side of the surface a light is: its height is within the
+ * True if the side of the surface on which a light is cannot be decided: its height is within the
  * rounding error of the sum of three products of floats.
  */
 bool TrueSpaceLighting::IsOnSurface(const double (&position)[4], const double (&about)[3]) const

@@ -189,6 +189,11 @@ class TestCommand(unittest.TestCase):
         name = write(vtkXMLImageDataWriter(), image, self.name("vectors.vti"))
         self.assertGreater(self.draw(name).std(), 5)
 
+    def test_constant_field(self):
+        name = write(vtkXMLUnstructuredGridWriter(), make_block({"c": lambda *_: 3.0}),
+                     self.name("constant.vtu"))
+        self.assertGreater(self.draw(name).std(), 5)
+
     def test_messages(self):
         broken = self.name("broken.vtu")
         with open(broken, "w") as file:
@@ -214,6 +219,8 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--blend", "q"], "no blend mode 'q'"),
                 ([self.mesh, "--backend", "q"], "no backend 'q'"),
                 ([self.mesh, "--density", "0"], "above 0"),
+                ([self.mesh, "--range", "1", "1"], "lower end below the upper"),
+                ([self.mesh, "--range", "nan", "1"], "lower end below the upper"),
                 ([self.mesh, "--clip", "q"], "no axis 'q'"),
                 ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
                 ([self.mesh, "--step", "1"], "no time step 1"),

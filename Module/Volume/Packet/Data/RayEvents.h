@@ -13,7 +13,7 @@ namespace meniscus
 {
 
 /**
- * Places on a ray that answer what is seen in a pixel. Their meaning depends on the blend mode:
+ * Places on a ray that contribute to its pixel. Their meaning depends on the blend mode:
  * - Composite and additive blending: the first place with opacity, the place at which the
  *   accumulated opacity reaches a threshold, and the place where attenuation times transmittance,
  *   the contribution per length, is largest.

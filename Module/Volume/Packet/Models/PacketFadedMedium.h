@@ -44,7 +44,7 @@ public:
   /**
    * Fraction of the part of the segment between two fractions of it that may be integrated at once:
    * up to an attenuation of LargestFadedDepth in every channel that can be seen, or to a bend of
-   * the linear share. 1 if the part ahead is too short to be told apart in floats.
+   * the linear share. 1 if the ends of the part ahead are equal in single precision.
    */
   Float LimitPart(Float from, Float to) const;
 
