@@ -7,10 +7,10 @@
  * on the filled mesh it finds one entry per ray. Unlike a renderer with imaginary cells, it also
  * integrates in these cells.
  *
- * TetGen crashes on boundaries that touch or intersect themselves, so it runs in a separate
- * process. It is under the AGPL: this program is built only with MENISCUS_WITH_TETGEN, and no
- * installed file uses it.
+ * TetGen is under the AGPL and runs as the program meniscus_tetgen: this program is built only with
+ * MENISCUS_WITH_TETGEN, and no installed file uses it.
  */
+#include "Filters/Mesher/MesherProcess.h"
 #include "Volume/VolumeComparison.h"
 #include "Volume/VolumeOptions.h"
 
@@ -23,17 +23,10 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolumeProperty.h>
 
-#define TETLIBRARY
-#include <tetgen.h>
-
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <iostream>
 #include <map>
 #include <vector>
@@ -44,34 +37,67 @@ using namespace meniscus::test;
 namespace
 {
 
-using Triangle = std::array<vtkIdType, 3>;
+/** Seconds after which TetGen is ended. */
+constexpr double TimeLimit = 3600.0;
 
-/** Points (the used points of the mesh, then TetGen's own) and cells outside of the mesh. */
-struct Filling
+/** A mesh without coincident points: where it touches itself along a seam, it is one piece. */
+struct JoinedMesh
 {
   std::vector<double> Points;
-  std::vector<int> Cells;
-  double Seconds = 0.0;
+  std::vector<meniscus::Tetrahedron> Cells;
 };
 
 //------------------------------------------------------------------------------
-// Faces that belong to one cell only.
-std::vector<Triangle> boundaryOf(vtkUnstructuredGrid* grid)
+JoinedMesh joinPoints(vtkUnstructuredGrid* grid)
 {
-  std::map<Triangle, int> count;
+  JoinedMesh mesh;
+  std::map<std::array<double, 3>, int> known;
+  std::vector<int> place;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> x;
+    grid->GetPoint(p, x.data());
+    const auto found = known.emplace(x, static_cast<int>(known.size()));
+    if (found.second)
+    {
+      mesh.Points.insert(mesh.Points.end(), x.begin(), x.end());
+    }
+    place.push_back(found.first->second);
+  }
   vtkNew<vtkIdList> ids;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
     grid->GetCellPoints(c, ids);
-    for (int without = 0; without < 4; ++without)
+    meniscus::Tetrahedron cell;
+    std::transform(ids->begin(), ids->end(), cell.begin(),
+      [&](vtkIdType id) { return place[static_cast<std::size_t>(id)]; });
+    meniscus::Tetrahedron sorted = cell;
+    std::sort(sorted.begin(), sorted.end());
+    // Cells without volume that were between coincident points are gone.
+    if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end())
     {
-      Triangle face{ ids->GetId((without + 1) % 4), ids->GetId((without + 2) % 4),
-        ids->GetId((without + 3) % 4) };
+      mesh.Cells.push_back(cell);
+    }
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+// Faces that belong to one cell only.
+std::vector<meniscus::Triangle> boundaryOf(const JoinedMesh& mesh)
+{
+  std::map<meniscus::Triangle, int> count;
+  for (const meniscus::Tetrahedron& cell : mesh.Cells)
+  {
+    for (std::size_t without = 0; without < 4; ++without)
+    {
+      meniscus::Triangle face{ cell[(without + 1) % 4], cell[(without + 2) % 4],
+        cell[(without + 3) % 4] };
       std::sort(face.begin(), face.end());
       ++count[face];
     }
   }
-  std::vector<Triangle> boundary;
+  std::vector<meniscus::Triangle> boundary;
   for (const auto& face : count)
   {
     if (face.second == 1)
@@ -83,179 +109,67 @@ std::vector<Triangle> boundaryOf(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
-template <typename Value>
-bool sendAll(int out, const std::vector<Value>& values)
-{
-  const std::size_t size = values.size();
-  bool good = write(out, &size, sizeof size) == static_cast<ssize_t>(sizeof size);
-  const char* at = reinterpret_cast<const char*>(values.data());
-  for (std::size_t left = size * sizeof(Value); good && left > 0;)
-  {
-    const ssize_t sent = write(out, at, left);
-    good = sent > 0;
-    at += sent;
-    left -= static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
-  }
-  return good;
-}
-
-//------------------------------------------------------------------------------
-bool receive(int in, char* at, std::size_t left)
-{
-  while (left > 0)
-  {
-    const ssize_t size = read(in, at, left);
-    if (size <= 0)
-    {
-      return false;
-    }
-    at += size;
-    left -= static_cast<std::size_t>(size);
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-template <typename Value>
-bool receiveAll(int in, std::vector<Value>& values)
-{
-  std::size_t size = 0;
-  if (!receive(in, reinterpret_cast<char*>(&size), sizeof size))
-  {
-    return false;
-  }
-  values.resize(size);
-  return receive(in, reinterpret_cast<char*>(values.data()), size * sizeof(Value));
-}
-
-//------------------------------------------------------------------------------
-// The boundary in TetGen's form: facets of one triangle, and the points that they use.
-void describe(const std::vector<double>& points, const std::vector<Triangle>& faces, tetgenio& in)
-{
-  in.firstnumber = 0;
-  in.numberofpoints = static_cast<int>(points.size() / 3);
-  in.pointlist = new REAL[points.size()];
-  std::copy(points.begin(), points.end(), in.pointlist);
-  in.numberoffacets = static_cast<int>(faces.size());
-  in.facetlist = new tetgenio::facet[faces.size()];
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    tetgenio::facet& facet = in.facetlist[i];
-    tetgenio::init(&facet);
-    facet.numberofpolygons = 1;
-    facet.polygonlist = new tetgenio::polygon[1];
-    tetgenio::init(facet.polygonlist);
-    facet.polygonlist->numberofvertices = 3;
-    facet.polygonlist->vertexlist = new int[3];
-    std::copy(faces[i].begin(), faces[i].end(), facet.polygonlist->vertexlist);
-  }
-}
-
-//------------------------------------------------------------------------------
-// Runs in the child: constrained Delaunay cells up to the hull, with the facets unchanged. The part
-// outside of all closed facets has the region -1. J keeps the indices of coincident points.
-[[noreturn]] void runTetGen(
-  const std::vector<double>& points, const std::vector<Triangle>& faces, int out)
-{
-  tetgenio in;
-  describe(points, faces, in);
-  tetgenio result;
-  char switches[] = "pYcAJQ";
-  tetrahedralize(switches, &in, &result);
-  std::vector<int> cells;
-  for (int c = 0; c < result.numberoftetrahedra; ++c)
-  {
-    if (result.tetrahedronattributelist[c * result.numberoftetrahedronattributes] < 0.0)
-    {
-      const int* ids = result.tetrahedronlist + 4 * c;
-      cells.insert(cells.end(), ids, ids + 4);
-    }
-  }
-  const std::vector<double> all(result.pointlist, result.pointlist + 3 * result.numberofpoints);
-  _exit(sendAll(out, all) && sendAll(out, cells) ? EXIT_SUCCESS : EXIT_FAILURE);
-}
-
-//------------------------------------------------------------------------------
-bool fill(const std::vector<double>& points, const std::vector<Triangle>& faces, Filling& filling)
-{
-  int ends[2];
-  if (pipe(ends) != 0)
-  {
-    return false;
-  }
-  const auto begin = std::chrono::steady_clock::now();
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    close(ends[0]);
-    runTetGen(points, faces, ends[1]);
-  }
-  close(ends[1]);
-  const bool good =
-    child > 0 && receiveAll(ends[0], filling.Points) && receiveAll(ends[0], filling.Cells);
-  close(ends[0]);
-  waitpid(child, nullptr, 0);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  filling.Seconds = time.count();
-  return good;
-}
-
-//------------------------------------------------------------------------------
-// The mesh and its filling as one grid; null if TetGen fails.
+// The mesh and its filling as one grid; null if TetGen fails. TetGen numbers the part outside of
+// all facets -1.
 Grid convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
 {
-  std::vector<Triangle> faces = boundaryOf(grid);
-  std::map<vtkIdType, vtkIdType> local;
-  std::vector<vtkIdType> source;
-  std::vector<double> points;
-  for (Triangle& face : faces)
+  const JoinedMesh mesh = joinPoints(grid);
+  std::vector<glm::dvec3> places;
+  for (std::size_t p = 0; p < mesh.Points.size(); p += 3)
   {
-    for (vtkIdType& id : face)
-    {
-      const auto known = local.emplace(id, static_cast<vtkIdType>(source.size()));
-      if (known.second)
-      {
-        const double* x = grid->GetPoint(id);
-        points.insert(points.end(), x, x + 3);
-        source.push_back(id);
-      }
-      id = known.first->second;
-    }
+    places.emplace_back(mesh.Points[p], mesh.Points[p + 1], mesh.Points[p + 2]);
   }
-  Filling filling;
-  if (!fill(points, faces, filling))
+  meniscus::MeshingTask task;
+  task.Surface = meniscus::JoinCoincidentPoints(places, boundaryOf(mesh));
+  task.KeepsSurface = true;
+  task.FillsHull = true;
+  meniscus::MesherProcess process;
+  process.Program = meniscus::FindTetGenProgram();
+  process.TimeLimit = TimeLimit;
+  process.GoesOn = [](double) { return true; };
+  meniscus::MeshingAnswer answer;
+  const auto begin = std::chrono::steady_clock::now();
+  const meniscus::ProcessEnd end = process.Run(task, answer);
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (end != meniscus::ProcessEnd::Answered || answer.End != meniscus::MeshingEnd::Done)
   {
+    std::cout << "end of the process " << static_cast<int>(end) << ", of TetGen "
+              << static_cast<int>(answer.End) << " (3: the boundary crosses itself)\n";
     return nullptr;
   }
-  seconds = filling.Seconds;
-  imaginary = static_cast<vtkIdType>(filling.Cells.size() / 4);
-  std::vector<double> allPoints;
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  std::vector<double> points = mesh.Points;
+  const std::size_t own = task.Surface.Points.size();
+  for (std::size_t p = own; p < answer.Cells.Points.size(); ++p)
   {
-    const double* x = grid->GetPoint(p);
-    allPoints.insert(allPoints.end(), x, x + 3);
+    const glm::dvec3& x = answer.Cells.Points[p];
+    points.insert(points.end(), { x.x, x.y, x.z });
   }
-  allPoints.insert(allPoints.end(),
-    filling.Points.begin() + static_cast<std::ptrdiff_t>(points.size()), filling.Points.end());
   std::vector<vtkIdType> cells;
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  for (const meniscus::Tetrahedron& cell : mesh.Cells)
   {
-    grid->GetCellPoints(c, ids);
-    cells.insert(cells.end(), ids->begin(), ids->end());
+    cells.insert(cells.end(), cell.begin(), cell.end());
   }
-  const auto own = static_cast<vtkIdType>(source.size());
-  for (const int id : filling.Cells)
+  for (std::size_t c = 0; c < answer.Cells.Cells.size(); ++c)
   {
-    cells.push_back(id < own ? source[id] : grid->GetNumberOfPoints() + id - own);
+    if (answer.Cells.Regions[c] >= 0)
+    {
+      continue;
+    }
+    ++imaginary;
+    for (const int corner : answer.Cells.Cells[c])
+    {
+      const auto id = static_cast<std::size_t>(corner);
+      cells.push_back(static_cast<vtkIdType>(
+        id < own ? task.Surface.Sources[id] : mesh.Points.size() / 3 + id - own));
+    }
   }
-  return makeGrid(allPoints, cells, constantField(0.0));
+  return MakeGrid(points, cells, ConstantField(0.0));
 }
 
 //------------------------------------------------------------------------------
 int run(const VolumeOptions& options)
 {
-  const Grid mesh = makeVolumeMesh(options);
+  const Grid mesh = MakeVolumeMesh(options);
   if (!mesh)
   {
     std::cerr << "no cells or no point array in " << options.Mesh << '\n';
@@ -279,27 +193,27 @@ int run(const VolumeOptions& options)
   {
     VolumeComparison entries(options, mesh);
     VolumeComparison convex(options, filled);
-    const std::vector<Contestant> ours{ makeOurs(backend, "ours") };
+    const std::vector<Contestant> ours{ MakeOurs(backend, "ours") };
     std::vector<double> ratios;
     std::vector<double> times;
-    entries.enter(ours);
-    convex.enter(ours);
+    entries.Enter(ours);
+    convex.Enter(ours);
     // They alternate, so that both meet the same load.
     for (int turn = 0; turn < options.Repetitions; ++turn)
     {
-      entries.measureTimes();
-      convex.measureTimes();
-      ratios.push_back(convex.figures()[0].SteadyMs / entries.figures()[0].SteadyMs);
-      times.push_back(entries.figures()[0].SteadyMs);
+      entries.MeasureTimes();
+      convex.MeasureTimes();
+      ratios.push_back(convex.GetFigures()[0].SteadyMs / entries.GetFigures()[0].SteadyMs);
+      times.push_back(entries.GetFigures()[0].SteadyMs);
     }
     const auto steps = [](const VolumeComparison& c)
-    { return static_cast<double>(c.ours(0)->GetNumberOfTraversalSteps()); };
+    { return static_cast<double>(c.GetOurs(0)->GetNumberOfTraversalSteps()); };
     std::cout << (backend == vtkTetrahedraRayCastMapper::OPENGL ? "opengl" : "native")
-              << ": with entries per ray " << spreadOf(times).Median << " ms/frame and "
-              << entries.figures()[0].SetUpMs << " ms to the first frame; filled "
-              << spreadOf(ratios).Median << " times the time per frame (" << spreadOf(ratios).Low
-              << " - " << spreadOf(ratios).High << "), " << steps(convex) / steps(entries)
-              << " times the steps, " << convex.figures()[0].SetUpMs + 1e3 * seconds
+              << ": with entries per ray " << SpreadOf(times).Median << " ms/frame and "
+              << entries.GetFigures()[0].SetUpMs << " ms to the first frame; filled "
+              << SpreadOf(ratios).Median << " times the time per frame (" << SpreadOf(ratios).Low
+              << " - " << SpreadOf(ratios).High << "), " << steps(convex) / steps(entries)
+              << " times the steps, " << convex.GetFigures()[0].SetUpMs + 1e3 * seconds
               << " ms to the first frame\n";
   }
   return EXIT_SUCCESS;
@@ -310,8 +224,8 @@ int run(const VolumeOptions& options)
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  const VolumeOptions options = parseVolumeOptions(argc, argv);
-  if (options.Help || !options.Problem.empty() || !hasDisplay())
+  const VolumeOptions options = ParseVolumeOptions(argc, argv);
+  if (options.Help || !options.Problem.empty() || !HasDisplay())
   {
     std::cerr << options.Problem << "\nmeniscus_benchmark_convexification [options], under a "
               << "display; the options --mesh, --cubes, --size, --views, --repetitions of\n\n"

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Mesher/DelaunayMesher.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkDelaunay3D.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+TetrahedronCells MeshByDelaunay(const TriangleSurface& surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const glm::dvec3& point : surface.Points)
+  {
+    points->InsertNextPoint(&point.x);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkDelaunay3D> delaunay;
+  delaunay->SetInputData(cloud);
+  delaunay->SetTolerance(0.0);
+  // Its warnings of degenerate cells go nowhere: the cells are checked.
+  vtkNew<vtkCallbackCommand> silence;
+  delaunay->AddObserver(vtkCommand::WarningEvent, silence);
+  delaunay->AddObserver(vtkCommand::ErrorEvent, silence);
+  delaunay->Update();
+  vtkUnstructuredGrid* grid = delaunay->GetOutput();
+  TetrahedronCells cells;
+  cells.Points = surface.Points;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCellType(c) == VTK_TETRA)
+    {
+      grid->GetCellPoints(c, ids);
+      cells.Cells.push_back({ static_cast<int>(ids->GetId(0)), static_cast<int>(ids->GetId(1)),
+        static_cast<int>(ids->GetId(2)), static_cast<int>(ids->GetId(3)) });
+    }
+  }
+  return cells;
+}
+
+} // namespace meniscus

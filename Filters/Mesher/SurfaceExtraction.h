@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Mesher_SurfaceExtraction_h
+#define meniscus_Filters_Mesher_SurfaceExtraction_h
+
+#include "Surface/SolidCells.h"
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+namespace meniscus
+{
+
+/** Polygons and strips as triangles, with coincident points joined. */
+TriangleSurface ExtractSurface(vtkPolyData* data);
+
+/** Sets points and cells, without arrays. */
+void CopyCells(const TetrahedronCells& cells, vtkUnstructuredGrid* grid);
+
+/**
+ * Copies the point arrays of the surface to the grid: as they are at the surface's points,
+ * interpolated in triangles at points that were added there, and continued harmonically inside.
+ * Returns the number of arrays that have no such continuation, because the iteration did not
+ * converge or a value is not finite; inside of the surface these are NaN, or 0 for integers.
+ */
+int ContinueArrays(vtkPolyData* data, const TriangleSurface& surface, const TetrahedronCells& cells,
+  vtkUnstructuredGrid* grid);
+
+} // namespace meniscus
+
+#endif

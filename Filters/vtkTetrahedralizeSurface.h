@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedralizeSurface
+ * @brief   tetrahedra of bounded quality inside of a closed surface
+ *
+ * The input is a closed surface, e.g. an STL file or an isosurface; the output has tetrahedra that
+ * fill it. Polygons and strips are taken as triangles, points of equal coordinates as one point.
+ * Triangles must be counterclockwise as seen from outside; cavities are surfaces of their own,
+ * wound the other way round. A surface that is empty, open, not a manifold, inside out or wound
+ * inconsistently, that crosses itself or has a point that is not finite is an error, and the output
+ * is empty.
+ *
+ * TETGEN runs TetGen as a program of its own, meniscus_tetgen, which is built with the CMake option
+ * MENISCUS_WITH_TETGEN. TetGen adds points until the ratio of circumscribed radius to shortest edge
+ * is below MaximumRadiusEdgeRatio, except for some cells: there is no such mesh next to triangles
+ * of the surface that have or meet at angles below about 60 degrees, and TetGen leaves about one
+ * cell in a hundred elsewhere. GetNumberOfCellsAboveRatio() counts them.
+ *
+ * DELAUNAY uses vtkDelaunay3D. It adds no points, so that there is no bound of quality, and the
+ * surface must have triangles that are small against its curvature and its thickness: each must be
+ * a face of a Delaunay cell, or the filter reports an error.
+ *
+ * Both kinds of cells are checked before they are returned: all are positive, and their volume is
+ * that of the surface.
+ *
+ * Numerical point arrays are passed on. At points that were added on the surface, they are
+ * interpolated in the triangle; inside they are continued harmonically, so that a linear field
+ * stays linear. Global and pedigree ids are left out. An array that cannot be continued, for
+ * values that are not finite, is NaN inside (integers: 0), with a warning.
+ *
+ * The observers of ProgressEvent are called while TetGen runs; SetAbortExecute(1) ends it.
+ *
+ * @sa vtkTetrahedraRayCastMapper vtkDelaunay3D
+ */
+#ifndef vtkTetrahedralizeSurface_h
+#define vtkTetrahedralizeSurface_h
+
+#include "vtkMeniscusModule.h" // For export macro
+#include "vtkUnstructuredGridAlgorithm.h"
+
+#include <string> // For std::string
+
+class vtkPolyData;
+
+namespace meniscus
+{
+struct TetrahedronCells;
+struct TriangleSurface;
+}
+
+class VTKMENISCUS_EXPORT vtkTetrahedralizeSurface : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkTetrahedralizeSurface* New();
+  vtkTypeMacro(vtkTetrahedralizeSurface, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum Meshers
+  {
+    AUTOMATIC = 0, ///< TETGEN if its program is there, else DELAUNAY
+    TETGEN = 1,
+    DELAUNAY = 2
+  };
+
+  /** @{ */
+  /** Set/Get the mesher. Default is AUTOMATIC. */
+  vtkSetClampMacro(Mesher, int, AUTOMATIC, DELAUNAY);
+  vtkGetMacro(Mesher, int);
+  void SetMesherToAutomatic() { this->SetMesher(AUTOMATIC); }
+  void SetMesherToTetGen() { this->SetMesher(TETGEN); }
+  void SetMesherToDelaunay() { this->SetMesher(DELAUNAY); }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the bound of the ratio of circumscribed radius to shortest edge of a cell, for TETGEN.
+   * At least 1; TetGen reaches 2 in theory, about 1.2 in practice, with the more cells the smaller
+   * it is. A regular tetrahedron has 0.61. Default is 2.
+   */
+  vtkSetMacro(MaximumRadiusEdgeRatio, double);
+  vtkGetMacro(MaximumRadiusEdgeRatio, double);
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the largest volume of a cell, for TETGEN. 0, the default, stands for no limit. */
+  vtkSetMacro(MaximumVolume, double);
+  vtkGetMacro(MaximumVolume, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get whether TETGEN adds no points on the surface, so that the boundary of the cells has the
+   * surface's triangles. Cells next to the surface may then exceed the bound of quality. Default is
+   * off: triangles of the surface may be divided.
+   */
+  vtkSetMacro(PreserveSurface, bool);
+  vtkGetMacro(PreserveSurface, bool);
+  vtkBooleanMacro(PreserveSurface, bool);
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the time in seconds after which TetGen is ended, with an error. Default is 300. */
+  vtkSetMacro(TimeLimit, double);
+  vtkGetMacro(TimeLimit, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the file name of the program that runs TetGen. Null, the default, stands for
+   * meniscus_tetgen of the build or the installation to which this library belongs.
+   */
+  vtkSetFilePathMacro(MesherProgram);
+  vtkGetFilePathMacro(MesherProgram);
+  /** @} */
+
+  /** Whether there is a program for TETGEN: the one that was set, or that of the library. */
+  bool HasTetGen();
+
+  /** Mesher of the last run: TETGEN or DELAUNAY. */
+  vtkGetMacro(UsedMesher, int);
+  /** Number of points of the last run's output that are not points of the surface. */
+  vtkGetMacro(NumberOfAddedPoints, vtkIdType);
+  /** Largest ratio of circumscribed radius to shortest edge in the last run's output. */
+  vtkGetMacro(LargestRadiusEdgeRatio, double);
+  /** Number of cells of the last run's output above MaximumRadiusEdgeRatio. */
+  vtkGetMacro(NumberOfCellsAboveRatio, vtkIdType);
+
+protected:
+  vtkTetrahedralizeSurface();
+  ~vtkTetrahedralizeSurface() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkTetrahedralizeSurface(const vtkTetrahedralizeSurface&) = delete;
+  void operator=(const vtkTetrahedralizeSurface&) = delete;
+
+  bool HasValidSettings();
+  bool MakeCells(const meniscus::TriangleSurface& surface, meniscus::TetrahedronCells& cells);
+  bool RunTetGen(const meniscus::TriangleSurface& surface, meniscus::TetrahedronCells& cells);
+  bool RunDelaunay(const meniscus::TriangleSurface& surface, meniscus::TetrahedronCells& cells);
+  std::string GetProgram() const;
+
+  int Mesher = AUTOMATIC;
+  double MaximumRadiusEdgeRatio = 2.0;
+  double MaximumVolume = 0.0;
+  bool PreserveSurface = false;
+  double TimeLimit = 300.0;
+  char* MesherProgram = nullptr;
+
+  int UsedMesher = AUTOMATIC;
+  vtkIdType NumberOfAddedPoints = 0;
+  double LargestRadiusEdgeRatio = 0.0;
+  vtkIdType NumberOfCellsAboveRatio = 0;
+};
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Surface_SolidCells_h
+#define meniscus_Surface_SolidCells_h
+
+#include "Surface/ClosedSurface.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace meniscus
+{
+
+using Tetrahedron = std::array<int, 4>;
+
+/** Tetrahedra, the first points of which are those of a surface. */
+struct TetrahedronCells
+{
+  std::vector<glm::dvec3> Points;
+  std::vector<Tetrahedron> Cells;
+  /** Parts of space that the surface separates, one number per cell. */
+  std::vector<int> Regions;
+};
+
+/** Reasons why tetrahedra do not fill the inside of a surface. */
+enum class SolidFault
+{
+  None,
+  LostFacets,  ///< triangles of the surface that are no faces of cells
+  Nesting,     ///< a region that the surface encloses more than once, or inside out
+  FlatCells,   ///< cells without volume
+  WrongVolume, ///< cells whose volume is not that of the surface
+};
+
+/**
+ * Numbers the regions that the triangles of the surface separate, as faces of the cells. Returns
+ * the number of triangles that are no faces of cells; the regions mean nothing unless it is 0.
+ */
+std::size_t NumberRegions(const TriangleSurface& surface, TetrahedronCells& cells);
+
+/**
+ * Keeps the cells in the regions around which the surface winds once, in VTK's order of corners,
+ * with the surface's points and those that the cells use.
+ * @param relativeTolerance distance from a plane, relative to the diagonal of the surface's bounds,
+ *   at which the mesher may place points on a triangle.
+ */
+SolidFault KeepSolid(
+  const TriangleSurface& surface, double relativeTolerance, TetrahedronCells& cells);
+
+/** Whether each point is on the boundary of the cells, i.e. on a face of one cell only. */
+std::vector<bool> FindBoundaryPoints(const TetrahedronCells& cells);
+
+/** Largest ratio of circumscribed radius to shortest edge, and the cells above a bound. */
+struct CellQuality
+{
+  double LargestRadiusEdgeRatio = 0.0;
+  std::size_t CellsAboveBound = 0;
+};
+
+CellQuality MeasureQuality(const TetrahedronCells& cells, double bound);
+
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,346 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesher/ClosedSurfaces.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCell.h"
+#include "vtkCellArray.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPlatonicSolidSource.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkReverseSense.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace meniscus::testing
+{
+
+namespace
+{
+
+Surface makeSurface(vtkPoints* points, vtkCellArray* triangles)
+{
+  auto surface = Surface::New();
+  surface->SetPoints(points);
+  surface->SetPolys(triangles);
+  return surface;
+}
+
+void addQuad(vtkCellArray* triangles, vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d)
+{
+  triangles->InsertNextCell({ a, b, c });
+  triangles->InsertNextCell({ a, c, d });
+}
+
+Surface copyOf(vtkPolyData* surface)
+{
+  auto copy = Surface::New();
+  copy->DeepCopy(surface);
+  return copy;
+}
+
+// A new list of triangles, with one of them changed.
+template <class Change>
+void rebuild(vtkPolyData* surface, vtkIdType triangle, const Change& change)
+{
+  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    surface->GetPolys()->GetCellAtId(c, ids);
+    if (c != triangle)
+    {
+      triangles->InsertNextCell(ids);
+    }
+    else
+    {
+      change(triangles.Get(), ids.Get());
+    }
+  }
+  surface->SetPolys(triangles);
+  surface->DeleteCells();
+}
+
+// Winds all triangles of a surface around the origin counterclockwise as seen from outside.
+void turnOutwards(vtkPolyData* surface)
+{
+  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType t = 0; t < surface->GetNumberOfCells(); ++t)
+  {
+    surface->GetPolys()->GetCellAtId(t, ids);
+    double x[3][3];
+    for (int i = 0; i < 3; ++i)
+    {
+      surface->GetPoint(ids->GetId(i), x[i]);
+    }
+    const bool outwards = vtkMath::Determinant3x3(x[0], x[1], x[2]) > 0.0;
+    triangles->InsertNextCell(
+      { ids->GetId(0), ids->GetId(outwards ? 1 : 2), ids->GetId(outwards ? 2 : 1) });
+  }
+  surface->SetPolys(triangles);
+}
+
+// Each triangle as four, over the middles of its edges.
+Surface divided(vtkPolyData* surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(surface->GetPoints());
+  std::map<std::pair<vtkIdType, vtkIdType>, vtkIdType> middles;
+  const auto middle = [&](vtkIdType a, vtkIdType b)
+  {
+    const auto known = middles.emplace(std::minmax(a, b), points->GetNumberOfPoints());
+    if (known.second)
+    {
+      double x[3];
+      double y[3];
+      points->GetPoint(a, x);
+      points->GetPoint(b, y);
+      points->InsertNextPoint(0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]), 0.5 * (x[2] + y[2]));
+    }
+    return known.first->second;
+  };
+  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType t = 0; t < surface->GetNumberOfCells(); ++t)
+  {
+    surface->GetPolys()->GetCellAtId(t, ids);
+    const vtkIdType a = ids->GetId(0);
+    const vtkIdType b = ids->GetId(1);
+    const vtkIdType c = ids->GetId(2);
+    const vtkIdType ab = middle(a, b);
+    const vtkIdType bc = middle(b, c);
+    const vtkIdType ca = middle(c, a);
+    triangles->InsertNextCell({ a, ab, ca });
+    triangles->InsertNextCell({ ab, b, bc });
+    triangles->InsertNextCell({ ca, bc, c });
+    triangles->InsertNextCell({ ab, bc, ca });
+  }
+  return makeSurface(points, triangles);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+Surface MakeBox(double x, double y, double z)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int i = 0; i < 8; ++i)
+  {
+    points->InsertNextPoint((i & 1) != 0 ? x : 0.0, (i & 2) != 0 ? y : 0.0, (i & 4) != 0 ? z : 0.0);
+  }
+  vtkNew<vtkCellArray> triangles;
+  addQuad(triangles, 0, 2, 3, 1);
+  addQuad(triangles, 4, 5, 7, 6);
+  addQuad(triangles, 0, 1, 5, 4);
+  addQuad(triangles, 2, 6, 7, 3);
+  addQuad(triangles, 0, 4, 6, 2);
+  addQuad(triangles, 1, 3, 7, 5);
+  return makeSurface(points, triangles);
+}
+
+//------------------------------------------------------------------------------
+Surface MakeSphere(double radius, int theta, int phi)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(0.0, 0.0, radius);
+  points->InsertNextPoint(0.0, 0.0, -radius);
+  const auto at = [&](int i, int j) { return 2 + (j - 1) * theta + i % theta; };
+  for (int j = 1; j < phi; ++j)
+  {
+    for (int i = 0; i < theta; ++i)
+    {
+      const double u = 2.0 * vtkMath::Pi() * i / theta;
+      const double v = vtkMath::Pi() * j / phi;
+      points->InsertNextPoint(radius * std::sin(v) * std::cos(u),
+        radius * std::sin(v) * std::sin(u), radius * std::cos(v));
+    }
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (int i = 0; i < theta; ++i)
+  {
+    triangles->InsertNextCell({ 0, at(i, 1), at(i + 1, 1) });
+    for (int j = 1; j + 1 < phi; ++j)
+    {
+      addQuad(triangles, at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+    }
+    triangles->InsertNextCell({ 1, at(i + 1, phi - 1), at(i, phi - 1) });
+  }
+  return makeSurface(points, triangles);
+}
+
+//------------------------------------------------------------------------------
+// Frusta over regular polygons, which have a common apex.
+double SphereVolume(double radius, int theta, int phi)
+{
+  const double polygon = 0.5 * theta * std::sin(2.0 * vtkMath::Pi() / theta);
+  double volume = 0.0;
+  for (int j = 0; j < phi; ++j)
+  {
+    const double above = vtkMath::Pi() * j / phi;
+    const double below = vtkMath::Pi() * (j + 1) / phi;
+    const double r = radius * std::sin(above);
+    const double s = radius * std::sin(below);
+    volume +=
+      radius * (std::cos(above) - std::cos(below)) / 3.0 * polygon * (r * r + s * s + r * s);
+  }
+  return volume;
+}
+
+//------------------------------------------------------------------------------
+Surface MakeGeodesicSphere(double radius, int levels)
+{
+  vtkNew<vtkPlatonicSolidSource> icosahedron;
+  icosahedron->SetSolidTypeToIcosahedron();
+  icosahedron->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  icosahedron->Update();
+  Surface surface = Surface::New();
+  surface->SetPoints(icosahedron->GetOutput()->GetPoints());
+  surface->SetPolys(icosahedron->GetOutput()->GetPolys());
+  turnOutwards(surface); // VTK winds this one the other way round
+  for (int level = 0; level <= levels; ++level)
+  {
+    if (level > 0)
+    {
+      surface = divided(surface);
+    }
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      double x[3];
+      surface->GetPoint(p, x);
+      vtkMath::Normalize(x);
+      surface->GetPoints()->SetPoint(p, radius * x[0], radius * x[1], radius * x[2]);
+    }
+  }
+  return surface;
+}
+
+//------------------------------------------------------------------------------
+// Pyramids from the centre, whose heights and areas come from the lengths of edges.
+double GeodesicSphereVolume(double radius, int levels)
+{
+  const Surface surface = MakeGeodesicSphere(radius, levels);
+  double volume = 0.0;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    vtkIdList* ids = surface->GetCell(c)->GetPointIds();
+    double corner[3][3];
+    for (int i = 0; i < 3; ++i)
+    {
+      surface->GetPoint(ids->GetId(i), corner[i]);
+    }
+    const double a = std::sqrt(vtkMath::Distance2BetweenPoints(corner[0], corner[1]));
+    const double b = std::sqrt(vtkMath::Distance2BetweenPoints(corner[1], corner[2]));
+    const double d = std::sqrt(vtkMath::Distance2BetweenPoints(corner[2], corner[0]));
+    const double s = 0.5 * (a + b + d);
+    const double area = std::sqrt(s * (s - a) * (s - b) * (s - d));
+    const double circumradius = 0.25 * a * b * d / area;
+    volume += area * std::sqrt(radius * radius - circumradius * circumradius) / 3.0;
+  }
+  return volume;
+}
+
+//------------------------------------------------------------------------------
+Surface MakeTorus(double radius, double tube, int around, int across)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> triangles;
+  const auto at = [&](int i, int j) { return (i % around) * across + j % across; };
+  for (int i = 0; i < around; ++i)
+  {
+    for (int j = 0; j < across; ++j)
+    {
+      const double u = 2.0 * vtkMath::Pi() * i / around;
+      const double v = 2.0 * vtkMath::Pi() * j / across;
+      const double r = radius + tube * std::cos(v);
+      points->InsertNextPoint(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
+      addQuad(triangles, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return makeSurface(points, triangles);
+}
+
+//------------------------------------------------------------------------------
+// A point at the distance r from the axis sweeps chords: dV = around sin(2 pi / around) r dA.
+double TorusVolume(double radius, double tube, int around, int across)
+{
+  const double polygon = 0.5 * across * tube * tube * std::sin(2.0 * vtkMath::Pi() / across);
+  return around * std::sin(2.0 * vtkMath::Pi() / around) * radius * polygon;
+}
+
+//------------------------------------------------------------------------------
+Surface Reversed(vtkPolyData* surface)
+{
+  vtkNew<vtkReverseSense> reverse;
+  reverse->SetInputData(surface);
+  reverse->ReverseCellsOn();
+  reverse->Update();
+  return copyOf(reverse->GetOutput());
+}
+
+//------------------------------------------------------------------------------
+Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
+{
+  Surface copy = copyOf(surface);
+  for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    copy->GetPoint(p, x);
+    copy->GetPoints()->SetPoint(p, x[0] + by[0], x[1] + by[1], x[2] + by[2]);
+  }
+  return copy;
+}
+
+//------------------------------------------------------------------------------
+// All points in a plane, no two of them in one place.
+Surface Flattened(vtkPolyData* surface)
+{
+  Surface copy = copyOf(surface);
+  for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    copy->GetPoint(p, x);
+    copy->GetPoints()->SetPoint(p, x[0] + 2.0 * x[2], x[1] + 2.0 * x[2], 0.0);
+  }
+  return copy;
+}
+
+//------------------------------------------------------------------------------
+Surface Joined(const std::vector<Surface>& surfaces)
+{
+  vtkNew<vtkAppendPolyData> append;
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  for (const Surface& surface : surfaces)
+  {
+    append->AddInputData(surface);
+  }
+  append->Update();
+  return copyOf(append->GetOutput());
+}
+
+//------------------------------------------------------------------------------
+void RemoveTriangle(vtkPolyData* surface, vtkIdType triangle)
+{
+  rebuild(surface, triangle, [](vtkCellArray*, vtkIdList*) {});
+}
+
+//------------------------------------------------------------------------------
+void TurnTriangle(vtkPolyData* surface, vtkIdType triangle)
+{
+  rebuild(surface, triangle,
+    [](vtkCellArray* triangles, vtkIdList* ids) {
+      triangles->InsertNextCell({ ids->GetId(0), ids->GetId(2), ids->GetId(1) });
+    });
+}
+
+}

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Programs that crash, do not end or do not answer, in the place of TetGen's.
+#include "Mesher/ClosedSurfaces.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkNew.h"
+#include "vtkTetrahedralizeSurface.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <utility>
+
+using namespace meniscus::testing;
+
+namespace
+{
+
+/** A shell script in the place of the mesher, and a folder for its temporary files. */
+class MesherScripts : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    this->Folder = std::filesystem::path(MENISCUS_TEMPORARY_DIR) / ("Mesher" + name);
+    std::filesystem::remove_all(this->Folder);
+    std::filesystem::create_directories(this->Folder / "tmp");
+    setenv("TMPDIR", (this->Folder / "tmp").c_str(), 1);
+    this->Filter->SetInputData(MakeBox(1.0, 1.0, 1.0));
+    this->Filter->SetMesherToTetGen();
+  }
+
+  void TearDown() override
+  {
+    // No file remains.
+    EXPECT_TRUE(std::filesystem::is_empty(this->Folder / "tmp"));
+    unsetenv("TMPDIR");
+  }
+
+  /** Runs the filter with a program of these commands and returns its messages. */
+  std::string Run(const std::string& commands)
+  {
+    const std::filesystem::path program = this->Folder / "program";
+    std::ofstream(program) << "#!/bin/sh\n" << commands << '\n';
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    this->Filter->SetMesherProgram(program.c_str());
+    return this->Update();
+  }
+
+  std::string Update()
+  {
+    const auto messages = Observe(this->Filter);
+    this->Filter->Modified(); // the program has changed, not its name
+    this->Filter->Update();
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfCells(), 0);
+    return messages->Text;
+  }
+
+  std::filesystem::path Folder;
+  vtkNew<vtkTetrahedralizeSurface> Filter;
+};
+
+/** Asks the filter to stop at its first report of progress. */
+void abortAtOnce(vtkObject* caller, unsigned long, void*, void*)
+{
+  static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+TEST_F(MesherScripts, ThatCrash)
+{
+  EXPECT_NE(this->Run("kill -SEGV $$").find("TetGen crashed"), std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+// The time limit ends the program and those that it has started.
+TEST_F(MesherScripts, ThatDoNotEnd)
+{
+  this->Filter->SetTimeLimit(0.3);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::filesystem::path late = this->Folder / "late";
+  const std::string text = this->Run("(sleep 3; touch '" + late.string() + "')");
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  EXPECT_NE(text.find("ended after 0.3 s, the time limit"), std::string::npos) << text;
+  EXPECT_LT(time.count(), 2.5);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  EXPECT_FALSE(std::filesystem::exists(late));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MesherScripts, ThatAreAborted)
+{
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(abortAtOnce);
+  this->Filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(this->Run("sleep 20"), "");
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(time.count(), 10.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MesherScripts, ThatDoNotAnswer)
+{
+  for (const char* commands : { "exit 3", "exit 0", "echo nonsense > \"$2\"", ": > \"$2\"" })
+  {
+    const std::string text = this->Run(commands);
+    EXPECT_NE(text.find("ended without an answer"), std::string::npos) << commands << text;
+  }
+}
+
+//------------------------------------------------------------------------------
+// TetGen's errors come as numbers in the answer.
+TEST_F(MesherScripts, ThatGiveUp)
+{
+  const std::pair<const char*, const char*> ends[] = { { "\\001", "out of memory" },
+    { "\\002", "gave up on this surface, with error 2" }, { "\\003", "crosses itself" },
+    { "\\004", "too small" }, { "\\005", "too close" }, { "\\012", "with error 10" } };
+  const std::string zeros = "\\000\\000\\000\\000\\000\\000\\000\\000";
+  for (const auto& end : ends)
+  {
+    const std::string text = this->Run("printf 'MNS_ANS1" + std::string(end.first) +
+      "\\000\\000\\000" + zeros + zeros + zeros + "' > \"$2\"");
+    EXPECT_NE(text.find(end.second), std::string::npos) << text;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MesherScripts, ThatAreNotThere)
+{
+  this->Filter->SetMesherProgram("/no/such/program");
+  EXPECT_NE(this->Update().find("could not be started: /no/such/program"), std::string::npos);
+  std::ofstream(this->Folder / "plain") << "text\n";
+  this->Filter->SetMesherProgram((this->Folder / "plain").c_str());
+  EXPECT_NE(this->Update().find("could not be started"), std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MesherScripts, WithoutPlaceForFiles)
+{
+  setenv("TMPDIR", (this->Folder / "missing").c_str(), 1);
+  EXPECT_NE(this->Run("exit 0").find("could not be written"), std::string::npos);
+}
