@@ -220,7 +220,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
   switch (this->Internals->Stage)
   {
     case vtkInternals::Stages::Mirrored:
-      break; // no medium is in front of what a membrane reflects
+      break; // no medium is in front of reflected objects
     case vtkInternals::Stages::Membrane:
       meniscus::AppendToShader(
         fragmentShader, "  //VTK::Light::Impl", "  gl_FragData[0] = vec4(normalVCVSOutput, 1.0);");

@@ -302,7 +302,13 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
   };
   const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
   const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
-  if (!this->Tell(input.UpdateMesh(parts, goOn)) || input.GetMesh().GetNumberOfCells() == 0)
+  meniscus::DivisionRequest division;
+  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionPlaceTolerance,
+    this->DivisionScalarTolerance, this->MaximumNumberOfPieces };
+  division.Fields = parts;
+  division.Component = mixed ? meniscus::ScalarSelection::Only : component;
+  if (!this->Tell(input.UpdateMesh(parts, goOn, division)) ||
+    input.GetMesh().GetNumberOfCells() == 0)
   {
     return false;
   }

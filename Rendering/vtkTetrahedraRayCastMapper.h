@@ -15,12 +15,13 @@
  * tetrahedron, cell data constant within each cell. Tetrahedra are drawn directly; voxels,
  * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells are split into tetrahedra that
  * have the same points and match across shared faces, whatever the cell types (each cell is split
- * by pulling its lowest-numbered point). Other cells are left out with a warning. Any mesh is
- * accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate
- * points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are
- * left out. Cells with a point index out of range, a repeated point or a point that is not finite
- * are left out and counted. Cells with a scalar that is not finite, their own or that of a vertex,
- * are transparent and counted.
+ * by pulling its lowest-numbered point). With SetCellDivision() they are divided until the
+ * tetrahedra follow the cells' shape functions, those of Lagrange and Bezier cells too. Other cells
+ * are left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with
+ * inverted cells, cells of zero volume, duplicate points and faces of more than two cells. Cells
+ * that vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of
+ * range, a repeated point or a point that is not finite are left out and counted. Cells with a
+ * scalar that is not finite, their own or that of a vertex, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
@@ -249,6 +250,53 @@ public:
   vtkGetMacro(VectorMode, int);
   vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
   vtkGetMacro(VectorComponent, int);
+  /** @} */
+
+  /** Division of cells that are not linear tetrahedra. */
+  enum CellDivisions
+  {
+    FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
+    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within tolerances
+  };
+
+  /** @{ */
+  /**
+   * Set/Get the division of cells. FIXED_DIVISION, the default, adds no points: the scalar is
+   * linear in each of the tetrahedra, whose edges can be seen in hexahedra. ADAPTIVE_DIVISION
+   * halves edges until the tetrahedra follow VTK's shape functions of the cells (voxels, hexahedra,
+   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerances, without cracks
+   * between neighbours. Cells are divided when the mesh is built, and again only if moved points or
+   * other scalars exceed twice the tolerances; otherwise the values of the new points are
+   * interpolated. See Documentation/true-cells.md.
+   */
+  vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+  vtkGetMacro(CellDivision, int);
+  void SetCellDivisionToFixed() { this->SetCellDivision(FIXED_DIVISION); }
+  void SetCellDivisionToAdaptive() { this->SetCellDivision(ADAPTIVE_DIVISION); }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the tolerances of ADAPTIVE_DIVISION in the edges of the tetrahedra: the largest
+   * distance of the curved edge from the straight one, as a fraction of the diagonal of the input's
+   * bounds (default 1e-5); and the largest difference of the scalar from its linear interpolation,
+   * as a fraction of the range of its finite values (default 5e-5). With several components that
+   * are mixed, each counts with its own range. They must be positive; otherwise it is an error.
+   */
+  vtkSetMacro(DivisionPlaceTolerance, double);
+  vtkGetMacro(DivisionPlaceTolerance, double);
+  vtkSetMacro(DivisionScalarTolerance, double);
+  vtkGetMacro(DivisionScalarTolerance, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes. If the tolerances take
+   * more, it is an error. While cells are divided, a tetrahedron takes up to 250 bytes. Default is
+   * 2^25, some 34 million.
+   */
+  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
   /** Meaning of an opacity of the transfer function over a length. */
@@ -540,6 +588,19 @@ public:
   vtkTypeInt64 GetNumberOfRejectedCells();
   /** @} */
 
+  /** @{ */
+  /**
+   * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
+   * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
+   * that are folded inside out in parts, and edges that exceed the tolerances after 23 divisions. A
+   * warning reports the last two if they are not 0.
+   */
+  vtkTypeInt64 GetNumberOfTetrahedra();
+  vtkTypeInt64 GetNumberOfCellDivisions();
+  vtkTypeInt64 GetNumberOfFoldedCells();
+  vtkTypeInt64 GetNumberOfUnresolvedEdges();
+  /** @} */
+
   /**
    * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
    * since construction: once per mesh that is picked. The table takes 4 bytes per tetrahedron.
@@ -684,6 +745,10 @@ private:
   bool UpdateForPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts);
   bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
+  int CellDivision = FIXED_DIVISION;
+  double DivisionPlaceTolerance = 1e-5;
+  double DivisionScalarTolerance = 5e-5;
+  vtkTypeInt64 MaximumNumberOfPieces = 33554432;
   int VectorMode = DISABLED;
   int VectorComponent = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;

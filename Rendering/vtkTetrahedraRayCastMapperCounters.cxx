@@ -167,11 +167,39 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTotallyReflectedRays()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTetrahedra()
+{
+  return this->Internals->Input.GetMesh().GetNumberOfCells();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCellDivisions()
+{
+  return this->Internals->Input.GetDivision().GetNumberOfDivisions();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfFoldedCells()
+{
+  return this->Internals->Input.GetDivision().GetCounts().FoldedCells;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUnresolvedEdges()
+{
+  return this->Internals->Input.GetDivision().GetCounts().UnresolvedEdges;
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "VectorMode: " << this->VectorMode << "\n";
   os << indent << "VectorComponent: " << this->VectorComponent << "\n";
+  os << indent << "CellDivision: " << this->CellDivision << "\n";
+  os << indent << "DivisionPlaceTolerance: " << this->DivisionPlaceTolerance << "\n";
+  os << indent << "DivisionScalarTolerance: " << this->DivisionScalarTolerance << "\n";
+  os << indent << "MaximumNumberOfPieces: " << this->MaximumNumberOfPieces << "\n";
   os << indent << "OpacityModel: " << this->OpacityModel << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
@@ -217,6 +245,10 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
   os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
   os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";
+  os << indent << "NumberOfTetrahedra: " << this->GetNumberOfTetrahedra() << "\n";
+  os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
+  os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
+  os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";

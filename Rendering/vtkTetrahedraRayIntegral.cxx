@@ -103,6 +103,80 @@ std::string DescribeExcess(const meniscus::IntegralChoice& choice, const int siz
   return text.str();
 }
 
+/** Collects an array of points or, if the points have none of that name, of cells. */
+meniscus::InputReport CollectNamed(
+  vtkDataObject* input, const char* name, int component, meniscus::InputBlocks& blocks)
+{
+  meniscus::ScalarSelection selection;
+  selection.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+  selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
+  selection.ArrayName = name;
+  selection.Component = component;
+  const meniscus::InputReport ofPoints = meniscus::CollectInputBlocks(input, selection, blocks);
+  if (ofPoints.Error.empty())
+  {
+    return ofPoints;
+  }
+  selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
+  const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
+  // If there is no such array of cells, the error about that of points says more.
+  return ofCells.Error.empty() ? ofCells : ofPoints;
+}
+
+/**
+ * Collects the scalars that SetInputArrayToProcess() describes. A component of -1 stands for the
+ * length of the tuple.
+ */
+meniscus::InputReport CollectScalars(
+  vtkDataObject* input, vtkInformation* wanted, int component, meniscus::InputBlocks& blocks)
+{
+  const int association = wanted->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const bool ofCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  meniscus::ScalarSelection selection;
+  selection.Component = component == -1 ? meniscus::ScalarSelection::Magnitude : component;
+  if (!wanted->Has(vtkDataObject::FIELD_NAME()))
+  {
+    selection.ScalarMode = ofPoints ? VTK_SCALAR_MODE_USE_POINT_DATA
+      : ofCells                     ? VTK_SCALAR_MODE_USE_CELL_DATA
+                                    : VTK_SCALAR_MODE_DEFAULT;
+    return meniscus::CollectInputBlocks(input, selection, blocks);
+  }
+  selection.ArrayName = wanted->Get(vtkDataObject::FIELD_NAME());
+  if (!ofPoints && !ofCells)
+  {
+    return CollectNamed(input, selection.ArrayName, selection.Component, blocks);
+  }
+  selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
+  selection.ScalarMode =
+    ofCells ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+  return meniscus::CollectInputBlocks(input, selection, blocks);
+}
+
+/**
+ * Sets the number of energy bins to that of the attenuation's components. Returns an error if
+ * another number is wanted, or the attenuation is not in the scalars' data sets.
+ */
+std::string CountBins(
+  const meniscus::InputBlocks& scalars, const meniscus::InputBlocks& attenuation, int& number)
+{
+  const bool sameGrids = std::equal(attenuation.Parts.begin(), attenuation.Parts.end(),
+    scalars.Parts.begin(), scalars.Parts.end(),
+    [](const meniscus::InputPart& a, const meniscus::InputPart& b) { return a.Grid == b.Grid; });
+  if (!sameGrids)
+  {
+    return "The attenuation array and the scalar are not in the same data sets";
+  }
+  const int components = attenuation.Parts.front().Scalars->GetNumberOfComponents();
+  if (number != 0 && number != components)
+  {
+    return "The attenuation array has " + std::to_string(components) + " components for " +
+      std::to_string(number) + " energy bins";
+  }
+  number = components;
+  return std::string();
+}
+
 }
 
 /** One execution of the filter. */
@@ -307,27 +381,14 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& request)
 {
-  const auto collect = [input](const char* name, int component, meniscus::InputBlocks& blocks)
+  const bool withArrays = request.Choice.NeedsBinArrays();
+  if (withArrays &&
+    !this->Tell(CollectNamed(input, this->AttenuationArrayName, 0, request.Attenuation)))
   {
-    meniscus::ScalarSelection selection;
-    selection.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
-    selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
-    selection.ArrayName = name;
-    selection.Component = component;
-    meniscus::InputReport report = meniscus::CollectInputBlocks(input, selection, blocks);
-    if (!report.Error.empty())
-    {
-      selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
-      const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
-      // If there is no such array of cells, the error about that of points says more.
-      report = ofCells.Error.empty() ? ofCells : report;
-    }
-    return report;
-  };
-  if (request.Choice.NeedsBinArrays() &&
-    (!this->Tell(collect(this->AttenuationArrayName, 0, request.Attenuation)) ||
-      (this->EmissionArrayName &&
-        !this->Tell(collect(this->EmissionArrayName, 0, request.Emission)))))
+    return false;
+  }
+  if (withArrays && this->EmissionArrayName &&
+    !this->Tell(CollectNamed(input, this->EmissionArrayName, 0, request.Emission)))
   {
     return false;
   }
@@ -335,64 +396,18 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
   {
     request.Scalars = request.Attenuation;
   }
-  else
+  else if (!this->Tell(CollectScalars(
+             input, this->GetInputArrayInformation(0), this->ArrayComponent, request.Scalars)))
   {
-    vtkInformation* wanted = this->GetInputArrayInformation(0);
-    const int association = wanted->Get(vtkDataObject::FIELD_ASSOCIATION());
-    const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-    const bool ofCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    meniscus::ScalarSelection selection;
-    selection.Component =
-      this->ArrayComponent == -1 ? meniscus::ScalarSelection::Magnitude : this->ArrayComponent;
-    meniscus::InputReport report;
-    if (wanted->Has(vtkDataObject::FIELD_NAME()))
-    {
-      selection.ArrayName = wanted->Get(vtkDataObject::FIELD_NAME());
-      selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
-      selection.ScalarMode =
-        ofCells ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
-      report = ofPoints || ofCells
-        ? meniscus::CollectInputBlocks(input, selection, request.Scalars)
-        : collect(selection.ArrayName, selection.Component, request.Scalars);
-    }
-    else
-    {
-      selection.ScalarMode = ofPoints ? VTK_SCALAR_MODE_USE_POINT_DATA
-        : ofCells                     ? VTK_SCALAR_MODE_USE_CELL_DATA
-                                      : VTK_SCALAR_MODE_DEFAULT;
-      report = meniscus::CollectInputBlocks(input, selection, request.Scalars);
-    }
-    if (!this->Tell(report))
-    {
-      return false;
-    }
+    return false;
   }
   if (request.Scalars.Parts.empty())
   {
     return this->TellError("The input has no cells");
   }
   request.Choice.Events.HasBlocks = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
-  const meniscus::InputBlocks& bins = request.Attenuation;
-  meniscus::IntegralChoice& choice = request.Choice;
-  if (!choice.NeedsBinArrays())
-  {
-    return true;
-  }
-  const bool sameGrids = std::equal(bins.Parts.begin(), bins.Parts.end(),
-    request.Scalars.Parts.begin(), request.Scalars.Parts.end(),
-    [](const meniscus::InputPart& a, const meniscus::InputPart& b) { return a.Grid == b.Grid; });
-  if (!sameGrids)
-  {
-    return this->TellError("The attenuation array and the scalar are not in the same data sets");
-  }
-  const int components = bins.Parts.front().Scalars->GetNumberOfComponents();
-  if (choice.NumberOfBins != 0 && choice.NumberOfBins != components)
-  {
-    return this->TellError("The attenuation array has " + std::to_string(components) +
-      " components for " + std::to_string(choice.NumberOfBins) + " energy bins");
-  }
-  choice.NumberOfBins = components;
-  return true;
+  return !withArrays ||
+    this->TellError(CountBins(request.Scalars, request.Attenuation, request.Choice.NumberOfBins));
 }
 
 //------------------------------------------------------------------------------
@@ -409,7 +424,15 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
     this->UpdateProgress(ShareOfMesh * fraction);
     return !this->GetAbortExecute();
   };
-  if (!this->Tell(input.UpdateMesh(meshOf, goOn)) || this->GetAbortExecute())
+  const int component = request.BinsAlone ? 0
+    : this->ArrayComponent == -1          ? meniscus::ScalarSelection::Magnitude
+                                          : this->ArrayComponent;
+  meniscus::DivisionRequest division;
+  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionPlaceTolerance,
+    this->DivisionScalarTolerance, this->MaximumNumberOfPieces };
+  division.Fields = request.Scalars;
+  division.Component = component;
+  if (!this->Tell(input.UpdateMesh(meshOf, goOn, division)) || this->GetAbortExecute())
   {
     return false;
   }
@@ -423,9 +446,6 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
   internals.Property.Reduce(usesProperty ? this->VolumeProperty.Get() : internals.NoProperty.Get(),
     hasSurfaces ? meniscus::BlendMode::Isosurfaces : meniscus::BlendMode::Composite,
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, meniscus::ComponentMixture::None, 1);
-  const int component = request.BinsAlone ? 0
-    : this->ArrayComponent == -1          ? meniscus::ScalarSelection::Magnitude
-                                          : this->ArrayComponent;
   if (!this->Tell(input.UpdateScalars(request.Scalars, component,
         usesProperty ? internals.Property.GetFeatures() : internals.NoFeatures)))
   {

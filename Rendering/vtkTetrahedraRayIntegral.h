@@ -151,6 +151,53 @@ public:
   vtkGetVector2Macro(ImageSize, int);
   /** @} */
 
+  /** Division of cells that are not linear tetrahedra. */
+  enum CellDivisions
+  {
+    FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
+    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within tolerances
+  };
+
+  /** @{ */
+  /**
+   * Set/Get the division of cells. FIXED_DIVISION, the default, adds no points: the scalar is
+   * linear in each of the tetrahedra, whose edges can be seen in hexahedra. ADAPTIVE_DIVISION
+   * halves edges until the tetrahedra follow VTK's shape functions of the cells (voxels, hexahedra,
+   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerances, without cracks
+   * between neighbours. Cells are divided when the mesh is built, and again only if moved points or
+   * other scalars exceed twice the tolerances; otherwise the values of the new points are
+   * interpolated. See Documentation/true-cells.md.
+   */
+  vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+  vtkGetMacro(CellDivision, int);
+  void SetCellDivisionToFixed() { this->SetCellDivision(FIXED_DIVISION); }
+  void SetCellDivisionToAdaptive() { this->SetCellDivision(ADAPTIVE_DIVISION); }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the tolerances of ADAPTIVE_DIVISION in the edges of the tetrahedra: the largest
+   * distance of the curved edge from the straight one, as a fraction of the diagonal of the input's
+   * bounds (default 1e-5); and the largest difference of the scalar from its linear interpolation,
+   * as a fraction of the range of its finite values (default 5e-5). They must be positive;
+   * otherwise it is an error.
+   */
+  vtkSetMacro(DivisionPlaceTolerance, double);
+  vtkGetMacro(DivisionPlaceTolerance, double);
+  vtkSetMacro(DivisionScalarTolerance, double);
+  vtkGetMacro(DivisionScalarTolerance, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes. If the tolerances take
+   * more, it is an error. While cells are divided, a tetrahedron takes up to 250 bytes. Default is
+   * 2^25, some 34 million.
+   */
+  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
+  /** @} */
+
   /** @{ */
   /**
    * Set/Get the component of the scalar, from 0, or -1 for the length of its tuples. Arrays of one
@@ -360,6 +407,19 @@ public:
   vtkTypeInt64 GetNumberOfCasts();
   /** @} */
 
+  /** @{ */
+  /**
+   * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
+   * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
+   * that are folded inside out in parts, and edges that exceed the tolerances after 23 divisions. A
+   * warning reports the last two if they are not 0.
+   */
+  vtkTypeInt64 GetNumberOfTetrahedra();
+  vtkTypeInt64 GetNumberOfCellDivisions();
+  vtkTypeInt64 GetNumberOfFoldedCells();
+  vtkTypeInt64 GetNumberOfUnresolvedEdges();
+  /** @} */
+
   /**
    * Number of times that the input's cells were looked up for events since construction: once per
    * mesh.
@@ -411,6 +471,10 @@ private:
   bool ComputeView(Request& request);
   bool Measure(Request& request, vtkDataObject* input, vtkImageData* output);
 
+  int CellDivision = FIXED_DIVISION;
+  double DivisionPlaceTolerance = 1e-5;
+  double DivisionScalarTolerance = 5e-5;
+  vtkTypeInt64 MaximumNumberOfPieces = 33554432;
   int FrameMode = FITTED;
   double Direction[3] = { 0.0, 0.0, -1.0 };
   double ViewUp[3] = { 0.0, 1.0, 0.0 };

@@ -249,9 +249,41 @@ vtkMTimeType vtkTetrahedraRayIntegral::GetMTime()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTetrahedra()
+{
+  return this->Internals->Input.GetMesh().GetNumberOfCells();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCellDivisions()
+{
+  return this->Internals->Input.GetDivision().GetNumberOfDivisions();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfFoldedCells()
+{
+  return this->Internals->Input.GetDivision().GetCounts().FoldedCells;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfUnresolvedEdges()
+{
+  return this->Internals->Input.GetDivision().GetCounts().UnresolvedEdges;
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "CellDivision: " << this->CellDivision << "\n";
+  os << indent << "DivisionPlaceTolerance: " << this->DivisionPlaceTolerance << "\n";
+  os << indent << "DivisionScalarTolerance: " << this->DivisionScalarTolerance << "\n";
+  os << indent << "MaximumNumberOfPieces: " << this->MaximumNumberOfPieces << "\n";
+  os << indent << "NumberOfTetrahedra: " << this->GetNumberOfTetrahedra() << "\n";
+  os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
+  os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
+  os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
   const auto vector = [&os, indent](const char* name, const double(&values)[3]) {
     os << indent << name << ": (" << values[0] << ", " << values[1] << ", " << values[2] << ")\n";
   };

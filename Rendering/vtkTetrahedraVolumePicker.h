@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTetrahedraVolumePicker
- * @brief   picks volumes of vtkTetrahedraRayCastMapper by what is seen in a pixel
+ * @brief   picks volumes of vtkTetrahedraRayCastMapper by the part that is seen in a pixel
  *
  * Pick() casts the ray of one pixel through each volume of the renderer whose mapper is a
  * vtkTetrahedraRayCastMapper, and finds three places on it. Their meaning follows the mapper's

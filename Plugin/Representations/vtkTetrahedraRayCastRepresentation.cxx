@@ -441,6 +441,24 @@ void vtkTetrahedraRayCastRepresentation::SetGradients(int location)
 }
 
 //------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetCellDivision(int division)
+{
+  this->Mapper->SetCellDivision(division);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetDivisionPlaceTolerance(double tolerance)
+{
+  this->Mapper->SetDivisionPlaceTolerance(tolerance);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetDivisionScalarTolerance(double tolerance)
+{
+  this->Mapper->SetDivisionScalarTolerance(tolerance);
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetEarlyTerminationOpacity(double opacity)
 {
   this->Mapper->SetEarlyTerminationOpacity(opacity);
@@ -468,6 +486,31 @@ void vtkTetrahedraRayCastRepresentation::SetMaximumImageSampleDistance(double di
 void vtkTetrahedraRayCastRepresentation::SetCompactTables(bool compact)
 {
   this->Mapper->SetCompactTables(compact);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMediumModel(int model)
+{
+  this->Mapper->SetMediumModel(model);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMediumAttenuationCoefficients(
+  double red, double green, double blue)
+{
+  this->Mapper->SetMediumAttenuationCoefficients(red, green, blue);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMediumRange(double begin, double end)
+{
+  this->Mapper->SetMediumRange(begin, end);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMediumColor(double red, double green, double blue)
+{
+  this->Mapper->SetMediumColor(red, green, blue);
 }
 
 //------------------------------------------------------------------------------

@@ -72,6 +72,9 @@ public:
   void SetPreIntegrationLengthSize(int size);
   void SetOpacityModel(int model);
   void SetGradients(int location);
+  void SetCellDivision(int division);
+  void SetDivisionPlaceTolerance(double tolerance);
+  void SetDivisionScalarTolerance(double tolerance);
   void SetEarlyTerminationOpacity(double opacity);
   void SetAutoAdjustSampleDistances(bool adjust);
   void SetImageSampleDistance(double distance);
@@ -83,6 +86,14 @@ public:
   /** Indices of refraction of a single membrane. */
   void SetExteriorIndexOfRefraction(double index);
   void SetInteriorIndexOfRefraction(double index);
+  /** @} */
+
+  /** @{ */
+  /** Medium behind the membrane; forwarded to the mapper. */
+  void SetMediumModel(int model);
+  void SetMediumAttenuationCoefficients(double red, double green, double blue);
+  void SetMediumRange(double begin, double end);
+  void SetMediumColor(double red, double green, double blue);
   /** @} */
 
   /** @{ */

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Interface of what casts the rays of vtkTetrahedraRayCastMapper. A backend gets the mapper's
- * tables and the rays of a frame and fills an image; a presenter blends that into the window. See
- * Documentation/extending.md for the steps, RayCastBackendRegistry.h for the registration.
+ * Interface of the classes that cast the rays of vtkTetrahedraRayCastMapper. A backend gets the
+ * mapper's tables and the rays of a frame and fills an image; a presenter blends that into the
+ * window. See Documentation/extending.md for the steps, RayCastBackendRegistry.h for the
+ * registration.
  */
 #ifndef meniscus_Rendering_Backends_RayCastBackend_h
 #define meniscus_Rendering_Backends_RayCastBackend_h
@@ -214,7 +215,7 @@ public:
   virtual ~RayCastResources() = default;
   virtual RayCastCounters GetCounters() { return RayCastCounters(); }
   /**
-   * Frees what is on the graphics device; the next frame makes it again.
+   * Frees all objects on the graphics device; the next frame makes them again.
    * @param window  null for the window last drawn to.
    */
   virtual void ReleaseGraphicsResources(vtkWindow* window) { static_cast<void>(window); }
@@ -240,7 +241,7 @@ public:
    * equal frame needs no Cast(): the image of the last one is shown again.
    */
   virtual bool IsRepeatable() const { return false; }
-  /** Makes what it needs of tables that changed. Called before Cast(). */
+  /** Makes the objects it needs from tables that changed. Called before Cast(). */
   virtual std::string Update(const RayCastRequest& request)
   {
     static_cast<void>(request);

@@ -64,35 +64,67 @@ struct ValueRange
 }
 
 //------------------------------------------------------------------------------
-ConcatenatedArray::ConcatenatedArray(const InputBlocks& input, int component)
+ConcatenatedArray::ConcatenatedArray(
+  const InputBlocks& input, int component, const WeightedPoints* points)
   : Input(input)
   , Component(component == ScalarSelection::Only ? 0 : component)
+  , Points(points)
 {
   std::int64_t next = 0;
   for (const InputPart& part : input.Parts)
   {
     this->Firsts.push_back(next);
     next += part.Scalars->GetNumberOfTuples();
+    this->MostComponents = std::max(this->MostComponents, part.Scalars->GetNumberOfComponents());
   }
 }
 
 //------------------------------------------------------------------------------
-double ConcatenatedArray::operator()(std::int32_t number) const
+double ConcatenatedArray::ValueOf(std::int32_t number, int component) const
 {
   const auto after = std::upper_bound(this->Firsts.begin() + 1, this->Firsts.end(), number);
   const auto part = static_cast<std::size_t>(after - this->Firsts.begin()) - 1;
   vtkDataArray* array = this->Input.Parts[part].Scalars;
   const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
-  return this->Component == ScalarSelection::Magnitude
+  return component == ScalarSelection::Magnitude
     ? LengthOf(array, tuple)
-    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : this->Component);
+    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : component);
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> GatherValues(
-  const InputBlocks& input, int component, const std::vector<std::int32_t>& numbers)
+/** Length of the interpolated tuple, which is not the interpolated length. */
+double ConcatenatedArray::InterpolatedLength(std::int32_t number) const
 {
-  const ConcatenatedArray valueOf(input, component);
+  double length = 0.0;
+  for (int component = 0; component < this->MostComponents; ++component)
+  {
+    length = std::hypot(length,
+      this->Points->Interpolate(
+        number, [this, component](std::int32_t point) { return this->ValueOf(point, component); }));
+  }
+  return length;
+}
+
+//------------------------------------------------------------------------------
+double ConcatenatedArray::operator()(std::int32_t number) const
+{
+  if (!this->Points || number < this->Points->GetFirstPoint())
+  {
+    return this->ValueOf(number, this->Component);
+  }
+  if (this->Component == ScalarSelection::Magnitude && this->MostComponents > 1)
+  {
+    return this->InterpolatedLength(number);
+  }
+  return this->Points->Interpolate(
+    number, [this](std::int32_t point) { return this->ValueOf(point, this->Component); });
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> GatherValues(const InputBlocks& input, int component,
+  const std::vector<std::int32_t>& numbers, const WeightedPoints* points)
+{
+  const ConcatenatedArray valueOf(input, component, points);
   std::vector<double> values(numbers.size());
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)

@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Input_ConcatenatedArray_h
 
 #include "Rendering/Input/InputBlocks.h"
+#include "Volume/Division/WeightedPoints.h"
 #include "Volume/Optics/ScalarNormalization.h"
 
 #include <cstdint>
@@ -19,20 +20,29 @@ public:
   /**
    * @param component as in ScalarSelection; the first one for Only. For an array of one component,
    *   it is ignored.
+   * @param points interpolated points, with numbers after those of the arrays; null if there are
+   *   none. Must outlive this object.
    */
-  ConcatenatedArray(const InputBlocks& input, int component);
+  ConcatenatedArray(
+    const InputBlocks& input, int component, const WeightedPoints* points = nullptr);
 
   double operator()(std::int32_t number) const;
 
 private:
+  double ValueOf(std::int32_t number, int component) const;
+  double InterpolatedLength(std::int32_t number) const;
+
   const InputBlocks& Input;
   int Component;
+  const WeightedPoints* Points;
+  /** Largest number of components. */
+  int MostComponents = 1;
   std::vector<std::int64_t> Firsts;
 };
 
-/** Values with the given indices, as stored in the arrays. */
-std::vector<double> GatherValues(
-  const InputBlocks& input, int component, const std::vector<std::int32_t>& numbers);
+/** Values with the given indices, as stored in the arrays, or interpolated. */
+std::vector<double> GatherValues(const InputBlocks& input, int component,
+  const std::vector<std::int32_t>& numbers, const WeightedPoints* points);
 
 /** The finite values of a list. */
 struct FiniteValues

@@ -5,6 +5,7 @@
 #include "Rendering/Common/VTKVersions.h"
 
 #include "Common/BlockLoop.h"
+#include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/GridLayout.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -165,6 +166,7 @@ struct TetrahedraSource::Part
   /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
+  CellPoints Used = CellPoints::All;
 
   void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
 
@@ -201,7 +203,13 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
   constexpr vtkIdType mostPoints = 20;
   std::array<std::int64_t, mostPoints> points{};
   grid->GetCellPoints(cell, ids);
-  const vtkIdType size = ids->GetNumberOfIds();
+  vtkIdType size = ids->GetNumberOfIds();
+  const CellShape shape = this->Used == CellPoints::Corners ? ShapeOf(type) : CellShape();
+  if (shape.IsKnown() && size >= shape.NumberOfCorners)
+  {
+    type = shape.LinearType;
+    size = shape.NumberOfCorners;
+  }
   for (vtkIdType i = 0; i < std::min(size, mostPoints); ++i)
   {
     points[i] = this->FirstPoint + ids->GetId(i);
@@ -305,7 +313,8 @@ bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
 }
 
 //------------------------------------------------------------------------------
-TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+TetrahedraSource::TetrahedraSource(
+  const std::vector<vtkDataSet*>& grids, const RangeLoop& loop, CellPoints used)
   : Points(grids, loop)
 {
   this->View.Points = this->Points.GetView();
@@ -318,7 +327,7 @@ TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const 
   }
   else
   {
-    this->Tetrahedralize(grids, loop);
+    this->Tetrahedralize(grids, loop, used);
   }
 }
 
@@ -350,7 +359,8 @@ void TetrahedraSource::ViewTetrahedra(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
-void TetrahedraSource::Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+void TetrahedraSource::Tetrahedralize(
+  const std::vector<vtkDataSet*>& grids, const RangeLoop& loop, CellPoints used)
 {
   std::vector<Part> parts;
   std::int64_t firstPoint = 0;
@@ -369,6 +379,7 @@ void TetrahedraSource::Tetrahedralize(const std::vector<vtkDataSet*>& grids, con
         Part& part = parts[firstPart + block];
         part.FirstPoint = firstPoint;
         part.FirstCell = firstCell;
+        part.Used = used;
         part.AddBlock(grid, first, last);
       });
     firstPoint += grid->GetNumberOfPoints();

@@ -19,6 +19,14 @@ class vtkUnstructuredGrid;
 namespace meniscus
 {
 
+/** Points of cells that become points of tetrahedra. */
+enum class CellPoints
+{
+  All,
+  /** The corners only, for cells with shape functions (see ShapeOf()). */
+  Corners
+};
+
 /**
  * Cells of data sets as tetrahedra: a view of the stored cells if the input is one
  * vtkUnstructuredGrid of tetrahedra, otherwise arrays of its own. Points and cells of several data
@@ -32,7 +40,8 @@ public:
    * @pre according to MeasureGrids(), 32 bits are enough for the indices of points, cells and
    *   tetrahedra.
    */
-  TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
+  TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop,
+    CellPoints used = CellPoints::All);
 
   const TetrahedraView& GetView() const { return this->View; }
 
@@ -48,7 +57,8 @@ private:
   struct Part;
 
   void ViewTetrahedra(vtkUnstructuredGrid* grid);
-  void Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
+  void Tetrahedralize(
+    const std::vector<vtkDataSet*>& grids, const RangeLoop& loop, CellPoints used);
   void TakeParts(const std::vector<Part>& parts, const RangeLoop& loop);
 
   PointsSource Points;

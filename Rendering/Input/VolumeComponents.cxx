@@ -50,13 +50,14 @@ std::vector<int> OtherScalars(ComponentMixture mixture, int components)
  * Sets all values of a vertex to NaN if one component is not finite, the main one included. Returns
  * the number of such vertices.
  */
-std::int64_t MarkUnknown(const std::vector<std::int32_t>& points, const InputBlocks& parts,
-  int components, std::vector<glm::vec3>& values)
+std::int64_t MarkUnknown(const VolumeInput& input, const InputBlocks& parts, int components,
+  std::vector<glm::vec3>& values)
 {
+  const std::vector<std::int32_t>& points = input.GetMesh().GetSourcePoints();
   std::vector<ConcatenatedArray> valuesOf;
   for (int c = 0; c < components; ++c)
   {
-    valuesOf.emplace_back(parts, c);
+    valuesOf.emplace_back(parts, c, input.GetInterpolatedPoints(FieldAssociation::Points));
   }
   std::atomic<std::int64_t> unknown(0);
   vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
@@ -109,8 +110,8 @@ InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks
     if (this->BuiltFeatures != features.Version && this->ChooseNormalizations(features, true))
     {
       this->Version.Bump();
-      this->TakeScalars(mesh, parts);
-      MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
+      this->TakeScalars(input, parts);
+      MarkUnknown(input, parts, this->NumberOfComponents, this->Values);
     }
     return report;
   }
@@ -128,17 +129,18 @@ InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks
   this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
   if (mixture == ComponentMixture::RedGreenBlueOpacity)
   {
-    this->TakeColors(mesh, parts);
+    this->TakeColors(input, parts);
   }
   for (std::size_t other = 0; other < this->Others.size(); ++other)
   {
     this->Distributions[other] =
-      FiniteValues(GatherValues(parts, this->Others[other], mesh.GetSourcePoints())).Distribution;
+      FiniteValues(GatherValues(parts, this->Others[other], mesh.GetSourcePoints(),
+                     input.GetInterpolatedPoints(FieldAssociation::Points)))
+        .Distribution;
   }
   this->ChooseNormalizations(features, false);
-  this->TakeScalars(mesh, parts);
-  const std::int64_t unknown =
-    MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
+  this->TakeScalars(input, parts);
+  const std::int64_t unknown = MarkUnknown(input, parts, this->NumberOfComponents, this->Values);
   if (unknown > 0)
   {
     report.Warning = std::to_string(unknown) + " of " + std::to_string(this->Values.size()) +
@@ -168,12 +170,13 @@ bool VolumeComponents::ChooseNormalizations(const FunctionFeatures& features, bo
 }
 
 //------------------------------------------------------------------------------
-void VolumeComponents::TakeScalars(const TetrahedralMesh& mesh, const InputBlocks& parts)
+void VolumeComponents::TakeScalars(const VolumeInput& input, const InputBlocks& parts)
 {
-  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  const std::vector<std::int32_t>& points = input.GetMesh().GetSourcePoints();
   for (std::size_t other = 0; other < this->Others.size(); ++other)
   {
-    const ConcatenatedArray valueOf(parts, this->Others[other]);
+    const ConcatenatedArray valueOf(
+      parts, this->Others[other], input.GetInterpolatedPoints(FieldAssociation::Points));
     const ScalarNormalization& normalization = this->Normalizations[other];
     const auto at = static_cast<int>(other);
     vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
@@ -188,13 +191,14 @@ void VolumeComponents::TakeScalars(const TetrahedralMesh& mesh, const InputBlock
 }
 
 //------------------------------------------------------------------------------
-void VolumeComponents::TakeColors(const TetrahedralMesh& mesh, const InputBlocks& parts)
+void VolumeComponents::TakeColors(const VolumeInput& input, const InputBlocks& parts)
 {
-  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  const std::vector<std::int32_t>& points = input.GetMesh().GetSourcePoints();
+  const WeightedPoints* interpolated = input.GetInterpolatedPoints(FieldAssociation::Points);
   const double scale = 1.0 / FullIntensity(parts);
-  const ConcatenatedArray red(parts, 0);
-  const ConcatenatedArray green(parts, 1);
-  const ConcatenatedArray blue(parts, 2);
+  const ConcatenatedArray red(parts, 0, interpolated);
+  const ConcatenatedArray green(parts, 1, interpolated);
+  const ConcatenatedArray blue(parts, 2, interpolated);
   vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
     [&](vtkIdType first, vtkIdType last)
     {

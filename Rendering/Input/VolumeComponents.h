@@ -54,8 +54,8 @@ public:
 
 private:
   bool ChooseNormalizations(const FunctionFeatures& features, bool keep);
-  void TakeScalars(const TetrahedralMesh& mesh, const InputBlocks& parts);
-  void TakeColors(const TetrahedralMesh& mesh, const InputBlocks& parts);
+  void TakeScalars(const VolumeInput& input, const InputBlocks& parts);
+  void TakeColors(const VolumeInput& input, const InputBlocks& parts);
 
   ComponentMixture Mixture = ComponentMixture::None;
   int NumberOfComponents = 1;

@@ -19,7 +19,8 @@ void VolumeGradients::Update(const VolumeInput& input, const InputBlocks& parts)
     return;
   }
   const std::vector<double> scalars =
-    GatherValues(parts, input.GetComponent(), input.GetSources(FieldAssociation::Points));
+    GatherValues(parts, input.GetComponent(), input.GetSources(FieldAssociation::Points),
+      input.GetInterpolatedPoints(FieldAssociation::Points));
   const double scale = input.GetNormalization().GradientScale;
   this->Values = this->Place == FieldAssociation::Points
     ? ComputeVertexGradients(input.GetMesh(), scalars, scale, ThreadedLoop)

@@ -33,45 +33,82 @@ std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateMesh(
-  const InputBlocks& input, const std::function<bool(double)>& progress)
+InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
+  const std::function<bool(double)>& progress, const DivisionRequest& division)
 {
+  InputReport report;
+  report.Error = division.Settings.DescribeFault();
+  if (!report.Error.empty())
+  {
+    return report;
+  }
   const bool newCells =
     this->CellWatch.HasChanged(CellVersions(input), [&input]() { return DigestCells(input); });
   const bool newPoints =
     this->PointWatch.HasChanged(PointVersions(input), [&input]() { return DigestPoints(input); });
+  const bool newFields = this->HasNewFields(division);
   const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
-  if (!newCells && !newPoints && !lacksSources)
+  const bool newDivision = !(division.Settings == this->BuiltDivision);
+  if (!newCells && !newPoints && !newFields && !lacksSources && !newDivision)
   {
-    return InputReport();
+    return report;
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  const std::vector<vtkDataSet*> grids = GridsOf(input);
-  const bool moved = !newCells && !lacksSources && this->MovePoints(grids);
-  return moved ? InputReport() : this->BuildMesh(grids, progress);
+  const bool sameCells = !newCells && !lacksSources && !newDivision;
+  const bool holds = sameCells &&
+    (!this->Divided.IsUsed() || this->Divided.Holds(division, ThreadedLoop)) &&
+    (!newPoints || this->MovePoints(input));
+  return holds ? report : this->BuildMesh(GridsOf(input), progress, division);
+}
+
+//------------------------------------------------------------------------------
+/** True if the scalars that an adaptive division depends on have changed. */
+bool VolumeInput::HasNewFields(const DivisionRequest& division)
+{
+  if (!division.Settings.IsAdaptive)
+  {
+    return false;
+  }
+  const InputBlocks& fields = division.Fields;
+  const bool changed = this->FieldWatch.HasChanged(
+    ScalarVersions(fields), [&fields]() { return DigestScalars(fields); });
+  const bool same =
+    !changed && fields.Place == this->DividedPlace && division.Component == this->DividedComponent;
+  this->DividedPlace = fields.Place;
+  this->DividedComponent = division.Component;
+  return !same;
 }
 
 //------------------------------------------------------------------------------
 /** Moves the vertices. Returns false if the mesh must be built. */
-bool VolumeInput::MovePoints(const std::vector<vtkDataSet*>& grids)
+bool VolumeInput::MovePoints(const InputBlocks& input)
 {
   if (this->SplitsByPosition)
   {
     return false;
   }
-  const PointsSource points(grids, ThreadedLoop);
-  if (!this->Mesh.MovePoints(points.GetView(), ThreadedLoop))
+  bool moved = false;
+  if (this->Divided.IsUsed())
   {
-    return false;
+    const std::vector<double> positions = this->Divided.ComputePositions(input, ThreadedLoop);
+    moved = this->Mesh.MovePoints(positions.data(), ThreadedLoop);
   }
-  this->MeshVersion.Bump();
-  ++this->PointUpdates;
-  return true;
+  else
+  {
+    const PointsSource points(GridsOf(input), ThreadedLoop);
+    moved = this->Mesh.MovePoints(points.GetView(), ThreadedLoop);
+  }
+  if (moved)
+  {
+    this->MeshVersion.Bump();
+    ++this->PointUpdates;
+  }
+  return moved;
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::BuildMesh(
-  const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress)
+InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
+  const std::function<bool(double)>& progress, const DivisionRequest& division)
 {
   this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
@@ -79,6 +116,8 @@ InputReport VolumeInput::BuildMesh(
   this->MeshVersion.Bump();
   this->LinkVersion.Bump();
   this->InputCells = std::vector<std::int32_t>();
+  this->BuiltDivision = division.Settings;
+  this->Divided.Clear();
 
   InputReport report;
   std::ostringstream text;
@@ -93,22 +132,84 @@ InputReport VolumeInput::BuildMesh(
     report.Error = text.str();
     return report;
   }
-  const TetrahedraSource gridView(grids, ThreadedLoop);
-  TetrahedraView view = gridView.GetView();
-  view.KeepSourceCells = this->KeepsSourceCells;
   MeshBuildControl control;
   control.Loop = ThreadedLoop;
   control.Progress = progress;
+  if (!division.Settings.IsAdaptive)
+  {
+    return this->BuildFromCells(grids, control);
+  }
+  const DivisionStatus status =
+    this->Divided.Divide(division, ThreadedLoop, [&progress]() { return progress(0.0); });
+  if (status == DivisionStatus::Ok)
+  {
+    return this->Divided.IsUsed() ? this->BuildDivided(control)
+                                  : this->BuildFromCells(grids, control);
+  }
+  this->Mesh = TetrahedralMesh();
+  this->Divided.Clear();
+  if (status == DivisionStatus::Aborted)
+  {
+    this->CellWatch.Forget(); // the next call starts again
+    return report;
+  }
+  text << "The division of the cells to the tolerances takes more than "
+       << division.Settings.MostPieces
+       << " tetrahedra, the maximum number of pieces, or more than 2^31 points";
+  report.Error = text.str();
+  return report;
+}
+
+//------------------------------------------------------------------------------
+/** Builds the mesh of cells that are split between their points. */
+InputReport VolumeInput::BuildFromCells(
+  const std::vector<vtkDataSet*>& grids, const MeshBuildControl& control)
+{
+  InputReport report;
+  const TetrahedraSource source(grids, ThreadedLoop);
+  this->BuildTables(source.GetView(), control, source.DescribeOmitted(), report);
+  this->SplitsByPosition = source.SplitsByPosition();
+  return report;
+}
+
+//------------------------------------------------------------------------------
+/** Builds the mesh of the divided cells. */
+InputReport VolumeInput::BuildDivided(const MeshBuildControl& control)
+{
+  // Cells of the input are known for each piece: looking them up would take another division.
+  this->KeepsSourceCells = true;
+  InputReport report;
+  const DivisionCounts& counts = this->Divided.GetCounts();
+  if (counts.UnresolvedEdges > 0)
+  {
+    report.Warning = std::to_string(counts.UnresolvedEdges) +
+      " edges of cells are not divided to the tolerances. ";
+  }
+  if (counts.FoldedCells > 0)
+  {
+    report.Warning += std::to_string(counts.FoldedCells) +
+      " cells are folded inside out in parts, where their pieces overlap. ";
+  }
+  this->BuildTables(this->Divided.GetView(), control, this->Divided.GetOmitted(), report);
+  this->Divided.FreeView();
+  this->SplitsByPosition = this->Divided.SplitsByPosition();
+  return report;
+}
+
+//------------------------------------------------------------------------------
+void VolumeInput::BuildTables(TetrahedraView view, const MeshBuildControl& control,
+  const std::string& omitted, InputReport& report)
+{
+  view.KeepSourceCells = this->KeepsSourceCells;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
     this->CellWatch.Forget(); // the next call starts again
   }
-  this->SplitsByPosition = gridView.SplitsByPosition();
-  const std::string omitted = gridView.DescribeOmitted();
+  std::ostringstream text;
+  text << report.Warning;
   if (!omitted.empty())
   {
     text << "Cells that are not drawn, because of their type: " << omitted << ". ";
-    report.Warning = text.str();
   }
   const RejectedCells& rejected = this->Mesh.GetRejectedCells();
   if (rejected.Total() > 0)
@@ -119,9 +220,8 @@ InputReport VolumeInput::BuildMesh(
          << " with a repeated point, " << rejected.PointNotFinite
          << " with a point that is not finite, " << rejected.Duplicate
          << " equal to earlier cells.";
-    report.Warning = text.str();
   }
-  return report;
+  report.Warning = text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -142,7 +242,8 @@ InputReport VolumeInput::UpdateScalars(
   std::vector<double> values;
   if (!same)
   {
-    values = GatherValues(input, component, this->GetSources(input.Place));
+    values = GatherValues(
+      input, component, this->GetSources(input.Place), this->GetInterpolatedPoints(input.Place));
     const FiniteValues finite(values);
     this->Distribution = finite.Distribution;
     if (finite.NotFinite > 0)
@@ -161,7 +262,8 @@ InputReport VolumeInput::UpdateScalars(
   this->Normalization = normalization;
   if (same)
   {
-    values = GatherValues(input, component, this->GetSources(input.Place));
+    values = GatherValues(
+      input, component, this->GetSources(input.Place), this->GetInterpolatedPoints(input.Place));
   }
   this->Scalars.clear();
   this->CellScalars.clear();
@@ -279,7 +381,8 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
 std::int64_t VolumeInput::GetBytes() const
 {
   return this->Mesh.GetBytes() + BytesOf(this->Scalars) + BytesOf(this->CellScalars) +
-    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces()) + BytesOf(this->InputCells);
+    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces()) + BytesOf(this->InputCells) +
+    this->Divided.GetBytes();
 }
 
 //------------------------------------------------------------------------------

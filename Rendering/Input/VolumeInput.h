@@ -5,6 +5,7 @@
 
 #include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
+#include "Rendering/Input/DividedCells.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -33,10 +34,14 @@ public:
    * counts as the same; if only points have moved, the cells and their links are kept. Scalars of
    * cells need 4 more bytes per cell, which are kept from then on; a mesh without them is built
    * again.
+   *
+   * With an adaptive division, cells are divided when the mesh is built. The division is kept as
+   * long as it holds (see DividedCells::Holds()) for other points and for other scalars.
    * @param progress called with the fraction done; returns false to abort, which leaves no mesh and
    *   no report.
    */
-  InputReport UpdateMesh(const InputBlocks& input, const std::function<bool(double)>& progress);
+  InputReport UpdateMesh(const InputBlocks& input, const std::function<bool(double)>& progress,
+    const DivisionRequest& division);
 
   /**
    * Updates the scalars of the mesh, normalised for a function. Another function costs nothing
@@ -80,6 +85,14 @@ public:
   const ScalarDistribution& GetDistribution() const { return this->Distribution; }
   /** The range of the data, normalised. */
   ScalarRange GetNormalizedRange() const;
+  /** Points of the mesh whose scalars are interpolated; null if there are none. */
+  const WeightedPoints* GetInterpolatedPoints(FieldAssociation place) const
+  {
+    return place == FieldAssociation::Points && this->Divided.IsUsed() ? &this->Divided.GetPoints()
+                                                                       : nullptr;
+  }
+  /** Division of the cells into tetrahedra; not used unless it is adaptive. */
+  const DividedCells& GetDivision() const { return this->Divided; }
   /** Index of the input's scalar for each vertex, or for each cell of the mesh. */
   const std::vector<std::int32_t>& GetSources(FieldAssociation place) const;
   /**
@@ -118,9 +131,15 @@ public:
   TableVersions GetBoundaryVersions() const { return { this->LinkVersion, this->MeshVersion }; }
 
 private:
-  InputReport BuildMesh(
-    const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress);
-  bool MovePoints(const std::vector<vtkDataSet*>& grids);
+  InputReport BuildMesh(const std::vector<vtkDataSet*>& grids,
+    const std::function<bool(double)>& progress, const DivisionRequest& division);
+  InputReport BuildFromCells(
+    const std::vector<vtkDataSet*>& grids, const MeshBuildControl& control);
+  InputReport BuildDivided(const MeshBuildControl& control);
+  void BuildTables(TetrahedraView view, const MeshBuildControl& control, const std::string& omitted,
+    InputReport& report);
+  bool HasNewFields(const DivisionRequest& division);
+  bool MovePoints(const InputBlocks& input);
 
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
@@ -135,6 +154,13 @@ private:
   std::vector<VisibleScalars> VisibleOthers;
   /** Version of the values besides the scalars; the default without. */
   TableVersion OthersVersion;
+
+  DividedCells Divided;
+  /** Settings and fields that the cells were divided for. */
+  DivisionSettings BuiltDivision;
+  FieldAssociation DividedPlace = FieldAssociation::Points;
+  int DividedComponent = 0;
+  ContentWatch FieldWatch;
 
   ContentWatch CellWatch;
   ContentWatch PointWatch;

@@ -129,8 +129,8 @@ std::string EnergyBinTables::Read(
   {
     for (int i = 0; i < table.NumberOfBins; ++i)
     {
-      const std::vector<double> values =
-        GatherValues(blocks, table.FirstBin + i, input.GetSources(this->Place));
+      const std::vector<double> values = GatherValues(blocks, table.FirstBin + i,
+        input.GetSources(this->Place), input.GetInterpolatedPoints(this->Place));
       if (!isEmission &&
         std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; }))
       {

@@ -23,11 +23,9 @@
 
 namespace meniscus
 {
-namespace
-{
 
-/** Fragment shader of membranes. */
-std::string MakeSource(bool hasCubeMap)
+//------------------------------------------------------------------------------
+std::string MembraneShaderSource(bool hasCubeMap)
 {
   std::string source = vtkRefractionMembraneFS;
   using Model = MembraneLook::Reflectances;
@@ -39,8 +37,6 @@ std::string MakeSource(bool hasCubeMap)
       define("SCHLICK", static_cast<int>(Model::Schlick)) +
       define("MIRROR", static_cast<int>(Model::Mirror)));
   return source;
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -60,7 +56,7 @@ std::string MembraneComposer::Compose(
   auto& quad = this->Quads[look.CubeMap ? 1 : 0];
   if (!quad)
   {
-    const std::string source = MakeSource(look.CubeMap != nullptr);
+    const std::string source = MembraneShaderSource(look.CubeMap != nullptr);
     quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
   }
   else

@@ -45,6 +45,9 @@ struct MembraneLook
   double RelativeIndex = 1.0;
 };
 
+/** Fragment shader of membranes, with or without a cube map that they reflect. */
+std::string MembraneShaderSource(bool hasCubeMap);
+
 /** Composites the pixels of membranes over the framebuffer: vtkRefractionMembraneFS.glsl. */
 class MembraneComposer
 {

@@ -55,13 +55,13 @@ public:
     const std::function<std::string(RayCastTarget&)>& makeImage);
 
   /**
-   * Writes depths to the depth buffer of the current viewport where they are nearer than what is
-   * there.
+   * Writes depths to the depth buffer of the current viewport where they are nearer than
+   * those there.
    * @param depths window depths of an image of the given size, rows from below; 2 for none.
    */
   std::string WriteDepths(const std::vector<float>& depths, const int size[2]);
 
-  /** Waits until the device has drawn what it was told to. */
+  /** Waits until the device has executed all drawing commands. */
   void Finish();
 
   int GetWidth() const override { return this->Size[0]; }

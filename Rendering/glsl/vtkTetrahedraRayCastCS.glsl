@@ -16,6 +16,8 @@ layout(rg32f, binding = 1) uniform writeonly image2D statisticsImage;
 
 //VTK::TetrahedraWalk::Dec
 
+//VTK::TetrahedraLegs::Dec
+
 //VTK::TetrahedraModel::Dec
 
 uniform sampler2D opaqueDepth;

@@ -17,6 +17,8 @@ in vec2 texCoord;
 
 //VTK::TetrahedraWalk::Dec
 
+//VTK::TetrahedraLegs::Dec
+
 //VTK::TetrahedraModel::Dec
 
 uniform sampler2D opaqueDepth;

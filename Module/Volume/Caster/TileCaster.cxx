@@ -333,7 +333,7 @@ RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* o
   this->SetOptics(work.Job);
   work.Job.Measuring = this->Input.Measuring;
   work.Job.KeepsValues = true;
-  // Nothing hides what is behind it.
+  // It hides nothing.
   workspace.Joined.Clear(BlendMode::AverageIntensity);
   if (IsOfBins(this->Input.Measuring))
   {

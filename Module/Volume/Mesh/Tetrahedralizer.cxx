@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace meniscus
 {
@@ -66,15 +67,14 @@ void Tetrahedralizer::AddFan(std::int64_t apex, const std::int64_t* face, std::s
 //------------------------------------------------------------------------------
 void Tetrahedralizer::AddPolyhedron(const std::int64_t* faces, std::size_t numberOfFaces)
 {
-  if (numberOfFaces == 0 || faces[0] < 1)
-  {
-    return;
-  }
-  std::int64_t apex = faces[1];
+  std::int64_t apex = std::numeric_limits<std::int64_t>::max();
   const std::int64_t* face = faces;
   for (std::size_t f = 0; f < numberOfFaces; ++f, face += 1 + face[0])
   {
-    apex = std::min(apex, *std::min_element(face + 1, face + 1 + face[0]));
+    for (std::int64_t k = 1; k <= face[0]; ++k)
+    {
+      apex = std::min(apex, face[k]);
+    }
   }
   this->AddCone(apex, faces, numberOfFaces);
 }

@@ -1,6 +1,6 @@
 # The blend modes, one line each. From these lines the build makes the enumeration and the table of
 # BlendModels.h, the dispatch to packet models and to parts of the shader, and the list of ParaView.
-# Documentation/extending.md says what else a mode needs.
+# Documentation/extending.md lists the other parts of a mode.
 #
 # meniscus_blend_mode(NAME NUMBER LABEL MODEL PART OPACITY VISIBLE KEPT SUBJECT)
 #   NAME     enumerator of BlendMode; shaders know it as NAME in capitals

@@ -280,7 +280,7 @@ void PreIntegrationTable::Build(const std::vector<TransferFunctionInterval>& fun
   for (int chain = 1; chain <= chains; ++chain)
   {
     const double first = this->GetLength(chain);
-    const double depth = this->LargestAttenuation * first;
+    const double depth = std::min(this->LargestAttenuation * first, LargestDepth);
     const int doublings =
       depth > SeedDepth ? static_cast<int>(std::ceil(std::log2(depth / SeedDepth))) : 0;
     Slice slice = seed;

@@ -13,9 +13,19 @@ namespace
 /** A value beyond all normalised scalars whose double is still a finite float. */
 constexpr float Beyond = std::numeric_limits<float>::max() / 4.0f;
 
+double Limited(double value)
+{
+  return std::min(std::max(value, -double{ Beyond }), double{ Beyond });
+}
+
 float ToFloat(double value)
 {
-  return static_cast<float>(std::min(std::max(value, -double{ Beyond }), double{ Beyond }));
+  return static_cast<float>(Limited(value));
+}
+
+glm::vec3 ToFloat(const glm::dvec3& value)
+{
+  return { ToFloat(value.x), ToFloat(value.y), ToFloat(value.z) };
 }
 
 TransferFunctionInterval ConstantInterval(
@@ -50,8 +60,10 @@ std::vector<TransferFunctionInterval> BuildIntervals(
     const double width = static_cast<double>(interval.Upper) - interval.Lower;
     if (width > 0.0)
     {
-      interval.AttenuationSlope = ToFloat((b.Attenuation - a.Attenuation) / width);
-      interval.ColorSlope = glm::vec3((b.Color - a.Color) / width);
+      // Between attenuations that are limited themselves, so that none in between is larger.
+      interval.AttenuationSlope =
+        ToFloat((Limited(b.Attenuation) - Limited(a.Attenuation)) / width);
+      interval.ColorSlope = ToFloat((b.Color - a.Color) / width);
     }
     intervals.push_back(interval);
   }

@@ -126,6 +126,7 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
     source, "//VTK::TetrahedraOptions::Dec", ShaderConstants() + RayCastShaderOptions(optics));
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraLegs::Dec", vtkTetrahedraLegs);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraModel::Dec", ModelSource(optics));
   return source;

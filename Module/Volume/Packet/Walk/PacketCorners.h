@@ -29,8 +29,8 @@ struct FaceTurnTable
 };
 
 /**
- * Where the corners A, B, C of a face are in the cell that is entered by it, and what follows when
- * the ray leaves by the face in which the opposite vertex X replaces one of them.
+ * Positions of the corners A, B, C of a face in the cell that is entered by it, and their new
+ * positions if the ray leaves by the face in which the opposite vertex X replaces one of them.
  *
  * Cells and faces order vertices in the same way, so the ranks of A, B and C in the face, a
  * permutation of 0, 1, 2, and the place of X in the cell give the places of A, B and C in the cell:

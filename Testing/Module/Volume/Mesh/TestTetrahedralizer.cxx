@@ -259,3 +259,37 @@ TEST(Tetrahedralizer, QuadraticCellsHaveNoFlatTetrahedra)
     }
   }
 }
+
+//------------------------------------------------------------------------------
+// A face without points has no part in its cell, wherever it is in the list.
+TEST(Tetrahedralizer, FacesWithoutPointsAreNotThere)
+{
+  // A pyramid, whose points are numbered above all sizes of faces.
+  const std::vector<Ids> faces = { { 10, 11, 12, 13 }, { 10, 14, 11 }, { 11, 14, 12 },
+    { 12, 14, 13 }, { 13, 14, 10 } };
+  const auto split = [&faces](std::size_t emptyAt)
+  {
+    Ids stream;
+    for (std::size_t i = 0; i <= faces.size(); ++i)
+    {
+      if (i == emptyAt)
+      {
+        stream.push_back(0);
+      }
+      if (i < faces.size())
+      {
+        stream.push_back(static_cast<std::int64_t>(faces[i].size()));
+        stream.insert(stream.end(), faces[i].begin(), faces[i].end());
+      }
+    }
+    Tetrahedralizer cells;
+    cells.AddPolyhedron(stream.data(), faces.size() + (emptyAt <= faces.size() ? 1 : 0));
+    return cells.GetTetrahedra();
+  };
+  const Ids expected = split(faces.size() + 1);
+  ASSERT_EQ(expected.size(), 8u);
+  for (std::size_t emptyAt = 0; emptyAt <= faces.size(); ++emptyAt)
+  {
+    EXPECT_EQ(split(emptyAt), expected) << emptyAt;
+  }
+}

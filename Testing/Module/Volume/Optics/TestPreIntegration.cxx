@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 using namespace meniscus;
@@ -179,7 +180,11 @@ TEST(PreIntegration, ExtremeFunctionsGiveFiniteTables)
     { { 0.1, 0.0, { 1, 1, 1 } } },
     { { 0.0, 0.0, { 1, 0, 0 } }, { 0.0, huge, { 0, 1, 0 } }, { 0.5, 1.0, { 0, 0, 1 } } },
     { { -50.0, 3.0, { 1, 0, 0 } }, { -40.0, 0.0, { 0, 1, 0 } } },
-    { { 2.0, 1.0, { 1, 0, 0 } }, { 3.0, huge, { 0, 1, 0 } } } };
+    { { 2.0, 1.0, { 1, 0, 0 } }, { 3.0, huge, { 0, 1, 0 } } },
+    // A colour that changes within less than the smallest normal number.
+    { { 0.0, 1.0, { 0, 0, 0 } }, { 1e-43, 1.0, { 0, 1, 0 } } },
+    // An attenuation that exceeds all floats, a long way off.
+    { { -4.0, 4.0, { 1, 0, 0 } }, { 1e9, 1e308, { 0, 1, 0 } } } };
   for (const auto& points : functions)
   {
     for (const int scalars : { 2, 3, 20 })
@@ -198,6 +203,39 @@ TEST(PreIntegration, ExtremeFunctionsGiveFiniteTables)
       }
     }
   }
+}
+
+// The optical depth of the longest segment is beyond the range of double.
+TEST(PreIntegration, EndlessSegmentsAreOpaque)
+{
+  const std::vector<TransferFunctionInterval> function =
+    Intervals({ { -1.0, 1e30, { 1, 0, 0 } }, { 1.0, 1e30, { 0, 1, 0 } } });
+  PreIntegrationTable table;
+  table.Build(function, std::numeric_limits<double>::max(), 3, 4);
+  ASSERT_EQ(table.GetNumberOfLengths(), 4);
+  // The colour at the front is all that the longest segments show.
+  const std::size_t longest = 4 * 9 * 3;
+  for (int front = 0; front < 3; ++front)
+  {
+    for (int back = 0; back < 3; ++back)
+    {
+      const float* value = &table.GetValues()[longest + 4 * (3 * back + front)];
+      EXPECT_NEAR(value[0], 1.0 - 0.5 * front, 1e-5) << front << " " << back;
+      EXPECT_NEAR(value[1], 0.5 * front, 1e-5) << front << " " << back;
+    }
+  }
+}
+
+// Between two points no attenuation is larger than at both, also where these are limited.
+TEST(PreIntegration, LimitedAttenuationsGrowToTheirLimit)
+{
+  const auto function = Intervals({ { -4.0, 4.0, { 1, 0, 0 } }, { 1e9, 1e308, { 0, 1, 0 } } });
+  ASSERT_EQ(function.size(), 3u);
+  const TransferFunctionInterval& ramp = function[1];
+  const double limit = function[2].Attenuation;
+  EXPECT_NEAR(
+    (ramp.Attenuation + (double{ ramp.Upper } - ramp.Lower) * ramp.AttenuationSlope) / limit, 1.0,
+    1e-6);
 }
 
 TEST(PreIntegration, DoesNotDependOnTheThreads)

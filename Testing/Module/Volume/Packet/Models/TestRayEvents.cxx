@@ -162,7 +162,7 @@ TEST(RayEvents, Surfaces)
   EXPECT_EQ(ray.At(FirstVisibleEvent).Surface, 1);
   EXPECT_NEAR(ray.At(FirstVisibleEvent).Depth, 1.0 + 0.5 / 0.75, 1.0e-12);
   EXPECT_LT(ray.At(OpacityReachedEvent).Cell, 0);
-  // 0.7 * 0.8 more: nothing behind can contribute more than what is left.
+  // 0.7 * 0.8 more: nothing behind can contribute more than the rest.
   EXPECT_FALSE(ray.Add(2.0, 3.0, 0.25, 0.75));
   EXPECT_EQ(ray.At(OpacityReachedEvent).Surface, 2);
   EXPECT_EQ(ray.At(LargestContributionEvent).Surface, 2);

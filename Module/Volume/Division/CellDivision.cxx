@@ -1,0 +1,636 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Division/CellDivision.h"
+
+#include "Common/BlockLoop.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int EdgeEnds[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+constexpr std::uint8_t EveryEdge = 0x3F;
+
+EdgePoints EdgeOf(const CellPiece& piece, int edge)
+{
+  return { piece.Points[static_cast<std::size_t>(EdgeEnds[edge][0])],
+    piece.Points[static_cast<std::size_t>(EdgeEnds[edge][1])] };
+}
+
+/**
+ * Barycentric coordinates of the place that is drawn next to a position: its projection on a
+ * triangle, or itself in a tetrahedron. Those of the middle if the corners span no area or volume.
+ */
+std::array<double, 4> ProjectedOn(
+  const std::array<CellSample, 4>& corners, int count, const glm::dvec3& position)
+{
+  const glm::dvec3 u = corners[1].Position - corners[0].Position;
+  const glm::dvec3 v = corners[2].Position - corners[0].Position;
+  // For a triangle, the third direction is its normal.
+  const glm::dvec3 w = count == 4 ? corners[3].Position - corners[0].Position : glm::cross(u, v);
+  const glm::dmat3 span(u, v, w);
+  const double share = 1.0 / count;
+  std::array<double, 4> weights{ share, share, share, count == 4 ? share : 0.0 };
+  if (glm::determinant(span) != 0.0)
+  {
+    const glm::dvec3 along = glm::inverse(span) * (position - corners[0].Position);
+    const double last = count == 4 ? along.z : 0.0;
+    weights = { 1.0 - along.x - along.y - last, along.x, along.y, last };
+  }
+  return weights;
+}
+
+/** Tests edges, faces and pieces against the limits; for use by one thread. */
+class ShapeTest
+{
+public:
+  ShapeTest(
+    const PointFields& fields, const ShapeFunctionsMaker& functions, const DivisionLimits& limits)
+    : Sampler(fields, functions)
+    , Limits(limits)
+    , NumberOfFields(fields.GetNumberOfFields())
+  {
+  }
+
+  /** Compares an edge with its chord; its ends are sampled first. */
+  bool IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to, int parts)
+  {
+    return this->IsEdgeStraight(
+      cell, from, to, this->Sampler.Sample(cell, from), this->Sampler.Sample(cell, to), parts);
+  }
+
+  /**
+   * Compares an edge with its chord.
+   * @param a, b samples of its ends.
+   * @param parts number of equal parts whose ends are sampled.
+   */
+  bool IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to,
+    const CellSample& a, const CellSample& b, int parts)
+  {
+    const glm::dvec3 chord = b.Position - a.Position;
+    const double square = glm::dot(chord, chord);
+    bool straight = true;
+    for (int i = 1; i < parts && straight; ++i)
+    {
+      const double t = static_cast<double>(i) / parts;
+      const CellSample sample =
+        this->Sampler.Sample(cell, glm::mix(glm::dvec3(from), glm::dvec3(to), t));
+      const glm::dvec3 offset = sample.Position - a.Position;
+      // The place on the chord that is drawn next to the sample.
+      const double along =
+        square > 0.0 ? glm::clamp(glm::dot(offset, chord) / square, 0.0, 1.0) : t;
+      CellSample drawn;
+      drawn.Position = along * chord;
+      for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+      {
+        drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
+      }
+      straight = this->AreClose(sample, drawn, glm::length(offset - drawn.Position));
+    }
+    return straight;
+  }
+
+  /**
+   * Compares the middle of some corners of a piece, 3 or 4 of them, with its linear shape.
+   * @param points samples of all points.
+   */
+  bool IsMiddleStraight(
+    const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points)
+  {
+    std::array<CellSample, 4> samples;
+    glm::dvec3 place(0.0);
+    for (int i = 0; i < count; ++i)
+    {
+      const auto corner = static_cast<std::size_t>(corners[i]);
+      samples[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(piece.Points[corner])];
+      place += glm::dvec3(piece.Places[corner]) / static_cast<double>(count);
+    }
+    const CellSample sample = this->Sampler.Sample(piece.Cell, place);
+    const std::array<double, 4> weights = ProjectedOn(samples, count, sample.Position);
+    CellSample drawn;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+    {
+      drawn.Position += weights[i] * samples[i].Position;
+      for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+      {
+        drawn.Values[field] += weights[i] * samples[i].Values[field];
+      }
+    }
+    return this->AreClose(sample, drawn, glm::length(sample.Position - drawn.Position));
+  }
+
+private:
+  /** Differences that are not finite are not divided: no division would make them smaller. */
+  bool AreClose(const CellSample& sample, const CellSample& drawn, double distance) const
+  {
+    bool close = !(distance > this->Limits.Place);
+    for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+    {
+      const double difference = std::abs(sample.Values[field] - drawn.Values[field]);
+      close = close && !(difference > this->Limits.Values[field] && std::isfinite(difference));
+    }
+    return close;
+  }
+
+  CellSampler Sampler;
+  const DivisionLimits& Limits;
+  std::size_t NumberOfFields;
+};
+
+/**
+ * Number of equal parts whose ends are sampled. The difference of a polynomial of degree d from its
+ * chord, which vanishes at both ends, vanishes everywhere if it does so at d - 1 further places:
+ * three for the cubic along a trilinear cell's diagonal. Along the diagonal of a face of a cell of
+ * degree n, d is 2 n.
+ */
+int PartsOf(int degree, bool isFirst)
+{
+  constexpr int least = 4;
+  return isFirst ? std::max(least, 2 * degree) : least;
+}
+
+/** An edge to test: the first piece that has it. */
+struct EdgeOwner
+{
+  std::int32_t Piece;
+  std::int32_t Edge;
+};
+
+}
+
+//------------------------------------------------------------------------------
+/** State of a division in progress. */
+class CellDivision::Round
+{
+public:
+  Round(std::vector<CellPiece>& pieces, const PointFields& fields,
+    const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop)
+    : Pieces(pieces)
+    , Fields(fields)
+    , Functions(functions)
+    , Limits(limits)
+    , Loop(loop)
+    , Points(fields.NumberOfPoints)
+    , Levels(static_cast<std::size_t>(fields.NumberOfPoints), 0)
+  {
+    this->Samples.reserve(static_cast<std::size_t>(fields.NumberOfPoints));
+    for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
+    {
+      this->Samples.push_back(SampleAt(fields, static_cast<std::int32_t>(p)));
+    }
+  }
+
+  /** Returns false if no edge is to be divided. */
+  bool Mark();
+  void AddPoints();
+  /** Returns false if there are too many pieces. */
+  bool Split();
+
+  std::int64_t GetNumberOfUnresolved() const { return this->Unresolved; }
+  WeightedPoints& GetPoints() { return this->Points; }
+  const std::vector<CellSample>& GetSamples() const { return this->Samples; }
+
+private:
+  struct Wish
+  {
+    EdgePoints Edge;
+    EdgeOwner Owner;
+  };
+
+  void TestEdges(std::vector<Wish>& wishes);
+  void TestInside(std::vector<Wish>& wishes) const;
+  void AddInside(ShapeTest& test, std::int32_t number, const int* corners, int count,
+    std::vector<Wish>& wishes) const;
+  int LongestEdge(const CellPiece& piece, const int* corners, int count) const;
+  double SquareOf(const EdgePoints& edge) const;
+  int LevelOf(const EdgePoints& edge) const;
+  void SplitPiece(const CellPiece& piece, std::vector<CellPiece>& parts) const;
+
+  std::vector<CellPiece>& Pieces;
+  const PointFields& Fields;
+  const ShapeFunctionsMaker& Functions;
+  const DivisionLimits& Limits;
+  const RangeLoop& Loop;
+  WeightedPoints Points;
+  /** Samples at all points: each point is an end of many edges. */
+  std::vector<CellSample> Samples;
+  /** Number of halvings that made each point, at most. */
+  std::vector<std::uint8_t> Levels;
+  /** Edges that this round divides, in ascending order, with their squared lengths. */
+  EdgeIndex Marked;
+  std::vector<EdgeOwner> Owners;
+  std::vector<double> Squares;
+  /** 1 for points of marked edges. */
+  std::vector<std::uint8_t> Touched;
+  std::int64_t Unresolved = 0;
+};
+
+//------------------------------------------------------------------------------
+double CellDivision::Round::SquareOf(const EdgePoints& edge) const
+{
+  const glm::dvec3 difference = this->Samples[static_cast<std::size_t>(edge.Second)].Position -
+    this->Samples[static_cast<std::size_t>(edge.First)].Position;
+  return glm::dot(difference, difference);
+}
+
+//------------------------------------------------------------------------------
+int CellDivision::Round::LevelOf(const EdgePoints& edge) const
+{
+  return std::max(this->Levels[static_cast<std::size_t>(edge.First)],
+    this->Levels[static_cast<std::size_t>(edge.Second)]);
+}
+
+//------------------------------------------------------------------------------
+void CellDivision::Round::TestEdges(std::vector<Wish>& wishes)
+{
+  EdgeIndex edges(this->Pieces.size());
+  std::vector<EdgeOwner> owners;
+  for (std::size_t p = 0; p < this->Pieces.size(); ++p)
+  {
+    CellPiece& piece = this->Pieces[p];
+    for (int e = 0; piece.NewEdges != 0 && e < 6; ++e)
+    {
+      if ((piece.NewEdges >> e & 1) != 0 && edges.Add(EdgeOf(piece, e)))
+      {
+        owners.push_back({ static_cast<std::int32_t>(p), e });
+      }
+    }
+  }
+  std::vector<std::uint8_t> bent(owners.size(), 0);
+  ForEachBlock(owners.size(), this->Loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      ShapeTest test(this->Fields, this->Functions, this->Limits);
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const CellPiece& piece = this->Pieces[static_cast<std::size_t>(owners[i].Piece)];
+        const auto& ends = EdgeEnds[owners[i].Edge];
+        const auto from = static_cast<std::size_t>(ends[0]);
+        const auto to = static_cast<std::size_t>(ends[1]);
+        const int parts = PartsOf(piece.Degree, this->LevelOf(edges.GetEdges()[i]) == 0);
+        bent[i] = !test.IsEdgeStraight(piece.Cell, piece.Places[from], piece.Places[to],
+          this->Samples[static_cast<std::size_t>(piece.Points[from])],
+          this->Samples[static_cast<std::size_t>(piece.Points[to])], parts);
+      }
+    });
+  for (std::size_t i = 0; i < owners.size(); ++i)
+  {
+    if (bent[i] != 0)
+    {
+      wishes.push_back({ edges.GetEdges()[i], owners[i] });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Longest edge between some corners of a piece; the first one in the order of edges of several. */
+int CellDivision::Round::LongestEdge(const CellPiece& piece, const int* corners, int count) const
+{
+  int longest = -1;
+  double most = -1.0;
+  for (int e = 0; e < 6; ++e)
+  {
+    const bool has = std::count(corners, corners + count, EdgeEnds[e][0]) > 0 &&
+      std::count(corners, corners + count, EdgeEnds[e][1]) > 0;
+    const double square = has ? this->SquareOf(EdgeOf(piece, e)) : -1.0;
+    if (has && (square > most || (square == most && EdgeOf(piece, e) < EdgeOf(piece, longest))))
+    {
+      longest = e;
+      most = square;
+    }
+  }
+  return longest;
+}
+
+//------------------------------------------------------------------------------
+void CellDivision::Round::AddInside(ShapeTest& test, std::int32_t number, const int* corners,
+  int count, std::vector<Wish>& wishes) const
+{
+  const CellPiece& piece = this->Pieces[static_cast<std::size_t>(number)];
+  if (!test.IsMiddleStraight(piece, corners, count, this->Samples))
+  {
+    const int edge = this->LongestEdge(piece, corners, count);
+    wishes.push_back({ EdgeOf(piece, edge), { number, edge } });
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Tests the faces and the insides of new pieces of cells with a high degree. */
+void CellDivision::Round::TestInside(std::vector<Wish>& wishes) const
+{
+  constexpr int corners[5][4] = { { 1, 2, 3, 0 }, { 0, 2, 3, 1 }, { 0, 1, 3, 2 }, { 0, 1, 2, 3 },
+    { 0, 1, 2, 3 } };
+  std::vector<std::vector<Wish>> found(NumberOfBlocks(this->Pieces.size()));
+  ForEachBlock(this->Pieces.size(), this->Loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      ShapeTest test(this->Fields, this->Functions, this->Limits);
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (this->Pieces[p].Degree <= 2 || this->Pieces[p].NewEdges == 0)
+        {
+          continue;
+        }
+        for (int i = 0; i < 5; ++i)
+        {
+          this->AddInside(
+            test, static_cast<std::int32_t>(p), corners[i], i < 4 ? 3 : 4, found[block]);
+        }
+      }
+    });
+  for (const std::vector<Wish>& some : found)
+  {
+    wishes.insert(wishes.end(), some.begin(), some.end());
+  }
+}
+
+//------------------------------------------------------------------------------
+bool CellDivision::Round::Mark()
+{
+  std::vector<Wish> wishes;
+  this->TestEdges(wishes);
+  this->TestInside(wishes);
+  for (CellPiece& piece : this->Pieces)
+  {
+    piece.NewEdges = 0;
+  }
+  std::stable_sort(
+    wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.Edge < b.Edge; });
+  this->Marked = EdgeIndex(wishes.size());
+  this->Owners.clear();
+  this->Squares.clear();
+  this->Touched.assign(this->Samples.size(), 0);
+  for (std::size_t i = 0; i < wishes.size(); ++i)
+  {
+    const EdgePoints edge = wishes[i].Edge;
+    if (i > 0 && wishes[i - 1].Edge == edge)
+    {
+      continue;
+    }
+    if (this->LevelOf(edge) >= this->Limits.MostLevels)
+    {
+      ++this->Unresolved;
+      continue;
+    }
+    this->Marked.Add(edge);
+    this->Owners.push_back(wishes[i].Owner);
+    this->Squares.push_back(this->SquareOf(edge));
+    this->Touched[static_cast<std::size_t>(edge.First)] = 1;
+    this->Touched[static_cast<std::size_t>(edge.Second)] = 1;
+  }
+  return this->Marked.GetSize() > 0;
+}
+
+//------------------------------------------------------------------------------
+void CellDivision::Round::AddPoints()
+{
+  const std::size_t count = this->Marked.GetSize();
+  const std::size_t first = this->Samples.size();
+  this->Samples.resize(first + count);
+  std::vector<WeightedPoints> rows(
+    NumberOfBlocks(count), WeightedPoints(this->Fields.NumberOfPoints));
+  ForEachBlock(count, this->Loop,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      CellSampler sampler(this->Fields, this->Functions);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const CellPiece& piece = this->Pieces[static_cast<std::size_t>(this->Owners[i].Piece)];
+        const auto& ends = EdgeEnds[this->Owners[i].Edge];
+        const PointWeights& row = sampler.Weigh(piece.Cell,
+          0.5 *
+            (glm::dvec3(piece.Places[static_cast<std::size_t>(ends[0])]) +
+              glm::dvec3(piece.Places[static_cast<std::size_t>(ends[1])])));
+        rows[block].Add(row);
+        this->Samples[first + i] = SampleOf(this->Fields, row);
+      }
+    });
+  for (const WeightedPoints& some : rows)
+  {
+    this->Points.Append(some);
+  }
+  for (const EdgePoints& edge : this->Marked.GetEdges())
+  {
+    this->Levels.push_back(static_cast<std::uint8_t>(this->LevelOf(edge) + 1));
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Halves a piece, and its halves, at the longest marked edge until there is none. */
+void CellDivision::Round::SplitPiece(const CellPiece& piece, std::vector<CellPiece>& parts) const
+{
+  std::int32_t longest = EdgeIndex::None;
+  int cut = 0;
+  for (int e = 0; e < 6; ++e)
+  {
+    const EdgePoints edge = EdgeOf(piece, e);
+    // Points that this round has added are in no marked edge.
+    const auto second = static_cast<std::size_t>(edge.Second);
+    if (second >= this->Touched.size() || this->Touched[second] == 0 ||
+      this->Touched[static_cast<std::size_t>(edge.First)] == 0)
+    {
+      continue;
+    }
+    const std::int32_t found = this->Marked.Find(edge);
+    const auto squareOf = [this](std::int32_t i)
+    { return this->Squares[static_cast<std::size_t>(i)]; };
+    if (found != EdgeIndex::None &&
+      (longest == EdgeIndex::None || squareOf(found) > squareOf(longest) ||
+        (squareOf(found) == squareOf(longest) && found < longest)))
+    {
+      longest = found;
+      cut = e;
+    }
+  }
+  if (longest == EdgeIndex::None)
+  {
+    parts.push_back(piece);
+    return;
+  }
+  const auto& ends = EdgeEnds[cut];
+  const auto from = static_cast<std::size_t>(ends[0]);
+  const auto to = static_cast<std::size_t>(ends[1]);
+  const glm::vec3 middle = 0.5f * (piece.Places[from] + piece.Places[to]);
+  const auto newPoint = static_cast<std::int32_t>(this->Touched.size()) + longest;
+  for (const std::size_t replaced : { to, from })
+  {
+    CellPiece half = piece;
+    half.Points[replaced] = newPoint;
+    half.Places[replaced] = middle;
+    for (int e = 0; half.Degree > 0 && e < 6; ++e)
+    {
+      const bool isNew = EdgeEnds[e][0] == static_cast<int>(replaced) ||
+        EdgeEnds[e][1] == static_cast<int>(replaced);
+      half.NewEdges = static_cast<std::uint8_t>(half.NewEdges | (isNew ? 1 << e : 0));
+    }
+    this->SplitPiece(half, parts);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool CellDivision::Round::Split()
+{
+  std::vector<std::vector<CellPiece>> parts(NumberOfBlocks(this->Pieces.size()));
+  ForEachBlock(this->Pieces.size(), this->Loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      for (std::size_t p = first; p < last; ++p)
+      {
+        this->SplitPiece(this->Pieces[p], parts[block]);
+      }
+    });
+  std::size_t size = 0;
+  for (const std::vector<CellPiece>& some : parts)
+  {
+    size += some.size();
+  }
+  if (static_cast<std::int64_t>(size) > this->Limits.MostPieces)
+  {
+    return false;
+  }
+  this->Pieces.clear();
+  this->Pieces.reserve(size);
+  for (std::vector<CellPiece>& some : parts)
+  {
+    this->Pieces.insert(this->Pieces.end(), some.begin(), some.end());
+    some = std::vector<CellPiece>();
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFields& fields,
+  const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
+  const std::function<bool()>& goOn)
+{
+  this->Pieces = std::move(pieces);
+  this->Counts = DivisionCounts();
+  for (CellPiece& piece : this->Pieces)
+  {
+    piece.NewEdges = piece.Degree > 0 ? EveryEdge : 0;
+  }
+  Round round(this->Pieces, fields, functions, limits, loop);
+  while (round.Mark())
+  {
+    if (!goOn())
+    {
+      return DivisionStatus::Aborted;
+    }
+    round.AddPoints();
+    if (fields.NumberOfPoints + round.GetPoints().GetSize() >
+        std::numeric_limits<std::int32_t>::max() ||
+      !round.Split())
+    {
+      return DivisionStatus::TooLarge;
+    }
+  }
+  this->Points = std::move(round.GetPoints());
+  this->Counts.Pieces = static_cast<std::int64_t>(this->Pieces.size());
+  this->Counts.DividedEdges = this->Points.GetSize();
+  this->Counts.UnresolvedEdges = round.GetNumberOfUnresolved();
+  this->CountFolded(round.GetSamples(), limits.Place);
+  this->KeepEdges();
+  return DivisionStatus::Ok;
+}
+
+//------------------------------------------------------------------------------
+/** Counts the cells with pieces of either orientation. */
+void CellDivision::CountFolded(const std::vector<CellSample>& samples, double tolerance)
+{
+  // A quadratic shape differs from its interpolation in a piece by at most 3/2 of the largest
+  // difference in an edge: sum(4 li lj) over the six edges, with barycentric coordinates of 1/4. So
+  // a piece of a shape that is not folded is turned by no more than twice that height.
+  const double harmless = 3.0 * tolerance;
+  std::size_t first = 0;
+  while (first < this->Pieces.size())
+  {
+    const std::int32_t cell = this->Pieces[first].Cell;
+    double volume = 0.0;
+    double heights[2] = { 0.0, 0.0 };
+    for (; first < this->Pieces.size() && this->Pieces[first].Cell == cell; ++first)
+    {
+      const CellPiece& piece = this->Pieces[first];
+      const auto spanOf = [](const auto& a, const auto& b, const auto& c, const auto& d)
+      { return glm::dmat3(glm::dvec3(b - a), glm::dvec3(c - a), glm::dvec3(d - a)); };
+      const auto at = [&](std::size_t i)
+      { return samples[static_cast<std::size_t>(piece.Points[i])].Position; };
+      const auto& p = piece.Places;
+      const double inside = glm::determinant(spanOf(p[0], p[1], p[2], p[3]));
+      const double signedVolume =
+        glm::determinant(spanOf(at(0), at(1), at(2), at(3))) * (inside < 0.0 ? -1.0 : 1.0);
+      double largestFace = glm::length(glm::cross(at(2) - at(1), at(3) - at(1)));
+      for (const auto& face : { std::array<std::size_t, 3>{ 0, 1, 2 }, { 0, 1, 3 }, { 0, 2, 3 } })
+      {
+        largestFace = std::max(largestFace,
+          glm::length(glm::cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0]))));
+      }
+      volume += signedVolume;
+      const double height = largestFace > 0.0 ? std::abs(signedVolume) / largestFace : 0.0;
+      double& highest = heights[signedVolume > 0.0 ? 1 : 0];
+      highest = piece.Degree > 0 ? std::max(highest, height) : highest;
+    }
+    this->Counts.FoldedCells += heights[volume > 0.0 ? 0 : 1] > harmless;
+  }
+}
+
+//------------------------------------------------------------------------------
+void CellDivision::KeepEdges()
+{
+  EdgeIndex edges(2 * this->Pieces.size());
+  this->Edges.clear();
+  for (const CellPiece& piece : this->Pieces)
+  {
+    for (int e = 0; piece.Degree > 0 && e < 6; ++e)
+    {
+      if (edges.Add(EdgeOf(piece, e)))
+      {
+        this->Edges.push_back({ { piece.Places[static_cast<std::size_t>(EdgeEnds[e][0])],
+                                  piece.Places[static_cast<std::size_t>(EdgeEnds[e][1])] },
+          piece.Cell });
+      }
+    }
+  }
+  this->Edges.shrink_to_fit();
+}
+
+//------------------------------------------------------------------------------
+bool CellDivision::Holds(const PointFields& fields, const ShapeFunctionsMaker& functions,
+  const DivisionLimits& limits, const RangeLoop& loop) const
+{
+  std::atomic<bool> holds(true);
+  ForEachBlock(this->Edges.size(), loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      ShapeTest test(fields, functions, limits);
+      for (std::size_t i = first; i < last && holds.load(std::memory_order_relaxed); ++i)
+      {
+        const TestedEdge& edge = this->Edges[i];
+        if (!test.IsEdgeStraight(edge.Cell, edge.Places[0], edge.Places[1], PartsOf(0, false)))
+        {
+          holds.store(false, std::memory_order_relaxed);
+        }
+      }
+    });
+  return holds.load();
+}
+
+//------------------------------------------------------------------------------
+std::int64_t CellDivision::GetBytes() const
+{
+  return static_cast<std::int64_t>(this->Pieces.capacity() * sizeof(CellPiece) +
+           this->Edges.capacity() * sizeof(TestedEdge)) +
+    this->Points.GetBytes();
+}
+
+}

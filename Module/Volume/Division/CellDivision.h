@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Division_CellDivision_h
+#define meniscus_Volume_Division_CellDivision_h
+
+#include "Common/RangeLoop.h"
+#include "Volume/Division/EdgeIndex.h"
+#include "Volume/Division/ShapeFunctions.h"
+#include "Volume/Division/WeightedPoints.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/** A tetrahedron of a cell. */
+struct CellPiece
+{
+  std::array<std::int32_t, 4> Points{};
+  /** Reference coordinates of the points in the cell. */
+  std::array<glm::vec3, 4> Places{};
+  std::int32_t Cell = 0;
+  /**
+   * Degree of the shape functions along an axis of the cell; 0 for a piece that is linear, whose
+   * edges are divided only if a neighbour's shape asks for it.
+   */
+  std::uint8_t Degree = 0;
+  /** Bits of the edges that have not been tested. */
+  std::uint8_t NewEdges = 0;
+};
+
+/** Accuracy of a division. */
+struct DivisionLimits
+{
+  /** Largest distance between a curved edge and its chord. */
+  double Place = 0.0;
+  /** Largest difference of each value. */
+  std::array<double, CellSample::MostFields> Values{};
+  /**
+   * Number of divisions, at most, that lead to a point. Next to an edge that stays whole, because
+   * the field is linear along it, each division halves the distance, and the difference with it. 23
+   * are the most for which reference coordinates are exact in single precision.
+   */
+  int MostLevels = 23;
+  std::int64_t MostPieces = std::numeric_limits<std::int32_t>::max();
+};
+
+enum class DivisionStatus
+{
+  Ok,
+  /** More pieces or points than wanted, or than 32 bits can index. */
+  TooLarge,
+  Aborted
+};
+
+/** Numbers that a division reports. */
+struct DivisionCounts
+{
+  std::int64_t Pieces = 0;
+  /** Edges that were divided: as many as there are new points. */
+  std::int64_t DividedEdges = 0;
+  /** Edges beyond the tolerance that were not divided, because of DivisionLimits::MostLevels. */
+  std::int64_t UnresolvedEdges = 0;
+  /** Cells that are folded: pieces with either orientation overlap by more than the tolerance. */
+  std::int64_t FoldedCells = 0;
+};
+
+/**
+ * Divides cells into tetrahedra until linear interpolation in them is accurate: in each edge, the
+ * distance of the curve from its chord, and the difference of each value from that on the chord,
+ * are within the limits.
+ *
+ * The cells are given as tetrahedra between their corners, which match across shared faces. In each
+ * round all edges that have not been tested are sampled (three places; more in the first pieces of
+ * cells of a high degree); so are faces and pieces of cells with a degree above 2, whose shape
+ * functions may vanish on all edges: they mark their longest edge. Then each piece with marked
+ * edges is halved at the longest of these, and so on. The rule is one order of all edges, so the
+ * triangles of a shared face are the same on both sides: the first marked edge of a piece that lies
+ * in the face is the first one of the face, whichever other edges the piece has. No neighbours
+ * crack, whatever their types. A new point is the middle of its edge in reference coordinates.
+ *
+ * The result does not depend on the number of threads.
+ */
+class CellDivision
+{
+public:
+  /**
+   * Divides the cells, which replaces earlier results.
+   * @param pieces tetrahedra of the cells; those of one cell follow each other.
+   * @param goOn returns false to abort.
+   */
+  DivisionStatus Divide(std::vector<CellPiece> pieces, const PointFields& fields,
+    const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
+    const std::function<bool()>& goOn);
+
+  /**
+   * True if the edges of the pieces are within the limits for other positions or values of the
+   * points.
+   */
+  bool Holds(const PointFields& fields, const ShapeFunctionsMaker& functions,
+    const DivisionLimits& limits, const RangeLoop& loop) const;
+
+  const std::vector<CellPiece>& GetPieces() const { return this->Pieces; }
+  /** Frees the pieces. Holds() does not need them. */
+  void ForgetPieces() { this->Pieces = std::vector<CellPiece>(); }
+  const WeightedPoints& GetPoints() const { return this->Points; }
+  const DivisionCounts& GetCounts() const { return this->Counts; }
+  std::int64_t GetBytes() const;
+
+private:
+  class Round;
+
+  /** An edge of the last pieces, in a cell that is not linear. */
+  struct TestedEdge
+  {
+    std::array<glm::vec3, 2> Places;
+    std::int32_t Cell;
+  };
+
+  void KeepEdges();
+  void CountFolded(const std::vector<CellSample>& samples, double tolerance);
+
+  std::vector<CellPiece> Pieces;
+  WeightedPoints Points;
+  std::vector<TestedEdge> Edges;
+  DivisionCounts Counts;
+};
+
+}
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Input/CellShapes.h"
+
+#include "vtkCellType.h"
+#include "vtkDataSet.h"
+#include "vtkHexahedron.h"
+#include "vtkPyramid.h"
+#include "vtkVoxel.h"
+#include "vtkWedge.h"
+
+#include <algorithm>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+CellShape ShapeOf(int type)
+{
+  switch (type)
+  {
+    case VTK_TETRA:
+      return { VTK_TETRA, 4, 0 };
+    case VTK_VOXEL:
+      return { VTK_VOXEL, 8, 1 };
+    case VTK_HEXAHEDRON:
+      return { VTK_HEXAHEDRON, 8, 1 };
+    case VTK_WEDGE:
+      return { VTK_WEDGE, 6, 1 };
+    case VTK_PYRAMID:
+      return { VTK_PYRAMID, 5, 1 };
+    case VTK_QUADRATIC_TETRA:
+      return { VTK_TETRA, 4, 2 };
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+      return { VTK_HEXAHEDRON, 8, 2 };
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return { VTK_WEDGE, 6, 2 };
+    case VTK_QUADRATIC_PYRAMID:
+      return { VTK_PYRAMID, 5, 2 };
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return { VTK_PYRAMID, 5, 3 }; // its triangles have a point in the middle
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return { VTK_TETRA, 4, CellShape::Varying };
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+      return { VTK_HEXAHEDRON, 8, CellShape::Varying };
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return { VTK_WEDGE, 6, CellShape::Varying };
+    default:
+      return { VTK_EMPTY_CELL, 0, 0 };
+  }
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 PlaceOfCorner(const CellShape& shape, int corner)
+{
+  constexpr double hexahedron[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+    { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  constexpr double wedge[6][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
+    { 0, 1, 1 } };
+  constexpr double pyramid[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+    { 0, 0, 1 } };
+  constexpr double tetrahedron[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  const auto at = [corner](const double(*corners)[3])
+  { return glm::dvec3(corners[corner][0], corners[corner][1], corners[corner][2]); };
+  switch (shape.LinearType)
+  {
+    case VTK_VOXEL:
+      return glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    case VTK_HEXAHEDRON:
+      return at(hexahedron);
+    case VTK_WEDGE:
+      return at(wedge);
+    case VTK_PYRAMID:
+      return at(pyramid);
+    default:
+      return at(tetrahedron);
+  }
+}
+
+//------------------------------------------------------------------------------
+GridShapeFunctions::GridShapeFunctions(const std::vector<vtkDataSet*>& grids)
+  : Grids(grids)
+{
+  std::int64_t points = 0;
+  std::int64_t cells = 0;
+  for (vtkDataSet* grid : grids)
+  {
+    this->FirstPoints.push_back(points);
+    this->FirstCells.push_back(cells);
+    points += grid->GetNumberOfPoints();
+    cells += grid->GetNumberOfCells();
+  }
+}
+
+//------------------------------------------------------------------------------
+void GridShapeFunctions::Load(std::int32_t cell)
+{
+  if (cell == this->Loaded)
+  {
+    return;
+  }
+  const auto after = std::upper_bound(this->FirstCells.begin() + 1, this->FirstCells.end(), cell);
+  const auto part = static_cast<std::size_t>(after - this->FirstCells.begin()) - 1;
+  vtkDataSet* grid = this->Grids[part];
+  const auto local = static_cast<vtkIdType>(cell - this->FirstCells[part]);
+  this->FirstPoint = this->FirstPoints[part];
+  this->Type = grid->GetCellType(local);
+  grid->GetCellPoints(local, this->Ids);
+  if (ShapeOf(this->Type).Degree != 1)
+  {
+    grid->GetCell(local, this->Generic);
+  }
+  this->Weights.resize(static_cast<std::size_t>(this->Ids->GetNumberOfIds()));
+  this->Loaded = cell;
+}
+
+//------------------------------------------------------------------------------
+void GridShapeFunctions::Evaluate(const glm::dvec3& place)
+{
+  double at[3] = { place.x, place.y, place.z };
+  if (ShapeOf(this->Type).LinearType == VTK_PYRAMID && place.z < 1.0)
+  {
+    at[0] /= 1.0 - place.z;
+    at[1] /= 1.0 - place.z;
+  }
+  switch (this->Type)
+  {
+    case VTK_VOXEL:
+      vtkVoxel::InterpolationFunctions(at, this->Weights.data());
+      break;
+    case VTK_HEXAHEDRON:
+      vtkHexahedron::InterpolationFunctions(at, this->Weights.data());
+      break;
+    case VTK_WEDGE:
+      vtkWedge::InterpolationFunctions(at, this->Weights.data());
+      break;
+    case VTK_PYRAMID:
+      vtkPyramid::InterpolationFunctions(at, this->Weights.data());
+      break;
+    default:
+      this->Generic->InterpolateFunctions(at, this->Weights.data());
+      break;
+  }
+}
+
+//------------------------------------------------------------------------------
+void GridShapeFunctions::Weigh(std::int32_t cell, const glm::dvec3& place, PointWeights& row)
+{
+  this->Load(cell);
+  this->Evaluate(place);
+  for (std::size_t i = 0; i < this->Weights.size(); ++i)
+  {
+    row.Add(
+      static_cast<std::int32_t>(this->FirstPoint + this->Ids->GetId(static_cast<vtkIdType>(i))),
+      this->Weights[i]);
+  }
+}
+
+//------------------------------------------------------------------------------
+int GridShapeFunctions::GetDegree(std::int32_t cell)
+{
+  this->Load(cell);
+  const int degree = ShapeOf(this->Type).Degree;
+  if (degree != CellShape::Varying)
+  {
+    return degree;
+  }
+  int most = 1;
+  for (int edge = 0; edge < this->Generic->GetNumberOfEdges(); ++edge)
+  {
+    most = std::max(most, static_cast<int>(this->Generic->GetEdge(edge)->GetNumberOfPoints()) - 1);
+  }
+  return most;
+}
+
+}

@@ -1,0 +1,497 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Division of curved cells: the pieces fill the cells without cracks, linear interpolation in them
+// is as accurate as wanted, and no more pieces are made than that takes.
+#include "Volume/Division/CellDivision.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Mesh/Tetrahedralizer.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <thread>
+#include <vector>
+
+using namespace meniscus;
+
+namespace
+{
+
+const glm::vec3 Corners[8] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+  { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
+bool GoOn()
+{
+  return true;
+}
+
+/** Weights of a trilinear hexahedron. */
+class Trilinear : public ShapeFunctions
+{
+public:
+  explicit Trilinear(const std::vector<std::array<std::int64_t, 8>>& cells)
+    : Cells(cells)
+  {
+  }
+  void Weigh(std::int32_t cell, const glm::dvec3& place, PointWeights& row) override
+  {
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      const glm::dvec3 c(Corners[i]);
+      const glm::dvec3 w = c * place + (1.0 - c) * (1.0 - place);
+      row.Add(
+        static_cast<std::int32_t>(this->Cells[static_cast<std::size_t>(cell)][i]), w.x * w.y * w.z);
+    }
+  }
+
+private:
+  const std::vector<std::array<std::int64_t, 8>>& Cells;
+};
+
+/** n^3 hexahedra in the unit cube with moved inner points, numbered at random. */
+struct Block
+{
+  std::vector<double> Points;
+  std::vector<std::array<std::int64_t, 8>> Cells;
+  PointFields Fields;
+
+  Block(int n, double jitter, unsigned int seed)
+  {
+    std::mt19937 random(seed);
+    const int side = n + 1;
+    std::vector<std::int64_t> number(static_cast<std::size_t>(side * side * side));
+    std::iota(number.begin(), number.end(), 0);
+    std::shuffle(number.begin(), number.end(), random);
+    this->Points.resize(3 * number.size());
+    std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
+    const auto at = [&](int i, int j, int k)
+    { return number[static_cast<std::size_t>((k * side + j) * side + i)]; };
+    for (int k = 0; k < side; ++k)
+    {
+      for (int j = 0; j < side; ++j)
+      {
+        for (int i = 0; i < side; ++i)
+        {
+          const int index[3] = { i, j, k };
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            const bool inner = index[axis] > 0 && index[axis] < n;
+            this->Points[static_cast<std::size_t>(3 * at(i, j, k) + axis)] =
+              static_cast<double>(index[axis]) / n + (inner ? move(random) : 0.0);
+          }
+          if (i < n && j < n && k < n)
+          {
+            this->Cells.push_back({});
+            for (std::size_t c = 0; c < 8; ++c)
+            {
+              this->Cells.back()[c] = at(i + static_cast<int>(Corners[c].x),
+                j + static_cast<int>(Corners[c].y), k + static_cast<int>(Corners[c].z));
+            }
+          }
+        }
+      }
+    }
+    this->Fields.Points = this->Points.data();
+    this->Fields.NumberOfPoints = static_cast<std::int64_t>(number.size());
+  }
+
+  template <typename Function>
+  void SetValues(Function&& function)
+  {
+    this->Fields.Values.assign(1, {});
+    for (std::size_t p = 0; p < this->Points.size(); p += 3)
+    {
+      this->Fields.Values[0].push_back(
+        function(glm::dvec3(this->Points[p], this->Points[p + 1], this->Points[p + 2])));
+    }
+  }
+
+  ShapeFunctionsMaker GetFunctions() const
+  {
+    return [this]() { return std::make_unique<Trilinear>(this->Cells); };
+  }
+
+  std::vector<CellPiece> GetPieces() const
+  {
+    std::vector<CellPiece> pieces;
+    for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
+    {
+      const auto& points = this->Cells[cell];
+      Tetrahedralizer tetrahedra;
+      tetrahedra.AddHexahedron(points.data());
+      const auto& ids = tetrahedra.GetTetrahedra();
+      for (std::size_t t = 0; t < ids.size(); t += 4)
+      {
+        CellPiece piece;
+        piece.Cell = static_cast<std::int32_t>(cell);
+        piece.Degree = 1;
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          piece.Points[i] = static_cast<std::int32_t>(ids[t + i]);
+          piece.Places[i] =
+            Corners[std::find(points.begin(), points.end(), ids[t + i]) - points.begin()];
+        }
+        pieces.push_back(piece);
+      }
+    }
+    return pieces;
+  }
+
+  DivisionStatus Divide(
+    CellDivision& division, const DivisionLimits& limits, const RangeLoop& loop = SerialLoop) const
+  {
+    return division.Divide(
+      this->GetPieces(), this->Fields, this->GetFunctions(), limits, loop, GoOn);
+  }
+};
+
+DivisionLimits LimitsOf(double place, double value)
+{
+  DivisionLimits limits;
+  limits.Place = place;
+  limits.Values.fill(value);
+  limits.MostLevels = 20;
+  return limits;
+}
+
+/** Positions of all points, those of the input and the new ones. */
+std::vector<double> PositionsOf(const CellDivision& division, const PointFields& fields)
+{
+  std::vector<double> positions;
+  for (std::int64_t p = 0; p < fields.NumberOfPoints + division.GetPoints().GetSize(); ++p)
+  {
+    const glm::dvec3 at = division.GetPoints().Interpolate(
+      p, [&fields](std::int32_t q) { return fields.Points[static_cast<std::size_t>(q)]; });
+    positions.insert(positions.end(), { at.x, at.y, at.z });
+  }
+  return positions;
+}
+
+glm::dvec3 PositionAt(const std::vector<double>& positions, std::int32_t point)
+{
+  const double* at = positions.data() + 3 * static_cast<std::size_t>(point);
+  return { at[0], at[1], at[2] };
+}
+
+/** Number of boundary faces of the pieces that do not lie in one side of the unit cube. */
+int CountCracks(const CellDivision& division, const PointFields& fields, double& volume)
+{
+  const std::vector<double> positions = PositionsOf(division, fields);
+  std::vector<std::int32_t> cells;
+  volume = 0.0;
+  for (const CellPiece& piece : division.GetPieces())
+  {
+    cells.insert(cells.end(), piece.Points.begin(), piece.Points.end());
+    const glm::dvec3 origin = PositionAt(positions, piece.Points[0]);
+    const glm::dmat3 span(PositionAt(positions, piece.Points[1]) - origin,
+      PositionAt(positions, piece.Points[2]) - origin,
+      PositionAt(positions, piece.Points[3]) - origin);
+    const glm::dmat3 inside(glm::dvec3(piece.Places[1] - piece.Places[0]),
+      glm::dvec3(piece.Places[2] - piece.Places[0]), glm::dvec3(piece.Places[3] - piece.Places[0]));
+    volume += glm::determinant(span) * (glm::determinant(inside) < 0.0 ? -1.0 : 1.0) / 6.0;
+  }
+  TetrahedraView view;
+  view.Points = positions.data();
+  view.NumberOfPoints = static_cast<std::int64_t>(positions.size() / 3);
+  view.ShortCells = cells.data();
+  view.NumberOfCells = static_cast<std::int64_t>(cells.size() / 4);
+  TetrahedralMesh mesh;
+  EXPECT_EQ(mesh.Build(view), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
+  int cracks = 0;
+  for (const BoundaryFace& face : mesh.GetBoundary())
+  {
+    bool onSide = false;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const double side : { 0.0, 1.0 })
+      {
+        onSide = onSide ||
+          std::all_of(face.Vertices.begin(), face.Vertices.end(),
+            [&](std::int32_t v)
+            {
+              const std::int32_t point = mesh.GetSourcePoints()[static_cast<std::size_t>(v)];
+              return std::abs(PositionAt(positions, point)[axis] - side) < 1e-12;
+            });
+      }
+    }
+    cracks += !onSide;
+  }
+  return cracks;
+}
+
+/** Largest difference of the value from the trilinear one, at random places in the pieces. */
+double LargestError(const CellDivision& division, const Block& block)
+{
+  std::mt19937 random(5);
+  std::exponential_distribution<double> share;
+  CellSampler sampler(block.Fields, block.GetFunctions());
+  double largest = 0.0;
+  for (const CellPiece& piece : division.GetPieces())
+  {
+    for (int sample = 0; sample < 4; ++sample)
+    {
+      std::array<double, 4> weights{};
+      double sum = 0.0;
+      for (double& weight : weights)
+      {
+        sum += weight = share(random);
+      }
+      glm::dvec3 place(0.0);
+      double drawn = 0.0;
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        place += weights[i] / sum * glm::dvec3(piece.Places[i]);
+        drawn += weights[i] / sum *
+          division.GetPoints().Interpolate(piece.Points[i],
+            [&block](std::int32_t p)
+            { return block.Fields.Values[0][static_cast<std::size_t>(p)]; });
+      }
+      largest = std::max(largest, std::abs(drawn - sampler.Sample(piece.Cell, place).Values[0]));
+    }
+  }
+  return largest;
+}
+
+double Waves(const glm::dvec3& at)
+{
+  return std::sin(3.0 * at.x) * std::cos(2.0 * at.y) * std::sin(2.0 * at.z + 0.5);
+}
+
+/** One tetrahedron with a further point, whose value is added with a weight of its own. */
+class Bubble : public ShapeFunctions
+{
+public:
+  using Weight = double (*)(const std::array<double, 4>&);
+
+  explicit Bubble(Weight weight)
+    : Added(weight)
+  {
+  }
+  void Weigh(std::int32_t, const glm::dvec3& place, PointWeights& row) override
+  {
+    const std::array<double, 4> l{ 1.0 - place.x - place.y - place.z, place.x, place.y, place.z };
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      row.Add(static_cast<std::int32_t>(i), l[i]);
+    }
+    row.Add(4, this->Added(l));
+  }
+
+private:
+  Weight Added;
+};
+
+/** Divides a tetrahedron with linear shape and the value of a bubble. Returns the counts. */
+DivisionCounts DivideBubble(Bubble::Weight weight, std::uint8_t degree)
+{
+  // The further point adds to the value only.
+  const std::vector<double> points{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 };
+  PointFields fields;
+  fields.Points = points.data();
+  fields.NumberOfPoints = 5;
+  fields.Values = { { 0.0, 0.0, 0.0, 0.0, 1.0 } };
+  CellPiece piece;
+  piece.Points = { 0, 1, 2, 3 };
+  piece.Places = { Corners[0], Corners[1], Corners[3], Corners[4] };
+  piece.Degree = degree;
+  CellDivision division;
+  EXPECT_EQ(division.Divide(
+              { piece }, fields, [weight]() { return std::make_unique<Bubble>(weight); },
+              LimitsOf(0.1, 0.05), SerialLoop, GoOn),
+    DivisionStatus::Ok);
+  return division.GetCounts();
+}
+
+}
+
+TEST(CellDivision, NeighboursDoNotCrack)
+{
+  for (const unsigned int seed : { 1U, 2U, 3U })
+  {
+    Block block(3, 0.3, seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> value(0.0, 1.0);
+    block.SetValues([&](const glm::dvec3&) { return value(random); });
+    CellDivision division;
+    ASSERT_EQ(block.Divide(division, LimitsOf(5e-3, 0.05)), DivisionStatus::Ok);
+    EXPECT_GT(division.GetCounts().Pieces, 5 * 6 * 27);
+    EXPECT_EQ(division.GetCounts().UnresolvedEdges, 0);
+    EXPECT_EQ(division.GetCounts().FoldedCells, 0);
+    double volume = 0.0;
+    EXPECT_EQ(CountCracks(division, block.Fields, volume), 0);
+    // The sides are plane: the pieces' volumes add up to that of the cube.
+    EXPECT_NEAR(volume, 1.0, 1e-12);
+  }
+}
+
+TEST(CellDivision, TheErrorFollowsTheTolerance)
+{
+  Block block(3, 0.0, 7);
+  block.SetValues(Waves);
+  for (const double tolerance : { 3e-2, 1e-2, 3e-3 })
+  {
+    CellDivision division;
+    ASSERT_EQ(block.Divide(division, LimitsOf(1.0, tolerance)), DivisionStatus::Ok);
+    const double error = LargestError(division, block);
+    // A quadratic function differs from its interpolation by at most 3/2 of the largest difference
+    // in an edge (sum of 4 li lj over six edges); the cubic part is small in a small piece.
+    EXPECT_LE(error, 1.6 * tolerance);
+    // The bound is used: differences are quartered, so that they are between 1/4 and 1 of it.
+    EXPECT_GE(error, 0.2 * tolerance);
+  }
+}
+
+TEST(CellDivision, LinearFieldsAreNotDivided)
+{
+  Block block(4, 0.0, 3);
+  block.SetValues([](const glm::dvec3& at) { return 1.0 + at.x - 2.0 * at.y + 0.5 * at.z; });
+  CellDivision division;
+  ASSERT_EQ(block.Divide(division, LimitsOf(1e-9, 1e-9)), DivisionStatus::Ok);
+  EXPECT_EQ(division.GetCounts().Pieces, 6 * 64);
+  EXPECT_TRUE(division.GetPoints().IsEmpty());
+}
+
+TEST(CellDivision, FunctionsThatVanishOnEdgesAreSeen)
+{
+  // Each has its largest value, 1 or so, where no edge of the tetrahedron passes.
+  const auto ofCell = [](const std::array<double, 4>& l)
+  { return 256.0 * l[0] * l[1] * l[2] * l[3]; };
+  const auto ofFace = [](const std::array<double, 4>& l) { return 27.0 * l[0] * l[1] * l[2]; };
+  EXPECT_GT(DivideBubble(ofCell, 4).Pieces, 8);
+  EXPECT_GT(DivideBubble(ofFace, 3).Pieces, 8);
+  // An odd function of an edge vanishes in its middle.
+  const auto odd = [](const std::array<double, 4>& l) { return l[0] * l[1] * (l[0] - l[1]); };
+  EXPECT_GT(DivideBubble(odd, 3).Pieces, 1);
+  // A function that vanishes at 1/4, 1/2 and 3/4 of the edge.
+  const auto wave = [](const std::array<double, 4>& l)
+  { return 40.0 * l[0] * l[1] * (l[1] - 0.25) * (l[1] - 0.5) * (l[1] - 0.75); };
+  EXPECT_GT(DivideBubble(wave, 5).Pieces, 1);
+}
+
+TEST(CellDivision, TheResultDoesNotDependOnThreads)
+{
+  Block block(4, 0.3, 11);
+  block.SetValues(Waves);
+  CellDivision serial;
+  ASSERT_EQ(block.Divide(serial, LimitsOf(3e-3, 2e-3)), DivisionStatus::Ok);
+  const RangeLoop threads = [](std::size_t count, const RangeBody& body)
+  {
+    std::vector<std::thread> all;
+    for (std::size_t i = count; i-- > 0;)
+    {
+      all.emplace_back([&body, i]() { body(i, i + 1); });
+    }
+    for (std::thread& one : all)
+    {
+      one.join();
+    }
+  };
+  CellDivision threaded;
+  ASSERT_EQ(block.Divide(threaded, LimitsOf(3e-3, 2e-3), threads), DivisionStatus::Ok);
+  ASSERT_GT(serial.GetCounts().Pieces, 2 * 8192);
+  ASSERT_EQ(serial.GetPieces().size(), threaded.GetPieces().size());
+  for (std::size_t p = 0; p < serial.GetPieces().size(); ++p)
+  {
+    ASSERT_EQ(serial.GetPieces()[p].Points, threaded.GetPieces()[p].Points);
+  }
+  EXPECT_EQ(PositionsOf(serial, block.Fields), PositionsOf(threaded, block.Fields));
+}
+
+TEST(CellDivision, LimitsAreKeptAndReported)
+{
+  Block block(2, 0.2, 13);
+  block.SetValues(Waves);
+  DivisionLimits limits = LimitsOf(1e-5, 1e-5);
+  limits.MostLevels = 1;
+  CellDivision division;
+  ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+  EXPECT_GT(division.GetCounts().UnresolvedEdges, 0);
+  EXPECT_LE(division.GetCounts().Pieces, 8 * 6 * 8);
+  limits = LimitsOf(1e-5, 1e-5);
+  limits.MostPieces = 1000;
+  EXPECT_EQ(block.Divide(division, limits), DivisionStatus::TooLarge);
+  EXPECT_EQ(division.Divide(block.GetPieces(), block.Fields, block.GetFunctions(),
+              LimitsOf(1e-5, 1e-5), SerialLoop, []() { return false; }),
+    DivisionStatus::Aborted);
+}
+
+TEST(CellDivision, FoldedCellsAreCounted)
+{
+  Block block(2, 0.2, 17);
+  CellDivision division;
+  // A mirror image has all pieces turned alike.
+  Block mirrored = block;
+  for (std::size_t p = 0; p < mirrored.Points.size(); p += 3)
+  {
+    mirrored.Points[p] = 1.0 - mirrored.Points[p];
+  }
+  mirrored.Fields.Points = mirrored.Points.data();
+  ASSERT_EQ(mirrored.Divide(division, LimitsOf(1e-3, 1.0)), DivisionStatus::Ok);
+  EXPECT_EQ(division.GetCounts().FoldedCells, 0);
+  // One corner of the cube is pushed through the opposite corner of its cell.
+  Block folded = block;
+  for (std::size_t p = 0; p < folded.Points.size(); p += 3)
+  {
+    double* at = folded.Points.data() + p;
+    if (at[0] + at[1] + at[2] == 0.0)
+    {
+      at[0] = at[1] = at[2] = 0.8;
+    }
+  }
+  folded.Fields.Points = folded.Points.data();
+  ASSERT_EQ(folded.Divide(division, LimitsOf(1e-2, 1.0)), DivisionStatus::Ok);
+  EXPECT_EQ(division.GetCounts().FoldedCells, 1);
+}
+
+TEST(CellDivision, OtherValuesHoldOrDoNot)
+{
+  Block block(2, 0.2, 19);
+  block.SetValues(Waves);
+  const DivisionLimits limits = LimitsOf(1e-2, 1e-2);
+  const DivisionLimits doubled = LimitsOf(2e-2, 2e-2);
+  CellDivision division;
+  ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  division.ForgetPieces();
+  block.SetValues([](const glm::dvec3& at) { return 3.0 - 0.5 * Waves(at); });
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  block.SetValues([](const glm::dvec3& at) { return 10.0 * Waves(at); });
+  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  // Moved points: a stretched mesh holds for the same values, a bent one does not.
+  block.SetValues(Waves);
+  for (std::size_t p = 0; p < block.Points.size(); p += 3)
+  {
+    block.Points[p] *= 0.5;
+  }
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), doubled, SerialLoop));
+  for (std::size_t p = 0; p < block.Points.size(); p += 3)
+  {
+    block.Points[p] += 2.0 * block.Points[p + 1] * block.Points[p + 2];
+  }
+  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), doubled, SerialLoop));
+}
+
+TEST(CellDivision, ValuesThatAreNotFiniteAreNotDivided)
+{
+  Block block(2, 0.0, 23);
+  for (const double bad :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    block.SetValues([bad](const glm::dvec3&) { return bad; });
+    CellDivision division;
+    ASSERT_EQ(block.Divide(division, LimitsOf(1e-6, 1e-6)), DivisionStatus::Ok);
+    EXPECT_EQ(division.GetCounts().Pieces, 6 * 8);
+  }
+}
