@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Several interfaces: what RequestData does for one.
+// RequestData for several interfaces.
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
 #include "Filters/Membrane/StackInput.h"

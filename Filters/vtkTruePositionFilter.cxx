@@ -3,6 +3,7 @@
 #include "vtkTruePositionFilter.h"
 
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Membrane/PointEyes.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Membrane/StackInput.h"
 #include "Refraction/Curved/TruePositions.h"
@@ -76,7 +77,8 @@ public:
   meniscus::RefractionScene Scene; ///< one interface
   meniscus::StackScene Stack;      ///< several interfaces
   // State and indices in the last run.
-  bool HasStack = false;
+  bool HasStack = false; ///< several interfaces, or several eyes
+  meniscus::PointEyes Eyes;
   double Exterior = 1.0;
   double Interior = 1.0;
   /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
@@ -114,6 +116,22 @@ vtkTruePositionFilter::~vtkTruePositionFilter() = default;
 void vtkTruePositionFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+void vtkTruePositionFilter::SetEyeArrayName(const std::string& name)
+{
+  if (this->EyeArrayName != name)
+  {
+    this->EyeArrayName = name;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTruePositionFilter::GetEyeArrayName()
+{
+  return this->EyeArrayName;
 }
 
 //------------------------------------------------------------------------------
@@ -184,7 +202,7 @@ int vtkTruePositionFilter::RequestData(
                   "empty.");
     return 0;
   }
-  if (!this->UpdateScene(inputs[1]))
+  if (!this->UpdateScene(input, inputs[1]))
   {
     return 0;
   }
@@ -198,15 +216,26 @@ int vtkTruePositionFilter::RequestData(
 
 //------------------------------------------------------------------------------
 /** Sets membranes and eye. Returns false after an error. */
-bool vtkTruePositionFilter::UpdateScene(vtkInformationVector* membranes)
+bool vtkTruePositionFilter::UpdateScene(vtkPointSet* points, vtkInformationVector* membranes)
 {
   vtkInternals& internals = *this->Internals;
   meniscus::SceneMessages messages;
-  internals.HasStack = meniscus::HasStack(this->Interfaces, membranes);
+  internals.Eyes = meniscus::PointEyes(this->EyePosition);
+  messages.Error = internals.Eyes.UseArray(points, this->EyeArrayName);
+  const bool hasEyes = internals.Eyes.IsPerPoint();
+  internals.HasStack = hasEyes || meniscus::HasStack(this->Interfaces, membranes);
   internals.Exterior = this->GetExteriorIndexOfRefraction();
   internals.Interior = this->GetInteriorIndexOfRefraction();
-  bool ready = false;
-  if (internals.HasStack)
+  bool ready = messages.Error.empty();
+  if (!ready)
+  {
+    // The error is reported below.
+  }
+  else if (hasEyes)
+  {
+    ready = meniscus::UpdateSurfaces(internals.Stack, membranes, 1, this->Interfaces, messages);
+  }
+  else if (internals.HasStack)
   {
     ready = meniscus::UpdateStack(internals.Stack, membranes, 1, this->Interfaces,
       { this->EyePosition[0], this->EyePosition[1], this->EyePosition[2] }, messages);
@@ -257,29 +286,28 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
   PointArrays arrays(count);
-  const auto move = [&](vtkIdType i)
+  const vtkInternals& internals = *this->Internals;
+  const auto move = [&](vtkIdType begin, vtkIdType end)
   {
-    double seen[3];
-    input->GetPoint(i, seen);
-    const meniscus::StackTruePosition found =
-      this->Internals->HasStack ? this->FindThroughStack(seen) : this->FindOne(seen);
-    arrays.Positions->SetTypedTuple(i, &found.Position.x);
-    arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
-    arrays.States->SetValue(i, static_cast<unsigned char>(found.State));
-    arrays.Paths->SetValue(i, found.OpticalPath);
+    meniscus::SightRayTracer tracer(internals.Stack.GetSolver().GetStack(), internals.Exterior);
+    for (vtkIdType i = begin; i < end; ++i)
+    {
+      double seen[3];
+      input->GetPoint(i, seen);
+      const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
+        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), { seen[0], seen[1], seen[2] })
+        : (internals.HasStack ? this->FindThroughStack(seen) : this->FindOne(seen));
+      arrays.Positions->SetTypedTuple(i, &found.Position.x);
+      arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
+      arrays.States->SetValue(i, static_cast<unsigned char>(found.State));
+      arrays.Paths->SetValue(i, found.OpticalPath);
+    }
   };
   const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, Grain,
-      [&move](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType i = begin; i < end; ++i)
-        {
-          move(i);
-        }
-      });
+    vtkSMPTools::For(first, last, Grain, move);
     this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
     if (this->GetAbortExecute())
     {
@@ -306,6 +334,7 @@ void vtkTruePositionFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
+  os << indent << "EyeArrayName: " << this->EyeArrayName << "\n";
   os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "NumberOfTotallyReflectedPoints: " << this->GetNumberOfTotallyReflectedPoints()

@@ -35,6 +35,7 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkPointSet;
 class vtkPolyData;
@@ -58,7 +59,7 @@ public:
     UNREFRACTED = 0,       ///< no membrane in front of the point, which is not moved
     REFRACTED = 1,         ///< behind the membrane: the point is moved
     TOTALLY_REFLECTED = 2, ///< beyond the critical angle; the point is not moved
-    NOT_FINITE = 3,        ///< not finite, or at the eye; the point is not moved
+    NOT_FINITE = 3,        ///< not finite, at the eye, or its own eye cannot be used; not moved
     MISSED = 4             ///< the ray misses one of several surfaces; the point is not moved
   };
 
@@ -66,6 +67,19 @@ public:
   /** Set/Get the eye in world coordinates. Must be finite. Default is (0, 0, 1). */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the name of a point array with three components: the eye of each point, for points
+   * that were seen from several places, such as the cameras of photographs or the track of a
+   * scanner. EyePosition is not used then. A point whose eye is not finite or lies on a surface has
+   * the state NOT_FINITE. Points with the same eye should follow each other. As with several
+   * interfaces, the side of a surface that an eye is on follows from its normals. An empty name,
+   * the default, stands for one eye.
+   */
+  virtual void SetEyeArrayName(const std::string& name);
+  virtual std::string GetEyeArrayName();
   /** @} */
 
   /** @{ */
@@ -137,12 +151,13 @@ private:
   vtkTruePositionFilter(const vtkTruePositionFilter&) = delete;
   void operator=(const vtkTruePositionFilter&) = delete;
 
-  bool UpdateScene(vtkInformationVector* membranes);
+  bool UpdateScene(vtkPointSet* points, vtkInformationVector* membranes);
   meniscus::StackTruePosition FindOne(const double seen[3]) const;
   meniscus::StackTruePosition FindThroughStack(const double seen[3]) const;
   bool MovePoints(vtkPointSet* input, vtkPointSet* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
+  std::string EyeArrayName;
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;

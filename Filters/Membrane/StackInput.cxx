@@ -46,6 +46,13 @@ bool UpdateStack(StackScene& scene, vtkInformationVector* port, int number,
   vtkRefractingInterfaceCollection* interfaces, const std::array<double, 3>& eye,
   SceneMessages& messages)
 {
+  return UpdateSurfaces(scene, port, number, interfaces, messages) && scene.SetEye(eye, messages);
+}
+
+//------------------------------------------------------------------------------
+bool UpdateSurfaces(StackScene& scene, vtkInformationVector* port, int number,
+  vtkRefractingInterfaceCollection* interfaces, SceneMessages& messages)
+{
   const std::string fault =
     FindStackFault(interfaces, port->GetNumberOfInformationObjects(), number);
   messages.Error = fault.empty() ? messages.Error : fault;
@@ -54,8 +61,7 @@ bool UpdateStack(StackScene& scene, vtkInformationVector* port, int number,
   {
     surfaces = ListSurfaces(port, messages);
   }
-  return messages.Error.empty() && scene.SetInterfaces(surfaces, interfaces, messages) &&
-    scene.SetEye(eye, messages);
+  return messages.Error.empty() && scene.SetInterfaces(surfaces, interfaces, messages);
 }
 
 //------------------------------------------------------------------------------

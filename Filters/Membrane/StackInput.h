@@ -33,6 +33,10 @@ bool UpdateStack(StackScene& scene, vtkInformationVector* port, int number,
   vtkRefractingInterfaceCollection* interfaces, const std::array<double, 3>& eye,
   SceneMessages& messages);
 
+/** The same without an eye, for the rays of SightRayTracer. */
+bool UpdateSurfaces(StackScene& scene, vtkInformationVector* port, int number,
+  vtkRefractingInterfaceCollection* interfaces, SceneMessages& messages);
+
 /** Requests all data of a port whole: every piece of the output needs the whole surfaces. */
 void RequestWhole(vtkInformationVector* port);
 

@@ -145,6 +145,13 @@ private:
  */
 bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack);
 
+/**
+ * True if a place is inside of a triangle or within `distance` of one of its sides' lines on their
+ * outer side. A line whose projection along an axis is a place farther than a patch's bulge from
+ * its projected facet does not cross the patch.
+ */
+bool PassesNear(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& place, double distance);
+
 }
 
 #endif

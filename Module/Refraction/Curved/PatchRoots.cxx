@@ -179,7 +179,7 @@ void PatchRoots::Search(const Triangle& triangle, int depth)
 {
   const bool isDeepest = depth == DeepestLevel;
   const bool isLast = isDeepest || this->Divisions >= MostDivisions;
-  // At the last level a cone is as small as what Newton's method resolves.
+  // At the last level a cone is as small as the resolution of Newton's method.
   const Verdict verdict = Judge(triangle, isLast ? 0.0 : this->BoundCone(triangle, depth));
   if (verdict == Verdict::None)
   {

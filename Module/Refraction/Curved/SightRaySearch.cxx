@@ -41,6 +41,14 @@ SightRaySearch::SightRaySearch(const CurvedMembraneSolver& geometry)
   this->Tree.Refit([&geometry, &eye](std::int32_t facet)
     { return BoundSightRays(geometry.GetPatches().GetPatch(facet), eye); },
     SerialLoop);
+  // A position is a sum of a few products of coordinates.
+  const double slack = 256.0 * std::numeric_limits<double>::epsilon() * this->Distance;
+  const std::size_t facets = geometry.GetMembrane().GetFacets().size();
+  for (std::size_t i = 0; i < facets; ++i)
+  {
+    this->Bulges.push_back(
+      BoundBulge(geometry.GetPatches().GetPatch(static_cast<std::int32_t>(i))) + slack);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -55,7 +63,14 @@ bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, P
   this->Tree.Visit(eye + this->Distance * direction, 0.0,
     [&](std::int32_t facet)
     {
+      constexpr std::int32_t all = std::numeric_limits<std::int32_t>::max();
       const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
+      if (!PassesNear({ frame.Project(patch.Corner[0]), frame.Project(patch.Corner[1]),
+                        frame.Project(patch.Corner[2]) },
+            place, this->Bulges[static_cast<std::size_t>(facet)]))
+      {
+        return all;
+      }
       PatchCrossings crossings(patch, frame);
       crossings.Find(place, height, std::numeric_limits<double>::max());
       for (const PatchCrossing& crossing : crossings)
@@ -69,7 +84,7 @@ bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, P
           at = { position, glm::normalize(crossing.Normal) };
         }
       }
-      return std::numeric_limits<std::int32_t>::max();
+      return all;
     });
   return least < std::numeric_limits<double>::infinity();
 }

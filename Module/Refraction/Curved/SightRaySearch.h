@@ -8,6 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <vector>
+
 namespace meniscus
 {
 
@@ -33,7 +35,8 @@ public:
 private:
   const CurvedMembraneSolver& Geometry;
   RayTubeTree Tree;
-  double Distance; ///< of the places along sight rays that the tree is asked for
+  double Distance;            ///< of the places along sight rays that the tree is asked for
+  std::vector<double> Bulges; ///< of the patches, with the rounding of positions
 };
 
 }

@@ -170,8 +170,9 @@ VirtualVertex FlatMembraneSolver::MakeVertex(
   // Eq. 2.4.
   vertex.Position = sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) +
     this->Surface.GetOrigin();
-  // Where the corner normals cancel out, the ray is taken to be at grazing incidence.
-  vertex.Cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
+  // Where the corner normals cancel out, or face away from the eye (Eq. 3.1), the ray is taken to
+  // be at grazing incidence.
+  vertex.Cosine = bent > 0.0 ? std::max(-glm::dot(sight, normal) / bent, 0.0) : 0.0;
   vertex.Reflectance = FresnelReflectance(vertex.Cosine, this->Exterior, this->Interior);
   vertex.Facet = facet;
   vertex.State = ImageState::Found;

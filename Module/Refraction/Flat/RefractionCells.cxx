@@ -47,6 +47,8 @@ struct RefractionCells::CrossSection
   double Depth[3];
   double Cosine[3];
   double SquaredMean = 0.0;
+  /** Squares of the edges of the cuts, each opposite its corner; set by MayBeInside. */
+  double SquaredEdge[3];
 
   /** Rounding error of a corner of the cross-section, times the length of the mean ray. */
   double GetTolerance() const
@@ -61,10 +63,10 @@ struct RefractionCells::CrossSection
   }
 
   /**
-   * True if no area is more negative than rounding or `wallArea` explains. The first pass avoids
-   * the square root and overestimates the reach: almost every tested cell already fails it.
+   * First test for IsInside, which avoids the square root and overestimates the reach: almost every
+   * tested cell already fails it.
    */
-  bool IsInside(const glm::dvec3& area, double wallArea) const
+  bool MayBeInside(const glm::dvec3& area, double wallArea)
   {
     constexpr double factor = CornerRounding * (1.0 + 1.0 / SmallestCosine);
     double squaredReach = 0.0;
@@ -73,20 +75,29 @@ struct RefractionCells::CrossSection
       squaredReach = std::max(squaredReach, glm::dot(w, w));
     }
     const double squaredTolerance = factor * factor * squaredReach * this->SquaredMean;
-    double longest = 0.0;
-    double edge[3];
     for (int i = 0; i < 3; ++i)
     {
       const glm::dvec3 side = this->Cut[(i + 1) % 3] - this->Cut[(i + 2) % 3];
-      edge[i] = glm::dot(side, side);
-      longest = std::max(longest, edge[i]);
+      this->SquaredEdge[i] = glm::dot(side, side);
       if (!(area[i] >= 0.0) &&
-        !(area[i] * area[i] <= std::max(squaredTolerance * edge[i], wallArea * wallArea)))
+        !(area[i] * area[i] <=
+          std::max(squaredTolerance * this->SquaredEdge[i], wallArea * wallArea)))
       {
         return false;
       }
     }
-    if (!(area.x + area.y + area.z > Thinnest * longest * std::sqrt(this->SquaredMean)))
+    return area.x + area.y + area.z > Thinnest * this->GetLongest() * std::sqrt(this->SquaredMean);
+  }
+
+  /**
+   * True if no area is more negative than rounding or `wallArea` explains. A cross-section that is
+   * no higher than the rounding error of its corners has no shape, and holds no point: the cell is
+   * at a focus there.
+   * @param tolerance  GetTolerance()
+   */
+  bool IsInside(const glm::dvec3& area, double wallArea, double tolerance) const
+  {
+    if (!(area.x + area.y + area.z > tolerance * std::sqrt(this->GetLongest())))
     {
       return false;
     }
@@ -94,10 +105,15 @@ struct RefractionCells::CrossSection
     {
       return true;
     }
-    const double tolerance = this->GetTolerance();
-    return area.x >= -std::max(tolerance * std::sqrt(edge[0]), wallArea) &&
-      area.y >= -std::max(tolerance * std::sqrt(edge[1]), wallArea) &&
-      area.z >= -std::max(tolerance * std::sqrt(edge[2]), wallArea);
+    return area.x >= -std::max(tolerance * std::sqrt(this->SquaredEdge[0]), wallArea) &&
+      area.y >= -std::max(tolerance * std::sqrt(this->SquaredEdge[1]), wallArea) &&
+      area.z >= -std::max(tolerance * std::sqrt(this->SquaredEdge[2]), wallArea);
+  }
+
+private:
+  double GetLongest() const
+  {
+    return std::max({ this->SquaredEdge[0], this->SquaredEdge[1], this->SquaredEdge[2] });
   }
 };
 
@@ -249,12 +265,17 @@ bool RefractionCells::Contains(
   const double sum = area.x + area.y + area.z;
   const double sign = sum < 0.0 ? -1.0 : 1.0;
   area *= sign;
-  if (!cross.IsInside(area, wall * sign * sum))
+  if (!cross.MayBeInside(area, wall * sign * sum))
+  {
+    return false;
+  }
+  const double tolerance = cross.GetTolerance();
+  if (!cross.IsInside(area, wall * sign * sum, tolerance))
   {
     return false;
   }
   hit.Weights = area / (sign * sum);
-  if (!this->IsBehind(corner, cross, hit.Weights))
+  if (!this->IsBehind(corner, cross, hit.Weights, tolerance))
   {
     return false;
   }
@@ -266,22 +287,21 @@ bool RefractionCells::Contains(
 }
 
 //------------------------------------------------------------------------------
-bool RefractionCells::IsBehind(
-  const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const
+bool RefractionCells::IsBehind(const CornerTriple& corner, const CrossSection& cross,
+  const glm::dvec3& weights, double tolerance) const
 {
-  const double tolerance = cross.GetTolerance();
   const glm::dvec3 depth(cross.Depth[0], cross.Depth[1], cross.Depth[2]);
+  // A plane in front of all corners is in front of the facet, whatever the weights.
+  if (!(std::max({ depth.x, depth.y, depth.z }) >= -tolerance))
+  {
+    return false;
+  }
   if (glm::dot(weights, depth) >= -tolerance)
   {
     return true;
   }
   // Just behind a facet the plane cuts some rays in front of their corners, and the resulting sight
-  // point may lie behind the point by a second-order amount. In that case the facet itself decides,
-  // unless the plane passes entirely in front of it.
-  if (!(std::max({ depth.x, depth.y, depth.z }) >= -tolerance))
-  {
-    return false;
-  }
+  // point may lie behind the point by a second-order amount. In that case the facet itself decides.
   const glm::dvec3 normal = glm::cross(
     corner[1]->Position - corner[0]->Position, corner[2]->Position - corner[0]->Position);
   const double eyeSide = glm::dot(this->Eye - corner[0]->Position, normal);

@@ -91,8 +91,8 @@ private:
   struct CrossSection;
 
   CornerTriple GetCorners(std::int32_t facet) const;
-  bool IsBehind(
-    const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const;
+  bool IsBehind(const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights,
+    double tolerance) const;
   bool IsEyeOnFacet(const Membrane::Facet& facet) const;
   void CountRays(const std::vector<RayKind>& kinds);
 

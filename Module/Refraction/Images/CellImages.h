@@ -4,7 +4,12 @@
 #define meniscus_Refraction_Images_CellImages_h
 
 #include "Refraction/Images/ImageMesh.h"
+#include "Refraction/Images/ObjectPrimitive.h"
 
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,7 +42,12 @@ struct CellReport
   }
 };
 
-/** Images of the points and cells of an object, behind one interface or several. */
+struct Seam;
+
+/**
+ * Images of the points and cells of an object, behind one interface or several. Holds those of the
+ * points; derived classes solve them and map the cells.
+ */
 class CellImages
 {
 public:
@@ -48,13 +58,21 @@ public:
   using Triangulate = std::function<void(
     const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)>;
 
+  /** Number of points that are solved together. */
+  static constexpr std::size_t Chunk = 128;
+
   virtual ~CellImages() = default;
 
   virtual bool IsWanted(std::size_t point) const = 0;
 
+  /** State of a point; NotAsked if it has never been wanted. */
+  ImageState GetState(std::size_t point) const { return this->States[point]; }
   /** Images of all points, those of the same point in sequence. */
-  virtual const std::vector<ImagePoint>& GetPointImages() const = 0;
-  virtual std::size_t GetNumberOfImages(std::size_t point) const = 0;
+  const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
+  std::size_t GetNumberOfImages(std::size_t point) const
+  {
+    return this->First[point + 1] - this->First[point];
+  }
 
   /**
    * Adds the images of the cells [begin, end), whose ids are in `names`. Cells that keep their
@@ -77,6 +95,42 @@ public:
   virtual void MeetNeighbours(const ObjectCells& cells, std::size_t count,
     const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole,
     ImageMesh& pieces) const = 0;
+
+protected:
+  /** Takes over an object's points (x, y, z each; borrowed), none of them solved. */
+  void ResetPoints(const double* points, std::size_t count);
+  glm::dvec3 GetPoint(std::int64_t id) const
+  {
+    const double* p = this->Points + 3 * id;
+    return { p[0], p[1], p[2] };
+  }
+  /** First image of a point that has any. */
+  const ImagePoint& GetFirstImage(std::int64_t id) const
+  {
+    return this->Images[this->First[static_cast<std::size_t>(id)]];
+  }
+  /** True if the coordinates of all points of a cell are in range; other cells have no image. */
+  bool AreInRange(const std::int64_t* ids, std::size_t count) const
+  {
+    return std::none_of(ids, ids + count,
+      [this](std::int64_t id)
+      { return this->GetState(static_cast<std::size_t>(id)) == ImageState::NotFinite; });
+  }
+  /** Adds a cell whose points have one image each. */
+  void AddWhole(
+    const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
+  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
+  /** Closes the seams of the mapped polygons, seen from `eye` in world coordinates. */
+  void CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells, std::size_t count,
+    const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole,
+    ImageMesh& pieces) const;
+
+  double Tolerance = 0.0; ///< angle in radians at the eye
+  const double* Points = nullptr;
+  std::vector<std::uint32_t> Counts;
+  std::vector<ImageState> States;
+  std::vector<std::size_t> First; ///< by point, and one more: index of its first image
+  std::vector<ImagePoint> Images;
 };
 
 }

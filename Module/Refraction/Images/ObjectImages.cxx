@@ -25,20 +25,10 @@ static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 //------------------------------------------------------------------------------
 void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCross)
 {
-  this->Points = points;
+  this->ResetPoints(points, count);
   this->MayCross = mayCross;
   this->Chunks.assign((count + Chunk - 1) / Chunk, {});
   this->Wanted.clear();
-  this->Counts.assign(count, 0);
-  this->States.assign(count, ImageState::NotAsked);
-  this->Images.clear();
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 ObjectImages::GetPoint(std::int64_t id) const
-{
-  const double* p = this->Points + 3 * id;
-  return { p[0], p[1], p[2] };
 }
 
 //------------------------------------------------------------------------------
@@ -206,23 +196,7 @@ ObjectImages::Side ObjectImages::FindSide(const std::int64_t* ids, std::size_t c
 //------------------------------------------------------------------------------
 ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
 {
-  return { id, this->GetPoint(id),
-    &this->Images[this->First[static_cast<std::size_t>(id)]].Vertex };
-}
-
-//------------------------------------------------------------------------------
-MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
-{
-  MappedTriangle triangle;
-  triangle.Ids = ids;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const auto point = static_cast<std::size_t>(ids[k]);
-    triangle.Corners[k] = this->GetPoint(ids[k]);
-    triangle.Images[k] = { this->Images.data() + this->First[point],
-      this->GetNumberOfImages(point) };
-  }
-  return triangle;
+  return { id, this->GetPoint(id), &this->GetFirstImage(id).Vertex };
 }
 
 //------------------------------------------------------------------------------
@@ -273,19 +247,6 @@ bool ObjectImages::IsSimple(
 }
 
 //------------------------------------------------------------------------------
-void ObjectImages::AddWhole(
-  const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    whole.Connectivity.push_back(
-      static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
-  }
-  whole.EndCell(
-    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].Vertex.Orientation);
-}
-
-//------------------------------------------------------------------------------
 CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
@@ -316,6 +277,10 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
         continue;
       }
       isDivided = false;
+      if (!this->AreInRange(ids + k, 2))
+      {
+        continue;
+      }
       mapping.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell,
         this->MayCrossMembrane(side), pieces);
     }
@@ -341,6 +306,11 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
     isMapped[i] = 0;
+    if (!this->AreInRange(ids, count))
+    {
+      ++report.Without;
+      continue;
+    }
     if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
     {
       this->AddWhole(ids, count, cell, whole);
@@ -377,20 +347,11 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
     return;
   }
   this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
-  if (!closesSeams)
+  if (closesSeams)
   {
-    return;
+    const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
+    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
   }
-  bool hasDiagonals = false;
-  for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
-  {
-    hasDiagonals = isMapped[i] && cells.Offsets[i + 1] - cells.Offsets[i] > 3;
-  }
-  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
-  closure.Collect(pieces, pieces.Points, false);
-  closure.Collect(whole, this->Images, true);
-  closure.Close(pieces);
 }
 
 //------------------------------------------------------------------------------

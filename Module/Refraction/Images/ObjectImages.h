@@ -55,7 +55,6 @@ public:
    * Selects the chunks of points that are wanted from now on; an empty list selects all of them.
    * Solved points are kept for later requests, unless all points were wanted.
    */
-  static constexpr std::size_t Chunk = 128;
   void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
   const std::vector<bool>& GetWanted() const { return this->Wanted; }
   bool IsWanted(std::size_t point) const override
@@ -71,14 +70,6 @@ public:
 
   /** Collects the results of SolvePoints. Cells of wanted points can be mapped afterwards. */
   void FinishPoints();
-
-  const std::vector<ImagePoint>& GetPointImages() const override { return this->Images; }
-  std::size_t GetNumberOfImages(std::size_t point) const override
-  {
-    return this->First[point + 1] - this->First[point];
-  }
-  /** State of a point; NotAsked if it has never been wanted. */
-  ImageState GetState(std::size_t point) const { return this->States[point]; }
 
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
@@ -96,7 +87,6 @@ private:
     Both
   };
 
-  glm::dvec3 GetPoint(std::int64_t id) const;
   bool IsUnique(const std::int64_t* ids, std::size_t count) const;
   void SolveRun(std::size_t begin, std::size_t end, CurvedMembraneSolver::Memory& memory);
   ImageState FindImages(const glm::dvec3& point, bool isUnique,
@@ -112,26 +102,17 @@ private:
   ImagedPoint GetImagedPoint(std::int64_t id) const;
   void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
     const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const;
-  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
-  void AddWhole(
-    const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
 
   const CurvedMembraneSolver& Geometry;
   InjectivityGrid Unique;
-  double Tolerance = 0.0;
   double Nearest = 0.0;
   double Farthest = 0.0;
-  const double* Points = nullptr;
   bool MayCross = false;
   std::vector<std::vector<VirtualVertex>> Chunks;
   std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
-  std::vector<std::uint32_t> Counts;
-  std::vector<ImageState> States;
   std::vector<bool> InFront;
-  std::vector<std::size_t> First;
-  std::vector<ImagePoint> Images;
 };
 
 }

@@ -129,7 +129,7 @@ struct ObjectPrimitive
     return primitive;
   }
 
-  /** Sets what follows from corners, axes and the box of the primitive. */
+  /** Sets the members that follow from corners, axes and the box of the primitive. */
   void SetPlane(const glm::dvec3& middle, const glm::dvec3& half)
   {
     this->Normal = glm::cross(this->Axis[0], this->Axis[1]);
@@ -291,8 +291,10 @@ void ObjectPrimitive::Clip(
   };
   polygon = whole;
   std::vector<Corner> next;
-  for (int k = 0; k < count && !polygon.empty(); ++k)
+  for (int turn = 0; turn < count && !polygon.empty(); ++turn)
   {
+    // The distance from a line comes last: it leaves the two ends of a segment.
+    const int k = this->IsLine && turn >= 3 ? (turn + 1 < count ? turn + 1 : 3) : turn;
     const bool beside = this->IsLine && k == 3;
     next.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i)

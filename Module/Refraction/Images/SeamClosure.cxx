@@ -353,7 +353,8 @@ std::vector<SeamClosure::Part> SeamClosure::FindFreeSides(
       {
         continue;
       }
-      const auto [first, last] = std::minmax(GetKey(a), GetKey(b));
+      // The list makes copies; references to the two keys would outlive them.
+      const auto [first, last] = std::minmax({ GetKey(a), GetKey(b) });
       const auto [known, isNew] = free.insert({ { mesh.SourceCells[cell], first, last },
         { -1, -1, a, b, mesh.SourceCells[cell], mesh.Orientations[cell], false } });
       if (!isNew)

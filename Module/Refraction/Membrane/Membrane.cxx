@@ -32,22 +32,51 @@ glm::dvec3 Load(const double* array, std::size_t index)
   return { array[3 * index], array[3 * index + 1], array[3 * index + 2] };
 }
 
-// Edges are scaled by the longest one, so that the squares of tiny and huge coordinates stay within
-// the range of double.
-bool HasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+// A facet whose height exceeds this share of the membrane's radius keeps its area in local
+// coordinates. Each coordinate is rounded there by u = epsilon / 2 of the radius at most, each edge
+// by 2 sqrt(3) u and the height by twice that, 4 epsilon; the area must exceed CrossProductRounding
+// times the longest edges, at most 2 sqrt(3) radii, which takes another 14 epsilon of height.
+constexpr double LocalRounding = 32.0 * std::numeric_limits<double>::epsilon();
+
+// Height of a triangle over its longest edge; 0 if its area is within rounding or an edge is too
+// long for a double. Edges are scaled by the largest coordinate, so that the squares of tiny and
+// huge ones stay within the range of double.
+double GetHeight(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   glm::dvec3 first = b - a;
   glm::dvec3 second = c - a;
-  const glm::dvec3 extent = glm::max(glm::abs(first), glm::abs(second));
+  const glm::dvec3 extent = glm::max(glm::max(glm::abs(first), glm::abs(second)), glm::abs(c - b));
   const double scale = std::max({ extent.x, extent.y, extent.z });
   if (!(scale > 0.0) || !std::isfinite(scale))
   {
-    return false;
+    return 0.0;
   }
   first /= scale;
   second /= scale;
-  return glm::length(glm::cross(first, second)) >
-    CrossProductRounding * glm::length(first) * glm::length(second);
+  const double area = glm::length(glm::cross(first, second));
+  const double product = glm::length(first) * glm::length(second);
+  // The longest edge is at most sqrt(3) scales.
+  return area > CrossProductRounding * product ? scale * area / std::sqrt(3.0) : 0.0;
+}
+
+template <typename Keep>
+std::size_t Filter(
+  std::vector<Membrane::Facet>& facets, std::vector<std::int64_t>& ids, const Keep& keep)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    if (keep(i))
+    {
+      facets[kept] = facets[i];
+      ids[kept] = ids[i];
+      ++kept;
+    }
+  }
+  const std::size_t dropped = facets.size() - kept;
+  facets.resize(kept);
+  ids.resize(kept);
+  return dropped;
 }
 
 }
@@ -65,18 +94,21 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
   {
     return MembraneStatus::TooLarge;
   }
-  this->AcceptFacets(input);
+  const double leastHeight = this->AcceptFacets(input);
   this->DropDuplicates();
-  if (this->Facets.empty())
+  do
   {
-    return MembraneStatus::Empty;
-  }
+    if (this->Facets.empty())
+    {
+      return MembraneStatus::Empty;
+    }
+    this->MoveToLocalOrigin(input);
+  } while (this->DropFlattened(leastHeight));
   if (!this->OrientFacets(input.NumberOfPoints))
   {
     *this = Membrane();
     return MembraneStatus::OneSided;
   }
-  this->MoveToLocalOrigin(input);
   if (!std::isfinite(1.0 / this->Radius))
   {
     const std::size_t tooSmall = this->Facets.size();
@@ -89,11 +121,13 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
 }
 
 //------------------------------------------------------------------------------
-void Membrane::AcceptFacets(const MembraneInput& input)
+/** Returns the smallest height of an accepted facet over its longest edge. */
+double Membrane::AcceptFacets(const MembraneInput& input)
 {
   const auto isPoint = [&input](std::int64_t index)
   { return index >= 0 && static_cast<std::size_t>(index) < input.NumberOfPoints; };
 
+  double leastHeight = std::numeric_limits<double>::infinity();
   this->Facets.reserve(input.NumberOfTriangles);
   this->CellIds.reserve(input.NumberOfTriangles);
   for (std::size_t triangle = 0; triangle < input.NumberOfTriangles; ++triangle)
@@ -111,18 +145,20 @@ void Membrane::AcceptFacets(const MembraneInput& input)
     {
       ++this->Report.NotFinite;
     }
-    else if (!HasArea(a, b, c))
+    else if (const double height = GetHeight(a, b, c); !(height > 0.0))
     {
       ++this->Report.ZeroArea;
     }
     else
     {
+      leastHeight = std::min(leastHeight, height);
       this->Facets.push_back({ static_cast<std::int32_t>(ids[0]), static_cast<std::int32_t>(ids[1]),
         static_cast<std::int32_t>(ids[2]) });
       this->CellIds.push_back(
         input.CellIds ? input.CellIds[triangle] : static_cast<std::int64_t>(triangle));
     }
   }
+  return leastHeight;
 }
 
 //------------------------------------------------------------------------------
@@ -150,19 +186,8 @@ void Membrane::DropDuplicates()
   {
     repeated[static_cast<std::size_t>(keys[i].Id)] = keys[i].Sorted == keys[i - 1].Sorted;
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < repeated.size(); ++i)
-  {
-    if (!repeated[i])
-    {
-      this->Facets[kept] = this->Facets[i];
-      this->CellIds[kept] = this->CellIds[i];
-      ++kept;
-    }
-  }
-  this->Report.Duplicated = this->Facets.size() - kept;
-  this->Facets.resize(kept);
-  this->CellIds.resize(kept);
+  this->Report.Duplicated =
+    Filter(this->Facets, this->CellIds, [&repeated](std::size_t i) { return !repeated[i]; });
 }
 
 //------------------------------------------------------------------------------
@@ -202,6 +227,30 @@ void Membrane::MoveToLocalOrigin(const MembraneInput& input)
   {
     this->Positions[i] = Load(input.Points, i) - this->Origin;
   }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Leaves out facets that are so small, compared with the whole membrane, that they have no area in
+ * local coordinates. Returns true if there are any: the others may have another centre.
+ * @param leastHeight  the smallest height of all facets
+ */
+bool Membrane::DropFlattened(double leastHeight)
+{
+  if (leastHeight > LocalRounding * this->Radius)
+  {
+    return false;
+  }
+  const auto hasArea = [this](std::size_t i)
+  {
+    const Facet& facet = this->Facets[i];
+    return GetHeight(this->Positions[static_cast<std::size_t>(facet[0])],
+             this->Positions[static_cast<std::size_t>(facet[1])],
+             this->Positions[static_cast<std::size_t>(facet[2])]) > 0.0;
+  };
+  const std::size_t dropped = Filter(this->Facets, this->CellIds, hasArea);
+  this->Report.ZeroArea += dropped;
+  return dropped > 0;
 }
 
 //------------------------------------------------------------------------------

@@ -45,7 +45,8 @@ struct MembraneReport
 {
   std::size_t OutOfRange = 0;        ///< skipped: refers to a point that does not exist
   std::size_t NotFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
-  std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product
+  std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product or
+                                     ///< of the membrane's local coordinates
   std::size_t Duplicated = 0;        ///< skipped: same three points as an earlier triangle
   std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
   std::size_t NonManifoldFacets = 0; ///< kept, but not joined to their neighbours for computed
@@ -89,10 +90,11 @@ public:
   const SurfacePieces& GetPieces() const { return this->Pieces; }
 
 private:
-  void AcceptFacets(const MembraneInput& input);
+  double AcceptFacets(const MembraneInput& input);
   void DropDuplicates();
   bool OrientFacets(std::size_t points);
   void MoveToLocalOrigin(const MembraneInput& input);
+  bool DropFlattened(double leastHeight);
   void TakeNormals(const MembraneInput& input);
 
   glm::dvec3 Origin{ 0.0 };

@@ -14,8 +14,10 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +40,17 @@ constexpr double CancellationRounding = 16.0 * std::numeric_limits<double>::epsi
 glm::dvec3 ToVector(const OpenMesh::Vec3d& v)
 {
   return { v[0], v[1], v[2] };
+}
+
+// Unit vector from one point to another, whose squared distance may be out of the range of double.
+// The scale is a power of two, which changes no digit.
+glm::dvec3 DirectionBetween(const glm::dvec3& from, const glm::dvec3& to)
+{
+  const glm::dvec3 away = to - from;
+  const glm::dvec3 extent = glm::abs(away);
+  const int exponent = std::ilogb(std::max({ extent.x, extent.y, extent.z }));
+  return glm::normalize(glm::dvec3(std::scalbn(away.x, -exponent), std::scalbn(away.y, -exponent),
+    std::scalbn(away.z, -exponent)));
 }
 
 // Silences OpenMesh's message about every complex edge; complex edges are counted instead.
@@ -133,13 +146,13 @@ std::size_t ComputeVertexNormals(const std::vector<glm::dvec3>& positions,
       corner[count++] = ToVector(topology.Surface.point(v));
     }
     const glm::dvec3 unit = glm::normalize(
-      glm::cross(glm::normalize(corner[1] - corner[0]), glm::normalize(corner[2] - corner[0])));
+      glm::cross(DirectionBetween(corner[0], corner[1]), DirectionBetween(corner[0], corner[2])));
     for (std::size_t i = 0; i < 3; ++i)
     {
       if (wanted[vertex[i]])
       {
-        const glm::dvec3 first = glm::normalize(corner[(i + 1) % 3] - corner[i]);
-        const glm::dvec3 second = glm::normalize(corner[(i + 2) % 3] - corner[i]);
+        const glm::dvec3 first = DirectionBetween(corner[i], corner[(i + 1) % 3]);
+        const glm::dvec3 second = DirectionBetween(corner[i], corner[(i + 2) % 3]);
         const double angle =
           std::atan2(glm::length(glm::cross(first, second)), glm::dot(first, second));
         normals[vertex[i]] += angle * unit;

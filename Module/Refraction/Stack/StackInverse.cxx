@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackInverse.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -17,91 +15,71 @@ namespace meniscus
 namespace
 {
 
-// Newton's method converges quadratically: the remaining error is of the order of the square of
-// the last step, 1e-14 of a facet.
-constexpr double LastStep = 1e-7;
+const glm::dvec3 None(std::numeric_limits<double>::quiet_NaN());
 
-}
-
-//------------------------------------------------------------------------------
-bool StackPatches::Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
-  const glm::dvec3&, PatchPoint& at) const
-{
-  const RefractionStack::Link& next = this->Stack.GetLinks()[link];
-  const glm::dvec3 from = origin - this->Stack.GetOrigin();
-  SurfaceCrossing crossing;
-  if (!this->Stack.FindNext(link, from, direction, crossing))
-  {
-    return false;
-  }
-  const CurvedPatch patch = next.Surface->GetPatch(crossing.Facet, !next.Passage.FromFront);
-  // The direction is scaled, so that the parameter is about 1.
-  const double scale = std::max(patch.GetSize(), crossing.Distance);
-  double l = crossing.Distance / scale;
-  glm::dvec2 b = crossing.B;
-  glm::dvec3 normal;
-  if (!MeetPatch(patch, { from - next.Shift, scale * direction }, LastStep, b, l, normal))
-  {
-    return false;
-  }
-  const double length = glm::length(normal);
-  at.Position = origin + l * scale * direction;
-  at.Normal = normal / length;
-  // Written so that a NaN fails.
-  return length > CurvedPatch::ShortestNormal && glm::dot(at.Normal, direction) < 0.0;
 }
 
 //------------------------------------------------------------------------------
 StackTruePosition FindTruePosition(
   const RefractionStack& stack, double medium, const glm::dvec3& seen)
 {
-  const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
+  thread_local StackSightRay ray; // kept so that its memory is reused
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   const glm::dvec3 sight = seen - eye;
   const double distance = glm::length(sight);
-  const std::vector<RefractionStack::Link>& links = stack.GetLinks();
-  const double index = links.empty() ? medium : links.front().Passage.Before;
   if (!std::isfinite(distance) || distance == 0.0)
   {
-    return { { seen, none, SeenState::NotFinite }, index * distance };
+    return { { seen, None, SeenState::NotFinite }, medium * distance };
   }
-  const StackPatches surfaces(stack);
-  glm::dvec3 direction = sight / distance;
-  PatchPoint at;
-  if (links.empty() || !surfaces.Meet(0, eye, direction, eye, at) ||
-    glm::dot(seen - at.Position, direction) <= 0.0)
+  TraceSightRay(stack, medium, sight / distance, ray);
+  std::size_t leg = 0;
+  return WalkSightRay(ray, seen, leg);
+}
+
+//------------------------------------------------------------------------------
+StackTruePosition FindTruePosition(
+  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen)
+{
+  return tracer.SetEye(eye) == EyeStatus::Ready
+    ? FindTruePosition(tracer.GetStack(), tracer.GetMedium(), seen)
+    : StackTruePosition{ { seen, None, SeenState::NotFinite },
+        tracer.GetMedium() * glm::length(seen - eye) };
+}
+
+//------------------------------------------------------------------------------
+StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg)
+{
+  const SightLeg& sight = ray.Legs.front();
+  const double distance = glm::length(seen - sight.Origin);
+  leg = 0;
+  const glm::dvec3 first =
+    ray.Legs.size() > 1 ? ray.Legs[1].Origin : sight.Origin + sight.Length * sight.Direction;
+  // Distance of the point behind the first surface, over the index of its medium. The part of it
+  // that is in front of a leg is subtracted.
+  double rest = glm::dot(seen - first, sight.Direction) / sight.Index;
+  if (!std::isfinite(sight.Length) || rest <= 0.0)
   {
-    return { { seen, none, SeenState::Unrefracted }, index * distance };
+    return { { seen, None, SeenState::Unrefracted }, sight.Index * distance };
   }
-  const glm::dvec3 first = at.Position;
-  double optical = index * glm::length(first - eye);
-  // Sum of the lengths of the legs to the point, each over the index of its medium.
-  double rest = glm::dot(seen - first, direction) / index;
-  for (std::size_t k = 0;; ++k)
+  double optical = sight.Index * sight.Length;
+  for (leg = 1; leg < ray.Legs.size(); ++leg)
   {
-    const InterfacePassage& passage = links[k].Passage;
-    const RefractionRay ray =
-      ComputeRefractionRay(direction, at.Normal, passage.Before / passage.Behind);
-    if (ray.Kind != RayKind::Refracted)
+    const SightLeg& on = ray.Legs[leg];
+    if (leg + 1 == ray.Legs.size() && ray.End == PathEnd::Missed)
     {
-      return { { seen, first, SeenState::TotallyReflected }, index * distance };
+      return { { seen, first, SeenState::Missed }, sight.Index * distance };
     }
-    direction = ray.Direction;
-    const glm::dvec3 origin = at.Position;
-    const double toPoint = rest * passage.Behind;
-    if (k + 1 < links.size() && !surfaces.Meet(k + 1, origin, direction, origin, at))
+    const double toPoint = rest * on.Index;
+    if (toPoint <= on.Length)
     {
-      return { { seen, first, SeenState::Missed }, index * distance };
+      return { { on.Origin + toPoint * on.Direction, first, SeenState::Refracted },
+        optical + on.Index * toPoint };
     }
-    const double length = glm::length(at.Position - origin);
-    if (k + 1 == links.size() || toPoint <= length)
-    {
-      return { { origin + toPoint * direction, first, SeenState::Refracted },
-        optical + passage.Behind * toPoint };
-    }
-    rest -= length / passage.Behind;
-    optical += passage.Behind * length;
+    rest -= on.Length / on.Index;
+    optical += on.Index * on.Length;
   }
+  --leg;
+  return { { seen, first, SeenState::TotallyReflected }, sight.Index * distance };
 }
 
 //------------------------------------------------------------------------------

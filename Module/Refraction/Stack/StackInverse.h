@@ -9,44 +9,13 @@
 
 #include "Refraction/Curved/ErrorSamples.h"
 #include "Refraction/Curved/TruePositions.h"
+#include "Refraction/Stack/StackSightRay.h"
 #include "Refraction/Stack/StackSolver.h"
 
 #include <cstddef>
 
 namespace meniscus
 {
-
-/** The surfaces that the rays of a stack meet: those of its links, or others close to them. */
-class StackSurfaces
-{
-public:
-  virtual ~StackSurfaces() = default;
-
-  /**
-   * Intersection of the ray from `origin` along the unit vector `direction` with the surface of a
-   * link, from the side from which the link is passed, and the unit normal there, against the ray.
-   * @param near  point of the stack's own surface close to the intersection
-   * @return false if there is none
-   */
-  virtual bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
-    const glm::dvec3& near, PatchPoint& at) const = 0;
-};
-
-/** The patches of a stack's links. The nearest intersection counts, wherever `near` is. */
-class StackPatches : public StackSurfaces
-{
-public:
-  /** `stack` must outlive this object. */
-  explicit StackPatches(const RefractionStack& stack)
-    : Stack(stack)
-  {
-  }
-  bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
-    const glm::dvec3& near, PatchPoint& at) const override;
-
-private:
-  const RefractionStack& Stack;
-};
 
 /** Outcome for a point that is seen through a stack. */
 struct StackTruePosition : TruePosition
@@ -62,6 +31,16 @@ struct StackTruePosition : TruePosition
  */
 StackTruePosition FindTruePosition(
   const RefractionStack& stack, double medium, const glm::dvec3& seen);
+
+/** The same for a point that is seen from its own eye. */
+StackTruePosition FindTruePosition(
+  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen);
+
+/**
+ * As FindTruePosition, for a traced ray. `leg` is set to the leg that the position lies on, or to
+ * the last leg of a ray that does not show it.
+ */
+StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg);
 
 /** Error of virtual vertices behind several surfaces; as ErrorSampler for one. */
 class StackErrorSampler

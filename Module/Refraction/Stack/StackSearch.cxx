@@ -209,7 +209,7 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
     size = std::max(size, glm::length(b - a));
     reach = std::max(reach, glm::length(a));
   }
-  // Six rays do not tell what happens between them if the beam meets many patches.
+  // Six rays do not represent the rays between them if the beam meets many patches.
   const double footprint =
     std::ldexp(std::max_element(part.begin(), part.end(),
                  [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })

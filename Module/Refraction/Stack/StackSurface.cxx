@@ -109,31 +109,16 @@ double StackSurface::GetSlack(double distance) const
 }
 
 //------------------------------------------------------------------------------
-// False if the line passes the facet's border at more than the patch's bulge.
 bool StackSurface::MayCross(
   std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const
 {
   const auto i = static_cast<std::size_t>(facet);
-  const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-  glm::dvec2 corner[3];
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const auto vertex = static_cast<std::size_t>(this->Surface.GetFacets()[i][k]);
-    corner[k] = frame.Project(this->Surface.GetPositions()[vertex]) - place;
-  }
-  const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  for (int k = 0; k < 3; ++k)
-  {
-    const glm::dvec2& from = corner[(k + 1) % 3];
-    const glm::dvec2 side = corner[(k + 2) % 3] - from;
-    // Positive inside: distance times the side's length.
-    const double distance = std::copysign(1.0, area) * cross(from, side);
-    if (distance < -this->Bounds[i].Bulge * glm::length(side))
-    {
-      return false;
-    }
-  }
-  return true;
+  const Membrane::Facet& triangle = this->Surface.GetFacets()[i];
+  const std::vector<glm::dvec3>& positions = this->Surface.GetPositions();
+  return PassesNear({ frame.Project(positions[static_cast<std::size_t>(triangle[0])]),
+                      frame.Project(positions[static_cast<std::size_t>(triangle[1])]),
+                      frame.Project(positions[static_cast<std::size_t>(triangle[2])]) },
+    place, this->Bounds[i].Bulge);
 }
 
 //------------------------------------------------------------------------------

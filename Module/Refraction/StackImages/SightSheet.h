@@ -62,6 +62,9 @@ public:
   template <typename IsOutside, typename Map>
   void Visit(const Patch& patch, std::size_t leg, const IsOutside& isOutside, const Map& map) const;
 
+  /** Largest error of linear interpolation in a cell, as an angle in radians at the eye. */
+  double GetTolerance() const { return this->Tolerance; }
+
   /** Number of interfaces. */
   std::size_t GetNumberOfLinks() const { return this->Links; }
 

@@ -14,19 +14,9 @@ namespace meniscus
 //------------------------------------------------------------------------------
 void StackImages::SetPoints(const double* points, std::size_t count)
 {
-  this->Points = points;
+  this->ResetPoints(points, count);
   this->Sheet.reset();
   this->Chunks.assign((count + Chunk - 1) / Chunk, {});
-  this->Counts.assign(count, 0);
-  this->States.assign(count, ImageState::NotAsked);
-  this->Images.clear();
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 StackImages::GetPoint(std::int64_t id) const
-{
-  const double* p = this->Points + 3 * id;
-  return { p[0], p[1], p[2] };
 }
 
 //------------------------------------------------------------------------------
@@ -88,37 +78,9 @@ bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
   return std::all_of(ids, ids + count,
     [this](std::int64_t id)
     {
-      const auto point = static_cast<std::size_t>(id);
-      return this->GetNumberOfImages(point) == 1 && this->Images[this->First[point]].Passed == 0;
+      return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
+        this->GetFirstImage(id).Passed == 0;
     });
-}
-
-//------------------------------------------------------------------------------
-void StackImages::AddWhole(
-  const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    whole.Connectivity.push_back(
-      static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
-  }
-  whole.EndCell(
-    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].Vertex.Orientation);
-}
-
-//------------------------------------------------------------------------------
-MappedTriangle StackImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
-{
-  MappedTriangle triangle;
-  triangle.Ids = ids;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const auto point = static_cast<std::size_t>(ids[k]);
-    triangle.Corners[k] = this->GetPoint(ids[k]);
-    triangle.Images[k] = { this->Images.data() + this->First[point],
-      this->GetNumberOfImages(point) };
-  }
-  return triangle;
 }
 
 //------------------------------------------------------------------------------
@@ -141,6 +103,10 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
     const std::size_t before = pieces.GetNumberOfCells();
     for (std::size_t k = 0; k + 1 < count; ++k)
     {
+      if (!this->AreInRange(ids + k, 2))
+      {
+        continue;
+      }
       const MappedTriangle line = this->MakeTriangle({ ids[k], ids[k + 1], ids[k] });
       const ObjectPrimitive primitive = mapper.MakeLine(line, names[i]);
       parts.clear();
@@ -165,6 +131,12 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    if (!this->AreInRange(ids, count))
+    {
+      isMapped[i] = 0;
+      ++report.Without;
+      continue;
+    }
     bool isWhole = this->AreInFront(ids, count);
     triangles.clear();
     if (!isWhole)
@@ -220,20 +192,11 @@ void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
   const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
-  if (seams.empty() || !closesSeams)
+  if (closesSeams && !seams.empty())
   {
-    return;
+    const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
   }
-  bool hasDiagonals = false;
-  for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
-  {
-    hasDiagonals = isMapped[i] && cells.Offsets[i + 1] - cells.Offsets[i] > 3;
-  }
-  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
-  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
-  closure.Collect(pieces, pieces.Points, false);
-  closure.Collect(whole, this->Images, true);
-  closure.Close(pieces);
 }
 
 }

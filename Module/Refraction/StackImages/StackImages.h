@@ -6,7 +6,6 @@
 #include "Refraction/Images/CellImages.h"
 #include "Refraction/StackImages/StackMapper.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -30,9 +29,6 @@ public:
   {
   }
 
-  /** Number of points that are solved together. */
-  static constexpr std::size_t Chunk = 128;
-
   /** Sets the object's points (x, y, z each; borrowed). Computes no image. */
   void SetPoints(const double* points, std::size_t count);
 
@@ -45,14 +41,7 @@ public:
   /** Sets the tolerance of the cells, an angle in radians at the eye, before they are mapped. */
   void SetTolerance(double tolerance);
 
-  ImageState GetState(std::size_t point) const { return this->States[point]; }
-
   bool IsWanted(std::size_t) const override { return true; }
-  const std::vector<ImagePoint>& GetPointImages() const override { return this->Images; }
-  std::size_t GetNumberOfImages(std::size_t point) const override
-  {
-    return this->First[point + 1] - this->First[point];
-  }
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
@@ -71,22 +60,12 @@ private:
 
   bool ClipTriangles(
     const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
-  glm::dvec3 GetPoint(std::int64_t id) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
-  void AddWhole(
-    const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
-  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
 
   const StackSolver& Solver;
   std::unique_ptr<SightSheet> Sheet;
-  double Tolerance = 0.0;
   double Farthest = 0.0; ///< largest distance of a point from the eye
-  const double* Points = nullptr;
   std::vector<std::vector<ImagePoint>> Chunks;
-  std::vector<std::uint32_t> Counts;
-  std::vector<ImageState> States;
-  std::vector<std::size_t> First;
-  std::vector<ImagePoint> Images;
 };
 
 }

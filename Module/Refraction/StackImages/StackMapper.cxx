@@ -3,6 +3,7 @@
 #include "Refraction/StackImages/StackMapper.h"
 
 #include "Refraction/Curved/BracketedZero.h"
+#include "Refraction/StackImages/SurfaceTie.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -50,12 +51,6 @@ glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double s)
   return (1.0 - s) * a + s * b;
 }
 
-double GetLongest(const std::array<glm::dvec3, 3>& corners)
-{
-  return std::max({ glm::length(corners[0] - corners[1]), glm::length(corners[1] - corners[2]),
-    glm::length(corners[2] - corners[0]) });
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -90,7 +85,7 @@ void StackMapper::Clip(const ObjectPrimitive& primitive, std::vector<Part>& part
         this->Sheet.GetPatch(facet), leg,
         [&primitive](const SubCell& nodes) { return primitive.IsOutside(nodes); },
         [&](const LegCell& cell) {
-          ClipCell(primitive, { leg, facet, cell, {}, 0.0 }, leg == links, parts);
+          this->ClipCell(primitive, { leg, facet, cell, {}, 0.0 }, parts);
         });
     }
   }
@@ -128,8 +123,9 @@ void StackMapper::CollectFacets(
 
 //------------------------------------------------------------------------------
 void StackMapper::ClipCell(
-  const ObjectPrimitive& primitive, const Part& cell, bool isLast, std::vector<Part>& parts)
+  const ObjectPrimitive& primitive, const Part& cell, std::vector<Part>& parts) const
 {
+  const bool isLast = cell.Leg == this->Stack.GetLinks().size();
   Polygon whole(3);
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -147,6 +143,10 @@ void StackMapper::ClipCell(
       whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
+  if (!this->ResolveTies(primitive, cell, whole))
+  {
+    return;
+  }
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
@@ -156,6 +156,55 @@ void StackMapper::ClipCell(
       parts.push_back({ cell.Leg, cell.Facet, cell.Cell, polygon, sign });
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// Rounding of the surface, counted from 1, and of the object at a place: both were moved from world
+// coordinates.
+double StackMapper::GetSlack(std::size_t surface, const glm::dvec3& place) const
+{
+  return this->Stack.GetLinks()[surface - 1].Surface->GetSlack(
+    glm::length(place) + glm::length(this->Stack.GetOrigin()));
+}
+
+//------------------------------------------------------------------------------
+// Ties of a primitive with the surfaces at the ends of a leg: a surface that clips nothing has the
+// value 0. Returns false if the leg does not show the primitive in the cell.
+bool StackMapper::ResolveTies(
+  const ObjectPrimitive& primitive, const Part& cell, Polygon& whole) const
+{
+  for (const bool isEnd : { false, true })
+  {
+    const std::size_t surface = cell.Leg + (isEnd ? 1 : 0); // counted from 1
+    if (surface == 0 || surface > this->Stack.GetLinks().size())
+    {
+      continue;
+    }
+    const int constraint = isEnd ? PrimitiveConstraints : 0;
+    glm::dvec3 behind;
+    std::array<glm::dvec3, 3> side;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto at = static_cast<glm::length_t>(i);
+      behind[at] = isEnd ? -whole[i].Value[constraint] : whole[i].Value[constraint];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        side[k][at] = whole[i].Value[k + 1];
+      }
+    }
+    const std::array<glm::dvec3, 3> corners = GetSurfaceCorners(cell.Cell, isEnd);
+    const SurfaceTie tie =
+      FindSurfaceTie(primitive, corners, behind, side, this->GetSlack(surface, corners[0]));
+    if (tie == (isEnd ? SurfaceTie::Behind : SurfaceTie::InFront))
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < 3 && tie != SurfaceTie::None; ++i)
+    {
+      whole[i].Value[constraint] = 0.0;
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -503,6 +552,7 @@ StackMapper::MappedPoint StackMapper::MakeOnSurface(
 }
 
 //------------------------------------------------------------------------------
+// Point in which a side of the primitive crosses a surface.
 StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, std::size_t side,
   std::size_t surface, const glm::dvec2& b, glm::dvec3 weight) const
 {
@@ -511,38 +561,15 @@ StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, s
   const RefractionStack::Link& link = this->Stack.GetLinks()[surface - 1];
   const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
   const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
-  const ObjectLine line{ on.Line.Origin - link.Shift, on.Line.Direction };
-  const double length = glm::length(line.Direction);
-  const glm::dvec3 guess =
-    line.GetPoint(std::clamp(weight[last] / (weight[first] + weight[last]), 0.0, 1.0));
-  // The nearest crossing on either side of the guess.
-  SurfaceCrossing nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const double sign : { 1.0, -1.0 })
-  {
-    SurfaceCrossing crossing;
-    if (link.Surface->FindCrossing(guess, sign / length * line.Direction, 0,
-          -link.Surface->GetSlack(glm::length(guess)), std::numeric_limits<double>::max(),
-          crossing) &&
-      crossing.Distance < least)
-    {
-      least = crossing.Distance;
-      nearest = crossing;
-    }
-  }
-  const std::array<glm::dvec3, 3> corners = surface == context.Leg
-    ? std::array<glm::dvec3, 3>{ context.Cell.Nodes[0].From.At.Position,
-        context.Cell.Nodes[1].From.At.Position, context.Cell.Nodes[2].From.At.Position }
-    : context.Cell.Ends;
-  glm::dvec2 at = nearest.B;
-  double l = 0.0;
-  if (nearest.Facet == CurvedPatches::NoFacet || least > GetLongest(corners))
+  const glm::dvec3 sight = context.Patch.Evaluate(context.Cell.Nodes[0].B).Position +
+    this->Stack.GetLinks().front().Shift - this->Stack.GetEye();
+  const double angle = this->GetSize(context) / glm::length(sight);
+  double l = std::clamp(weight[last] / (weight[first] + weight[last]), 0.0, 1.0);
+  if (!MoveToSurface(link, on.Line, GetSurfaceCorners(context.Cell, surface == context.Leg + 1),
+        this->Sheet.GetTolerance() / angle, l))
   {
     return { {}, Finding::Elsewhere };
   }
-  const CurvedPatch patch = link.Surface->GetPatches().GetPatch(nearest.Facet);
-  l = glm::dot(patch.Evaluate(at).Position - line.Origin, line.Direction) / (length * length);
-  MeetPatchAgain(patch, line, at, l);
   if (!(l > 0.0 && l < 1.0))
   {
     return this->MakeEnd(context, l < 0.5 ? first : last, b);
@@ -635,7 +662,7 @@ double StackMapper::GetSize(const Context& context) const
   {
     corners[k] = context.Patch.Evaluate(context.Cell.Nodes[k].B).Position;
   }
-  return GetLongest(corners);
+  return GetLongestSide(corners);
 }
 
 }

@@ -92,8 +92,9 @@ private:
 
   void CollectFacets(
     const ObjectPrimitive& primitive, std::size_t leg, std::vector<std::int32_t>& facets) const;
-  static void ClipCell(
-    const ObjectPrimitive& primitive, const Part& cell, bool isLast, std::vector<Part>& parts);
+  void ClipCell(const ObjectPrimitive& primitive, const Part& cell, std::vector<Part>& parts) const;
+  double GetSlack(std::size_t surface, const glm::dvec3& place) const;
+  bool ResolveTies(const ObjectPrimitive& primitive, const Part& cell, Polygon& whole) const;
   bool EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const;
   int GetOrientation(const CurvedPatch& patch, const Part& part, double area) const;
   bool EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;

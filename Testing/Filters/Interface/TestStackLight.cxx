@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Light through several interfaces: closed forms for panes, rays through an exact lens, and the
-// energy of what arrives.
+// energy that arrives.
 #include "ExactStack.h"
 #include "StackFilterHelpers.h"
 

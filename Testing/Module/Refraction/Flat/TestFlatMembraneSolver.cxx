@@ -379,6 +379,63 @@ TEST(RefractionGeometry, PointsInFrontHaveNoImage)
 }
 
 //------------------------------------------------------------------------------
+// An octahedron with normals to the outside: from any eye some facets face away.
+MembraneMesh MakeOctahedron()
+{
+  MembraneMesh octahedron;
+  for (int i = 0; i < 6; ++i)
+  {
+    glm::dvec3 point(0.0);
+    point[i / 2] = i % 2 == 0 ? -1.0 : 1.0;
+    octahedron.AddPoint(point, point);
+  }
+  for (const int x : { 0, 1 })
+  {
+    for (const int y : { 2, 3 })
+    {
+      octahedron.AddTriangle(x, y, 4);
+      octahedron.AddTriangle(x, y, 5);
+    }
+  }
+  return octahedron;
+}
+
+//------------------------------------------------------------------------------
+// With equal indices all rays are straight and meet at the eye, a focus: the cross-sections of all
+// cells there are as small as rounding, and have no shape. The eye is in front of all facets.
+TEST(RefractionGeometry, AFocusIsInNoCell)
+{
+  Random random(61);
+  for (int i = 0; i < 300; ++i)
+  {
+    const glm::dvec3 eye(random(-4.0, -1.1), random(-4.0, 4.0), random(-4.0, 4.0));
+    const FlatMembraneSolver geometry = Make(MakeOctahedron(), eye, 1.0, 1.0);
+    EXPECT_EQ(geometry.SolvePoint(eye).State, ImageState::NoImage) << i;
+    EXPECT_EQ(geometry.SolvePointByBruteForce(eye).State, ImageState::NoImage) << i;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Where a facet faces away, its ray is at grazing incidence (Eq. 3.1).
+TEST(RefractionGeometry, CosinesAreOfAcuteAngles)
+{
+  const FlatMembraneSolver geometry = Make(MakeOctahedron(), { -3.0, 0.4, 0.7 }, 1.0, 1.333);
+  Random random(67);
+  int grazing = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const VirtualVertex vertex =
+      geometry.SolvePoint({ random(0.0, 4.0), random(-2.0, 2.0), random(-2.0, 2.0) });
+    ASSERT_GE(vertex.Cosine, 0.0) << i;
+    ASSERT_LE(vertex.Cosine, 1.0) << i;
+    ASSERT_GE(vertex.Reflectance, 0.0) << i;
+    grazing += vertex.Cosine == 0.0;
+    EXPECT_EQ(vertex.Reflectance == 1.0, vertex.Cosine == 0.0) << i;
+  }
+  EXPECT_GT(grazing, 10);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionGeometry, PointsThatAreNotFiniteSaySo)
 {
   const FlatMembraneSolver geometry =

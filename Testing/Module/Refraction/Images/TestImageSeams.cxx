@@ -417,4 +417,34 @@ TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
   EXPECT_LT(drawn.Pieces.GetNumberOfCells(), 6 * drawn.Report.Mapped);
 }
 
+//------------------------------------------------------------------------------
+// A triangle with a corner that is not finite has no image, and does not disturb its neighbour.
+TEST(RefractionImageCells, CellsWithPointsThatAreNotFiniteHaveNoImage)
+{
+  CurvedMembraneSolver geometry;
+  const MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 8, 3.0, 2.0);
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), meniscus::MembraneStatus::Ready);
+  ASSERT_EQ(geometry.SetEye({ 20.0, 300.0, 10.0 }, 1.0, 1.333), meniscus::EyeStatus::Ready);
+  Object object;
+  object.Points = { { -20.0, -30.0, -20.0 }, { 20.0, -30.0, -20.0 }, { 0.0, -30.0, 20.0 },
+    { 0.0, -30.0, 0.0 } };
+  object.Add({ 0, 1, 2 });
+  const Drawn alone = Draw(geometry, object, 0.01);
+  object.Add({ 0, 1, 3 });
+  for (const double bad :
+    { std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
+  {
+    object.Points[3].z = bad;
+    const Drawn drawn = Draw(geometry, object, 0.01);
+    EXPECT_EQ(drawn.Report.Without, 1u);
+    EXPECT_EQ(drawn.Pieces.GetNumberOfCells() + drawn.Whole.GetNumberOfCells(),
+      alone.Pieces.GetNumberOfCells() + alone.Whole.GetNumberOfCells());
+    for (const ImagePoint& point : drawn.Pieces.Points)
+    {
+      EXPECT_TRUE(
+        std::isfinite(point.Vertex.Position.x + point.Vertex.Position.y + point.Vertex.Position.z));
+    }
+  }
+}
+
 }

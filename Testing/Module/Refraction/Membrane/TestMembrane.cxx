@@ -97,6 +97,59 @@ TEST(RefractionMembrane, ExtremeScalesKeepTheirFacets)
   }
 }
 
+// Squares of such edges are not in the range of double, and sums of the largest ones overflow.
+TEST(RefractionMembrane, NormalsOfTheSmallestAndLargestMembranesHaveUnitLength)
+{
+  for (const double scale : { 1e-305, 1e-170, 1e160, 1e307 })
+  {
+    const MembraneMesh mesh = meniscus::reference::MakeSquare(scale, 3, 0.0);
+    Membrane membrane;
+    ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready) << scale;
+    for (const glm::dvec3& normal : membrane.GetNormals())
+    {
+      EXPECT_EQ(normal, glm::dvec3(0.0, 1.0, 0.0)) << scale;
+    }
+  }
+}
+
+// Local coordinates are rounded to 2^-53 of the radius, here 5e5: the small square at the origin
+// becomes one point. It stays a square where it is alone.
+TEST(RefractionMembrane, SkipsFacetsThatLocalCoordinatesFlatten)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(1e-14, 2, 0.0);
+  const auto small = mesh.GetNumberOfFacets();
+  Membrane alone;
+  ASSERT_EQ(alone.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+  EXPECT_EQ(alone.GetFacets().size(), small);
+  const auto first = static_cast<std::int64_t>(mesh.Points.size() / 3);
+  mesh.AddPoint({ 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddPoint({ 1e6, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddPoint({ 0.0, 0.0, -1e6 }, { 0.0, 1.0, 0.0 });
+  mesh.AddTriangle(first, first + 1, first + 2);
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+  ASSERT_EQ(membrane.GetFacets().size(), 1u);
+  EXPECT_EQ(membrane.GetCellId(0), static_cast<std::int64_t>(small));
+  EXPECT_EQ(membrane.GetReport().ZeroArea, small);
+  for (const std::int32_t vertex : membrane.GetFacets()[0])
+  {
+    EXPECT_EQ(membrane.GetNormals()[static_cast<std::size_t>(vertex)], glm::dvec3(0.0, 1.0, 0.0));
+  }
+}
+
+TEST(RefractionMembrane, SkipsAFacetWithAnEdgeThatIsNotFinite)
+{
+  // The first two edges have a finite length of 1.2e308, the third one has not.
+  MembraneMesh mesh;
+  mesh.AddPoint({ 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddPoint({ 1.2e308, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddPoint({ -1.2e308, 0.0, 1e308 }, { 0.0, 1.0, 0.0 });
+  mesh.AddTriangle(0, 1, 2);
+  Membrane membrane;
+  EXPECT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Empty);
+  EXPECT_EQ(membrane.GetReport().ZeroArea, 1u);
+}
+
 TEST(RefractionMembrane, ComputedNormalsOfAPlaneAreExact)
 {
   const MembraneMesh mesh = meniscus::reference::MakeDisc(3.0, 4, 0.0);

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDepthImagePoints
+ * @brief   points where a camera sees the pixels of a depth image
+ *
+ * The input is a vtkImageData of one slice whose point scalars, or the point array of
+ * SetInputArrayToProcess(), are depths; its lower left pixel is the first one. The output has a
+ * vertex for each pixel with a depth, on the ray through the middle of the pixel, in double
+ * precision. Pixels whose depth is not finite or not positive, and those of the far plane in a
+ * depth buffer, are left out. The other point arrays of the image are copied, and the point array
+ * PixelId has the number of the pixel.
+ *
+ * vtkTruePositionFilter with the camera's position as the eye moves the points to where they are.
+ *
+ * @sa vtkTruePositionFilter
+ */
+#ifndef vtkDepthImagePoints_h
+#define vtkDepthImagePoints_h
+
+#include "vtkMeniscusModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+
+class vtkCamera;
+class vtkDataArray;
+class vtkImageData;
+
+class VTKMENISCUS_EXPORT vtkDepthImagePoints : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkDepthImagePoints* New();
+  vtkTypeMacro(vtkDepthImagePoints, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Meanings of a depth. */
+  enum DepthTypes
+  {
+    DEPTH_BUFFER = 0, ///< value of OpenGL's depth buffer, from 0 to 1
+    VIEW_DEPTH = 1,   ///< distance from the eye along the direction of projection
+    RANGE = 2         ///< distance from the eye
+  };
+
+  /** @{ */
+  /** Set/Get the camera. Its projection must be perspective. */
+  void SetCamera(vtkCamera* camera);
+  vtkCamera* GetCamera();
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the meaning of the depths. Default is DEPTH_BUFFER. */
+  vtkSetClampMacro(DepthType, int, DEPTH_BUFFER, RANGE);
+  vtkGetMacro(DepthType, int);
+  void SetDepthTypeToDepthBuffer() { this->SetDepthType(DEPTH_BUFFER); }
+  void SetDepthTypeToViewDepth() { this->SetDepthType(VIEW_DEPTH); }
+  void SetDepthTypeToRange() { this->SetDepthType(RANGE); }
+  /** @} */
+
+  /** Modification time, which includes that of the camera. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkDepthImagePoints();
+  ~vtkDepthImagePoints() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkDepthImagePoints(const vtkDepthImagePoints&) = delete;
+  void operator=(const vtkDepthImagePoints&) = delete;
+
+  const char* FindFault(vtkImageData* image, vtkDataArray* depths) const;
+
+  vtkSmartPointer<vtkCamera> Camera;
+  int DepthType = DEPTH_BUFFER;
+};
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSightRayAlgorithm.h"
+
+#include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Membrane/PointEyes.h"
+#include "Filters/Membrane/StackInput.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+//------------------------------------------------------------------------------
+class vtkSightRayAlgorithm::vtkInternals
+{
+public:
+  meniscus::StackScene Stack;
+};
+
+meniscusInterfacePropertiesMacro(vtkSightRayAlgorithm);
+meniscusMembranePortMacro(vtkSightRayAlgorithm, 1);
+
+//------------------------------------------------------------------------------
+vtkSightRayAlgorithm::vtkSightRayAlgorithm()
+  : Interfaces(meniscus::MakeInterfaces())
+  , Internals(std::make_unique<vtkInternals>())
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkSightRayAlgorithm::~vtkSightRayAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkSightRayAlgorithm::SetEyeArrayName(const std::string& name)
+{
+  if (this->EyeArrayName != name)
+  {
+    this->EyeArrayName = name;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkSightRayAlgorithm::GetEyeArrayName()
+{
+  return this->EyeArrayName;
+}
+
+//------------------------------------------------------------------------------
+void vtkSightRayAlgorithm::SetMembraneData(vtkPolyData* membrane)
+{
+  this->SetInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkSightRayAlgorithm::GetNumberOfPatchBuilds() const
+{
+  return this->Internals->Stack.GetNumberOfPatchBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkSightRayAlgorithm::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
+}
+
+//------------------------------------------------------------------------------
+int vtkSightRayAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every piece of the points needs the whole surfaces.
+int vtkSightRayAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int result = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  meniscus::RequestWhole(inputs[1]);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSightRayAlgorithm::UpdateScene(
+  vtkPointSet* points, vtkInformationVector* membranes, meniscus::PointEyes& eyes)
+{
+  meniscus::SceneMessages messages;
+  bool ready = false;
+  if (points)
+  {
+    eyes = meniscus::PointEyes(this->EyePosition);
+    messages.Error = eyes.UseArray(points, this->EyeArrayName);
+    ready = messages.Error.empty() &&
+      meniscus::UpdateSurfaces(this->Internals->Stack, membranes, 1, this->Interfaces, messages);
+  }
+  else
+  {
+    messages.Error = "The points are missing";
+  }
+  meniscus::Report(this, messages);
+  return ready;
+}
+
+//------------------------------------------------------------------------------
+const meniscus::RefractionStack& vtkSightRayAlgorithm::GetStack() const
+{
+  return this->Internals->Stack.GetSolver().GetStack();
+}
+
+//------------------------------------------------------------------------------
+void vtkSightRayAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
+     << this->EyePosition[2] << ")\n";
+  os << indent << "EyeArrayName: " << this->EyeArrayName << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
+}

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSightRayFilter.h"
+
+#include "Filters/Membrane/PointEyes.h"
+#include "Refraction/Stack/StackInverse.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <vector>
+
+vtkStandardNewMacro(vtkSightRayFilter);
+
+namespace
+{
+
+/** Lines of rays and their arrays. */
+class RayLines
+{
+public:
+  RayLines()
+  {
+    this->Points->SetDataTypeToDouble();
+    this->Paths->SetName("OpticalPath");
+    this->Ids->SetName("PointId");
+    this->Legs->SetName("Leg");
+    this->Indices->SetName("IndexOfRefraction");
+    this->States->SetName("SeenState");
+  }
+
+  /** Adds the legs of a ray up to leg `last`, which ends at `end`. */
+  void Add(vtkIdType id, const meniscus::StackSightRay& ray, std::size_t last,
+    const glm::dvec3& end, meniscus::SeenState state)
+  {
+    double path = 0.0;
+    vtkIdType from = this->AddPoint(ray.Legs.front().Origin, path);
+    for (std::size_t k = 0; k <= last; ++k)
+    {
+      const meniscus::SightLeg& leg = ray.Legs[k];
+      const glm::dvec3 to = k < last ? ray.Legs[k + 1].Origin : end;
+      path += leg.Index * glm::length(to - leg.Origin);
+      const vtkIdType ends[2] = { from, this->AddPoint(to, path) };
+      this->Lines->InsertNextCell(2, ends);
+      this->Ids->InsertNextValue(id);
+      this->Legs->InsertNextValue(static_cast<int>(k));
+      this->Indices->InsertNextValue(leg.Index);
+      this->States->InsertNextValue(static_cast<unsigned char>(state));
+      from = ends[1];
+    }
+  }
+
+  void MoveTo(vtkPolyData* output)
+  {
+    output->SetPoints(this->Points);
+    output->SetLines(this->Lines);
+    output->GetPointData()->AddArray(this->Paths);
+    for (vtkDataArray* array :
+      std::initializer_list<vtkDataArray*>{ this->Ids, this->Legs, this->Indices, this->States })
+    {
+      output->GetCellData()->AddArray(array);
+    }
+  }
+
+private:
+  vtkIdType AddPoint(const glm::dvec3& point, double path)
+  {
+    this->Paths->InsertNextValue(path);
+    return this->Points->InsertNextPoint(&point.x);
+  }
+
+  vtkNew<vtkPoints> Points;
+  vtkNew<vtkCellArray> Lines;
+  vtkNew<vtkDoubleArray> Paths;
+  vtkNew<vtkIdTypeArray> Ids;
+  vtkNew<vtkIntArray> Legs;
+  vtkNew<vtkDoubleArray> Indices;
+  vtkNew<vtkUnsignedCharArray> States;
+};
+
+}
+
+//------------------------------------------------------------------------------
+int vtkSightRayFilter::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using meniscus::SeenState;
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
+  meniscus::PointEyes eyes;
+  if (!this->UpdateScene(input, inputs[1], eyes))
+  {
+    return 0;
+  }
+  meniscus::SightRayTracer tracer(this->GetStack(), this->GetExteriorIndexOfRefraction());
+  RayLines lines;
+  meniscus::StackSightRay ray;
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 seen;
+    input->GetPoint(i, &seen.x);
+    const glm::dvec3 eye = eyes.Get(i);
+    const double distance = glm::length(seen - eye);
+    if (!std::isfinite(distance) || distance == 0.0 ||
+      tracer.SetEye(eye) != meniscus::EyeStatus::Ready)
+    {
+      continue;
+    }
+    tracer.Trace((seen - eye) / distance, ray);
+    std::size_t last = 0;
+    const meniscus::StackTruePosition found = meniscus::WalkSightRay(ray, seen, last);
+    glm::dvec3 end = found.Position;
+    if (found.State == SeenState::Missed)
+    {
+      end = ray.Legs[last--].Origin;
+    }
+    else if (found.State == SeenState::TotallyReflected)
+    {
+      end = ray.Legs[last].Origin + ray.Legs[last].Length * ray.Legs[last].Direction;
+    }
+    lines.Add(i, ray, last, end, found.State);
+  }
+  lines.MoveTo(vtkPolyData::GetData(outputs));
+  return 1;
+}

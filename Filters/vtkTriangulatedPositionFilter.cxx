@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTriangulatedPositionFilter.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Membrane/PointEyes.h"
+#include "Refraction/Stack/StackTriangulation.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+static_assert(
+  vtkTriangulatedPositionFilter::FOUND == static_cast<int>(meniscus::TriangulationState::Found) &&
+    vtkTriangulatedPositionFilter::TOO_FEW_RAYS ==
+      static_cast<int>(meniscus::TriangulationState::TooFewRays) &&
+    vtkTriangulatedPositionFilter::PARALLEL ==
+      static_cast<int>(meniscus::TriangulationState::Parallel) &&
+    vtkTriangulatedPositionFilter::NO_MEDIUM ==
+      static_cast<int>(meniscus::TriangulationState::NoMedium),
+  "the same states");
+
+vtkStandardNewMacro(vtkTriangulatedPositionFilter);
+
+namespace
+{
+
+// Points per task of a thread, a few microseconds each.
+constexpr vtkIdType Grain = 256;
+
+/** Observations in the order of the points that they see, and the first one of each point. */
+struct Tracks
+{
+  std::vector<vtkIdType> Observations;
+  std::vector<std::size_t> Begins; ///< and the number of observations
+  std::vector<vtkIdType> Ids;
+};
+
+Tracks CollectTracks(vtkDataArray* ids)
+{
+  Tracks tracks;
+  const auto get = [ids](vtkIdType i) { return static_cast<vtkIdType>(ids->GetTuple1(i)); };
+  tracks.Observations.resize(static_cast<std::size_t>(ids->GetNumberOfTuples()));
+  std::iota(tracks.Observations.begin(), tracks.Observations.end(), vtkIdType(0));
+  std::stable_sort(tracks.Observations.begin(), tracks.Observations.end(),
+    [&get](vtkIdType a, vtkIdType b) { return get(a) < get(b); });
+  for (std::size_t i = 0; i < tracks.Observations.size(); ++i)
+  {
+    const vtkIdType id = get(tracks.Observations[i]);
+    if (tracks.Ids.empty() || tracks.Ids.back() != id)
+    {
+      tracks.Ids.push_back(id);
+      tracks.Begins.push_back(i);
+    }
+  }
+  tracks.Begins.push_back(tracks.Observations.size());
+  return tracks;
+}
+
+/** Points and arrays of the output. */
+struct PointArrays
+{
+  vtkNew<vtkDoubleArray> Positions;
+  vtkNew<vtkIdTypeArray> Ids;
+  vtkNew<vtkIntArray> Rays;
+  vtkNew<vtkDoubleArray> Residuals;
+  vtkNew<vtkDoubleArray> Angles;
+  vtkNew<vtkUnsignedCharArray> States;
+
+  explicit PointArrays(const std::vector<vtkIdType>& ids)
+  {
+    this->Positions->SetNumberOfComponents(3);
+    this->Ids->SetName("PointId");
+    this->Rays->SetName("NumberOfRays");
+    this->Residuals->SetName("Residual");
+    this->Angles->SetName("RayAngle");
+    this->States->SetName("TriangulationState");
+    for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
+           this->Positions, this->Ids, this->Rays, this->Residuals, this->Angles, this->States })
+    {
+      array->SetNumberOfTuples(static_cast<vtkIdType>(ids.size()));
+    }
+    std::copy(ids.begin(), ids.end(), this->Ids->GetPointer(0));
+  }
+
+  void Set(vtkIdType i, const meniscus::TriangulatedPoint& point, std::size_t rays)
+  {
+    const bool isFound = point.State == meniscus::TriangulationState::Found;
+    const glm::dvec3 position =
+      isFound ? point.Position : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    this->Positions->SetTypedTuple(i, &position.x);
+    this->Rays->SetValue(i, static_cast<int>(rays));
+    this->Residuals->SetValue(i, point.Residual);
+    this->Angles->SetValue(i, vtkMath::DegreesFromRadians(point.Angle));
+    this->States->SetValue(i, static_cast<unsigned char>(point.State));
+  }
+
+  void MoveTo(vtkPolyData* output)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetData(this->Positions);
+    output->SetPoints(points);
+    vtkNew<vtkCellArray> vertices;
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfTuples(); ++i)
+    {
+      vertices->InsertNextCell(1, &i);
+    }
+    output->SetVerts(vertices);
+    for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
+           this->Ids, this->Rays, this->Residuals, this->Angles, this->States })
+    {
+      output->GetPointData()->AddArray(array);
+    }
+  }
+};
+
+/** Traces the ray of an observation. Returns false if it has none. */
+bool TraceObservation(meniscus::SightRayTracer& tracer, const glm::dvec3& eye,
+  const glm::dvec3& seen, meniscus::TriangulationRay& ray)
+{
+  const double distance = glm::length(seen - eye);
+  if (!std::isfinite(distance) || distance == 0.0 ||
+    tracer.SetEye(eye) != meniscus::EyeStatus::Ready)
+  {
+    return false;
+  }
+  tracer.Trace((seen - eye) / distance, ray.Ray);
+  ray.Passed = tracer.GetNumberOfPassedInterfaces();
+  return true;
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkTriangulatedPositionFilter::vtkTriangulatedPositionFilter()
+{
+  this->SetEyeArrayName("Eye");
+}
+
+//------------------------------------------------------------------------------
+void vtkTriangulatedPositionFilter::SetPointIdArrayName(const std::string& name)
+{
+  if (this->PointIdArrayName != name)
+  {
+    this->PointIdArrayName = name;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTriangulatedPositionFilter::GetPointIdArrayName()
+{
+  return this->PointIdArrayName;
+}
+
+//------------------------------------------------------------------------------
+int vtkTriangulatedPositionFilter::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->WithoutPosition = 0;
+  vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
+  meniscus::PointEyes eyes;
+  if (!this->UpdateScene(input, inputs[1], eyes))
+  {
+    return 0;
+  }
+  vtkDataArray* ids = input->GetPointData()->GetArray(this->PointIdArrayName.c_str());
+  if (!ids || ids->GetNumberOfComponents() != 1)
+  {
+    vtkErrorMacro("The observations have no array \"" << this->PointIdArrayName
+                                                      << "\" with one component; the output is "
+                                                         "empty.");
+    return 0;
+  }
+  const Tracks tracks = CollectTracks(ids);
+  PointArrays arrays(tracks.Ids);
+  const double medium = this->GetExteriorIndexOfRefraction();
+  meniscus::ThreadedRanges(tracks.Ids.size(), Grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      meniscus::EyeTracers tracers(this->GetStack(), medium);
+      std::vector<meniscus::TriangulationRay> rays;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::size_t count = 0;
+        rays.resize(tracks.Begins[i + 1] - tracks.Begins[i]);
+        for (std::size_t k = tracks.Begins[i]; k < tracks.Begins[i + 1]; ++k)
+        {
+          const vtkIdType observation = tracks.Observations[k];
+          glm::dvec3 seen;
+          input->GetPoint(observation, &seen.x);
+          const glm::dvec3 eye = eyes.Get(observation);
+          count += TraceObservation(tracers.Get(eye), eye, seen, rays[count]) ? 1 : 0;
+        }
+        rays.resize(count);
+        arrays.Set(static_cast<vtkIdType>(i), meniscus::Triangulate(rays), count);
+      }
+    });
+  const unsigned char* states = arrays.States->GetPointer(0);
+  this->WithoutPosition = std::count_if(states, states + arrays.States->GetNumberOfTuples(),
+    [](unsigned char state) { return state != FOUND; });
+  arrays.MoveTo(vtkPolyData::GetData(outputs));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTriangulatedPositionFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PointIdArrayName: " << this->PointIdArrayName << "\n";
+  os << indent << "NumberOfPointsWithoutPosition: " << this->WithoutPosition << "\n";
+}

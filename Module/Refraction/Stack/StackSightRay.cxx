@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackSightRay.h"
+
+#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Membrane/Optics.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// Newton's method converges quadratically: the remaining error is of the order of the square of
+// the last step, 1e-14 of a facet.
+constexpr double LastStep = 1e-7;
+
+}
+
+//------------------------------------------------------------------------------
+bool StackPatches::Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
+  const glm::dvec3&, PatchPoint& at) const
+{
+  const RefractionStack::Link& next = this->Stack.GetLinks()[link];
+  const glm::dvec3 from = origin - this->Stack.GetOrigin();
+  SurfaceCrossing crossing;
+  if (!this->Stack.FindNext(link, from, direction, crossing))
+  {
+    return false;
+  }
+  const CurvedPatch patch = next.Surface->GetPatch(crossing.Facet, !next.Passage.FromFront);
+  // The direction is scaled, so that the parameter is about 1.
+  const double scale = std::max(patch.GetSize(), crossing.Distance);
+  double l = crossing.Distance / scale;
+  glm::dvec2 b = crossing.B;
+  glm::dvec3 normal;
+  if (!MeetPatch(patch, { from - next.Shift, scale * direction }, LastStep, b, l, normal))
+  {
+    return false;
+  }
+  const double length = glm::length(normal);
+  at.Position = origin + l * scale * direction;
+  at.Normal = normal / length;
+  // Written so that a NaN fails.
+  return length > CurvedPatch::ShortestNormal && glm::dot(at.Normal, direction) < 0.0;
+}
+
+//------------------------------------------------------------------------------
+void TraceSightRay(
+  const RefractionStack& stack, double medium, const glm::dvec3& direction, StackSightRay& ray)
+{
+  const StackPatches surfaces(stack);
+  const std::vector<RefractionStack::Link>& links = stack.GetLinks();
+  const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  ray.Legs.clear();
+  ray.Legs.push_back(
+    { eye, direction, links.empty() ? medium : links.front().Passage.Before, endless });
+  for (std::size_t k = 0; k < links.size(); ++k)
+  {
+    SightLeg& leg = ray.Legs.back();
+    PatchPoint at;
+    if (!surfaces.Meet(k, leg.Origin, leg.Direction, leg.Origin, at))
+    {
+      ray.End = PathEnd::Missed;
+      return;
+    }
+    leg.Length = glm::length(at.Position - leg.Origin);
+    const InterfacePassage& passage = links[k].Passage;
+    const RefractionRay refracted =
+      ComputeRefractionRay(leg.Direction, at.Normal, passage.Before / passage.Behind);
+    if (refracted.Kind != RayKind::Refracted)
+    {
+      ray.End = PathEnd::Reflected;
+      return;
+    }
+    ray.Legs.push_back({ at.Position, refracted.Direction, passage.Behind, endless });
+  }
+  ray.End = PathEnd::Passed;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus SightRayTracer::SetEye(const glm::dvec3& eye)
+{
+  if (!this->HasEye || eye != this->Eye)
+  {
+    this->Status = this->Stack.SetEye(eye);
+    this->Eye = eye;
+    this->HasEye = true;
+  }
+  return this->Status;
+}
+
+//------------------------------------------------------------------------------
+SightRayTracer& EyeTracers::Get(const glm::dvec3& eye)
+{
+  const auto known = std::find(this->Eyes.begin(), this->Eyes.end(), eye);
+  if (known != this->Eyes.end())
+  {
+    return this->Tracers[static_cast<std::size_t>(known - this->Eyes.begin())];
+  }
+  if (this->Eyes.size() < Most)
+  {
+    this->Eyes.push_back(eye);
+    this->Tracers.push_back(this->Unused);
+    return this->Tracers.back();
+  }
+  this->Next = (this->Next + 1) % Most;
+  this->Eyes[this->Next] = eye;
+  return this->Tracers[this->Next];
+}
+
+}

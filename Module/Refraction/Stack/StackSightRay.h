@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Sight rays through all interfaces of a stack, from any eye: no tables of the eye are needed.
+ * World coordinates.
+ */
+#ifndef meniscus_Refraction_Stack_StackSightRay_h
+#define meniscus_Refraction_Stack_StackSightRay_h
+
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Stack/RefractionStack.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace meniscus
+{
+
+/** The surfaces that the rays of a stack meet: those of its links, or others close to them. */
+class StackSurfaces
+{
+public:
+  virtual ~StackSurfaces() = default;
+
+  /**
+   * Intersection of the ray from `origin` along the unit vector `direction` with the surface of a
+   * link, from the side from which the link is passed, and the unit normal there, against the ray.
+   * @param near  point of the stack's own surface close to the intersection
+   * @return false if there is none
+   */
+  virtual bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
+    const glm::dvec3& near, PatchPoint& at) const = 0;
+};
+
+/** The patches of a stack's links. The nearest intersection counts, wherever `near` is. */
+class StackPatches : public StackSurfaces
+{
+public:
+  /** `stack` must outlive this object. */
+  explicit StackPatches(const RefractionStack& stack)
+    : Stack(stack)
+  {
+  }
+  bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
+    const glm::dvec3& near, PatchPoint& at) const override;
+
+private:
+  const RefractionStack& Stack;
+};
+
+/** The straight part of a sight ray in one medium. */
+struct SightLeg
+{
+  glm::dvec3 Origin;    ///< the eye, or where the ray passes the surface in front of the leg
+  glm::dvec3 Direction; ///< of length 1
+  double Index;         ///< of refraction
+  double Length;        ///< infinite if the leg meets no further surface
+};
+
+/** A sight ray. */
+struct StackSightRay
+{
+  std::vector<SightLeg> Legs; ///< at least one, from the eye
+  /**
+   * `Missed` if the last leg does not meet the next surface, so that it shows nothing; `Reflected`
+   * if it is totally reflected at its end.
+   */
+  PathEnd End = PathEnd::Passed;
+};
+
+/** Traces the sight ray of a stack's eye along a unit vector. */
+void TraceSightRay(
+  const RefractionStack& stack, double medium, const glm::dvec3& direction, StackSightRay& ray);
+
+/**
+ * Sight rays from eyes that change. An object may be used by one thread at a time; copies are
+ * independent.
+ */
+class SightRayTracer
+{
+public:
+  /** `medium` is the index of refraction around an eye behind which there is no interface. */
+  SightRayTracer(const RefractionStack& stack, double medium)
+    : Stack(stack)
+    , Medium(medium)
+  {
+  }
+
+  /** Sets the eye in world coordinates. An eye that is set again costs nothing. */
+  EyeStatus SetEye(const glm::dvec3& eye);
+
+  /** Traces the ray from the eye, which must be `Ready`, along a unit vector. */
+  void Trace(const glm::dvec3& direction, StackSightRay& ray) const
+  {
+    TraceSightRay(this->Stack, this->Medium, direction, ray);
+  }
+
+  /** Number of refracting interfaces of the whole list that lie behind the eye, on its far side. */
+  std::size_t GetNumberOfPassedInterfaces() const
+  {
+    return this->Stack.GetNumberOfInterfaces() - this->Stack.GetLinks().size();
+  }
+
+  const RefractionStack& GetStack() const { return this->Stack; }
+  double GetMedium() const { return this->Medium; }
+
+private:
+  RefractionStack Stack;
+  double Medium;
+  glm::dvec3 Eye{ 0.0 };
+  EyeStatus Status = EyeStatus::Ready;
+  bool HasEye = false;
+};
+
+/** Tracers of the eyes that were asked for last, for points that are seen from several eyes. */
+class EyeTracers
+{
+public:
+  EyeTracers(const RefractionStack& stack, double medium)
+    : Unused(stack, medium)
+  {
+  }
+
+  /** The tracer of an eye. Valid until the next call. */
+  SightRayTracer& Get(const glm::dvec3& eye);
+
+private:
+  /** Eyes to keep: the cameras of a rig. More are set up again at each change. */
+  static constexpr std::size_t Most = 16;
+
+  SightRayTracer Unused;
+  std::vector<glm::dvec3> Eyes;
+  std::vector<SightRayTracer> Tracers;
+  std::size_t Next = 0;
+};
+
+}
+
+#endif
