@@ -100,12 +100,19 @@ class TestPyVista(unittest.TestCase):
             self.assertLessEqual(numpy.percentile(difference, 90), 4, limits)
 
     def test_rules_of_the_limits(self):
-        mesh = make_image().to_tetrahedra()
+        image = make_image()
+        image["bytes"] = image["height"].astype(numpy.uint8)
+        mesh = image.to_tetrahedra()
         mesh["bytes"] = mesh["height"].astype(numpy.uint8)
+        of_bytes = (0.0, 255.0) if pyvista.version_info < (0, 45) else (0.0, CELLS)
         for scalars, clim, expected in (("height", None, (0.0, CELLS)), ("height", 5, (-5.0, 5.0)),
                                         ("height", numpy.array([1.0, 2.0]), (1.0, 2.0)),
-                                        ("bytes", None, (0.0, 255.0))):
+                                        ("bytes", None, of_bytes)):
             plotter = pyvista.Plotter(off_screen=True)
+            limits = tuple(clim) if isinstance(clim, numpy.ndarray) else clim
+            own = plotter.add_volume(image, scalars=scalars, clim=limits)
+            self.assertEqual(tuple(own.mapper.scalar_range), expected, (scalars, clim))
+            plotter.clear()
             look = add_volume(plotter, mesh, scalars, clim=clim).GetProperty()
             for function in (look.GetRGBTransferFunction(), look.GetScalarOpacity()):
                 self.assertEqual(function.GetRange(), expected, (scalars, clim))

@@ -1,108 +1,170 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions that meniscus.pyvista gives a volume, with a stand-in for the little of PyVista
-that it uses.
+"""Calls of PyVista by meniscus.pyvista and the volume that results, with a stand-in for the little
+of PyVista that it uses.
 
-Real pictures are those of TestPyVista.py, which needs PyVista."""
+Real pictures are those of TestPyVista.py and TestPyVistaPlotters.py, which need PyVista."""
 import sys
 import types
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid)
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkVolume
 
 ENTRIES = 4
+OPACITIES = [0.0, 0.5, 0.25, 1.0]
 
 
-class LookupTable(vtkLookupTable):
-    """Grey levels, and opacities as given; its own functions must not be called."""
-
-    def __init__(self, cmap=None, scalar_range=(0.0, 1.0)):
-        self.cmap = cmap
-        self.SetNumberOfTableValues(ENTRIES)
-        self.SetTableRange(scalar_range)
-        for entry in range(ENTRIES):
-            self.SetTableValue(entry, *[entry / (ENTRIES - 1)] * 3, 1.0)
-
-    def apply_opacity(self, opacity):
-        for entry, alpha in enumerate(opacity):
-            self.SetTableValue(entry, *self.GetTableValue(entry)[:3], alpha)
-
-
-class Values:
-    dtype = "float64"
+def make_table(limits):
+    """Grey levels with opacities."""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(ENTRIES)
+    table.SetTableRange(limits)
+    for entry, alpha in enumerate(OPACITIES):
+        table.SetTableValue(entry, *[entry / (ENTRIES - 1)] * 3, alpha)
+    return table
 
 
 class Mesh(vtkImageData):
     active_scalars_name = "height"
     length = 8.0
-    n_cells = 8
+    dimensions = (3, 4, 5)
+    n_cells = 24
+    bounds = (0.0, 2.0, 0.0, 3.0, 0.0, 4.0)
 
     def __init__(self):
-        self.SetDimensions(3, 3, 3)
+        self.SetDimensions(*self.dimensions)
         values = vtkDoubleArray()
         values.SetName("height")
-        values.SetNumberOfTuples(27)
-        values.FillComponent(0, 1.0)
+        for value in range(60):
+            values.InsertNextValue(2.0 + value / 59 * 3.0)
         self.GetPointData().SetScalars(values)
 
-    def __getitem__(self, name):
-        return Values()
-
-    def get_array_association(self, name):
+    def get_array_association(self, name, preference):
         return "point"
 
-    def get_data_range(self, name):
+    def get_data_range(self, name, preference):
         return 2.0, 5.0
 
 
+class Volume(vtkVolume):
+    """As plotter.add_volume() returns it."""
+
+    @property
+    def mapper(self):
+        return self.made
+
+    @mapper.setter
+    def mapper(self, mapper):
+        self.made = mapper
+        self.SetMapper(mapper)
+
+    @property
+    def prop(self):
+        return self.GetProperty()
+
+
 class Plotter:
-    theme = types.SimpleNamespace(cmap="the theme's")
+    theme = types.SimpleNamespace(show_scalar_bar=True)
 
     def __init__(self):
         self.bars = []
 
-    def add_actor(self, actor, name=None):
-        self.actor = actor
+    def add_volume(self, stand_in, scalars, **arguments):
+        self.stand_in, self.scalars, self.arguments = stand_in, scalars, arguments
+        limits = arguments.get("clim", stand_in.GetPointData().GetArray(scalars).GetRange())
+        volume = Volume()
+        volume.made = types.SimpleNamespace(lookup_table=make_table(limits), scalar_range=limits)
+        return volume
 
-    def add_scalar_bar(self, title, mapper):
-        self.bars.append(mapper)
+    def add_scalar_bar(self, **arguments):
+        self.bars.append((arguments, self.mapper))
+
+    def render(self):
+        pass
 
 
-sys.modules["pyvista"] = types.SimpleNamespace(
-    LookupTable=LookupTable, DataSetMapper=types.SimpleNamespace, wrap=lambda mesh: mesh,
-    PolyData=vtkPolyData,
+pyvista = types.SimpleNamespace(
+    version_info=(0, 44, 2), wrap=lambda mesh: mesh, PolyData=vtkPolyData, ImageData=vtkImageData,
+    RectilinearGrid=vtkRectilinearGrid, MultiBlock=vtkMultiBlockDataSet,
     FieldAssociation=types.SimpleNamespace(POINT="point"))
+sys.modules["pyvista"] = pyvista
 from meniscus.pyvista import add_volume, refracted  # noqa: E402
 
 
 class TestPyVistaFunctions(unittest.TestCase):
-    def nodes(self, clim):
-        plotter = Plotter()
-        volume = add_volume(plotter, Mesh(), opacity=[0.0, 0.5, 0.25, 1.0], clim=clim)
-        self.assertIs(plotter.actor, volume)
-        self.assertEqual(plotter.bars[0].lookup_table.cmap, "the theme's")
-        look = volume.GetProperty()
+    def check_functions(self, look, limits):
         opacity = look.GetScalarOpacity()
         colors = look.GetRGBTransferFunction()
         self.assertEqual(opacity.GetSize(), ENTRIES)
         self.assertEqual(colors.GetSize(), ENTRIES)
-        limits = colors.GetRange()
-        for entry, alpha in enumerate([0.0, 0.5, 0.25, 1.0]):
+        self.assertEqual(opacity.GetRange(), limits)
+        self.assertEqual(colors.GetRange(), limits)
+        for entry, alpha in enumerate(OPACITIES):
             share = entry / (ENTRIES - 1)
             scalar = limits[0] + share * (limits[1] - limits[0])
             # Bytes in the table.
             self.assertAlmostEqual(opacity.GetValue(scalar), alpha, delta=0.5 / 255 + 1e-12)
             self.assertAlmostEqual(colors.GetRedValue(scalar), share, delta=0.5 / 255 + 1e-12)
-        self.assertEqual(opacity.GetRange(), limits)
-        self.assertEqual(plotter.bars[0].scalar_range, limits)
-        return limits
 
-    def test_limits(self):
-        self.assertEqual(self.nodes(None), (2.0, 5.0))
-        self.assertEqual(self.nodes((-3.0, 6.0)), (-3.0, 6.0))
-        self.assertEqual(self.nodes(4), (-4.0, 4.0))
+    def test_functions_lie_on_the_range(self):
+        """Up to PyVista 0.44, also when the range changes later."""
+        plotter = Plotter()
+        volume = add_volume(plotter, Mesh(), clim=(-3.0, 6.0))
+        self.check_functions(volume.GetProperty(), (-3.0, 6.0))
+        volume.mapper.scalar_range = (1.0, 2.0)
+        self.check_functions(volume.GetProperty(), (1.0, 2.0))
+
+    def test_functions_of_pyvista_stay(self):
+        pyvista.version_info = (0, 45, 0)
+        try:
+            volume = add_volume(Plotter(), Mesh())
+        finally:
+            pyvista.version_info = (0, 44, 2)
+        self.assertEqual(volume.GetProperty().GetScalarOpacity().GetSize(), 2) # vtkVolumeProperty's
+
+    def test_logarithmic_colors(self):
+        """Entries lie on the logarithm, nodes of the functions on the value."""
+        table = make_table((1.0, 1000.0))
+        table.SetScaleToLog10()
+        plotter = Plotter()
+        plotter.add_volume = lambda *_, **__: self.make_volume(table)
+        colors = add_volume(plotter, Mesh()).GetProperty().GetRGBTransferFunction()
+        # The node at 334 is at 84 % of the three decades: entry 3 of 4, white.
+        self.assertEqual([colors.GetRedValue(value) for value in (1.0, 334.0, 667.0, 1000.0)],
+                         [0.0, 1.0, 1.0, 1.0])
+
+    @staticmethod
+    def make_volume(table):
+        volume = Volume()
+        volume.made = types.SimpleNamespace(lookup_table=table, scalar_range=(1.0, 1000.0))
+        return volume
+
+    def test_stand_in(self):
+        """PyVista gets the bounds and the extremes, and all arguments that are its own."""
+        plotter, mesh = Plotter(), Mesh()
+        volume = add_volume(plotter, mesh, cmap="bone", BlendMode=1, name="v")
+        self.assertIs(volume.GetMapper(), plotter.mapper)
+        self.assertIs(plotter.mapper.GetInputDataObject(0, 0), mesh)
+        self.assertEqual(plotter.mapper.GetBlendMode(), 1)
+        self.assertEqual(plotter.stand_in.GetBounds(), mesh.bounds)
+        self.assertEqual(plotter.stand_in.GetPointData().GetArray("height").GetRange(), (2.0, 5.0))
+        self.assertEqual(plotter.arguments, {
+            "cmap": "bone", "name": "v", "categories": False, "show_scalar_bar": False,
+            "render": False, "opacity_unit_distance": 8.0 / (4 - 1)})
+        self.assertEqual(plotter.bars, [({"title": "height"}, plotter.mapper)])
+
+    def test_names_differ(self):
+        plotter = Plotter()
+        names, volumes = set(), []
+        for _ in range(20):
+            volumes.append(add_volume(plotter, Mesh(), show_scalar_bar=False))
+            names.add(plotter.arguments["name"])
+        self.assertEqual(len(names), 20)
+        self.assertEqual(plotter.bars, [])
 
 
 def plane(height):

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compares the sizes of VTK's classes that Meniscus uses, by their headers and in the libraries of
+a wheel, so that no program is built with headers of another configuration. A member that fits into
+the padding of its class is not noticed.
+
+Arguments: the folder of the wheel's libraries; the folder of the headers; the folder of the
+libraries that belong to the headers, whose virtual function tables must be as long as the wheel's.
+"""
+import glob
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+
+# Modules that Meniscus builds on (vtk.module), and RenderingCore, from which it derives.
+MODULES = ("CommonCore", "CommonDataModel", "CommonExecutionModel", "CommonMath",
+           "CommonTransforms", "RenderingCore", "RenderingOpenGL2", "RenderingVolume")
+# `mov $size,%edi`, the argument of `operator new`, and at most this many bytes later its call.
+ARGUMENT = re.compile(rb"\xbf(....)", re.DOTALL)
+DISTANCE = 24
+
+
+def run(*command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def symbols(library):
+    """Yields (name, address, size) of the symbols that a library defines."""
+    for line in run("nm", "-D", "-S", "--defined-only", library).splitlines():
+        fields = line.split()
+        if len(fields) == 4:
+            yield fields[3], int(fields[0], 16), int(fields[1], 16)
+
+
+def table_lengths(library):
+    """Bytes per virtual function table of VTK's classes."""
+    return {name: size for name, _, size in symbols(library) if re.match(r"_ZTV\d+vtk", name)}
+
+
+def code_offset(library):
+    """Offset in the file less the address of the code."""
+    for line in run("readelf", "-lW", library).splitlines():
+        fields = line.split()
+        if fields[:1] == ["LOAD"] and "E" in fields[6:8]:
+            return int(fields[1], 16) - int(fields[2], 16)
+    raise ValueError("%s has no code" % library)
+
+
+def address_of_new(library):
+    """Address that code of a library calls as `operator new`."""
+    output = run("objdump", "-d", "-j", ".plt", "--no-show-raw-insn", library)
+    return int(re.search(r"^([0-9a-f]+) <_Znwm@plt>:", output, re.MULTILINE).group(1), 16)
+
+
+def allocated_size(code, address, new):
+    """Argument of the only call of `operator new` in a function's code; None if there are others
+    or none."""
+    found = []
+    for call in re.finditer(rb"\xe8", code):
+        end = call.end() + 4
+        target = address + end + int.from_bytes(code[call.end():end], "little", signed=True)
+        if target == new:
+            found += ARGUMENT.findall(code[max(0, call.start() - DISTANCE):call.start()])[-1:]
+    return int.from_bytes(found[0], "little") if len(found) == 1 else None
+
+
+def allocated_sizes(library):
+    """Bytes per object that the functions New() of a library's classes allocate, by class."""
+    found = {}
+    offset, new = code_offset(library), address_of_new(library)
+    with open(library, "rb") as file:
+        for name, address, size in symbols(library):
+            match = re.match(r"_ZN\d+(vtk\w+?)3NewEv$", name)
+            if match:
+                file.seek(address + offset)
+                found[match.group(1)] = allocated_size(file.read(size), address, new)
+    return {name: size for name, size in found.items() if size}
+
+
+def included_classes():
+    """Classes of VTK whose headers the sources of Meniscus include."""
+    found = set()
+    root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+    for name in glob.glob(root + "/Filters/**", recursive=True) + glob.glob(
+            root + "/Rendering/**", recursive=True):
+        if name.endswith((".h", ".cxx")):
+            with open(name) as file:
+                found.update(re.findall(r"#include [\"<](vtk\w+)\.h", file.read()))
+    return found
+
+
+def has_old_strings(library):
+    """Whether a library is built with the old std::string of libstdc++, which has another size."""
+    return not any("__cxx11" in name for name, _, _ in symbols(library))
+
+
+def declared_sizes(names, headers, old_strings):
+    """Sizes of classes by their headers. Nothing is linked: the sizes are read from an object
+    file."""
+    includes = "".join("#include <%s.h>\n" % name for name in names)
+    sizes = ", ".join("sizeof(%s)" % name for name in names)
+    with tempfile.TemporaryDirectory() as folder:
+        source, code, data = (os.path.join(folder, name) for name in ("s.cxx", "s.o", "s.bin"))
+        with open(source, "w") as file:
+            file.write("#include <cstdint>\n%s__attribute__((section(\"sizes\"), used))\n"
+                       "const std::uint64_t Sizes[] = { %s };\n" % (includes, sizes))
+        run("g++", "-std=c++17", "-w", "-c", "-D_GLIBCXX_USE_CXX11_ABI=%d" % (not old_strings),
+            "-I", headers, source, "-o", code)
+        run("objcopy", "-O", "binary", "--only-section=sizes", code, data)
+        with open(data, "rb") as file:
+            return dict(zip(names, struct.unpack("<%dQ" % len(names), file.read())))
+
+
+def main():
+    wheel, headers, debian = sys.argv[1:]
+    wrong, tables, allocated = [], 0, {}
+    for module in MODULES:
+        library = "%s/libvtk%s.so" % (wheel, module)
+        twin = glob.glob("%s/libvtk%s-*.so" % (debian, module))[0]
+        ours, theirs = table_lengths(library), table_lengths(twin)
+        for name in sorted(set(ours) & set(theirs)):
+            tables += 1
+            if ours[name] != theirs[name]:
+                wrong.append("%s: %d bytes, in the wheel %d" % (name, theirs[name], ours[name]))
+        allocated.update(allocated_sizes(library))
+    names = sorted(included_classes() & set(allocated))
+    old_strings = has_old_strings("%s/libvtkCommonCore.so" % wheel)
+    for name, size in declared_sizes(names, headers, old_strings).items():
+        if size != allocated[name]:
+            wrong.append("%s: %d bytes, in the wheel %d" % (name, size, allocated[name]))
+    print("%d virtual function tables and %d classes compared" % (tables, len(names)))
+    if wrong:
+        sys.exit("\n".join(wrong))
+    if tables < 100 or len(names) < 30:
+        sys.exit("too few to compare")
+
+
+if __name__ == "__main__":
+    main()
