@@ -6,6 +6,7 @@
 #include "DemoVolumeInput.h"
 #include "RefractionDemo.h"
 #include "StackDemo.h"
+#include "SurfaceDemo.h"
 #include "VolumeDemo.h"
 #include "WellDemo.h"
 
@@ -51,5 +52,6 @@ int main(int argc, char* argv[])
   const bool refraction = RunRefractionDemo(folder);
   const bool well = RunWellDemo(folder);
   const bool stack = RunStackDemo(folder);
-  return volume && refraction && well && stack ? 0 : 1;
+  const bool surface = RunSurfaceDemo(folder);
+  return volume && refraction && well && stack && surface ? 0 : 1;
 }

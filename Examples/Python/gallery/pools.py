@@ -1,0 +1,250 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pools: tiles with caustics, objects in coloured water, reflection of a sky, rings that spread."""
+import math
+
+import meniscus
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkImageAppend, vtkPolyDataNormals
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkTexture
+
+from . import common
+
+SUN = (-0.45, -0.35, 0.82)
+DEPTH = 0.75  # of the pool, which is 2 wide
+DECK = 0.07  # height of the deck above the water
+# Amplitude, wave vector and phase of the waves.
+WAVES = ((0.0075, 12.0, 5.0, 0.3), (0.0060, -7.0, 14.0, 1.7), (0.0035, 19.0, 13.0, 4.0),
+         (0.0028, -21.0, 9.0, 2.2), (0.006, 3.0, -5.0, 0.8))
+
+
+def mix(first, second, share):
+    return tuple(a + share * (b - a) for a, b in zip(first, second))
+
+
+def get_sky(direction):
+    """Colour of the sky in a direction: brighter towards horizon and sun."""
+    length = math.sqrt(sum(c * c for c in direction))
+    x, y, z = (c / length for c in direction)
+    color = mix((0.80, 0.88, 0.95), (0.16, 0.40, 0.75), max(z, 0.0) ** 0.6)
+    sun = sum(a * b for a, b in zip((x, y, z), SUN)) / math.sqrt(sum(c * c for c in SUN))
+    color = mix(color, (1.0, 0.93, 0.78), 0.6 * max(sun, 0.0) ** 12)
+    return (1.0, 1.0, 0.95) if sun > 0.9985 else color
+
+
+def make_sky(pixels=64, color_of=get_sky):
+    """A cube map of the sky, z upwards, in OpenGL's layout of faces."""
+    faces = (lambda s, t: (1, -t, -s), lambda s, t: (-1, -t, s), lambda s, t: (s, 1, t),
+             lambda s, t: (s, -1, -t), lambda s, t: (s, -t, 1), lambda s, t: (-s, -t, -1))
+    sky = vtkTexture()
+    sky.CubeMapOn()
+    sky.InterpolateOn()
+    for number, face in enumerate(faces):
+        image = vtkImageData()
+        image.SetDimensions(pixels, pixels, 1)
+        image.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
+        for j in range(pixels):
+            for i in range(pixels):
+                direction = face(2 * (i + 0.5) / pixels - 1, 2 * (j + 0.5) / pixels - 1)
+                for channel, value in enumerate(color_of(direction)):
+                    image.SetScalarComponentFromFloat(i, j, 0, channel, round(255 * value))
+        sky.SetInputDataObject(number, image)
+    return sky
+
+
+def make_tiles(tiles=10, pixels=256):
+    """Mosaic tiles of slightly different blue, with light joints."""
+    image = vtkImageData()
+    image.SetDimensions(pixels, pixels, 1)
+    image.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
+    for j in range(pixels):
+        for i in range(pixels):
+            u, v = tiles * i / pixels, tiles * j / pixels
+            joint = min(u % 1, v % 1) < 0.07
+            chance = math.sin(12.9898 * int(u) + 78.233 * int(v)) * 43758.5453 % 1.0
+            shade = mix((0.42, 0.74, 0.86), (0.66, 0.90, 0.94), chance)
+            for channel, value in enumerate((0.93, 0.96, 0.95) if joint else shade):
+                image.SetScalarComponentFromFloat(i, j, 0, channel, round(255 * value))
+    texture = vtkTexture()
+    texture.SetInputData(image)
+    texture.InterpolateOn()
+    texture.MipmapOn()
+    texture.RepeatOn()
+    return texture
+
+
+def place(mesh, length, angle, position):
+    """The surface of a mesh, smooth, of a given length, turned, at a position."""
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(mesh)
+    x0, x1, y0, y1, z0, z1 = mesh.GetBounds()
+    scale = length / max(x1 - x0, y1 - y0, z1 - z0)
+    transform = vtkTransform()
+    transform.Translate(*position)
+    transform.RotateZ(angle)
+    transform.Scale(scale, scale, scale)
+    transform.Translate(-(x0 + x1) / 2, -(y0 + y1) / 2, -(z0 + z1) / 2)
+    moved = vtkTransformPolyDataFilter()
+    moved.SetInputConnection(surface.GetOutputPort())
+    moved.SetTransform(transform)
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(moved.GetOutputPort())
+    normals.SetFeatureAngle(60)
+    normals.Update()
+    return normals.GetOutput()
+
+
+def make_ball(center, radius):
+    ball = vtkSphereSource()
+    ball.SetCenter(*center)
+    ball.SetRadius(radius)
+    ball.SetThetaResolution(60)
+    ball.SetPhiResolution(40)
+    ball.Update()
+    return ball.GetOutput()
+
+
+class Pool:
+    """A pool [-1, 1]^2 below z = 0, lit by the sun through its water."""
+
+    def __init__(self, height, attenuation, cells=128):
+        self.cells = cells  # along each side of the water
+        self.water = common.make_height_field(
+            (-1, -1, 0), (1, -1, 0), (-1, 1, 0), (cells, cells), height)
+        self.renderer = common.make_renderer(((0.80, 0.88, 0.95), (0.35, 0.58, 0.85)))
+        self.renderer.AutomaticLightCreationOff()
+        light = vtkLight()
+        light.SetPosition(*(10 * c for c in SUN))
+        light.SetIntensity(1.0)
+        self.renderer.AddLight(light)
+        self.surface = vtkActor()
+        self.surface.SetMapper(vtkPolyDataMapper())
+        self.surface.GetMapper().SetInputData(self.water)
+        self.refraction = meniscus.vtkRefractionPass()
+        self.refraction.SetReflectionTexture(make_sky())
+        self.refraction.SetAttenuationCoefficients(*attenuation)
+        self.renderer.SetPass(self.refraction)
+
+    def add_sides(self, texture):
+        d, top = -DEPTH, DECK
+        floor = common.make_plane((-1, -1, d), (1, -1, d), (-1, 1, d), (self.cells * 7 // 8,) * 2)
+        walls = [common.make_plane(*corners, (26, 16)) for corners in (
+            ((-1, 1, d), (1, 1, d), (-1, 1, top)), ((-1, -1, d), (-1, 1, d), (-1, -1, top)),
+            ((1, 1, d), (1, -1, d), (1, 1, top)))]
+        self.add_lit(floor, texture, 1.7)
+        for wall in walls:
+            self.add_lit(wall, texture, 0.9)
+        self.add_deck()
+
+    def add_deck(self):
+        """Stone around the pool, in the sun."""
+        w = 4.0
+        for x, y, width, height in ((-w, 1, 2 * w, w), (-w, -w, 2 * w, w - 1), (-w, -1, w - 1, 2),
+                                    (1, -1, w - 1, 2)):
+            self.add_stone(((x, y, DECK), (x + width, y, DECK), (x, y + height, DECK)),
+                           (0.86, 0.80, 0.70))
+        for corner, other in (((-1, 1), (1, 1)), ((-1, -1), (-1, 1)), ((1, 1), (1, -1))):
+            self.add_stone(((*corner, -DECK), (*other, -DECK), (*corner, DECK)),
+                           (0.62, 0.60, 0.56))
+
+    def add_stone(self, corners, color):
+        stone = common.make_actor(common.make_plane(*corners, (1, 1)), color)
+        stone.GetProperty().LightingOff()
+        self.renderer.AddActor(stone)
+
+    def add_lit(self, data, texture, brightest):
+        """Adds an object whose colours are texture times light through the water."""
+        light = meniscus.vtkRefractedLightFilter()
+        light.SetInputData(data)
+        light.SetMembraneData(self.water)
+        light.SetLightPosition(*SUN)
+        actor = self.add(light.GetOutputPort())
+        gray = vtkLookupTable()
+        gray.SetRampToLinear()
+        gray.SetHueRange(0.12, 0.12)
+        gray.SetSaturationRange(0.0, 0.0)
+        gray.SetValueRange(0.38, 1.0)
+        gray.Build()
+        actor.GetMapper().SetScalarModeToUsePointFieldData()
+        actor.GetMapper().SelectColorArray("RefractionIrradiance")
+        actor.GetMapper().SetLookupTable(gray)
+        actor.GetMapper().SetScalarRange(0.0, brightest)
+        actor.SetTexture(texture)
+        actor.GetProperty().LightingOff()
+
+    def add(self, port):
+        """Adds an object and returns its actor."""
+        refracted = meniscus.vtkRefractedGeometryFilter()
+        refracted.SetInputConnection(port)
+        refracted.SetMembraneData(self.water)
+        refracted.SetCamera(self.renderer.GetActiveCamera())
+        refracted.SetAngularTolerance(0.03)
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputConnection(refracted.GetOutputPort())
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        self.refraction.AddRefraction(self.surface, actor, refracted)
+        return actor
+
+    def add_colored(self, data, color):
+        """Adds an object of one colour, lit by the sun without caustics."""
+        producer = vtkTrivialProducer()
+        producer.SetOutput(data)
+        actor = self.add(producer.GetOutputPort())
+        actor.GetMapper().ScalarVisibilityOff()
+        look = actor.GetProperty()
+        look.SetColor(*color)
+        look.SetAmbient(0.25)
+        look.SetDiffuse(0.9)
+        look.SetSpecular(0.5)
+        look.SetSpecularPower(40)
+        return actor
+
+
+def draw_pool(data, size):
+    """The crushed can and two balls in a tiled pool under a summer sky."""
+    pool = Pool(lambda x, y: sum(a * math.sin(k * x + l * y + p) for a, k, l, p in WAVES),
+                (0.60, 0.10, 0.05))
+    pool.add_sides(make_tiles())
+    can = pool.add_colored(place(data.can, 1.25, 25, (0.0, -0.05, -0.42)), (0.85, 0.86, 0.88))
+    can.GetProperty().SetSpecular(0.9)
+    low, high = common.get_range(data.can)
+    can.GetMapper().ScalarVisibilityOn()
+    can.GetMapper().SetScalarModeToUsePointFieldData()
+    can.GetMapper().SelectColorArray("Speed")
+    can.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[2:], low, high))
+    pool.add_colored(make_ball((0.55, 0.55, -0.55), 0.2), (0.95, 0.35, 0.15))
+    pool.add_colored(make_ball((-0.62, 0.5, -0.02), 0.17), (0.98, 0.80, 0.12))
+    common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.04, -0.22), (0, 0, 1), 37.0)
+    pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
+    return common.take(pool.renderer, size)
+
+
+def rings(time):
+    """Height of rings around the place of a drop, `time` after its fall."""
+    def height(x, y):
+        r = math.hypot(x - 0.15, y + 0.05)
+        front = 0.9 * time
+        return 0.035 * math.exp(-((r - front) / 0.22) ** 2) * math.cos(24.0 * (r - front))
+    return height
+
+
+def draw_rings(_data, size):
+    """Three moments of rings that spread over a pool, as a strip."""
+    tiles = make_tiles()
+    strip = vtkImageAppend()
+    strip.SetAppendAxis(0)
+    for time in (0.2, 0.5, 0.85):
+        pool = Pool(rings(time), (0.60, 0.10, 0.05), 72)
+        pool.add_sides(tiles)
+        common.look_from(pool.renderer, (0.0, -1.9, 2.9), (0.0, 0.0, -0.3), (0, 0, 1), 34.0)
+        pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
+        strip.AddInputData(common.take(pool.renderer, (size[0] // 2, size[1] // 2)))
+    strip.Update()
+    return strip.GetOutput()
