@@ -32,6 +32,8 @@ macro (meniscus_find package debian)
 endmacro ()
 
 meniscus_module_components(MENISCUS_VTK_COMPONENTS DEPENDS PRIVATE_DEPENDS)
+# Modules that only some versions of VTK have: VTK::opengl, up to 9.3.
+meniscus_module_components(_meniscus_optional_components OPTIONAL_DEPENDS)
 meniscus_module_components(_meniscus_test_components TEST_DEPENDS)
 
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
@@ -39,12 +41,19 @@ if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews WrapClientServer ProcessXML)
   find_package(VTK REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
+    OPTIONAL_COMPONENTS ${_meniscus_optional_components}
     PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 else ()
   find_package(VTK 9.1 REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
-    OPTIONAL_COMPONENTS ${_meniscus_test_components} WrappingTools Python WrappingPythonCore)
+    OPTIONAL_COMPONENTS ${_meniscus_optional_components} ${_meniscus_test_components}
+      WrappingTools Python WrappingPythonCore)
   option(MENISCUS_WRAP_PYTHON "Build the Python package" "${VTK_WRAP_PYTHON}")
 endif ()
+foreach (_meniscus_component IN LISTS _meniscus_optional_components)
+  if (TARGET "VTK::${_meniscus_component}")
+    list(APPEND MENISCUS_VTK_COMPONENTS "${_meniscus_component}")
+  endif ()
+endforeach ()
 meniscus_find(glm libglm-dev)
 meniscus_find(OpenMesh libopenmesh-dev)
 if (MENISCUS_BUILD_TESTING AND NOT MENISCUS_BUILD_PARAVIEW_PLUGIN)

@@ -20,7 +20,7 @@ set(MENISCUS_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Meniscus")
 
 option(MENISCUS_WARNINGS_AS_ERRORS "Treat warnings in our own code as errors" OFF)
 set(MENISCUS_SANITIZER "" CACHE STRING
-  "Sanitizer for our own targets: address, undefined or thread")
+  "Sanitizers for our own targets, as -fsanitize takes them: address,undefined or thread")
 option(MENISCUS_CLANG_TIDY "Run clang-tidy on our own targets while they compile" OFF)
 if (MENISCUS_CLANG_TIDY)
   find_program(MENISCUS_CLANG_TIDY_EXECUTABLE NAMES clang-tidy clang-tidy-14 REQUIRED)

@@ -11,12 +11,18 @@ PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython
   libopenmesh-dev libgtest-dev libbenchmark-dev)
 # Needed by a part of the benchmarks only; the build works without it.
 PACKAGES_BENCHMARKS=(libembree-dev)
+# TetGen, under the AGPL: for MENISCUS_WITH_TETGEN.
+PACKAGES_TETGEN=(libtet1.5-dev)
 PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
 PACKAGES_DOCS=(doxygen python3)
+# Validates the shaders, without a graphics device.
+PACKAGES_SHADERS=(glslang-tools)
 PACKAGES_TIDY=(clang-tidy-14)
 # The second compiler.
 PACKAGES_CLANG=(clang-14)
+# libFuzzer is among the run-time libraries.
+PACKAGES_FUZZ=(clang-14 libclang-rt-14-dev)
 # The page of `meniscus --web` in a browser.
 PACKAGES_WEB=(chromium chromium-driver python3-venv python3-numpy python3-pil)
 # Pictures to compare with; its include files are not needed.

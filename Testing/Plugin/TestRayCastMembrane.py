@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A volume seen through a membrane: an isosurface is where the filter Refracted Geometry puts its
-contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can
-be taken away again."""
+contour; a medium fades it; the membrane follows its pipeline, animated or read per time step, may
+have blocks, and can be taken away again."""
 import os
 
 import PluginTesting
@@ -91,6 +91,36 @@ def check_changes(view, display, waves, straight):
     assert screenshot(view, "MembraneNone") == straight, "the membrane is still there"
 
 
+def check_medium(view, display, waves):
+    """An opaque isosurface far inside a medium has the medium's colour, a clear one its own."""
+    opacity = simple.GetOpacityTransferFunction("RTData")
+    kept = list(opacity.Points)
+    opacity.Points = [kept[0], 1.0, 0.5, 0.0, kept[-4], 1.0, 0.5, 0.0]
+    display.BlendMode = "Isosurface"
+    display.IsosurfaceValues = [VALUE]
+    display.Membrane = waves
+    clear = screenshot(view, "MembraneClear")
+    display.MediumColor = [0.2, 0.4, 0.8]
+    display.MediumAttenuationCoefficients = [0.1, 0.2, 0.3]
+    faded = screenshot(view, "MembraneExponential")
+    display.MediumAttenuationCoefficients = [1e3, 1e3, 1e3]
+    hidden = screenshot(view, "MembraneDense")
+    display.MediumModel = "Linear"
+    display.MediumRange = [0, 1e-3]
+    assert screenshot(view, "MembraneLinear") == hidden
+    seen = covered(clear)
+    assert faded != clear and len(seen) > 1000
+    colors = {hidden[i] for i in seen}
+    assert all(abs(color[k] - value) <= 1 for color in colors
+               for k, value in enumerate([51, 102, 204])), colors
+    display.MediumModel = "Exponential"
+    display.MediumAttenuationCoefficients = [0, 0, 0]
+    assert screenshot(view, "MembraneClearAgain") == clear
+    opacity.Points = kept
+    display.Membrane = None
+    display.BlendMode = "Composite"
+
+
 def check_empty(view, display, straight):
     """A membrane without cells, as a clip may produce, causes a warning; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
@@ -170,6 +200,7 @@ def test():
     straight = screenshot(view, "MembraneStraight")
     check_place(view, display, grid, waves)
     check_changes(view, display, waves, straight)
+    check_medium(view, display, waves)
     check_empty(view, display, straight)
     check_keyframes(view, display, make_plane(), straight)
     check_time_steps(view, display, straight)

@@ -24,7 +24,7 @@ constexpr double SamePlace = 1e-5;
 
 /**
  * Cosines, roots of the radicand in Snell's law, and conditions of the map from the first surface
- * to the point: what is closer to zero is left open, because rounding or the merging of close
+ * to the point: a value closer to zero is left open, because rounding or the merging of close
  * images decides there.
  */
 constexpr double Marginal = 1e-3;

@@ -195,7 +195,7 @@ TrueEvents EventsOfSurfaces(const Ray& ray, const std::vector<RaySegment>& segme
       {
         events[0] = event;
       }
-      // Opacities are single numbers of a few digits: what remains is rounding.
+      // Opacities are single numbers of a few digits; the rest is rounding.
       if (weight > 0.0 && !events[1].IsFound() && 1.0 - transmittance > opacity - 1.0e-7)
       {
         events[1] = event;

@@ -55,7 +55,7 @@ TrueEvents EventsOfExtreme(
 using FindEvents =
   std::function<TrueEvents(const reference::Ray&, const std::vector<reference::RaySegment>&)>;
 
-/** Truth of a ray, and what its input's rounding does to it. */
+/** Truth of a ray, and its change by the rounding of its input. */
 struct RobustEvents
 {
   TrueEvents Events;

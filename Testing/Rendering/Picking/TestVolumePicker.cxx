@@ -517,7 +517,7 @@ TEST(VolumePicker, OtherModesAndThresholds)
 }
 
 //------------------------------------------------------------------------------
-/** Picks look up what changed, and nothing else; results do not depend on the threads. */
+/** Picks look up only inputs that changed; results do not depend on the threads. */
 TEST(VolumePicker, CountersAndThreads)
 {
   Grid grid = MakeBlock(5, WavyField(2.0));
