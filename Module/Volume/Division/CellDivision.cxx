@@ -20,6 +20,13 @@ namespace
 {
 
 constexpr int EdgeEnds[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+/** Triangles of a piece. */
+constexpr struct
+{
+  int Corners[3];
+  int Edges[3];
+} Faces[4] = { { { 1, 2, 3 }, { 3, 4, 5 } }, { { 0, 2, 3 }, { 1, 2, 5 } },
+  { { 0, 1, 3 }, { 0, 2, 4 } }, { { 0, 1, 2 }, { 0, 1, 3 } } };
 constexpr std::uint8_t EveryEdge = 0x3F;
 
 EdgePoints EdgeOf(const CellPiece& piece, int edge)
@@ -210,6 +217,7 @@ private:
 
   void TestEdges(std::vector<Wish>& wishes);
   void TestInside(std::vector<Wish>& wishes) const;
+  void AddLongEdges(std::vector<Wish>& wishes) const;
   void AddInside(ShapeTest& test, std::int32_t number, const int* corners, int count,
     std::vector<Wish>& wishes) const;
   int LongestEdge(const CellPiece& piece, const int* corners, int count) const;
@@ -356,11 +364,48 @@ void CellDivision::Round::TestInside(std::vector<Wish>& wishes) const
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Adds the longest edges of triangles with an edge to divide that follows many halvings. A part of
+ * an edge may be beyond the limits although the edge is within them: the two
+ * shorter sides of a triangle would then be halved in turns for ever, since the points that this
+ * adds approach a third of the longest side, which stays whole.
+ */
+void CellDivision::Round::AddLongEdges(std::vector<Wish>& wishes) const
+{
+  // Halvings that lead to pieces in proportion reach edges of a thousandth of a cell by then.
+  constexpr int many = 10;
+  EdgeIndex late;
+  for (const Wish& wish : wishes)
+  {
+    if (this->LevelOf(wish.Edge) >= many)
+    {
+      late.Add(wish.Edge);
+    }
+  }
+  for (std::size_t p = 0; late.GetSize() > 0 && p < this->Pieces.size(); ++p)
+  {
+    const CellPiece& piece = this->Pieces[p];
+    for (const auto& face : Faces)
+    {
+      const bool isLate = late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||
+        late.Find(EdgeOf(piece, face.Edges[1])) != EdgeIndex::None ||
+        late.Find(EdgeOf(piece, face.Edges[2])) != EdgeIndex::None;
+      if (isLate)
+      {
+        const int edge = this->LongestEdge(piece, face.Corners, 3);
+        wishes.push_back({ EdgeOf(piece, edge), { static_cast<std::int32_t>(p), edge } });
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 bool CellDivision::Round::Mark()
 {
   std::vector<Wish> wishes;
   this->TestEdges(wishes);
   this->TestInside(wishes);
+  this->AddLongEdges(wishes);
   for (CellPiece& piece : this->Pieces)
   {
     piece.NewEdges = 0;

@@ -43,9 +43,8 @@ struct DivisionLimits
   /** Largest difference of each value. */
   std::array<double, CellSample::MostFields> Values{};
   /**
-   * Number of divisions, at most, that lead to a point. Next to an edge that stays whole, because
-   * the field is linear along it, each division halves the distance, and the difference with it. 23
-   * are the most for which reference coordinates are exact in single precision.
+   * Number of divisions, at most, that lead to a point. 23 are the most for which reference
+   * coordinates are exact in single precision.
    */
   int MostLevels = 23;
   std::int64_t MostPieces = std::numeric_limits<std::int32_t>::max();

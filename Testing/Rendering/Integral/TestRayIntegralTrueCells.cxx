@@ -614,6 +614,7 @@ TEST(TrueCells, TheErrorConvergesWithTheTolerances)
         tolerance, static_cast<long long>(rays->GetNumberOfTetrahedra()), error);
       // The displaced ends of a ray's way, which meets sides at an angle, and the value.
       EXPECT_LE(error, 4.0 * tolerance);
+      EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
     }
     // First order in the tolerance, which is 64 times smaller in the end; that is second order in
     // the size of the pieces. Differences are between a quarter of the tolerance and all of it.
@@ -682,6 +683,7 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   rays->SetDivisionScalarTolerance(5e-3);
   rays->Update();
   const vtkTypeInt64 pieces = rays->GetNumberOfTetrahedra();
+  EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
   rays->SetImageSize(24, 24);
   rays->Update();
   EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
@@ -729,6 +731,7 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   SetScalars(
     grid, [](const glm::dvec3& at) { return std::sin(9.0 * at.x) * std::cos(7.0 * at.z); });
   rays->Update();
+  EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
   EXPECT_EQ(rays->GetNumberOfCellDivisions(), 2);
   EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 2);
   // So do other tolerances.
