@@ -48,7 +48,7 @@ struct JoinedMesh
 };
 
 //------------------------------------------------------------------------------
-JoinedMesh joinPoints(vtkUnstructuredGrid* grid)
+JoinedMesh JoinPoints(vtkUnstructuredGrid* grid)
 {
   JoinedMesh mesh;
   std::map<std::array<double, 3>, int> known;
@@ -84,7 +84,7 @@ JoinedMesh joinPoints(vtkUnstructuredGrid* grid)
 
 //------------------------------------------------------------------------------
 // Faces that belong to one cell only.
-std::vector<meniscus::Triangle> boundaryOf(const JoinedMesh& mesh)
+std::vector<meniscus::Triangle> BoundaryOf(const JoinedMesh& mesh)
 {
   std::map<meniscus::Triangle, int> count;
   for (const meniscus::Tetrahedron& cell : mesh.Cells)
@@ -111,16 +111,16 @@ std::vector<meniscus::Triangle> boundaryOf(const JoinedMesh& mesh)
 //------------------------------------------------------------------------------
 // The mesh and its filling as one grid; null if TetGen fails. TetGen numbers the part outside of
 // all facets -1.
-Grid convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
+Grid Convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
 {
-  const JoinedMesh mesh = joinPoints(grid);
+  const JoinedMesh mesh = JoinPoints(grid);
   std::vector<glm::dvec3> places;
   for (std::size_t p = 0; p < mesh.Points.size(); p += 3)
   {
     places.emplace_back(mesh.Points[p], mesh.Points[p + 1], mesh.Points[p + 2]);
   }
   meniscus::MeshingTask task;
-  task.Surface = meniscus::JoinCoincidentPoints(places, boundaryOf(mesh));
+  task.Surface = meniscus::JoinCoincidentPoints(places, BoundaryOf(mesh));
   task.KeepsSurface = true;
   task.FillsHull = true;
   meniscus::MesherProcess process;
@@ -167,7 +167,7 @@ Grid convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
 }
 
 //------------------------------------------------------------------------------
-int run(const VolumeOptions& options)
+int Run(const VolumeOptions& options)
 {
   const Grid mesh = MakeVolumeMesh(options);
   if (!mesh)
@@ -177,7 +177,7 @@ int run(const VolumeOptions& options)
   }
   double seconds = 0.0;
   vtkIdType imaginary = 0;
-  const Grid filled = convexify(mesh, seconds, imaginary);
+  const Grid filled = Convexify(mesh, seconds, imaginary);
   if (!filled)
   {
     std::cout << "TetGen crashed or gave up on the boundary of "
@@ -232,5 +232,5 @@ int main(int argc, char* argv[])
               << VolumeUsage;
     return options.Help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  return run(options);
+  return Run(options);
 }

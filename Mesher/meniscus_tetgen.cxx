@@ -28,7 +28,7 @@ using meniscus::MeshingTask;
 
 //------------------------------------------------------------------------------
 // The surface in TetGen's form: facets of one triangle.
-void describe(const meniscus::TriangleSurface& surface, tetgenio& in)
+void Describe(const meniscus::TriangleSurface& surface, tetgenio& in)
 {
   in.firstnumber = 0;
   in.numberofpoints = static_cast<int>(surface.Points.size());
@@ -56,7 +56,7 @@ void describe(const meniscus::TriangleSurface& surface, tetgenio& in)
 // p: a surface, A: numbers of regions, J: indices of points as they are, Q: quiet, c: up to the
 // convex hull, Y: no points on the surface, q: bound of radius to shortest edge, O0: no
 // optimisation of angles afterwards, which exceeds that bound again.
-std::string switchesFor(const MeshingTask& task, bool optimizes)
+std::string SwitchesFor(const MeshingTask& task, bool optimizes)
 {
   std::string switches = "pAJQ";
   char number[64];
@@ -78,7 +78,7 @@ std::string switchesFor(const MeshingTask& task, bool optimizes)
 }
 
 //------------------------------------------------------------------------------
-void copy(const tetgenio& result, meniscus::TetrahedronCells& cells)
+void Copy(const tetgenio& result, meniscus::TetrahedronCells& cells)
 {
   for (int p = 0; p < result.numberofpoints; ++p)
   {
@@ -96,7 +96,7 @@ void copy(const tetgenio& result, meniscus::TetrahedronCells& cells)
 }
 
 //------------------------------------------------------------------------------
-MeshingEnd endOf(int code)
+MeshingEnd EndOf(int code)
 {
   for (const MeshingEnd end :
     { MeshingEnd::OutOfMemory, MeshingEnd::InternalError, MeshingEnd::SelfIntersection,
@@ -117,7 +117,7 @@ std::string answerFile;
 // Answers with the exception that TetGen has thrown. An exception that nobody catches comes here
 // before any object is destroyed: TetGen frees its mesh before it throws, and its destructor would
 // free it again.
-[[noreturn]] void answerException()
+[[noreturn]] void AnswerException()
 {
   MeshingAnswer answer;
   try
@@ -126,7 +126,7 @@ std::string answerFile;
   }
   catch (int code)
   {
-    answer.End = endOf(code);
+    answer.End = EndOf(code);
   }
   catch (const std::bad_alloc&)
   {
@@ -139,14 +139,14 @@ std::string answerFile;
 }
 
 //------------------------------------------------------------------------------
-MeshingAnswer mesh(const MeshingTask& task, bool optimizes)
+MeshingAnswer Mesh(const MeshingTask& task, bool optimizes)
 {
   MeshingAnswer answer;
   tetgenio in;
-  describe(task.Surface, in);
+  Describe(task.Surface, in);
   tetgenio result;
   tetgenbehavior behavior;
-  std::string switches = switchesFor(task, optimizes);
+  std::string switches = SwitchesFor(task, optimizes);
   if (!behavior.parse_commandline(&switches[0]))
   {
     return answer;
@@ -158,7 +158,7 @@ MeshingAnswer mesh(const MeshingTask& task, bool optimizes)
     behavior.maxvolume = task.MaximumVolume;
   }
   tetrahedralize(&behavior, &in, &result);
-  copy(result, answer.Cells);
+  Copy(result, answer.Cells);
   answer.End = MeshingEnd::Done;
   return answer;
 }
@@ -166,9 +166,9 @@ MeshingAnswer mesh(const MeshingTask& task, bool optimizes)
 //------------------------------------------------------------------------------
 // Without points on the surface there is no bound to keep, and cells next to it may only be rounded
 // by optimisation; elsewhere only if there are cells without volume.
-MeshingAnswer mesh(const MeshingTask& task)
+MeshingAnswer Mesh(const MeshingTask& task)
 {
-  MeshingAnswer answer = mesh(task, task.KeepsSurface);
+  MeshingAnswer answer = Mesh(task, task.KeepsSurface);
   const auto isFlat = [&](const meniscus::Tetrahedron& cell)
   {
     const auto point = [&](std::size_t i)
@@ -176,7 +176,7 @@ MeshingAnswer mesh(const MeshingTask& task)
     return meniscus::IsFlat(point(0), point(1), point(2), point(3));
   };
   const bool hasFlat = std::any_of(answer.Cells.Cells.begin(), answer.Cells.Cells.end(), isFlat);
-  return hasFlat && !task.KeepsSurface ? mesh(task, true) : answer;
+  return hasFlat && !task.KeepsSurface ? Mesh(task, true) : answer;
 }
 
 } // anonymous namespace
@@ -192,6 +192,6 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   answerFile = argv[2];
-  std::set_terminate(answerException);
-  return meniscus::WriteMeshingAnswer(answerFile, mesh(task)) ? EXIT_SUCCESS : EXIT_FAILURE;
+  std::set_terminate(AnswerException);
+  return meniscus::WriteMeshingAnswer(answerFile, Mesh(task)) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

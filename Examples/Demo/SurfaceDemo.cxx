@@ -21,7 +21,7 @@ namespace
 {
 
 // Colour and opacity by height, from dark blue to yellow.
-void setLook(vtkVolumeProperty* property)
+void SetLook(vtkVolumeProperty* property)
 {
   vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
   colors->AddRGBPoint(0.0, 0.16, 0.04, 0.36);
@@ -67,7 +67,7 @@ bool RunSurfaceDemo(const std::string& folder)
   mapper->SelectScalarArray("Elevation");
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
-  setLook(volume->GetProperty());
+  SetLook(volume->GetProperty());
   DemoPictures pictures(folder);
   vtkRenderer* renderer = pictures.GetRenderer();
   renderer->AddVolume(volume);

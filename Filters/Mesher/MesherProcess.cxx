@@ -56,7 +56,7 @@ private:
 };
 
 // Starts a program in a process group of its own, without input and output. Returns 0 on failure.
-pid_t start(const std::string& program, std::string task, std::string answer)
+pid_t Start(const std::string& program, std::string task, std::string answer)
 {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -78,7 +78,7 @@ pid_t start(const std::string& program, std::string task, std::string answer)
 }
 
 // Ends the process and those that it started.
-void stop(pid_t process)
+void Stop(pid_t process)
 {
   kill(-process, SIGKILL);
   while (waitpid(process, nullptr, 0) < 0 && errno == EINTR)
@@ -87,7 +87,7 @@ void stop(pid_t process)
 }
 
 // Waits for the process. Answered: it ended by itself.
-ProcessEnd follow(pid_t process, const MesherProcess& run)
+ProcessEnd Follow(pid_t process, const MesherProcess& run)
 {
   const auto begin = std::chrono::steady_clock::now();
   std::chrono::milliseconds pause(1);
@@ -104,7 +104,7 @@ ProcessEnd follow(pid_t process, const MesherProcess& run)
     const bool late = time.count() > run.TimeLimit;
     if (late || !run.GoesOn(time.count()))
     {
-      stop(process);
+      Stop(process);
       return late ? ProcessEnd::TimedOut : ProcessEnd::Aborted;
     }
     std::this_thread::sleep_for(pause);
@@ -124,12 +124,12 @@ ProcessEnd MesherProcess::Run(const MeshingTask& task, MeshingAnswer& answer) co
   {
     return ProcessEnd::NoFiles;
   }
-  const pid_t process = start(this->Program, taskFile, answerFile);
+  const pid_t process = Start(this->Program, taskFile, answerFile);
   if (process == 0)
   {
     return ProcessEnd::NotStarted;
   }
-  const ProcessEnd end = follow(process, *this);
+  const ProcessEnd end = Follow(process, *this);
   return end == ProcessEnd::Answered && !ReadMeshingAnswer(answerFile, answer)
     ? ProcessEnd::NoAnswer
     : end;

@@ -38,7 +38,7 @@ struct SurfacePlace
 
 //------------------------------------------------------------------------------
 // The joined surface as data whose point i is that of the kernel.
-vtkSmartPointer<vtkPolyData> toPolyData(const TriangleSurface& surface)
+vtkSmartPointer<vtkPolyData> ToPolyData(const TriangleSurface& surface)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -59,10 +59,10 @@ vtkSmartPointer<vtkPolyData> toPolyData(const TriangleSurface& surface)
 
 //------------------------------------------------------------------------------
 // Places of the points on the boundary, in the triangle that is nearest.
-std::vector<SurfacePlace> findPlaces(
+std::vector<SurfacePlace> FindPlaces(
   const TriangleSurface& surface, const TetrahedronCells& cells, const std::vector<bool>& boundary)
 {
-  const auto data = toPolyData(surface);
+  const auto data = ToPolyData(surface);
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(data);
   locator->BuildLocator();
@@ -158,7 +158,7 @@ int ContinueArrays(vtkPolyData* data, const TriangleSurface& surface, const Tetr
     return 0;
   }
   std::vector<bool> given = FindBoundaryPoints(cells);
-  const std::vector<SurfacePlace> places = findPlaces(surface, cells, given);
+  const std::vector<SurfacePlace> places = FindPlaces(surface, cells, given);
   const HarmonicField field(cells, given);
   const auto count = static_cast<vtkIdType>(cells.Points.size());
   int failures = 0;

@@ -25,19 +25,19 @@ struct EdgeUse
   int Against = 0;
 };
 
-bool isFinite(const glm::dvec3& point)
+bool IsFinite(const glm::dvec3& point)
 {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-std::size_t countNotFinite(const TriangleSurface& surface)
+std::size_t CountNotFinite(const TriangleSurface& surface)
 {
   return static_cast<std::size_t>(std::count_if(surface.Points.begin(), surface.Points.end(),
-    [](const glm::dvec3& point) { return !isFinite(point); }));
+    [](const glm::dvec3& point) { return !IsFinite(point); }));
 }
 
 // Fault of the edges: open before non-manifold before winding.
-SurfaceReport findEdgeFault(const std::vector<Triangle>& triangles)
+SurfaceReport FindEdgeFault(const std::vector<Triangle>& triangles)
 {
   std::map<std::pair<int, int>, EdgeUse> edges;
   for (const Triangle& triangle : triangles)
@@ -87,7 +87,7 @@ TriangleSurface JoinCoincidentPoints(
       const glm::dvec3& point = points[static_cast<std::size_t>(source)];
       const int next = static_cast<int>(surface.Points.size());
       // Coordinates that are not finite have no place in an order; they are faults and stay apart.
-      index = isFinite(point)
+      index = IsFinite(point)
         ? known.emplace(std::make_tuple(point.x, point.y, point.z), next).first->second
         : next;
       if (index == next)
@@ -116,11 +116,11 @@ SurfaceReport FindSurfaceFault(const TriangleSurface& surface)
   {
     return { SurfaceFault::Empty, 0 };
   }
-  if (const std::size_t count = countNotFinite(surface))
+  if (const std::size_t count = CountNotFinite(surface))
   {
     return { SurfaceFault::NotFinite, count };
   }
-  const SurfaceReport edges = findEdgeFault(surface.Triangles);
+  const SurfaceReport edges = FindEdgeFault(surface.Triangles);
   if (edges.Fault != SurfaceFault::None)
   {
     return edges;

@@ -18,7 +18,7 @@ namespace
 /** Largest residual, relative to the right-hand side: sixteen times below single precision. */
 constexpr double RelativeResidual = 1.0 / 16.0 / 16777216.0;
 
-double dot(const std::vector<double>& a, const std::vector<double>& b)
+double Dot(const std::vector<double>& a, const std::vector<double>& b)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -29,7 +29,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b)
 }
 
 // Gradients of the four barycentric coordinates, times six volumes.
-std::array<glm::dvec3, 4> scaledGradients(const std::array<glm::dvec3, 4>& corner)
+std::array<glm::dvec3, 4> ScaledGradients(const std::array<glm::dvec3, 4>& corner)
 {
   std::array<glm::dvec3, 4> gradients;
   gradients[1] = glm::cross(corner[2] - corner[0], corner[3] - corner[0]);
@@ -56,7 +56,7 @@ HarmonicField::HarmonicField(const TetrahedronCells& cells, const std::vector<bo
     {
       corner[i] = cells.Points[static_cast<std::size_t>(cell[i])];
     }
-    const auto gradients = scaledGradients(corner);
+    const auto gradients = ScaledGradients(corner);
     const double scale = 6.0 * SixfoldVolume(corner[0], corner[1], corner[2], corner[3]);
     for (std::size_t i = 0; i < 4; ++i)
     {
@@ -141,20 +141,20 @@ bool HarmonicField::Continue(std::vector<double>& values) const
   }
   std::vector<double> direction = scaled;
   std::vector<double> product(count);
-  double energy = dot(residual, scaled);
+  double energy = Dot(residual, scaled);
   bound = RelativeResidual * RelativeResidual * energy;
   // Exact arithmetic ends after as many steps as there are free points.
   for (std::size_t step = 0; energy > bound && step <= 2 * count; ++step)
   {
     this->Multiply(direction, product);
-    const double length = energy / dot(direction, product);
+    const double length = energy / Dot(direction, product);
     for (std::size_t i = 0; i < count; ++i)
     {
       values[i] += length * direction[i];
       residual[i] -= length * product[i];
       scaled[i] = isFree(i) ? residual[i] / this->Diagonal[i] : 0.0;
     }
-    const double next = dot(residual, scaled);
+    const double next = Dot(residual, scaled);
     for (std::size_t i = 0; i < count; ++i)
     {
       direction[i] = scaled[i] + next / energy * direction[i];

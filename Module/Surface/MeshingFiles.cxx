@@ -17,17 +17,17 @@ constexpr std::uint64_t TaskMark = 0x314b534154534e4d;   // "MNSTASK1"
 constexpr std::uint64_t AnswerMark = 0x31534e415f534e4d; // "MNS_ANS1"
 
 template <class Value>
-void put(std::ostream& out, const Value& value)
+void Put(std::ostream& out, const Value& value)
 {
   static_assert(std::is_trivially_copyable<Value>::value, "copied byte by byte");
   out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 template <class Value>
-void putAll(std::ostream& out, const std::vector<Value>& values)
+void PutAll(std::ostream& out, const std::vector<Value>& values)
 {
   static_assert(std::is_trivially_copyable<Value>::value, "copied byte by byte");
-  put(out, static_cast<std::uint64_t>(values.size()));
+  Put(out, static_cast<std::uint64_t>(values.size()));
   out.write(reinterpret_cast<const char*>(values.data()),
     static_cast<std::streamsize>(values.size() * sizeof(Value)));
 }
@@ -75,7 +75,7 @@ private:
 };
 
 template <class Corners>
-bool areIndices(const std::vector<Corners>& cells, std::size_t points)
+bool AreIndices(const std::vector<Corners>& cells, std::size_t points)
 {
   for (const Corners& cell : cells)
   {
@@ -96,13 +96,13 @@ bool areIndices(const std::vector<Corners>& cells, std::size_t points)
 bool WriteMeshingTask(const std::string& name, const MeshingTask& task)
 {
   std::ofstream out(name, std::ios::binary);
-  put(out, TaskMark);
-  putAll(out, task.Surface.Points);
-  putAll(out, task.Surface.Triangles);
-  put(out, task.RadiusEdgeRatio);
-  put(out, task.MaximumVolume);
-  put(out, task.KeepsSurface);
-  put(out, task.FillsHull);
+  Put(out, TaskMark);
+  PutAll(out, task.Surface.Points);
+  PutAll(out, task.Surface.Triangles);
+  Put(out, task.RadiusEdgeRatio);
+  Put(out, task.MaximumVolume);
+  Put(out, task.KeepsSurface);
+  Put(out, task.FillsHull);
   return bool(out.flush());
 }
 
@@ -113,18 +113,18 @@ bool ReadMeshingTask(const std::string& name, MeshingTask& task)
   return in.HasMark(TaskMark) && in.GetAll(task.Surface.Points) &&
     in.GetAll(task.Surface.Triangles) && in.Get(task.RadiusEdgeRatio) &&
     in.Get(task.MaximumVolume) && in.Get(task.KeepsSurface) && in.Get(task.FillsHull) &&
-    areIndices(task.Surface.Triangles, task.Surface.Points.size());
+    AreIndices(task.Surface.Triangles, task.Surface.Points.size());
 }
 
 //------------------------------------------------------------------------------
 bool WriteMeshingAnswer(const std::string& name, const MeshingAnswer& answer)
 {
   std::ofstream out(name, std::ios::binary);
-  put(out, AnswerMark);
-  put(out, answer.End);
-  putAll(out, answer.Cells.Points);
-  putAll(out, answer.Cells.Cells);
-  putAll(out, answer.Cells.Regions);
+  Put(out, AnswerMark);
+  Put(out, answer.End);
+  PutAll(out, answer.Cells.Points);
+  PutAll(out, answer.Cells.Cells);
+  PutAll(out, answer.Cells.Regions);
   return bool(out.flush());
 }
 
@@ -135,7 +135,7 @@ bool ReadMeshingAnswer(const std::string& name, MeshingAnswer& answer)
   TetrahedronCells& cells = answer.Cells;
   return in.HasMark(AnswerMark) && in.Get(answer.End) && in.GetAll(cells.Points) &&
     in.GetAll(cells.Cells) && in.GetAll(cells.Regions) &&
-    cells.Regions.size() == cells.Cells.size() && areIndices(cells.Cells, cells.Points.size());
+    cells.Regions.size() == cells.Cells.size() && AreIndices(cells.Cells, cells.Points.size());
 }
 
 } // namespace meniscus

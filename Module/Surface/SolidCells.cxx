@@ -21,14 +21,14 @@ namespace
 /** A face by its sorted corners, and the cell that has it. */
 using FaceOfCell = std::pair<Triangle, std::size_t>;
 
-Triangle sorted(Triangle face)
+Triangle Sorted(Triangle face)
 {
   std::sort(face.begin(), face.end());
   return face;
 }
 
 // All faces of all cells; the two cells of a face are neighbours in the list.
-std::vector<FaceOfCell> listFaces(const std::vector<Tetrahedron>& cells)
+std::vector<FaceOfCell> ListFaces(const std::vector<Tetrahedron>& cells)
 {
   std::vector<FaceOfCell> faces;
   faces.reserve(4 * cells.size());
@@ -38,7 +38,7 @@ std::vector<FaceOfCell> listFaces(const std::vector<Tetrahedron>& cells)
     for (std::size_t without = 0; without < 4; ++without)
     {
       faces.emplace_back(
-        sorted({ cell[(without + 1) % 4], cell[(without + 2) % 4], cell[(without + 3) % 4] }), c);
+        Sorted({ cell[(without + 1) % 4], cell[(without + 2) % 4], cell[(without + 3) % 4] }), c);
     }
   }
   std::sort(faces.begin(), faces.end());
@@ -74,13 +74,13 @@ private:
   std::vector<std::size_t> Parents;
 };
 
-double sixfoldVolume(const TetrahedronCells& cells, const Tetrahedron& cell)
+double SixfoldVolumeOf(const TetrahedronCells& cells, const Tetrahedron& cell)
 {
   const auto point = [&](std::size_t i) { return cells.Points[static_cast<std::size_t>(cell[i])]; };
   return SixfoldVolume(point(0), point(1), point(2), point(3));
 }
 
-bool isFlat(const TetrahedronCells& cells, const Tetrahedron& cell)
+bool IsCellFlat(const TetrahedronCells& cells, const Tetrahedron& cell)
 {
   const auto point = [&](std::size_t i) { return cells.Points[static_cast<std::size_t>(cell[i])]; };
   return IsFlat(point(0), point(1), point(2), point(3));
@@ -88,12 +88,12 @@ bool isFlat(const TetrahedronCells& cells, const Tetrahedron& cell)
 
 // Winding number of each region, at the centroid of its largest cell: far from the surface, so that
 // rounding of the solid angles is far from half a turn.
-std::map<int, int> findWindings(const TriangleSurface& surface, const TetrahedronCells& cells)
+std::map<int, int> FindWindings(const TriangleSurface& surface, const TetrahedronCells& cells)
 {
   std::map<int, std::pair<double, std::size_t>> largest;
   for (std::size_t c = 0; c < cells.Cells.size(); ++c)
   {
-    const double volume = sixfoldVolume(cells, cells.Cells[c]);
+    const double volume = SixfoldVolumeOf(cells, cells.Cells[c]);
     auto& best = largest.emplace(cells.Regions[c], std::make_pair(-1.0, c)).first->second;
     if (volume > best.first)
     {
@@ -115,7 +115,7 @@ std::map<int, int> findWindings(const TriangleSurface& surface, const Tetrahedro
 
 // Bound of the difference of volumes: points that the mesher adds to triangles are off their planes
 // by at most `distance`, so that the volume between both surfaces is at most area times distance.
-double boundVolumeError(const TriangleSurface& surface, double relativeTolerance)
+double BoundVolumeError(const TriangleSurface& surface, double relativeTolerance)
 {
   double area = 0.0;
   glm::dvec3 lower = surface.Points.front();
@@ -135,7 +135,7 @@ double boundVolumeError(const TriangleSurface& surface, double relativeTolerance
 }
 
 // Removes points that no cell has, except for the first ones, those of the surface.
-void dropUnusedPoints(std::size_t first, TetrahedronCells& cells)
+void DropUnusedPoints(std::size_t first, TetrahedronCells& cells)
 {
   std::vector<int> place(cells.Points.size(), -1);
   for (const Tetrahedron& cell : cells.Cells)
@@ -172,10 +172,10 @@ std::size_t NumberRegions(const TriangleSurface& surface, TetrahedronCells& cell
   std::set<Triangle> walls;
   for (const Triangle& triangle : surface.Triangles)
   {
-    walls.insert(sorted(triangle));
+    walls.insert(Sorted(triangle));
   }
   CellSets sets(cells.Cells.size());
-  const std::vector<FaceOfCell> faces = listFaces(cells.Cells);
+  const std::vector<FaceOfCell> faces = ListFaces(cells.Cells);
   std::set<Triangle> found;
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
@@ -203,12 +203,12 @@ SolidFault KeepSolid(
 {
   for (Tetrahedron& cell : cells.Cells)
   {
-    if (sixfoldVolume(cells, cell) < 0.0)
+    if (SixfoldVolumeOf(cells, cell) < 0.0)
     {
       std::swap(cell[2], cell[3]);
     }
   }
-  const std::map<int, int> windings = findWindings(surface, cells);
+  const std::map<int, int> windings = FindWindings(surface, cells);
   for (const auto& region : windings)
   {
     if (region.second != 0 && region.second != 1)
@@ -223,8 +223,8 @@ SolidFault KeepSolid(
   {
     if (windings.at(cells.Regions[c]) == 1)
     {
-      const double volume = sixfoldVolume(cells, cells.Cells[c]);
-      flat = flat || isFlat(cells, cells.Cells[c]);
+      const double volume = SixfoldVolumeOf(cells, cells.Cells[c]);
+      flat = flat || IsCellFlat(cells, cells.Cells[c]);
       sixfold += volume;
       cells.Cells[kept] = cells.Cells[c];
       cells.Regions[kept] = cells.Regions[c];
@@ -233,13 +233,13 @@ SolidFault KeepSolid(
   }
   cells.Cells.resize(kept);
   cells.Regions.resize(kept);
-  dropUnusedPoints(surface.Points.size(), cells);
+  DropUnusedPoints(surface.Points.size(), cells);
   const double difference = std::abs(sixfold / 6.0 - ComputeEnclosedVolume(surface));
   if (flat)
   {
     return SolidFault::FlatCells;
   }
-  return difference <= boundVolumeError(surface, relativeTolerance) ? SolidFault::None
+  return difference <= BoundVolumeError(surface, relativeTolerance) ? SolidFault::None
                                                                     : SolidFault::WrongVolume;
 }
 
@@ -247,7 +247,7 @@ SolidFault KeepSolid(
 std::vector<bool> FindBoundaryPoints(const TetrahedronCells& cells)
 {
   std::vector<bool> boundary(cells.Points.size(), false);
-  const std::vector<FaceOfCell> faces = listFaces(cells.Cells);
+  const std::vector<FaceOfCell> faces = ListFaces(cells.Cells);
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     const bool before = f > 0 && faces[f - 1].first == faces[f].first;

@@ -28,9 +28,9 @@ inline double SixfoldVolume(
 inline bool IsFlat(
   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
 {
-  constexpr double RoundingBound = 8.0 * std::numeric_limits<double>::epsilon();
+  constexpr double roundingBound = 8.0 * std::numeric_limits<double>::epsilon();
   return !(std::abs(SixfoldVolume(a, b, c, d)) >
-    RoundingBound * glm::length(b - a) * glm::length(c - a) * glm::length(d - a));
+    roundingBound * glm::length(b - a) * glm::length(c - a) * glm::length(d - a));
 }
 
 /**

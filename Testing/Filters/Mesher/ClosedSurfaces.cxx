@@ -24,7 +24,7 @@ namespace meniscus::testing
 namespace
 {
 
-Surface makeSurface(vtkPoints* points, vtkCellArray* triangles)
+Surface MakeSurface(vtkPoints* points, vtkCellArray* triangles)
 {
   auto surface = Surface::New();
   surface->SetPoints(points);
@@ -32,13 +32,13 @@ Surface makeSurface(vtkPoints* points, vtkCellArray* triangles)
   return surface;
 }
 
-void addQuad(vtkCellArray* triangles, vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d)
+void AddQuad(vtkCellArray* triangles, vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d)
 {
   triangles->InsertNextCell({ a, b, c });
   triangles->InsertNextCell({ a, c, d });
 }
 
-Surface copyOf(vtkPolyData* surface)
+Surface CopyOf(vtkPolyData* surface)
 {
   auto copy = Surface::New();
   copy->DeepCopy(surface);
@@ -47,7 +47,7 @@ Surface copyOf(vtkPolyData* surface)
 
 // A new list of triangles, with one of them changed.
 template <class Change>
-void rebuild(vtkPolyData* surface, vtkIdType triangle, const Change& change)
+void Rebuild(vtkPolyData* surface, vtkIdType triangle, const Change& change)
 {
   vtkNew<vtkCellArray> triangles;
   vtkNew<vtkIdList> ids;
@@ -68,7 +68,7 @@ void rebuild(vtkPolyData* surface, vtkIdType triangle, const Change& change)
 }
 
 // Winds all triangles of a surface around the origin counterclockwise as seen from outside.
-void turnOutwards(vtkPolyData* surface)
+void TurnOutwards(vtkPolyData* surface)
 {
   vtkNew<vtkCellArray> triangles;
   vtkNew<vtkIdList> ids;
@@ -88,7 +88,7 @@ void turnOutwards(vtkPolyData* surface)
 }
 
 // Each triangle as four, over the middles of its edges.
-Surface divided(vtkPolyData* surface)
+Surface Divided(vtkPolyData* surface)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -123,7 +123,7 @@ Surface divided(vtkPolyData* surface)
     triangles->InsertNextCell({ ca, bc, c });
     triangles->InsertNextCell({ ab, bc, ca });
   }
-  return makeSurface(points, triangles);
+  return MakeSurface(points, triangles);
 }
 
 } // anonymous namespace
@@ -138,13 +138,13 @@ Surface MakeBox(double x, double y, double z)
     points->InsertNextPoint((i & 1) != 0 ? x : 0.0, (i & 2) != 0 ? y : 0.0, (i & 4) != 0 ? z : 0.0);
   }
   vtkNew<vtkCellArray> triangles;
-  addQuad(triangles, 0, 2, 3, 1);
-  addQuad(triangles, 4, 5, 7, 6);
-  addQuad(triangles, 0, 1, 5, 4);
-  addQuad(triangles, 2, 6, 7, 3);
-  addQuad(triangles, 0, 4, 6, 2);
-  addQuad(triangles, 1, 3, 7, 5);
-  return makeSurface(points, triangles);
+  AddQuad(triangles, 0, 2, 3, 1);
+  AddQuad(triangles, 4, 5, 7, 6);
+  AddQuad(triangles, 0, 1, 5, 4);
+  AddQuad(triangles, 2, 6, 7, 3);
+  AddQuad(triangles, 0, 4, 6, 2);
+  AddQuad(triangles, 1, 3, 7, 5);
+  return MakeSurface(points, triangles);
 }
 
 //------------------------------------------------------------------------------
@@ -171,11 +171,11 @@ Surface MakeSphere(double radius, int theta, int phi)
     triangles->InsertNextCell({ 0, at(i, 1), at(i + 1, 1) });
     for (int j = 1; j + 1 < phi; ++j)
     {
-      addQuad(triangles, at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+      AddQuad(triangles, at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
     }
     triangles->InsertNextCell({ 1, at(i + 1, phi - 1), at(i, phi - 1) });
   }
-  return makeSurface(points, triangles);
+  return MakeSurface(points, triangles);
 }
 
 //------------------------------------------------------------------------------
@@ -206,12 +206,12 @@ Surface MakeGeodesicSphere(double radius, int levels)
   Surface surface = Surface::New();
   surface->SetPoints(icosahedron->GetOutput()->GetPoints());
   surface->SetPolys(icosahedron->GetOutput()->GetPolys());
-  turnOutwards(surface); // VTK winds this one the other way round
+  TurnOutwards(surface); // VTK winds this one the other way round
   for (int level = 0; level <= levels; ++level)
   {
     if (level > 0)
     {
-      surface = divided(surface);
+      surface = Divided(surface);
     }
     for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
     {
@@ -264,10 +264,10 @@ Surface MakeTorus(double radius, double tube, int around, int across)
       const double v = 2.0 * vtkMath::Pi() * j / across;
       const double r = radius + tube * std::cos(v);
       points->InsertNextPoint(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
-      addQuad(triangles, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+      AddQuad(triangles, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
     }
   }
-  return makeSurface(points, triangles);
+  return MakeSurface(points, triangles);
 }
 
 //------------------------------------------------------------------------------
@@ -285,13 +285,13 @@ Surface Reversed(vtkPolyData* surface)
   reverse->SetInputData(surface);
   reverse->ReverseCellsOn();
   reverse->Update();
-  return copyOf(reverse->GetOutput());
+  return CopyOf(reverse->GetOutput());
 }
 
 //------------------------------------------------------------------------------
 Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
 {
-  Surface copy = copyOf(surface);
+  Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
     double x[3];
@@ -305,7 +305,7 @@ Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
 // All points in a plane, no two of them in one place.
 Surface Flattened(vtkPolyData* surface)
 {
-  Surface copy = copyOf(surface);
+  Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
     double x[3];
@@ -325,19 +325,19 @@ Surface Joined(const std::vector<Surface>& surfaces)
     append->AddInputData(surface);
   }
   append->Update();
-  return copyOf(append->GetOutput());
+  return CopyOf(append->GetOutput());
 }
 
 //------------------------------------------------------------------------------
 void RemoveTriangle(vtkPolyData* surface, vtkIdType triangle)
 {
-  rebuild(surface, triangle, [](vtkCellArray*, vtkIdList*) {});
+  Rebuild(surface, triangle, [](vtkCellArray*, vtkIdList*) {});
 }
 
 //------------------------------------------------------------------------------
 void TurnTriangle(vtkPolyData* surface, vtkIdType triangle)
 {
-  rebuild(surface, triangle,
+  Rebuild(surface, triangle,
     [](vtkCellArray* triangles, vtkIdList* ids) {
       triangles->InsertNextCell({ ids->GetId(0), ids->GetId(2), ids->GetId(1) });
     });

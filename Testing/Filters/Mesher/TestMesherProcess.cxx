@@ -70,7 +70,7 @@ protected:
 };
 
 /** Asks the filter to stop at its first report of progress. */
-void abortAtOnce(vtkObject* caller, unsigned long, void*, void*)
+void AbortAtOnce(vtkObject* caller, unsigned long, void*, void*)
 {
   static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
 }
@@ -102,7 +102,7 @@ TEST_F(MesherScripts, ThatDoNotEnd)
 TEST_F(MesherScripts, ThatAreAborted)
 {
   vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback(abortAtOnce);
+  abort->SetCallback(AbortAtOnce);
   this->Filter->AddObserver(vtkCommand::ProgressEvent, abort);
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(this->Run("sleep 20"), "");

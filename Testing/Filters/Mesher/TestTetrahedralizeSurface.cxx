@@ -50,7 +50,7 @@ struct MeshFigures
   }
 };
 
-MeshFigures measure(vtkUnstructuredGrid* grid)
+MeshFigures Measure(vtkUnstructuredGrid* grid)
 {
   MeshFigures figures;
   std::map<std::array<vtkIdType, 3>, int> faces;
@@ -98,7 +98,7 @@ MeshFigures measure(vtkUnstructuredGrid* grid)
 }
 
 /** Sum of the areas of faces. */
-double sumAreas(vtkUnstructuredGrid* grid, const std::set<std::array<vtkIdType, 3>>& faces)
+double SumAreas(vtkUnstructuredGrid* grid, const std::set<std::array<vtkIdType, 3>>& faces)
 {
   double sum = 0.0;
   for (const auto& face : faces)
@@ -114,7 +114,7 @@ double sumAreas(vtkUnstructuredGrid* grid, const std::set<std::array<vtkIdType, 
 }
 
 /** Area of a surface of triangles. */
-double areaOf(vtkPolyData* surface)
+double AreaOf(vtkPolyData* surface)
 {
   double sum = 0.0;
   for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
@@ -124,7 +124,7 @@ double areaOf(vtkPolyData* surface)
   return sum;
 }
 
-vtkSmartPointer<vtkTetrahedralizeSurface> makeFilter(vtkPolyData* surface, int mesher)
+vtkSmartPointer<vtkTetrahedralizeSurface> MakeFilter(vtkPolyData* surface, int mesher)
 {
   auto filter = vtkSmartPointer<vtkTetrahedralizeSurface>::New();
   filter->SetInputData(surface);
@@ -133,7 +133,7 @@ vtkSmartPointer<vtkTetrahedralizeSurface> makeFilter(vtkPolyData* surface, int m
 }
 
 /** Runs the filter and returns its messages; the output must be empty. */
-std::string failureOf(vtkTetrahedralizeSurface* filter)
+std::string FailureOf(vtkTetrahedralizeSurface* filter)
 {
   const auto messages = Observe(filter);
   filter->Update();
@@ -144,7 +144,7 @@ std::string failureOf(vtkTetrahedralizeSurface* filter)
   return messages->Text;
 }
 
-::testing::AssertionResult contains(const std::string& text, const std::string& part)
+::testing::AssertionResult Contains(const std::string& text, const std::string& part)
 {
   return text.find(part) != std::string::npos
     ? ::testing::AssertionSuccess()
@@ -172,7 +172,7 @@ struct KnownSolid
   double Volume;
 };
 
-std::vector<KnownSolid> knownSolids()
+std::vector<KnownSolid> KnownSolids()
 {
   return { { "box", MakeBox(2.0, 3.0, 5.0), 30.0 },
     { "sphere", MakeGeodesicSphere(1.5, 3), GeodesicSphereVolume(1.5, 3) },
@@ -184,18 +184,18 @@ std::vector<KnownSolid> knownSolids()
 //------------------------------------------------------------------------------
 TEST_F(TetGenMeshes, FillTheSurface)
 {
-  for (const KnownSolid& solid : knownSolids())
+  for (const KnownSolid& solid : KnownSolids())
   {
     SCOPED_TRACE(solid.Name);
-    const auto filter = makeFilter(solid.Surface, vtkTetrahedralizeSurface::TETGEN);
+    const auto filter = MakeFilter(solid.Surface, vtkTetrahedralizeSurface::TETGEN);
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(messages->Text, "");
     vtkUnstructuredGrid* grid = filter->GetOutput();
-    const MeshFigures figures = measure(grid);
+    const MeshFigures figures = Measure(grid);
     ASSERT_GT(grid->GetNumberOfCells(), 0);
     const double size = solid.Surface->GetLength();
-    const double area = areaOf(solid.Surface);
+    const double area = AreaOf(solid.Surface);
     EXPECT_NEAR(figures.Volume, solid.Volume, area * Coplanar * size);
     EXPECT_GT(figures.SmallestVolume, 0.0);
     EXPECT_NEAR(filter->GetLargestRadiusEdgeRatio(), figures.LargestRatio, 1e-9);
@@ -212,20 +212,20 @@ TEST_F(TetGenMeshes, FillTheSurface)
         ASSERT_NEAR(distance->EvaluateFunction(grid->GetPoint(point)), 0.0, Coplanar * size);
       }
     }
-    EXPECT_NEAR(sumAreas(grid, figures.Boundary), area, area * Coplanar);
+    EXPECT_NEAR(SumAreas(grid, figures.Boundary), area, area * Coplanar);
   }
 }
 
 //------------------------------------------------------------------------------
 TEST_F(TetGenMeshes, PreserveTheSurface)
 {
-  for (const KnownSolid& solid : knownSolids())
+  for (const KnownSolid& solid : KnownSolids())
   {
     SCOPED_TRACE(solid.Name);
-    const auto filter = makeFilter(solid.Surface, vtkTetrahedralizeSurface::TETGEN);
+    const auto filter = MakeFilter(solid.Surface, vtkTetrahedralizeSurface::TETGEN);
     filter->PreserveSurfaceOn();
     filter->Update();
-    const MeshFigures figures = measure(filter->GetOutput());
+    const MeshFigures figures = Measure(filter->GetOutput());
     EXPECT_NEAR(figures.Volume, solid.Volume, 1e-12 * solid.Volume);
     std::set<std::array<vtkIdType, 3>> triangles;
     for (vtkIdType c = 0; c < solid.Surface->GetNumberOfCells(); ++c)
@@ -237,8 +237,8 @@ TEST_F(TetGenMeshes, PreserveTheSurface)
     }
     // Points may be numbered otherwise; here all are used, and the surfaces use them in order.
     EXPECT_EQ(figures.Boundary.size(), triangles.size());
-    EXPECT_NEAR(sumAreas(filter->GetOutput(), figures.Boundary), areaOf(solid.Surface),
-      1e-12 * areaOf(solid.Surface));
+    EXPECT_NEAR(SumAreas(filter->GetOutput(), figures.Boundary), AreaOf(solid.Surface),
+      1e-12 * AreaOf(solid.Surface));
     for (vtkIdType p = 0; p < solid.Surface->GetNumberOfPoints(); ++p)
     {
       double expected[3];
@@ -252,14 +252,14 @@ TEST_F(TetGenMeshes, PreserveTheSurface)
 TEST_F(TetGenMeshes, KeepTheBoundsOfCells)
 {
   const auto sphere = MakeGeodesicSphere(1.0, 3);
-  const auto filter = makeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
+  const auto filter = MakeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
   vtkIdType before = 0;
   for (const double volume : { 0.01, 0.001 })
   {
     filter->SetMaximumVolume(volume);
     filter->SetMaximumRadiusEdgeRatio(1.4);
     filter->Update();
-    const MeshFigures figures = measure(filter->GetOutput());
+    const MeshFigures figures = Measure(filter->GetOutput());
     EXPECT_LE(figures.LargestVolume, volume * (1.0 + 1e-12));
     EXPECT_LE(figures.CountAbove(1.4), 0.01 * static_cast<double>(figures.Ratios.size()));
     EXPECT_LE(figures.LargestRatio, 2.0);
@@ -272,9 +272,9 @@ TEST_F(TetGenMeshes, KeepTheBoundsOfCells)
 // Triangles that meet at 15 degrees allow no bound next to them; cells above it are counted.
 TEST_F(TetGenMeshes, CountCellsAboveTheBound)
 {
-  const auto filter = makeFilter(MakeSphere(1.0, 24, 16), vtkTetrahedralizeSurface::TETGEN);
+  const auto filter = MakeFilter(MakeSphere(1.0, 24, 16), vtkTetrahedralizeSurface::TETGEN);
   filter->Update();
-  EXPECT_NEAR(measure(filter->GetOutput()).Volume, SphereVolume(1.0, 24, 16), 1e-7);
+  EXPECT_NEAR(Measure(filter->GetOutput()).Volume, SphereVolume(1.0, 24, 16), 1e-7);
   EXPECT_GT(filter->GetNumberOfCellsAboveRatio(), 0);
   EXPECT_LT(filter->GetNumberOfCellsAboveRatio(), filter->GetOutput()->GetNumberOfCells() / 5);
 }
@@ -291,13 +291,13 @@ TEST_F(TetGenMeshes, KeepShallowBumps)
     points->GetPoint(p, x);
     points->SetPoint(p, x[0], x[1], 1e-4 * x[2]);
   }
-  const auto filter = makeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
+  const auto filter = MakeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
   filter->PreserveSurfaceOn();
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Text, "");
   const double volume = 1e-4 * GeodesicSphereVolume(1.0, 3);
-  EXPECT_NEAR(measure(filter->GetOutput()).Volume, volume, 1e-9 * volume);
+  EXPECT_NEAR(Measure(filter->GetOutput()).Volume, volume, 1e-9 * volume);
 }
 
 //------------------------------------------------------------------------------
@@ -308,10 +308,10 @@ TEST_F(TetGenMeshes, LeaveCavitiesEmpty)
   const auto cavity = Reversed(MakeSphere(1.0, 24, 16));
   const auto apart = Moved(MakeBox(1.0, 1.0, 1.0), { 5.0, 0.0, 0.0 });
   const auto filter =
-    makeFilter(Joined({ outside, cavity, apart }), vtkTetrahedralizeSurface::TETGEN);
+    MakeFilter(Joined({ outside, cavity, apart }), vtkTetrahedralizeSurface::TETGEN);
   filter->Update();
   const double expected = SphereVolume(2.0, 24, 16) - SphereVolume(1.0, 24, 16) + 1.0;
-  EXPECT_NEAR(measure(filter->GetOutput()).Volume, expected, 1e-6);
+  EXPECT_NEAR(Measure(filter->GetOutput()).Volume, expected, 1e-6);
 }
 
 //------------------------------------------------------------------------------
@@ -336,7 +336,7 @@ TEST_F(TetGenMeshes, ContinueArrays)
   }
   sphere->GetPointData()->AddArray(linear);
   sphere->GetPointData()->SetScalars(labels);
-  const auto filter = makeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
+  const auto filter = MakeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
   filter->SetMaximumVolume(0.002);
   filter->Update();
   vtkUnstructuredGrid* grid = filter->GetOutput();
@@ -358,10 +358,10 @@ TEST_F(TetGenMeshes, ContinueArrays)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_TRUE(contains(messages->Text, "1 point arrays cannot be continued"));
+  EXPECT_TRUE(Contains(messages->Text, "1 point arrays cannot be continued"));
   grid = filter->GetOutput();
   std::set<vtkIdType> surface;
-  for (const auto& face : measure(grid).Boundary)
+  for (const auto& face : Measure(grid).Boundary)
   {
     surface.insert(face.begin(), face.end());
   }
@@ -379,10 +379,10 @@ TEST_F(TetGenMeshes, ReportSurfacesThatCross)
 {
   const auto crossing =
     Joined({ MakeBox(1.0, 1.0, 1.0), Moved(MakeBox(1.0, 1.0, 1.0), { 0.3, 0.4, 0.2 }) });
-  EXPECT_TRUE(contains(failureOf(makeFilter(crossing, vtkTetrahedralizeSurface::TETGEN)),
+  EXPECT_TRUE(Contains(FailureOf(MakeFilter(crossing, vtkTetrahedralizeSurface::TETGEN)),
     "The surface crosses itself."));
   const auto nested = Joined({ MakeSphere(2.0, 24, 16), MakeSphere(1.0, 24, 16) });
-  EXPECT_TRUE(contains(failureOf(makeFilter(nested, vtkTetrahedralizeSurface::TETGEN)), "nested"));
+  EXPECT_TRUE(Contains(FailureOf(MakeFilter(nested, vtkTetrahedralizeSurface::TETGEN)), "nested"));
 }
 
 //------------------------------------------------------------------------------
@@ -397,11 +397,11 @@ TEST(DelaunayMeshes, FillTheSurface)
     surface->GetPoint(p, x);
     surface->GetPoints()->SetPoint(p, x[0], 1.3 * x[1], 0.8 * x[2]);
   }
-  const auto filter = makeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
+  const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Text, "");
-  const MeshFigures figures = measure(filter->GetOutput());
+  const MeshFigures figures = Measure(filter->GetOutput());
   EXPECT_NEAR(figures.Volume, volume, 1e-12 * volume);
   EXPECT_GT(figures.SmallestVolume, 0.0);
   EXPECT_EQ(static_cast<vtkIdType>(figures.Boundary.size()), surface->GetNumberOfCells());
@@ -414,8 +414,8 @@ TEST(DelaunayMeshes, ReportLostTriangles)
 {
   const auto crossing =
     Joined({ MakeBox(1.0, 1.0, 1.0), Moved(MakeBox(1.0, 1.0, 1.0), { 0.3, 0.4, 0.2 }) });
-  EXPECT_TRUE(contains(
-    failureOf(makeFilter(crossing, vtkTetrahedralizeSurface::DELAUNAY)), "crosses itself"));
+  EXPECT_TRUE(Contains(
+    FailureOf(MakeFilter(crossing, vtkTetrahedralizeSurface::DELAUNAY)), "crosses itself"));
 }
 
 //------------------------------------------------------------------------------
@@ -446,7 +446,7 @@ TEST(BadSurfaces, AreErrors)
   {
     for (const Case& bad : cases)
     {
-      EXPECT_TRUE(contains(failureOf(makeFilter(bad.Surface, mesher)), bad.Message));
+      EXPECT_TRUE(Contains(FailureOf(MakeFilter(bad.Surface, mesher)), bad.Message));
     }
   }
 }
@@ -458,20 +458,20 @@ TEST(BadSettings, AreErrors)
   const auto box = MakeBox(1.0, 1.0, 1.0);
   for (const double ratio : { 0.0, -2.0, 0.9, nan, HUGE_VAL })
   {
-    const auto filter = makeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto filter = MakeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
     filter->SetMaximumRadiusEdgeRatio(ratio);
-    EXPECT_TRUE(contains(failureOf(filter), "MaximumRadiusEdgeRatio must"));
+    EXPECT_TRUE(Contains(FailureOf(filter), "MaximumRadiusEdgeRatio must"));
   }
   for (const double volume : { -1.0, nan, HUGE_VAL })
   {
-    const auto filter = makeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto filter = MakeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
     filter->SetMaximumVolume(volume);
-    EXPECT_TRUE(contains(failureOf(filter), "MaximumVolume must"));
+    EXPECT_TRUE(Contains(FailureOf(filter), "MaximumVolume must"));
   }
   for (const double limit : { 0.0, -1.0, nan })
   {
-    const auto filter = makeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto filter = MakeFilter(box, vtkTetrahedralizeSurface::DELAUNAY);
     filter->SetTimeLimit(limit);
-    EXPECT_TRUE(contains(failureOf(filter), "TimeLimit must"));
+    EXPECT_TRUE(Contains(FailureOf(filter), "TimeLimit must"));
   }
 }

@@ -19,7 +19,7 @@ namespace
 {
 
 /** The tetrahedron of the origin and the three unit vectors; a sixth is its volume. */
-TriangleSurface makeCorner()
+TriangleSurface MakeCorner()
 {
   TriangleSurface surface;
   surface.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
@@ -41,7 +41,7 @@ struct TestFile
 //------------------------------------------------------------------------------
 TEST(ClosedSurface, WindsOnceAroundItsInside)
 {
-  TriangleSurface surface = makeCorner();
+  TriangleSurface surface = MakeCorner();
   EXPECT_EQ(FindSurfaceFault(surface).Fault, SurfaceFault::None);
   EXPECT_DOUBLE_EQ(ComputeEnclosedVolume(surface), 1.0 / 6.0);
   EXPECT_EQ(ComputeWindingNumber(surface, { 0.1, 0.1, 0.1 }), 1);
@@ -60,7 +60,7 @@ TEST(ClosedSurface, WindsOnceAroundItsInside)
 // A place far from the origin costs no digits of the volume.
 TEST(ClosedSurface, VolumeDoesNotDependOnThePlace)
 {
-  TriangleSurface surface = makeCorner();
+  TriangleSurface surface = MakeCorner();
   for (glm::dvec3& point : surface.Points)
   {
     point += glm::dvec3(1048576.0, -2097152.0, 4194304.0);
@@ -102,7 +102,7 @@ TEST(TetrahedronShape, HasKnownRatios)
 TEST(HarmonicField, ContinuesLinearFields)
 {
   TetrahedronCells cells;
-  cells.Points = makeCorner().Points;
+  cells.Points = MakeCorner().Points;
   cells.Points.emplace_back(0.2, 0.3, 0.1);
   cells.Cells = { { 0, 2, 1, 4 }, { 0, 1, 3, 4 }, { 0, 3, 2, 4 }, { 1, 2, 3, 4 } };
   for (Tetrahedron& cell : cells.Cells)
@@ -126,7 +126,7 @@ TEST(MeshingFiles, AreReadAsTheyWereWritten)
 {
   const TestFile file;
   MeshingTask task;
-  task.Surface = makeCorner();
+  task.Surface = MakeCorner();
   task.RadiusEdgeRatio = 1.5;
   task.MaximumVolume = 1e-30;
   task.FillsHull = true;
