@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Adaptive division of cells in frames and picks: opacities and picked values compared with closed
+// forms of a trilinear field, and the counters of a mapper whose cells are divided.
+#include "RayCastScene.h"
+#include "TestMeshes.h"
+
+#include <vtkCamera.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTetrahedraVolumePicker.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeProperty.h>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 48;
+/** Half the height of the view. */
+constexpr double Half = 1.2;
+/** Cells along an axis, in [-1, 1]^3. */
+constexpr int Cells = 3;
+constexpr double CellSize = 2.0 / Cells;
+/** Attenuation at a scalar of 1; it is linear in the scalar. */
+constexpr double Attenuation = 1.5;
+constexpr double ScalarTolerance = 1e-3;
+
+int IndexOf(const glm::ivec3& point)
+{
+  return (point.z * (Cells + 1) + point.y) * (Cells + 1) + point.x;
+}
+
+/** Voxels with values in [0, 1] at random: trilinear, and far from linear. */
+Grid MakeVoxels(unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> value(0.0, 1.0);
+  Grid grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName("s");
+  for (int z = 0; z <= Cells; ++z)
+  {
+    for (int y = 0; y <= Cells; ++y)
+    {
+      for (int x = 0; x <= Cells; ++x)
+      {
+        points->InsertNextPoint(CellSize * x - 1.0, CellSize * y - 1.0, CellSize * z - 1.0);
+        scalars->InsertNextValue(value(random));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(scalars);
+  for (int i = 0; i < Cells * Cells * Cells; ++i)
+  {
+    const glm::ivec3 cell(i % Cells, i / Cells % Cells, i / Cells / Cells);
+    vtkIdType ids[8];
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      ids[corner] = IndexOf(cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1));
+    }
+    grid->InsertNextCell(VTK_VOXEL, 8, ids);
+  }
+  return grid;
+}
+
+glm::ivec3 CellAt(const glm::dvec3& position)
+{
+  return glm::clamp(
+    glm::ivec3(glm::floor((position + 1.0) / CellSize)), glm::ivec3(0), glm::ivec3(Cells - 1));
+}
+
+/** The trilinear field, evaluated in its own way. */
+double ValueAt(vtkUnstructuredGrid* grid, const glm::dvec3& position)
+{
+  const glm::ivec3 cell = CellAt(position);
+  const glm::dvec3 t = (position + 1.0) / CellSize - glm::dvec3(cell);
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 upper(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 u(upper);
+    const glm::dvec3 weight = u * t + (1.0 - u) * (1.0 - t);
+    sum += weight.x * weight.y * weight.z *
+      grid->GetPointData()->GetScalars()->GetTuple1(IndexOf(cell + upper));
+  }
+  return sum;
+}
+
+/** Along z the field is linear in each cell, so its integral is that of the trapezoidal rule. */
+double OpticalDepthAt(vtkUnstructuredGrid* grid, double x, double y)
+{
+  double sum = 0.0;
+  for (int i = 0; i < Cells; ++i)
+  {
+    const double low = CellSize * i - 1.0;
+    sum +=
+      0.5 * CellSize * (ValueAt(grid, { x, y, low }) + ValueAt(grid, { x, y, low + CellSize }));
+  }
+  return Attenuation * sum;
+}
+
+vtkSmartPointer<vtkVolumeProperty> MakeLinearProperty()
+{
+  auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / Attenuation);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(0.0, 0.0);
+  opacity->AddPoint(1.0, 1.0);
+  property->SetScalarOpacity(opacity);
+  return property;
+}
+
+/** The voxels, seen along -z without perspective. */
+struct VoxelScene
+{
+  VoxelScene()
+    : Mesh(MakeVoxels(7))
+    , Scene(Mesh, MakeLinearProperty(), Size, Size)
+    , Mapper(Scene.GetRayCaster())
+  {
+    vtkCamera* camera = this->Scene.GetRenderer()->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetPosition(0.0, 0.0, 5.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetParallelScale(Half);
+    camera->SetClippingRange(0.1, 100.0);
+    this->Mapper->SetDivisionScalarTolerance(ScalarTolerance);
+  }
+
+  /** Largest difference between the opacity of a frame and its closed form. */
+  double WorstOpacity()
+  {
+    const FloatImage image = this->Scene.RenderFloat();
+    double worst = 0.0;
+    for (int row = 0; row < Size; ++row)
+    {
+      for (int column = 0; column < Size; ++column)
+      {
+        const double x = PlaceOf(column);
+        const double y = PlaceOf(row);
+        if (std::max(std::abs(x), std::abs(y)) < 1.0)
+        {
+          const double found = image.GetPixel(column, row)[3];
+          const double truth = -std::expm1(-OpticalDepthAt(this->Mesh, x, y));
+          worst = std::max(worst, std::abs(found - truth));
+        }
+      }
+    }
+    return worst;
+  }
+
+  static double PlaceOf(int pixel) { return Half * (2.0 * (pixel + 0.5) / Size - 1.0); }
+
+  Grid Mesh;
+  RayCastScene Scene;
+  vtkTetrahedraRayCastMapper* Mapper;
+};
+
+// A tetrahedron holds a quadratic function within 1.5 times the tolerance, so the optical depth of
+// a way of 2 is off by no more than twice that, and the opacity by less. A trilinear function is
+// cubic inside, which the factor of 2 covers.
+constexpr double OpacityBound = 2.0 * 1.5 * ScalarTolerance * Attenuation * 2.0;
+
+}
+
+TEST(TetrahedraRayCastTrueCells, FramesShowTheTrilinearField)
+{
+  VoxelScene scene;
+  const double fixed = scene.WorstOpacity();
+  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 0);
+  scene.Mapper->SetCellDivisionToAdaptive();
+  const double adaptive = scene.WorstOpacity();
+  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 1);
+  EXPECT_EQ(scene.Mapper->GetNumberOfLostRays(), 0);
+  EXPECT_EQ(scene.Mapper->GetNumberOfUnresolvedEdges(), 0);
+  EXPECT_LE(adaptive, OpacityBound);
+  EXPECT_GT(fixed, 4.0 * OpacityBound);
+}
+
+TEST(TetrahedraRayCastTrueCells, FramesAndScalarsCostNoDivision)
+{
+  VoxelScene scene;
+  scene.Mapper->SetCellDivisionToAdaptive();
+  scene.Scene.GetWindow()->Render();
+  for (int step = 0; step < 3; ++step)
+  {
+    scene.Scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
+    scene.Scene.GetWindow()->Render();
+  }
+  EXPECT_EQ(scene.Mapper->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.Mapper->GetNumberOfScalarUpdates(), 1);
+  scene.Scene.GetRenderer()->GetActiveCamera()->Azimuth(-30.0);
+  vtkDataArray* scalars = scene.Mesh->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < scalars->GetNumberOfTuples(); ++i)
+  {
+    scalars->SetTuple1(i, 1.0 - scalars->GetTuple1(i));
+  }
+  scalars->Modified();
+  EXPECT_LE(scene.WorstOpacity(), OpacityBound);
+  EXPECT_EQ(scene.Mapper->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.Mapper->GetNumberOfScalarUpdates(), 2);
+  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 1);
+  // Without the division it is another mesh.
+  scene.Mapper->SetCellDivisionToFixed();
+  EXPECT_GT(scene.WorstOpacity(), OpacityBound);
+  EXPECT_EQ(scene.Mapper->GetNumberOfMeshBuilds(), 2);
+}
+
+TEST(TetrahedraRayCastTrueCells, PicksYieldTheFieldAndTheCellOfTheInput)
+{
+  VoxelScene scene;
+  scene.Mapper->SetCellDivisionToAdaptive();
+  vtkNew<vtkTetrahedraVolumePicker> picker;
+  picker->SetPlaceToOpacityReached();
+  picker->SetOpacityThreshold(0.2);
+  int picked = 0;
+  for (int pixel = 6; pixel < Size - 6; pixel += 5)
+  {
+    ASSERT_EQ(picker->Pick(pixel, Size - 1 - pixel, 0.0, scene.Scene.GetRenderer()), 1);
+    glm::dvec3 position;
+    picker->GetPickPosition(&position.x);
+    EXPECT_NEAR(picker->GetValue(), ValueAt(scene.Mesh, position), 2.0 * 1.5 * ScalarTolerance);
+    const glm::ivec3 cell = CellAt(position);
+    const double share = (position.z + 1.0) / CellSize;
+    if (std::abs(share - std::round(share)) > 1e-4)
+    {
+      EXPECT_EQ(picker->GetCellId(), (cell.z * Cells + cell.y) * Cells + cell.x);
+      ++picked;
+    }
+  }
+  EXPECT_GE(picked, 4);
+}
