@@ -56,11 +56,12 @@ public:
   vtkTypeMacro(vtkTetrahedralizeSurface, vtkUnstructuredGridAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** Programs and classes that make the tetrahedra. */
   enum Meshers
   {
     AUTOMATIC = 0, ///< TETGEN if its program is there, else DELAUNAY
-    TETGEN = 1,
-    DELAUNAY = 2
+    TETGEN = 1,    ///< TetGen in a process of its own
+    DELAUNAY = 2   ///< vtkDelaunay3D
   };
 
   /** @{ */
