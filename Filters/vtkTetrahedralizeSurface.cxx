@@ -160,7 +160,7 @@ bool vtkTetrahedralizeSurface::RunTetGen(
   meniscus::MesherProcess process;
   process.Program = this->GetProgram();
   process.TimeLimit = this->TimeLimit;
-  // TetGen does not tell how far it is: half of what is left after every tenth of the limit.
+  // TetGen reports no progress: each tenth of the time limit shows half of the remainder as done.
   process.GoesOn = [this](double seconds)
   {
     this->UpdateProgress(1.0 - std::exp2(-10.0 * seconds / this->TimeLimit));

@@ -806,7 +806,7 @@ TEST(TrueCells, OddCellsAreCounted)
   ASSERT_EQ(observer->Warnings.size(), 1u);
   EXPECT_NE(observer->Warnings[0].find("1 cells are folded inside out"), std::string::npos)
     << observer->Warnings[0];
-  // A point that is not finite, and a repeated one: linear, without what cannot be drawn.
+  // A point that is not finite, and a repeated one: linear, without the parts that cannot be drawn.
   for (const bool repeated : { false, true })
   {
     grid = MakeCell(Cases[0], 0.0, 2);
