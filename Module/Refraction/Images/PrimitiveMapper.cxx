@@ -3,6 +3,7 @@
 #include "Refraction/Images/PrimitiveMapper.h"
 
 #include "Refraction/Images/PrimitiveContext.h"
+#include "Refraction/Images/SurfaceTie.h"
 #include "Refraction/Images/UnrefractedPart.h"
 #include "Refraction/Membrane/Optics.h"
 
@@ -154,6 +155,10 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
       whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
+  if (context.IsOnMembrane && !this->ResolveTie(context, nodes, whole))
+  {
+    return;
+  }
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
@@ -167,6 +172,37 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
       this->Emit(context, nodes, polygon, sign);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// Tie of the primitive with the membrane: a membrane that clips nothing has the value 0. Returns
+// false if the part of the primitive in the sub-cell is in front of the membrane.
+bool PrimitiveMapper::ResolveTie(
+  const Context& context, const SubCell& nodes, Polygon& whole) const
+{
+  glm::dvec3 behind;
+  std::array<glm::dvec3, 3> side;
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const auto at = static_cast<glm::length_t>(i);
+    corners[i] = nodes[i].From.At.Position;
+    behind[at] = whole[i].Value[0];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      side[k][at] = whole[i].Value[k + 1];
+    }
+  }
+  // Membrane and object were moved from world coordinates.
+  const Membrane& membrane = this->Geometry.GetMembrane();
+  const double slack =
+    membrane.GetSlack(glm::length(corners[0]) + glm::length(membrane.GetOrigin()));
+  const SurfaceTie tie = FindSurfaceTie(context, corners, behind, side, slack);
+  for (std::size_t i = 0; i < 3 && tie == SurfaceTie::Behind; ++i)
+  {
+    whole[i].Value[0] = 0.0;
+  }
+  return tie != SurfaceTie::InFront;
 }
 
 //------------------------------------------------------------------------------
@@ -508,19 +544,22 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   const Context::Side& on = context.Sides[side];
   const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
   const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
-  Context inPatch = context;
-  glm::dvec2 b = guess;
   double l = weight[last] / (weight[first] + weight[last]);
-  const glm::dvec3 start = context.Patch->Evaluate(guess).Position;
-  if (!this->Geometry.MeetLine(on.Line, context.Patch->GetNormal(guess), inPatch.Facet, b, l))
+  glm::dvec2 b = guess;
+  std::int32_t facet = context.Facet;
+  CurvedPatch patch = *context.Patch;
+  const PatchPoint start = patch.Evaluate(guess);
+  if (!this->RunsAlong(patch, nodes, on.Line, l, b))
   {
-    return { {}, Finding::Elsewhere };
+    if (!this->Geometry.MeetLine(on.Line, start.Normal, facet, b, l))
+    {
+      return { {}, Finding::Elsewhere };
+    }
+    patch = this->Geometry.GetPatches().GetPatch(facet);
+    MeetPatchAgain(patch, on.Line, b, l);
   }
-  const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.Facet);
-  MeetPatchAgain(patch, on.Line, b, l);
-  inPatch.Patch = &patch;
   const PatchPoint at = patch.Evaluate(b);
-  if (glm::length(at.Position - start) > GetSize(nodes))
+  if (glm::length(at.Position - start.Position) > GetSize(nodes))
   {
     return { {}, Finding::Elsewhere };
   }
@@ -531,7 +570,30 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;
   place[last] = l;
+  Context inPatch = context;
+  inPatch.Facet = facet;
+  inPatch.Patch = &patch;
   return { this->Finish(inPatch, at, on.Line.GetPoint(l), place), Finding::Found };
+}
+
+//------------------------------------------------------------------------------
+// True if a side leaves the membrane at its place `l`, over the length of the sub-cell, by less than
+// linear interpolation in the sub-cell leaves the rays. Then the sub-cell does not determine where
+// the two cross, and may have a crossing where they have none. Moves `b` to the foot of the place.
+bool PrimitiveMapper::RunsAlong(const CurvedPatch& patch, const SubCell& nodes,
+  const ObjectLine& side, double l, glm::dvec2& b) const
+{
+  const glm::dvec3 across = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
+    nodes[2].From.At.Position - nodes[0].From.At.Position);
+  const double area = glm::length(across);
+  const double most =
+    this->Tolerance * glm::length(nodes[0].From.At.Position - this->Geometry.GetMedia().Eye);
+  double distance = 0.0;
+  return area > 0.0 &&
+    std::fabs(glm::dot(across, side.Direction)) * GetSize(nodes) <=
+    most * area * glm::length(side.Direction) &&
+    MeetPatch(patch, { side.GetPoint(l), across / area }, b, distance) &&
+    std::fabs(distance) <= most;
 }
 
 //------------------------------------------------------------------------------

@@ -91,6 +91,7 @@ private:
   std::vector<WaterlinePiece> DropBeyond(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
+  bool ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const;
   void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign) const;
   void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
@@ -102,6 +103,8 @@ private:
     const ClippedBoundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
+  bool RunsAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
+    glm::dvec2& b) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
   bool EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
     std::vector<MappedPoint>& points) const;
