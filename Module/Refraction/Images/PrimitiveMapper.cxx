@@ -51,6 +51,10 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
     this->Map(context);
     return;
   }
+  if (this->MapAsBehind(context, images))
+  {
+    return;
+  }
   ImageMesh behind;
   std::vector<char> isOnMembrane;
   context.Images = &behind;
@@ -70,6 +74,38 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
     AddFrontOfTriangle(
       this->Geometry, this->Tolerance, context.Primitive, context.SourceCell, waterline, images);
   }
+}
+
+//------------------------------------------------------------------------------
+// Maps a primitive that is in front of the membrane by less than the error of interpolation, if at
+// all: all of it is drawn as if it were behind. A side in the membrane, within rounding of object
+// and membrane, is no waterline that could be computed. Returns false, and adds nothing, if a part
+// of the primitive is farther in front.
+bool PrimitiveMapper::MapAsBehind(Context& context, ImageMesh& images) const
+{
+  const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
+  for (std::size_t k = 0; k < (context.IsLine ? 2u : 3u); ++k)
+  {
+    const KnownImages& known = context.Primitive.Images[k];
+    const bool isInFront = known.Count == 1 && known.First->Vertex.Facet == CurvedPatches::NoFacet;
+    const glm::dvec3 sight = context.Corners[k] - eye;
+    if (this->Geometry.GetMedia().Reflects ||
+      (isInFront && this->Geometry.IsInFront(eye + (1.0 + this->Tolerance) * sight)))
+    {
+      return false;
+    }
+  }
+  const ImageMesh::Mark before = images.GetMark();
+  bool isInFront = false;
+  context.Images = &images;
+  context.IsPartInFront = &isInFront;
+  this->Map(context);
+  context.IsPartInFront = nullptr;
+  if (isInFront)
+  {
+    images.ReturnTo(before);
+  }
+  return !isInFront;
 }
 
 //------------------------------------------------------------------------------
@@ -135,9 +171,39 @@ void PrimitiveMapper::Map(const Context& context) const
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
     this->Division.Visit(
-      patch, [&inPatch](const SubCell& nodes) { return inPatch.IsOutside(nodes); },
+      patch, [this, &inPatch](const SubCell& nodes) { return this->IsOutside(inPatch, nodes); },
       [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
   }
+}
+
+//------------------------------------------------------------------------------
+bool PrimitiveMapper::IsOutside(const Context& context, const SubCell& nodes) const
+{
+  if (context.IsOnMembrane)
+  {
+    return context.IsOutside(nodes);
+  }
+  if (context.IsPartInFront)
+  {
+    return *context.IsPartInFront ||
+      context.IsOutside(nodes, std::numeric_limits<double>::infinity());
+  }
+  return context.IsOutside(nodes, this->GetReach(nodes));
+}
+
+//------------------------------------------------------------------------------
+// Length that the tolerance is at the membrane.
+double PrimitiveMapper::GetReach(const SubCell& nodes) const
+{
+  return this->Tolerance * glm::length(nodes[0].From.At.Position - this->Geometry.GetMedia().Eye);
+}
+
+//------------------------------------------------------------------------------
+// True if a place on the line of a ray is in front of the membrane by more than the tolerance.
+bool PrimitiveMapper::IsInFront(
+  const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const
+{
+  return glm::dot(place - from.At.Position, from.Ray) < -this->GetReach(nodes);
 }
 
 //------------------------------------------------------------------------------
@@ -163,6 +229,10 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
   for (const double sign : { 1.0, -1.0 })
   {
     context.Clip(whole, sign, polygon);
+    if (!context.IsOnMembrane)
+    {
+      this->KeepAsBehind(context, nodes, whole, sign, polygon);
+    }
     if (context.IsLine && polygon.size() == 2)
     {
       this->EmitLine(context, nodes, polygon);
@@ -175,10 +245,53 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
 }
 
 //------------------------------------------------------------------------------
+// Replaces a part that ends at the membrane by the one that does not, if that is in front of the
+// membrane by less than the error of interpolation.
+void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
+  const Polygon& whole, double sign, Polygon& polygon) const
+{
+  if (std::all_of(whole.begin(), whole.end(),
+        [sign](const Corner& corner) { return sign * corner.Value[0] >= 0.0; }))
+  {
+    return; // nothing is cut off
+  }
+  Polygon uncut = whole;
+  for (Corner& corner : uncut)
+  {
+    corner.Value[0] = 0.0;
+  }
+  context.Clip(Polygon(uncut), sign, uncut);
+  // The distance behind the membrane is linear in the sub-cell.
+  const glm::dvec2 u = whole[1].B - whole[0].B;
+  const glm::dvec2 v = whole[2].B - whole[0].B;
+  const double area = u.x * v.y - u.y * v.x;
+  const double byU = (whole[1].Value[0] - whole[0].Value[0]) / area;
+  const double byV = (whole[2].Value[0] - whole[0].Value[0]) / area;
+  const double most = this->GetReach(nodes);
+  const bool isNear = std::all_of(uncut.begin(), uncut.end(),
+    [&](const Corner& corner)
+    {
+      const glm::dvec2 b = corner.B - whole[0].B;
+      const double behind =
+        whole[0].Value[0] + byU * (b.x * v.y - b.y * v.x) + byV * (u.x * b.y - u.y * b.x);
+      const double cosine =
+        corner.Value[1] + corner.Value[2] + (context.IsLine ? 0.0 : corner.Value[3]);
+      return sign * behind >= -most * sign * cosine;
+    });
+  if (isNear)
+  {
+    polygon.swap(uncut);
+  }
+  else if (context.IsPartInFront)
+  {
+    *context.IsPartInFront = true;
+  }
+}
+
+//------------------------------------------------------------------------------
 // Tie of the primitive with the membrane: a membrane that clips nothing has the value 0. Returns
 // false if the part of the primitive in the sub-cell is in front of the membrane.
-bool PrimitiveMapper::ResolveTie(
-  const Context& context, const SubCell& nodes, Polygon& whole) const
+bool PrimitiveMapper::ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const
 {
   glm::dvec3 behind;
   std::array<glm::dvec3, 3> side;
@@ -233,9 +346,19 @@ void PrimitiveMapper::Emit(
     return;
   }
   std::vector<MappedPoint> points;
-  for (const Corner& corner : polygon)
+  for (auto corner = polygon.begin(); corner != polygon.end();)
   {
-    points.push_back(this->MakePoint(context, nodes, corner));
+    points.push_back(this->MakePoint(context, nodes, *corner));
+    const bool isInFront = points.back().Outcome == Finding::InFront;
+    if (isInFront)
+    {
+      points.pop_back();
+    }
+    corner = isInFront ? polygon.erase(corner) : corner + 1;
+  }
+  if (points.size() < 3)
+  {
+    return;
   }
   if (!IsSeen(points))
   {
@@ -440,6 +563,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   weight[first] = 1.0 - l;
   weight[last] = l;
   const glm::dvec3 place = on.Line.GetPoint(l);
+  if (context.IsOnMembrane && this->IsInFront(nodes, from, place))
+  {
+    // Seen nearly edge-on: the part behind ends on this side, before it comes to the ray.
+    return this->MakeSideCrossing(context, nodes, side, interpolated, weight);
+  }
   ImagePoint point = this->Finish(context, from.At, place, weight);
   if (glm::dot(place - from.At.Position, from.Ray) < 0.0)
   {
@@ -490,9 +618,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
     this->Geometry.MakeEquation(context.Corners[index]).Solve(*context.Patch, guess, steps, reach);
   const bool isFound =
     root.End == SightRoot::End::Converged && glm::length(root.At.Position - at.Position) <= size;
-  if (isFound)
+  at = isFound ? root.At : at;
+  if (isFound && context.IsOnMembrane && !context.IsLine &&
+    this->IsInFront(nodes, RefractAt(at, this->Geometry.GetMedia()), context.Corners[index]))
   {
-    at = root.At;
+    return { {}, Finding::InFront };
   }
   ImagePoint point = this->Finish(context, at, context.Corners[index], weight);
   const glm::dvec3& own = context.Primitive.Corners[index];
@@ -577,17 +707,17 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
 }
 
 //------------------------------------------------------------------------------
-// True if a side leaves the membrane at its place `l`, over the length of the sub-cell, by less than
-// linear interpolation in the sub-cell leaves the rays. Then the sub-cell does not determine where
-// the two cross, and may have a crossing where they have none. Moves `b` to the foot of the place.
+// True if a side leaves the membrane at its place `l`, over the length of the sub-cell, by less
+// than linear interpolation in the sub-cell leaves the rays. Then the sub-cell does not determine
+// where the two cross, and may have a crossing where they have none. Moves `b` to the foot of the
+// place.
 bool PrimitiveMapper::RunsAlong(const CurvedPatch& patch, const SubCell& nodes,
   const ObjectLine& side, double l, glm::dvec2& b) const
 {
   const glm::dvec3 across = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
     nodes[2].From.At.Position - nodes[0].From.At.Position);
   const double area = glm::length(across);
-  const double most =
-    this->Tolerance * glm::length(nodes[0].From.At.Position - this->Geometry.GetMedia().Eye);
+  const double most = this->GetReach(nodes);
   double distance = 0.0;
   return area > 0.0 &&
     std::fabs(glm::dot(across, side.Direction)) * GetSize(nodes) <=
