@@ -3,7 +3,6 @@
 #include "Refraction/Images/PrimitiveMapper.h"
 
 #include "Refraction/Images/PrimitiveContext.h"
-#include "Refraction/Images/SurfaceTie.h"
 #include "Refraction/Images/UnrefractedPart.h"
 #include "Refraction/Membrane/Optics.h"
 
@@ -77,38 +76,6 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
 }
 
 //------------------------------------------------------------------------------
-// Maps a primitive that is in front of the membrane by less than the error of interpolation, if at
-// all: all of it is drawn as if it were behind. A side in the membrane, within rounding of object
-// and membrane, is no waterline that could be computed. Returns false, and adds nothing, if a part
-// of the primitive is farther in front.
-bool PrimitiveMapper::MapAsBehind(Context& context, ImageMesh& images) const
-{
-  const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
-  for (std::size_t k = 0; k < (context.IsLine ? 2u : 3u); ++k)
-  {
-    const KnownImages& known = context.Primitive.Images[k];
-    const bool isInFront = known.Count == 1 && known.First->Vertex.Facet == CurvedPatches::NoFacet;
-    const glm::dvec3 sight = context.Corners[k] - eye;
-    if (this->Geometry.GetMedia().Reflects ||
-      (isInFront && this->Geometry.IsInFront(eye + (1.0 + this->Tolerance) * sight)))
-    {
-      return false;
-    }
-  }
-  const ImageMesh::Mark before = images.GetMark();
-  bool isInFront = false;
-  context.Images = &images;
-  context.IsPartInFront = &isInFront;
-  this->Map(context);
-  context.IsPartInFront = nullptr;
-  if (isInFront)
-  {
-    images.ReturnTo(before);
-  }
-  return !isInFront;
-}
-
-//------------------------------------------------------------------------------
 // Drops parts that lie on the other side of the membrane than its rays, in front of it or behind a
 // mirror: a ray may leave through the membrane and meet the primitive outside, which is no image.
 // Returns the pieces of the waterline.
@@ -177,36 +144,6 @@ void PrimitiveMapper::Map(const Context& context) const
 }
 
 //------------------------------------------------------------------------------
-bool PrimitiveMapper::IsOutside(const Context& context, const SubCell& nodes) const
-{
-  if (context.IsOnMembrane)
-  {
-    return context.IsOutside(nodes);
-  }
-  if (context.IsPartInFront)
-  {
-    return *context.IsPartInFront ||
-      context.IsOutside(nodes, std::numeric_limits<double>::infinity());
-  }
-  return context.IsOutside(nodes, this->GetReach(nodes));
-}
-
-//------------------------------------------------------------------------------
-// Length that the tolerance is at the membrane.
-double PrimitiveMapper::GetReach(const SubCell& nodes) const
-{
-  return this->Tolerance * glm::length(nodes[0].From.At.Position - this->Geometry.GetMedia().Eye);
-}
-
-//------------------------------------------------------------------------------
-// True if a place on the line of a ray is in front of the membrane by more than the tolerance.
-bool PrimitiveMapper::IsInFront(
-  const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const
-{
-  return glm::dot(place - from.At.Position, from.Ray) < -this->GetReach(nodes);
-}
-
-//------------------------------------------------------------------------------
 void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) const
 {
   Polygon whole(3);
@@ -242,80 +179,6 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
       this->Emit(context, nodes, polygon, sign);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-// Replaces a part that ends at the membrane by the one that does not, if that is in front of the
-// membrane by less than the error of interpolation.
-void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
-  const Polygon& whole, double sign, Polygon& polygon) const
-{
-  if (std::all_of(whole.begin(), whole.end(),
-        [sign](const Corner& corner) { return sign * corner.Value[0] >= 0.0; }))
-  {
-    return; // nothing is cut off
-  }
-  Polygon uncut = whole;
-  for (Corner& corner : uncut)
-  {
-    corner.Value[0] = 0.0;
-  }
-  context.Clip(Polygon(uncut), sign, uncut);
-  // The distance behind the membrane is linear in the sub-cell.
-  const glm::dvec2 u = whole[1].B - whole[0].B;
-  const glm::dvec2 v = whole[2].B - whole[0].B;
-  const double area = u.x * v.y - u.y * v.x;
-  const double byU = (whole[1].Value[0] - whole[0].Value[0]) / area;
-  const double byV = (whole[2].Value[0] - whole[0].Value[0]) / area;
-  const double most = this->GetReach(nodes);
-  const bool isNear = std::all_of(uncut.begin(), uncut.end(),
-    [&](const Corner& corner)
-    {
-      const glm::dvec2 b = corner.B - whole[0].B;
-      const double behind =
-        whole[0].Value[0] + byU * (b.x * v.y - b.y * v.x) + byV * (u.x * b.y - u.y * b.x);
-      const double cosine =
-        corner.Value[1] + corner.Value[2] + (context.IsLine ? 0.0 : corner.Value[3]);
-      return sign * behind >= -most * sign * cosine;
-    });
-  if (isNear)
-  {
-    polygon.swap(uncut);
-  }
-  else if (context.IsPartInFront)
-  {
-    *context.IsPartInFront = true;
-  }
-}
-
-//------------------------------------------------------------------------------
-// Tie of the primitive with the membrane: a membrane that clips nothing has the value 0. Returns
-// false if the part of the primitive in the sub-cell is in front of the membrane.
-bool PrimitiveMapper::ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const
-{
-  glm::dvec3 behind;
-  std::array<glm::dvec3, 3> side;
-  std::array<glm::dvec3, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const auto at = static_cast<glm::length_t>(i);
-    corners[i] = nodes[i].From.At.Position;
-    behind[at] = whole[i].Value[0];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      side[k][at] = whole[i].Value[k + 1];
-    }
-  }
-  // Membrane and object were moved from world coordinates.
-  const Membrane& membrane = this->Geometry.GetMembrane();
-  const double slack =
-    membrane.GetSlack(glm::length(corners[0]) + glm::length(membrane.GetOrigin()));
-  const SurfaceTie tie = FindSurfaceTie(context, corners, behind, side, slack);
-  for (std::size_t i = 0; i < 3 && tie == SurfaceTie::Behind; ++i)
-  {
-    whole[i].Value[0] = 0.0;
-  }
-  return tie != SurfaceTie::InFront;
 }
 
 //------------------------------------------------------------------------------
@@ -704,26 +567,6 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   inPatch.Facet = facet;
   inPatch.Patch = &patch;
   return { this->Finish(inPatch, at, on.Line.GetPoint(l), place), Finding::Found };
-}
-
-//------------------------------------------------------------------------------
-// True if a side leaves the membrane at its place `l`, over the length of the sub-cell, by less
-// than linear interpolation in the sub-cell leaves the rays. Then the sub-cell does not determine
-// where the two cross, and may have a crossing where they have none. Moves `b` to the foot of the
-// place.
-bool PrimitiveMapper::RunsAlong(const CurvedPatch& patch, const SubCell& nodes,
-  const ObjectLine& side, double l, glm::dvec2& b) const
-{
-  const glm::dvec3 across = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
-    nodes[2].From.At.Position - nodes[0].From.At.Position);
-  const double area = glm::length(across);
-  const double most = this->GetReach(nodes);
-  double distance = 0.0;
-  return area > 0.0 &&
-    std::fabs(glm::dot(across, side.Direction)) * GetSize(nodes) <=
-    most * area * glm::length(side.Direction) &&
-    MeetPatch(patch, { side.GetPoint(l), across / area }, b, distance) &&
-    std::fabs(distance) <= most;
 }
 
 //------------------------------------------------------------------------------

@@ -313,8 +313,8 @@ Comparison CompareRays(const TouchingScene& scene, int rays, unsigned seed)
     std::vector<int> found(truth.size(), 0);
     for (const Piece& piece : pieces)
     {
-      found[piece.Cell] += glm::dot(direction, piece.Middle) >= piece.Cosine - 1e-12 &&
-        IsInCone(piece, direction);
+      found[piece.Cell] +=
+        glm::dot(direction, piece.Middle) >= piece.Cosine - 1e-12 && IsInCone(piece, direction);
     }
     ++result.Rays;
     for (std::size_t cell = 0; cell < truth.size(); ++cell)
