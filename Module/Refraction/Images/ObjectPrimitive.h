@@ -184,15 +184,15 @@ struct ObjectPrimitive
       glm::dot(this->Normal, nodes[1].From.Ray), glm::dot(this->Normal, nodes[2].From.Ray) };
     const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
     const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
-    const double largest =
-      std::max({ std::fabs(cosine[0]), std::fabs(cosine[1]), std::fabs(cosine[2]) });
+    const double margin = inFront > 0.0
+      ? inFront * std::max({ std::fabs(cosine[0]), std::fabs(cosine[1]), std::fabs(cosine[2]) })
+      : 0.0;
     for (int k = 0; k < PrimitiveConstraints; ++k)
     {
       const bool beside = this->IsLine && k == 3;
       const double most = std::max({ value[0][k], value[1][k], value[2][k] });
       const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-      const double spread =
-        k == 0 && inFront > 0.0 ? most - least + inFront * largest : most - least;
+      const double spread = k == 0 ? most - least + margin : most - least;
       if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
       {
         return true;

@@ -131,6 +131,7 @@ void PrimitiveMapper::Map(const Context& context) const
   this->Geometry.VisitFacets(
     context.Middle, context.Padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
+  const double inFront = this->GetLengthInFront(context);
   for (const std::int32_t facet : facets)
   {
     const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
@@ -138,7 +139,11 @@ void PrimitiveMapper::Map(const Context& context) const
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
     this->Division.Visit(
-      patch, [this, &inPatch](const SubCell& nodes) { return this->IsOutside(inPatch, nodes); },
+      patch,
+      [&inPatch, inFront](const SubCell& nodes) {
+        return (inPatch.IsPartInFront && *inPatch.IsPartInFront) ||
+          inPatch.IsOutside(nodes, inFront);
+      },
       [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
   }
 }

@@ -92,7 +92,7 @@ private:
   void Map(const Context& context) const;
   std::vector<WaterlinePiece> DropBeyond(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
-  bool IsOutside(const Context& context, const SubCell& nodes) const;
+  double GetLengthInFront(const Context& context) const;
   double GetReach(const SubCell& nodes) const;
   bool IsInFront(const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;

@@ -5,6 +5,7 @@
 #include "Refraction/Images/PrimitiveMapper.h"
 #include "Refraction/Images/SurfaceTie.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -47,18 +48,16 @@ bool PrimitiveMapper::MapAsBehind(Context& context, ImageMesh& images) const
 }
 
 //------------------------------------------------------------------------------
-bool PrimitiveMapper::IsOutside(const Context& context, const SubCell& nodes) const
+// Length in front of the membrane up to which a primitive is looked for: none if its part in front
+// is cut off, any if that is to be found.
+double PrimitiveMapper::GetLengthInFront(const Context& context) const
 {
-  if (context.IsOnMembrane)
-  {
-    return context.IsOutside(nodes);
-  }
   if (context.IsPartInFront)
   {
-    return *context.IsPartInFront ||
-      context.IsOutside(nodes, std::numeric_limits<double>::infinity());
+    return std::numeric_limits<double>::infinity();
   }
-  return context.IsOutside(nodes, this->GetReach(nodes));
+  const glm::dvec3 away = glm::abs(context.Middle - this->Geometry.GetMedia().Eye);
+  return context.IsOnMembrane ? 0.0 : this->Tolerance * glm::length(away + context.Padding);
 }
 
 //------------------------------------------------------------------------------
@@ -84,11 +83,10 @@ void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
 {
   const auto getCosine = [&context](const Corner& corner)
   { return corner.Value[1] + corner.Value[2] + (context.IsLine ? 0.0 : corner.Value[3]); };
-  const bool isCut = std::any_of(whole.begin(), whole.end(),
-    [sign](const Corner& corner) { return sign * corner.Value[0] < 0.0; });
-  const bool isFacing = std::any_of(whole.begin(), whole.end(),
-    [&](const Corner& corner) { return sign * getCosine(corner) > 0.0; });
-  if (!isCut || !isFacing)
+  const auto isCut = [sign](const Corner& corner) { return sign * corner.Value[0] < 0.0; };
+  const auto isFacing = [&](const Corner& corner) { return sign * getCosine(corner) > 0.0; };
+  if (std::none_of(whole.begin(), whole.end(), isCut) ||
+    std::none_of(whole.begin(), whole.end(), isFacing))
   {
     return;
   }
