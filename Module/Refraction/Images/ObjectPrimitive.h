@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -171,8 +172,8 @@ struct ObjectPrimitive
   }
 
   // True if the sub-cell is outside by more than its own extent, so that curvature cannot bring it
-  // back.
-  bool IsOutside(const SubCell& nodes) const
+  // back. Parts of the primitive up to `inFront` in front of the surface are not outside.
+  bool IsOutside(const SubCell& nodes, double inFront = 0.0) const
   {
     double value[3][PrimitiveConstraints];
     for (std::size_t i = 0; i < 3; ++i)
@@ -183,12 +184,15 @@ struct ObjectPrimitive
       glm::dot(this->Normal, nodes[1].From.Ray), glm::dot(this->Normal, nodes[2].From.Ray) };
     const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
     const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
+    const double margin = inFront > 0.0
+      ? inFront * std::max({ std::fabs(cosine[0]), std::fabs(cosine[1]), std::fabs(cosine[2]) })
+      : 0.0;
     for (int k = 0; k < PrimitiveConstraints; ++k)
     {
       const bool beside = this->IsLine && k == 3;
       const double most = std::max({ value[0][k], value[1][k], value[2][k] });
       const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-      const double spread = most - least;
+      const double spread = k == 0 ? most - least + margin : most - least;
       if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
       {
         return true;

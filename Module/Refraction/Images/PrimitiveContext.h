@@ -27,6 +27,8 @@ struct PrimitiveMapper::Context : ObjectPrimitive
   std::int32_t Facet = CurvedPatches::NoFacet;
   std::vector<char>* IsOnMembrane = nullptr; ///< marks points of `Images` on the membrane; null if
                                              ///< not needed
+  bool* IsPartInFront = nullptr; ///< becomes true if a part of the primitive is in front of the
+                                 ///< membrane by more than the tolerance; null if not needed
 
   /** Component along the plane's normal of the ray to a mapped point; only its sign matters. */
   double GetSlope(const ImagePoint& point, const glm::dvec3& origin) const

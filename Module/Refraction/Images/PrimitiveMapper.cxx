@@ -50,6 +50,10 @@ void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& image
     this->Map(context);
     return;
   }
+  if (this->MapAsBehind(context, images))
+  {
+    return;
+  }
   ImageMesh behind;
   std::vector<char> isOnMembrane;
   context.Images = &behind;
@@ -127,6 +131,7 @@ void PrimitiveMapper::Map(const Context& context) const
   this->Geometry.VisitFacets(
     context.Middle, context.Padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
+  const double inFront = this->GetLengthInFront(context);
   for (const std::int32_t facet : facets)
   {
     const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
@@ -134,7 +139,11 @@ void PrimitiveMapper::Map(const Context& context) const
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
     this->Division.Visit(
-      patch, [&inPatch](const SubCell& nodes) { return inPatch.IsOutside(nodes); },
+      patch,
+      [&inPatch, inFront](const SubCell& nodes) {
+        return (inPatch.IsPartInFront && *inPatch.IsPartInFront) ||
+          inPatch.IsOutside(nodes, inFront);
+      },
       [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
   }
 }
@@ -154,10 +163,18 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
       whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
+  if (context.IsOnMembrane && !this->ResolveTie(context, nodes, whole))
+  {
+    return;
+  }
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
     context.Clip(whole, sign, polygon);
+    if (!context.IsOnMembrane)
+    {
+      this->KeepAsBehind(context, nodes, whole, sign, polygon);
+    }
     if (context.IsLine && polygon.size() == 2)
     {
       this->EmitLine(context, nodes, polygon);
@@ -197,9 +214,19 @@ void PrimitiveMapper::Emit(
     return;
   }
   std::vector<MappedPoint> points;
-  for (const Corner& corner : polygon)
+  for (auto corner = polygon.begin(); corner != polygon.end();)
   {
-    points.push_back(this->MakePoint(context, nodes, corner));
+    points.push_back(this->MakePoint(context, nodes, *corner));
+    const bool isInFront = points.back().Outcome == Finding::InFront;
+    if (isInFront)
+    {
+      points.pop_back();
+    }
+    corner = isInFront ? polygon.erase(corner) : corner + 1;
+  }
+  if (points.size() < 3)
+  {
+    return;
   }
   if (!IsSeen(points))
   {
@@ -404,6 +431,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   weight[first] = 1.0 - l;
   weight[last] = l;
   const glm::dvec3 place = on.Line.GetPoint(l);
+  if (context.IsOnMembrane && this->IsInFront(nodes, from, place))
+  {
+    // Seen nearly edge-on: the part behind ends on this side, before it comes to the ray.
+    return this->MakeSideCrossing(context, nodes, side, interpolated, weight);
+  }
   ImagePoint point = this->Finish(context, from.At, place, weight);
   if (glm::dot(place - from.At.Position, from.Ray) < 0.0)
   {
@@ -454,9 +486,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
     this->Geometry.MakeEquation(context.Corners[index]).Solve(*context.Patch, guess, steps, reach);
   const bool isFound =
     root.End == SightRoot::End::Converged && glm::length(root.At.Position - at.Position) <= size;
-  if (isFound)
+  at = isFound ? root.At : at;
+  if (isFound && context.IsOnMembrane && !context.IsLine &&
+    this->IsInFront(nodes, RefractAt(at, this->Geometry.GetMedia()), context.Corners[index]))
   {
-    at = root.At;
+    return { {}, Finding::InFront };
   }
   ImagePoint point = this->Finish(context, at, context.Corners[index], weight);
   const glm::dvec3& own = context.Primitive.Corners[index];
@@ -508,19 +542,22 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   const Context::Side& on = context.Sides[side];
   const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
   const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
-  Context inPatch = context;
-  glm::dvec2 b = guess;
   double l = weight[last] / (weight[first] + weight[last]);
-  const glm::dvec3 start = context.Patch->Evaluate(guess).Position;
-  if (!this->Geometry.MeetLine(on.Line, context.Patch->GetNormal(guess), inPatch.Facet, b, l))
+  glm::dvec2 b = guess;
+  std::int32_t facet = context.Facet;
+  CurvedPatch patch = *context.Patch;
+  const PatchPoint start = patch.Evaluate(guess);
+  if (!this->RunsAlong(patch, nodes, on.Line, l, b))
   {
-    return { {}, Finding::Elsewhere };
+    if (!this->Geometry.MeetLine(on.Line, start.Normal, facet, b, l))
+    {
+      return { {}, Finding::Elsewhere };
+    }
+    patch = this->Geometry.GetPatches().GetPatch(facet);
+    MeetPatchAgain(patch, on.Line, b, l);
   }
-  const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.Facet);
-  MeetPatchAgain(patch, on.Line, b, l);
-  inPatch.Patch = &patch;
   const PatchPoint at = patch.Evaluate(b);
-  if (glm::length(at.Position - start) > GetSize(nodes))
+  if (glm::length(at.Position - start.Position) > GetSize(nodes))
   {
     return { {}, Finding::Elsewhere };
   }
@@ -531,6 +568,9 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;
   place[last] = l;
+  Context inPatch = context;
+  inPatch.Facet = facet;
+  inPatch.Patch = &patch;
   return { this->Finish(inPatch, at, on.Line.GetPoint(l), place), Finding::Found };
 }
 

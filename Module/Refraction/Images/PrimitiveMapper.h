@@ -78,6 +78,7 @@ private:
   {
     Found,
     EndWithoutImage, ///< an end of the primitive without an image in or next to the sub-cell
+    InFront,         ///< an end that is in front of the membrane
     Elsewhere ///< a side that does not meet the membrane there, or an end that is seen elsewhere
   };
   struct MappedPoint
@@ -87,10 +88,17 @@ private:
   };
 
   void MapSides(Context& context, bool mayCross, ImageMesh& images) const;
+  bool MapAsBehind(Context& context, ImageMesh& images) const;
   void Map(const Context& context) const;
   std::vector<WaterlinePiece> DropBeyond(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
+  double GetLengthInFront(const Context& context) const;
+  double GetReach(const SubCell& nodes) const;
+  bool IsInFront(const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
+  void KeepAsBehind(const Context& context, const SubCell& nodes, const Polygon& whole, double sign,
+    Polygon& polygon) const;
+  bool ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const;
   void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign) const;
   void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
@@ -102,6 +110,8 @@ private:
     const ClippedBoundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
+  bool RunsAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
+    glm::dvec2& b) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
   bool EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
     std::vector<MappedPoint>& points) const;

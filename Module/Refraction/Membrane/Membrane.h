@@ -13,9 +13,11 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace meniscus
@@ -77,6 +79,16 @@ public:
 
   /** Largest absolute local coordinate of a used vertex; positive if the membrane is ready. */
   double GetRadius() const { return this->Radius; }
+
+  /**
+   * Rounding error of a position on the surface that has been at `distance` from the origin of the
+   * coordinates. It is a sum of a few products of coordinates; Newton's method adds a few more
+   * roundings.
+   */
+  double GetSlack(double distance) const
+  {
+    return 256.0 * std::numeric_limits<double>::epsilon() * std::max(this->Radius, distance);
+  }
 
   const std::vector<glm::dvec3>& GetPositions() const { return this->Positions; }
   const std::vector<glm::dvec3>& GetNormals() const { return this->Normals; }

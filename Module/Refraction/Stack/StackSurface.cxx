@@ -101,11 +101,9 @@ CurvedPatch StackSurface::GetPatch(std::int32_t facet, bool flipped) const
 }
 
 //------------------------------------------------------------------------------
-// A position is a sum of a few products of coordinates; Newton's method adds a few more roundings.
 double StackSurface::GetSlack(double distance) const
 {
-  return 256.0 * std::numeric_limits<double>::epsilon() *
-    std::max(this->Surface.GetRadius(), distance);
+  return this->Surface.GetSlack(distance);
 }
 
 //------------------------------------------------------------------------------

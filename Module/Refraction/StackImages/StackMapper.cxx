@@ -3,7 +3,7 @@
 #include "Refraction/StackImages/StackMapper.h"
 
 #include "Refraction/Curved/BracketedZero.h"
-#include "Refraction/StackImages/SurfaceTie.h"
+#include "Refraction/StackImages/SurfaceMeeting.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

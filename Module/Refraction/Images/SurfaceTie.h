@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Sides of primitives that meet a surface, or run along it, in a cell of the sheet. */
-#ifndef meniscus_Refraction_StackImages_SurfaceTie_h
-#define meniscus_Refraction_StackImages_SurfaceTie_h
+/** Primitives with a side that runs along a surface, in a cell of rays through the surface. */
+#ifndef meniscus_Refraction_Images_SurfaceTie_h
+#define meniscus_Refraction_Images_SurfaceTie_h
 
 #include "Refraction/Images/ObjectPrimitive.h"
-#include "Refraction/StackImages/SightSheet.h"
 
 #include <glm/vec3.hpp>
 
@@ -14,7 +13,7 @@
 namespace meniscus
 {
 
-/** Place of a primitive that touches the surface at an end of a leg, within a cell of the sheet. */
+/** Place of a primitive that touches a surface, within a cell of rays through the surface. */
 enum class SurfaceTie
 {
   None,   ///< the surface does not pass along the primitive or one of its sides: it clips
@@ -36,21 +35,6 @@ enum class SurfaceTie
 SurfaceTie FindSurfaceTie(const ObjectPrimitive& primitive,
   const std::array<glm::dvec3, 3>& corners, const glm::dvec3& behind,
   const std::array<glm::dvec3, 3>& side, double slack);
-
-/** Points of the surface at the beginning or the end of a leg, at the corners of a cell. */
-std::array<glm::dvec3, 3> GetSurfaceCorners(const LegCell& cell, bool isEnd);
-
-/**
- * Moves a place on a side, its parameter `l`, to the nearest crossing of the side with a surface.
- * The place stays where it is if the side leaves the surface, over the length of the cell, by less
- * than linear interpolation in the cell leaves the rays: then the cell does not determine where the
- * two cross, and may have a crossing where they have none.
- * @param corners  the surface at the corners of the cell
- * @param error    error of linear interpolation in the cell, over the length of the cell
- * @return false if there is no crossing within the length of the cell
- */
-bool MoveToSurface(const RefractionStack::Link& link, const ObjectLine& side,
-  const std::array<glm::dvec3, 3>& corners, double error, double& l);
 
 /** Length of the longest side of a triangle. */
 double GetLongestSide(const std::array<glm::dvec3, 3>& corners);

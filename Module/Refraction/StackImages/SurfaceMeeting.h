@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Sides of primitives that meet a surface of a list in a cell of the sheet. */
+#ifndef meniscus_Refraction_StackImages_SurfaceMeeting_h
+#define meniscus_Refraction_StackImages_SurfaceMeeting_h
+
+#include "Refraction/Images/SurfaceTie.h"
+#include "Refraction/StackImages/SightSheet.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+
+namespace meniscus
+{
+
+/** Points of the surface at the beginning or the end of a leg, at the corners of a cell. */
+std::array<glm::dvec3, 3> GetSurfaceCorners(const LegCell& cell, bool isEnd);
+
+/**
+ * Moves a place on a side, its parameter `l`, to the nearest crossing of the side with a surface.
+ * The place stays where it is if the side leaves the surface, over the length of the cell, by less
+ * than linear interpolation in the cell leaves the rays: then the cell does not determine where the
+ * two cross, and may have a crossing where they have none.
+ * @param corners  the surface at the corners of the cell
+ * @param error    error of linear interpolation in the cell, over the length of the cell
+ * @return false if there is no crossing within the length of the cell
+ */
+bool MoveToSurface(const RefractionStack::Link& link, const ObjectLine& side,
+  const std::array<glm::dvec3, 3>& corners, double error, double& l);
+
+}
+
+#endif
