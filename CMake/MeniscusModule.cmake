@@ -37,9 +37,14 @@ if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_target_name" MeniscusModule)
 endif ()
 
+# A wheel has copies instead of links, so that a library with versions would be in it twice.
+if (NOT SKBUILD)
+  list(APPEND _meniscus_host_arguments
+    VERSION   "${PROJECT_VERSION}"
+    SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+endif ()
+
 vtk_module_build(
-  MODULES   ${_meniscus_modules}
-  PACKAGE   Meniscus
-  VERSION   "${PROJECT_VERSION}"
-  SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
+  MODULES ${_meniscus_modules}
+  PACKAGE Meniscus
   ${_meniscus_host_arguments})

@@ -186,7 +186,9 @@ def add_volume(plotter, mesh, scalars=None, *, preference="point", blending="com
     scalars: name of a point or cell array with one component, or an array; default: the active
         scalars.
     opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default:
-        the mesh's diagonal divided by the mean number of cells along an axis.
+        the mesh's diagonal divided by the mean number of cells along an axis. Over this length an
+        image or rectilinear grid has the given opacity, another mesh 1 - exp(-opacity), as with
+        plotter.add_volume().
     blending: "composite", "maximum", "minimum", "average" or "additive".
     arguments: all other arguments of plotter.add_volume(), such as cmap, opacity, clim, log_scale,
         shade or scalar_bar_args, and properties of the mapper, such as BlendMode=1.
@@ -211,10 +213,12 @@ def add_volume(plotter, mesh, scalars=None, *, preference="point", blending="com
         mapper.SetScalarModeToUseCellFieldData()
     mapper.SelectScalarArray(scalars)
     mapper.blend_mode = blending
+    if isinstance(mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
+        mapper.SetOpacityModel(mapper.OPACITY_PER_UNIT_DISTANCE)  # as VTK's mappers of these
     _set(mapper, properties)
 
     volume = plotter.add_volume(
-        _make_stand_in(mesh, scalars, in_points), scalars,
+        _make_stand_in(mesh, scalars, in_points), scalars=scalars,
         categories=_count_categories(mesh, scalars, in_points, categories),
         opacity_unit_distance=opacity_unit_distance or _find_unit_distance(mesh),
         show_scalar_bar=False, render=False,

@@ -1,6 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A window with keys and sliders, and pictures without one."""
+import ctypes
+import os
+import sys
+
+from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -27,10 +32,41 @@ s      save picture
 h      this help
 q      quit"""
 DENSITY_STEP = 1.25
+# Windows of VTK 9.4 and later that need no display, by their library, and the variable that selects
+# one.
+HEADLESS_WINDOWS = {
+    "libEGL.so.1": "vtkEGLRenderWindow",
+    "libOSMesa.so.8": "vtkOSOpenGLRenderWindow",
+}
+WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CLIP_STEP = 0.05
 
 
+def _can_load(library):
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def _choose_headless_window():
+    """Without a display, VTK tries X first, with warnings, and crashes if libX11 is missing."""
+    if (os.environ.get("DISPLAY") or os.environ.get(WINDOW_VARIABLE)
+            or not sys.platform.startswith("linux")
+            or vtkVersion.GetVTKMajorVersion() * 100 + vtkVersion.GetVTKMinorVersion() < 904):
+        return
+    for library, window in HEADLESS_WINDOWS.items():
+        if _can_load(library):
+            os.environ[WINDOW_VARIABLE] = window
+            return
+    raise ReadingError("There is no display, and neither EGL nor OSMesa to draw without one "
+                       "(on Debian: apt-get install libegl1 libgl1-mesa-dri)")
+
+
 def make_window(scene, size, offscreen):
+    if offscreen:
+        _choose_headless_window()
     window = vtkRenderWindow()
     window.SetOffScreenRendering(offscreen)
     window.SetSize(*size)

@@ -33,12 +33,12 @@ def make_image(shift=0.0):
 FIRST, SECOND = make_image(), make_image(1.5 * CELLS)
 
 
-def add_own(plotter, *arguments, **named):
-    return plotter.add_volume(*arguments, opacity_unit_distance=1.0, **named)
+def add_own(plotter, mesh, scalars=None, **named):
+    return plotter.add_volume(mesh, scalars=scalars, opacity_unit_distance=1.0, **named)
 
 
-def add_ours(plotter, *arguments, **named):
-    return add_volume(plotter, *arguments, opacity_unit_distance=1.0, **named)
+def add_ours(plotter, mesh, scalars=None, **named):
+    return add_volume(plotter, mesh, scalars, opacity_unit_distance=1.0, **named)
 
 
 # Scenes, as functions of a plotter and a function that adds a volume.

@@ -8,8 +8,10 @@ import re
 import shutil
 import tempfile
 import unittest
+import warnings
+from unittest import mock
 
-from meniscus.viewer import levels, reading
+from meniscus.viewer import levels, reading, window as viewer_window
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -127,9 +129,11 @@ class TestCommand(unittest.TestCase):
         return os.path.join(cls.folder.name, file)
 
     def run_command(self, *arguments):
-        """Exit status and standard error."""
+        """Exit status and standard error, without what VTK 9.6 does that NumPy 2.5 deprecates:
+        unittest shows such warnings, the command does not."""
         errors = io.StringIO()
-        with contextlib.redirect_stderr(errors):
+        with contextlib.redirect_stderr(errors), warnings.catch_warnings():
+            warnings.filterwarnings("ignore", category=DeprecationWarning, module=r"vtkmodules\.")
             status = main(list(arguments))
         return status, errors.getvalue()
 
@@ -246,6 +250,26 @@ class TestCommand(unittest.TestCase):
                 os.environ["DISPLAY"] = display
         self.assertEqual(status, 1)
         self.assertIn("--output", errors)
+
+    def test_windows_without_a_display(self):
+        def choose(minor, libraries, **variables):
+            """The window that the command makes VTK 9.minor take."""
+            version = mock.Mock(**{"GetVTKMajorVersion.return_value": 9,
+                                   "GetVTKMinorVersion.return_value": minor})
+            with mock.patch.dict(os.environ, variables, clear=True), \
+                    mock.patch.object(viewer_window, "vtkVersion", version), \
+                    mock.patch.object(viewer_window, "_can_load", libraries.__contains__):
+                viewer_window._choose_headless_window()
+                return os.environ.get("VTK_DEFAULT_OPENGL_WINDOW")
+
+        egl, osmesa = "libEGL.so.1", "libOSMesa.so.8"
+        self.assertEqual(choose(6, [egl, osmesa]), "vtkEGLRenderWindow")
+        self.assertEqual(choose(6, [osmesa]), "vtkOSOpenGLRenderWindow")
+        with self.assertRaisesRegex(reading.ReadingError, "libegl1"):
+            choose(6, [])
+        self.assertIsNone(choose(6, [egl], DISPLAY=":0"))
+        self.assertEqual(choose(6, [egl], VTK_DEFAULT_OPENGL_WINDOW="x"), "x")
+        self.assertIsNone(choose(1, [egl]))
 
     def test_keys(self):
         removed = shutil.copy(self.later, self.name("removed.vtu"))
