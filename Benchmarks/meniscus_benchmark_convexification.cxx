@@ -133,7 +133,7 @@ Grid Convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (end != meniscus::ProcessEnd::Answered || answer.End != meniscus::MeshingEnd::Done)
   {
-    std::cout << "end of the process " << static_cast<int>(end) << ", of TetGen "
+    std::cerr << "end of the process " << static_cast<int>(end) << ", of TetGen "
               << static_cast<int>(answer.End) << " (3: the boundary crosses itself)\n";
     return nullptr;
   }
@@ -180,7 +180,7 @@ int Run(const VolumeOptions& options)
   const Grid filled = Convexify(mesh, seconds, imaginary);
   if (!filled)
   {
-    std::cout << "TetGen crashed or gave up on the boundary of "
+    std::cerr << "TetGen crashed or gave up on the boundary of "
               << (options.Mesh.empty() ? "the generated block" : options.Mesh) << '\n';
     return EXIT_FAILURE;
   }

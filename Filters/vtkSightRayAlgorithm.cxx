@@ -13,6 +13,15 @@
 
 #include <algorithm>
 
+namespace
+{
+
+// Points between two reports of progress, at least, and number of reports.
+constexpr vtkIdType SmallestStep = 16384;
+constexpr vtkIdType ProgressSteps = 20;
+
+}
+
 //------------------------------------------------------------------------------
 class vtkSightRayAlgorithm::vtkInternals
 {
@@ -80,11 +89,26 @@ int vtkSightRayAlgorithm::FillInputPortInformation(int port, vtkInformation* inf
 }
 
 //------------------------------------------------------------------------------
+int vtkSightRayAlgorithm::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The executive makes an output of the type of FillOutputPortInformation().
+int vtkSightRayAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 // Every piece of the points needs the whole surfaces.
-int vtkSightRayAlgorithm::RequestUpdateExtent(
+int vtkSightRayAlgorithm::ComputeInputUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const int result = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  const int result = this->Superclass::ComputeInputUpdateExtent(request, inputs, outputs);
   meniscus::RequestWhole(inputs[1]);
   return result;
 }
@@ -111,9 +135,33 @@ bool vtkSightRayAlgorithm::UpdateScene(
 }
 
 //------------------------------------------------------------------------------
+bool vtkSightRayAlgorithm::RunInSteps(
+  vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body)
+{
+  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
+  for (vtkIdType first = 0; first < count; first += step)
+  {
+    const vtkIdType last = std::min(first + step, count);
+    body(first, last);
+    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
+    if (this->GetAbortExecute())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 const meniscus::RefractionStack& vtkSightRayAlgorithm::GetStack() const
 {
   return this->Internals->Stack.GetSolver().GetStack();
+}
+
+//------------------------------------------------------------------------------
+meniscus::StackScene& vtkSightRayAlgorithm::GetStackScene() const
+{
+  return this->Internals->Stack;
 }
 
 //------------------------------------------------------------------------------

@@ -5,8 +5,9 @@
  * @brief   base of the filters that trace sight rays to points through refracting surfaces
  *
  * Port 0 is a vtkPointSet, each of whose points lies on a sight ray; port 1 has the surfaces, one
- * connection per interface of SetInterfaces(), as in vtkTruePositionFilter. Rays may start from one
- * eye or from an eye per point.
+ * connection per interface of SetInterfaces(). Rays may start from one eye or from an eye per
+ * point. The output of subclasses is vtkPolyData, if they do not override
+ * FillOutputPortInformation() and RequestDataObject().
  *
  * @sa vtkSightRayFilter vtkTriangulatedPositionFilter vtkTruePositionFilter
  */
@@ -14,44 +15,55 @@
 #define vtkSightRayAlgorithm_h
 
 #include "vtkMeniscusModule.h" // For export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkPointSetAlgorithm.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
-#include <memory> // For std::unique_ptr
-#include <string> // For std::string
+#include <functional> // For std::function
+#include <memory>     // For std::unique_ptr
+#include <string>     // For std::string
 
 class vtkPointSet;
+class vtkPolyData;
 class vtkRefractingInterfaceCollection;
 
 namespace meniscus
 {
 class PointEyes;
 class RefractionStack;
+class StackScene;
 }
 
-class VTKMENISCUS_EXPORT vtkSightRayAlgorithm : public vtkPolyDataAlgorithm
+class VTKMENISCUS_EXPORT vtkSightRayAlgorithm : public vtkPointSetAlgorithm
 {
 public:
-  vtkTypeMacro(vtkSightRayAlgorithm, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkSightRayAlgorithm, vtkPointSetAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
-  /** Set/Get the eye of all points in world coordinates. Default is (0, 0, 1). */
+  /** Set/Get the eye in world coordinates. Must be finite. Default is (0, 0, 1). */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the name of a point array with three components: the eye of each point. EyePosition is
-   * not used then. An empty name, the default, stands for one eye.
+   * Set/Get the name of a point array with three components: the eye of each point, for points
+   * that were seen from several places, such as the cameras of photographs or the track of a
+   * scanner. EyePosition is not used then. A point whose eye is not finite or lies on a surface
+   * counts as one that is not finite. Points with the same eye should follow each other. As with
+   * several interfaces, the side of a surface that an eye is on follows from its normals. An empty
+   * name, the default, stands for one eye.
    */
   virtual void SetEyeArrayName(const std::string& name);
   virtual std::string GetEyeArrayName();
   /** @} */
 
   /** @{ */
-  /** Set/Get the indices of refraction of the first interface; see SetInterfaces(). */
+  /**
+   * Set/Get the indices of refraction of the first interface, on the eye's side and behind the
+   * surface. Must be positive and finite; anything else is an error when the filter runs. Defaults
+   * are 1.0 and 1.333.
+   */
   virtual void SetExteriorIndexOfRefraction(double index);
   virtual double GetExteriorIndexOfRefraction();
   virtual void SetInteriorIndexOfRefraction(double index);
@@ -60,15 +72,24 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces, in the order in which sight rays meet them, as in
-   * vtkTruePositionFilter::SetInterfaces().
+   * Set/Get the refracting interfaces, in the order in which sight rays meet them. The list may be
+   * shared with other filters and mappers. Interface i has the surface of connection i of port 1,
+   * the indices of refraction and, optionally, the exact surface onto which its points are moved;
+   * another number of connections is an error when the filter runs. Null, the default, stands for a
+   * list of one with default values.
+   *
+   * With several interfaces, the media, the sides and the depth of a seen point are those of
+   * vtkRefractedGeometryFilter::SetInterfaces(). A ray must meet the interface behind a point, too.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
   /** @{ */
-  /** Set the first surface, add that of the next interface, remove all, get their number. */
+  /**
+   * Set the first surface at port 1, add that of the next interface of the list, by connection or
+   * as data; remove all surfaces; get their number.
+   */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
   void AddMembraneConnection(vtkAlgorithmOutput* output);
@@ -78,7 +99,7 @@ public:
   /** @} */
 
   /** Number of patches built since construction: once per change of a surface's values. */
-  vtkTypeInt64 GetNumberOfPatchBuilds() const;
+  virtual vtkTypeInt64 GetNumberOfPatchBuilds() const;
 
   /** Modification time, which includes that of the interfaces. */
   vtkMTimeType GetMTime() override;
@@ -88,13 +109,22 @@ protected:
   ~vtkSightRayAlgorithm() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int ComputeInputUpdateExtent(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /** Sets surfaces and eyes. Returns false after an error, which has been reported. */
   bool UpdateScene(vtkPointSet* points, vtkInformationVector* membranes, meniscus::PointEyes& eyes);
+  /**
+   * Calls `body(begin, end)` for consecutive ranges of numbers below `count`, and reports progress
+   * in between. Returns false after an abort.
+   */
+  bool RunInSteps(vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body);
   /** The stack of the last UpdateScene(). */
   const meniscus::RefractionStack& GetStack() const;
+  meniscus::StackScene& GetStackScene() const;
 
 private:
   vtkSightRayAlgorithm(const vtkSightRayAlgorithm&) = delete;

@@ -93,13 +93,38 @@ private:
   vtkNew<vtkUnsignedCharArray> States;
 };
 
+/** Adds the lines of the sight ray to point `id`, unless the point has the state NOT_FINITE. */
+void TraceLines(meniscus::SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen,
+  vtkIdType id, RayLines& lines)
+{
+  const double distance = glm::length(seen - eye);
+  if (!std::isfinite(distance) || distance == 0.0 ||
+    tracer.SetEye(eye) != meniscus::EyeStatus::Ready)
+  {
+    return;
+  }
+  meniscus::StackSightRay ray;
+  tracer.Trace((seen - eye) / distance, ray);
+  std::size_t last = 0;
+  const meniscus::StackTruePosition found = meniscus::WalkSightRay(ray, seen, last);
+  glm::dvec3 end = found.Position;
+  if (found.State == meniscus::SeenState::Missed)
+  {
+    end = ray.Legs[last--].Origin;
+  }
+  else if (found.State == meniscus::SeenState::TotallyReflected)
+  {
+    end = ray.Legs[last].Origin + ray.Legs[last].Length * ray.Legs[last].Direction;
+  }
+  lines.Add(id, ray, last, end, found.State);
+}
+
 }
 
 //------------------------------------------------------------------------------
 int vtkSightRayFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  using meniscus::SeenState;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   meniscus::PointEyes eyes;
   if (!this->UpdateScene(input, inputs[1], eyes))
@@ -108,32 +133,18 @@ int vtkSightRayFilter::RequestData(
   }
   meniscus::SightRayTracer tracer(this->GetStack(), this->GetExteriorIndexOfRefraction());
   RayLines lines;
-  meniscus::StackSightRay ray;
-  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  const auto trace = [&](vtkIdType begin, vtkIdType end)
   {
-    glm::dvec3 seen;
-    input->GetPoint(i, &seen.x);
-    const glm::dvec3 eye = eyes.Get(i);
-    const double distance = glm::length(seen - eye);
-    if (!std::isfinite(distance) || distance == 0.0 ||
-      tracer.SetEye(eye) != meniscus::EyeStatus::Ready)
+    for (vtkIdType i = begin; i < end; ++i)
     {
-      continue;
+      glm::dvec3 seen;
+      input->GetPoint(i, &seen.x);
+      TraceLines(tracer, eyes.Get(i), seen, i, lines);
     }
-    tracer.Trace((seen - eye) / distance, ray);
-    std::size_t last = 0;
-    const meniscus::StackTruePosition found = meniscus::WalkSightRay(ray, seen, last);
-    glm::dvec3 end = found.Position;
-    if (found.State == SeenState::Missed)
-    {
-      end = ray.Legs[last--].Origin;
-    }
-    else if (found.State == SeenState::TotallyReflected)
-    {
-      end = ray.Legs[last].Origin + ray.Legs[last].Length * ray.Legs[last].Direction;
-    }
-    lines.Add(i, ray, last, end, found.State);
+  };
+  if (this->RunInSteps(input->GetNumberOfPoints(), trace))
+  {
+    lines.MoveTo(vtkPolyData::GetData(outputs));
   }
-  lines.MoveTo(vtkPolyData::GetData(outputs));
   return 1;
 }

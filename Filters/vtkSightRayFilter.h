@@ -36,6 +36,8 @@ public:
   static vtkSightRayFilter* New();
   vtkTypeMacro(vtkSightRayFilter, vtkSightRayAlgorithm);
 
+  vtkPolyData* GetOutput() { return this->GetPolyDataOutput(); }
+
 protected:
   vtkSightRayFilter() = default;
   ~vtkSightRayFilter() override = default;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTriangulatedPositionFilter.h"
 
-#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Membrane/PointEyes.h"
 #include "Refraction/Stack/StackTriangulation.h"
 
@@ -19,6 +18,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <glm/geometric.hpp>
@@ -194,27 +194,32 @@ int vtkTriangulatedPositionFilter::RequestData(
   const Tracks tracks = CollectTracks(ids);
   PointArrays arrays(tracks.Ids);
   const double medium = this->GetExteriorIndexOfRefraction();
-  meniscus::ThreadedRanges(tracks.Ids.size(), Grain,
-    [&](std::size_t begin, std::size_t end)
+  const auto triangulate = [&](vtkIdType begin, vtkIdType end)
+  {
+    meniscus::EyeTracers tracers(this->GetStack(), medium);
+    std::vector<meniscus::TriangulationRay> rays;
+    for (vtkIdType i = begin; i < end; ++i)
     {
-      meniscus::EyeTracers tracers(this->GetStack(), medium);
-      std::vector<meniscus::TriangulationRay> rays;
-      for (std::size_t i = begin; i < end; ++i)
+      const auto track = static_cast<std::size_t>(i);
+      std::size_t count = 0;
+      rays.resize(tracks.Begins[track + 1] - tracks.Begins[track]);
+      for (std::size_t k = tracks.Begins[track]; k < tracks.Begins[track + 1]; ++k)
       {
-        std::size_t count = 0;
-        rays.resize(tracks.Begins[i + 1] - tracks.Begins[i]);
-        for (std::size_t k = tracks.Begins[i]; k < tracks.Begins[i + 1]; ++k)
-        {
-          const vtkIdType observation = tracks.Observations[k];
-          glm::dvec3 seen;
-          input->GetPoint(observation, &seen.x);
-          const glm::dvec3 eye = eyes.Get(observation);
-          count += TraceObservation(tracers.Get(eye), eye, seen, rays[count]) ? 1 : 0;
-        }
-        rays.resize(count);
-        arrays.Set(static_cast<vtkIdType>(i), meniscus::Triangulate(rays), count);
+        const vtkIdType observation = tracks.Observations[k];
+        glm::dvec3 seen;
+        input->GetPoint(observation, &seen.x);
+        const glm::dvec3 eye = eyes.Get(observation);
+        count += TraceObservation(tracers.Get(eye), eye, seen, rays[count]) ? 1 : 0;
       }
-    });
+      rays.resize(count);
+      arrays.Set(i, meniscus::Triangulate(rays), count);
+    }
+  };
+  if (!this->RunInSteps(static_cast<vtkIdType>(tracks.Ids.size()),
+        [&](vtkIdType begin, vtkIdType end) { vtkSMPTools::For(begin, end, Grain, triangulate); }))
+  {
+    return 1;
+  }
   const unsigned char* states = arrays.States->GetPointer(0);
   this->WithoutPosition = std::count_if(states, states + arrays.States->GetNumberOfTuples(),
     [](unsigned char state) { return state != FOUND; });

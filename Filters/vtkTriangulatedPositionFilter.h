@@ -44,6 +44,8 @@ public:
   vtkTypeMacro(vtkTriangulatedPositionFilter, vtkSightRayAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  vtkPolyData* GetOutput() { return this->GetPolyDataOutput(); }
+
   /** Values of the array TriangulationState. */
   enum TriangulationStates
   {

@@ -29,9 +29,7 @@
 namespace
 {
 
-// Points between two reports of progress, at least, and per task of a thread.
-constexpr vtkIdType SmallestStep = 16384;
-constexpr vtkIdType ProgressSteps = 20;
+// Points per task of a thread.
 constexpr vtkIdType Grain = 512;
 
 static_assert(
@@ -74,8 +72,7 @@ struct PointArrays
 class vtkTruePositionFilter::vtkInternals
 {
 public:
-  meniscus::RefractionScene Scene; ///< one interface
-  meniscus::StackScene Stack;      ///< several interfaces
+  meniscus::RefractionScene Scene; ///< one interface; several are in GetStackScene()
   // State and indices in the last run.
   bool HasStack = false; ///< several interfaces, or several eyes
   meniscus::PointEyes Eyes;
@@ -98,41 +95,15 @@ public:
 };
 
 vtkStandardNewMacro(vtkTruePositionFilter);
-meniscusInterfacePropertiesMacro(vtkTruePositionFilter);
-meniscusMembranePortMacro(vtkTruePositionFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::vtkTruePositionFilter()
-  : Interfaces(meniscus::MakeInterfaces())
-  , Internals(std::make_unique<vtkInternals>())
+  : Internals(std::make_unique<vtkInternals>())
 {
-  this->SetNumberOfInputPorts(2);
 }
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::~vtkTruePositionFilter() = default;
-
-//------------------------------------------------------------------------------
-void vtkTruePositionFilter::SetMembraneData(vtkPolyData* membrane)
-{
-  this->SetInputDataInternal(1, membrane);
-}
-
-//------------------------------------------------------------------------------
-void vtkTruePositionFilter::SetEyeArrayName(const std::string& name)
-{
-  if (this->EyeArrayName != name)
-  {
-    this->EyeArrayName = name;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-std::string vtkTruePositionFilter::GetEyeArrayName()
-{
-  return this->EyeArrayName;
-}
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfTotallyReflectedPoints() const
@@ -149,42 +120,29 @@ vtkTypeInt64 vtkTruePositionFilter::GetNumberOfMissedPoints() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfPatchBuilds() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
+  return this->Internals->Scene.GetNumberOfPatchBuilds() +
+    this->Superclass::GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
+  return this->Internals->Scene.GetNumberOfEyeUpdates() +
+    this->GetStackScene().GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkTruePositionFilter::GetMTime()
+// The output has the type of the input.
+int vtkTruePositionFilter::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
+  return this->vtkPointSetAlgorithm::FillOutputPortInformation(port, info);
 }
 
 //------------------------------------------------------------------------------
-int vtkTruePositionFilter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-// Every piece of the points needs the whole membranes.
-int vtkTruePositionFilter::ComputeInputUpdateExtent(
+int vtkTruePositionFilter::RequestDataObject(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const int result = this->Superclass::ComputeInputUpdateExtent(request, inputs, outputs);
-  meniscus::RequestWhole(inputs[1]);
-  return result;
+  return this->vtkPointSetAlgorithm::RequestDataObject(request, inputs, outputs);
 }
 
 //------------------------------------------------------------------------------
@@ -202,7 +160,7 @@ int vtkTruePositionFilter::RequestData(
                   "empty.");
     return 0;
   }
-  if (!this->UpdateScene(input, inputs[1]))
+  if (!this->UpdateRefraction(input, inputs[1]))
   {
     return 0;
   }
@@ -216,14 +174,16 @@ int vtkTruePositionFilter::RequestData(
 
 //------------------------------------------------------------------------------
 /** Sets membranes and eye. Returns false after an error. */
-bool vtkTruePositionFilter::UpdateScene(vtkPointSet* points, vtkInformationVector* membranes)
+bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformationVector* membranes)
 {
   vtkInternals& internals = *this->Internals;
   meniscus::SceneMessages messages;
-  internals.Eyes = meniscus::PointEyes(this->EyePosition);
-  messages.Error = internals.Eyes.UseArray(points, this->EyeArrayName);
+  const double* place = this->GetEyePosition();
+  internals.Eyes = meniscus::PointEyes(place);
+  messages.Error = internals.Eyes.UseArray(points, this->GetEyeArrayName());
   const bool hasEyes = internals.Eyes.IsPerPoint();
-  internals.HasStack = hasEyes || meniscus::HasStack(this->Interfaces, membranes);
+  vtkRefractingInterfaceCollection* interfaces = this->GetInterfaces();
+  internals.HasStack = hasEyes || meniscus::HasStack(interfaces, membranes);
   internals.Exterior = this->GetExteriorIndexOfRefraction();
   internals.Interior = this->GetInteriorIndexOfRefraction();
   bool ready = messages.Error.empty();
@@ -233,19 +193,19 @@ bool vtkTruePositionFilter::UpdateScene(vtkPointSet* points, vtkInformationVecto
   }
   else if (hasEyes)
   {
-    ready = meniscus::UpdateSurfaces(internals.Stack, membranes, 1, this->Interfaces, messages);
+    ready = meniscus::UpdateSurfaces(this->GetStackScene(), membranes, 1, interfaces, messages);
   }
   else if (internals.HasStack)
   {
-    ready = meniscus::UpdateStack(internals.Stack, membranes, 1, this->Interfaces,
-      { this->EyePosition[0], this->EyePosition[1], this->EyePosition[2] }, messages);
+    ready = meniscus::UpdateStack(
+      this->GetStackScene(), membranes, 1, interfaces, { place[0], place[1], place[2] }, messages);
   }
   else
   {
-    const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
-      this->EyePosition[2], internals.Exterior, internals.Interior };
+    const meniscus::RefractionScene::Eye eye = { place[0], place[1], place[2], internals.Exterior,
+      internals.Interior };
     ready = internals.Scene.SetMembrane(vtkPolyData::GetData(membranes), true, messages,
-              this->Interfaces->GetFirstInterface()->GetExactSurface()) &&
+              interfaces->GetFirstInterface()->GetExactSurface()) &&
       internals.Scene.SetEye(eye, messages);
   }
   if (ready && !internals.HasStack)
@@ -260,7 +220,7 @@ bool vtkTruePositionFilter::UpdateScene(vtkPointSet* points, vtkInformationVecto
 meniscus::StackTruePosition vtkTruePositionFilter::FindOne(const double at[3]) const
 {
   const glm::dvec3 seen(at[0], at[1], at[2]);
-  const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
+  const glm::dvec3 eye = this->Internals->Eyes.Get(0);
   const double exterior = this->Internals->Exterior;
   const double interior = this->Internals->Interior;
   meniscus::TruePosition found = this->Internals->Truth->Find(seen);
@@ -276,8 +236,8 @@ meniscus::StackTruePosition vtkTruePositionFilter::FindOne(const double at[3]) c
 //------------------------------------------------------------------------------
 meniscus::StackTruePosition vtkTruePositionFilter::FindThroughStack(const double at[3]) const
 {
-  return meniscus::FindTruePosition(this->Internals->Stack.GetSolver().GetStack(),
-    this->Internals->Exterior, { at[0], at[1], at[2] });
+  return meniscus::FindTruePosition(
+    this->GetStack(), this->Internals->Exterior, { at[0], at[1], at[2] });
 }
 
 //------------------------------------------------------------------------------
@@ -289,7 +249,7 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   const vtkInternals& internals = *this->Internals;
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
-    meniscus::SightRayTracer tracer(internals.Stack.GetSolver().GetStack(), internals.Exterior);
+    meniscus::SightRayTracer tracer(this->GetStack(), internals.Exterior);
     for (vtkIdType i = begin; i < end; ++i)
     {
       double seen[3];
@@ -303,16 +263,10 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
       arrays.Paths->SetValue(i, found.OpticalPath);
     }
   };
-  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
-  for (vtkIdType first = 0; first < count; first += step)
+  if (!this->RunInSteps(
+        count, [&](vtkIdType begin, vtkIdType end) { vtkSMPTools::For(begin, end, Grain, move); }))
   {
-    const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, Grain, move);
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
-    if (this->GetAbortExecute())
-    {
-      return false;
-    }
+    return false;
   }
   const unsigned char* states = arrays.States->GetPointer(0);
   const auto countState = [states, count](SeenStates state)
@@ -332,11 +286,6 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
 void vtkTruePositionFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
-     << this->EyePosition[2] << ")\n";
-  os << indent << "EyeArrayName: " << this->EyeArrayName << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "NumberOfTotallyReflectedPoints: " << this->GetNumberOfTotallyReflectedPoints()
      << "\n";
   os << indent << "NumberOfMissedPoints: " << this->GetNumberOfMissedPoints() << "\n";

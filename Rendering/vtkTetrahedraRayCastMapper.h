@@ -56,21 +56,13 @@
  * until the error of linear interpolation is less than 1/32768 of the full range of colour and of
  * alpha over the unit distance.
  *
- * Method:
- * 1. Once per mesh, vertices and cells are ordered along a Morton curve, and cells are linked
- *    across faces. The tables take 32 bytes of GPU memory per cell, 16 per vertex and 80 per
- *    boundary face.
- * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.
- * 3. In the projection along the ray the exit of a cell follows from the signs of its edges, which
- *    are exact (vertices are rounded to a grid of 2^-29 of the mesh's radius). A ray
- *    through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e. A
- *    walk that begins on the boundary therefore ends on the boundary: no ray is lost, and none runs
- *    for ever.
- * 4. Within a cell the scalar is linear along the ray. The segment is split at the transfer
- *    function's nodes; every piece has linear attenuation and colour and is integrated in closed
- *    form up to an error of 3e-7. With several components, it is split at the nodes of all
- *    functions, and every piece is integrated by Gauss' rule of three points up to 1e-6.
- *    SetIntegration() selects a table instead.
+ * Method (Documentation/volume-method.md): vertices and cells are ordered once per mesh, and cells
+ * are linked across faces. The entries of a ray are found by a bounding volume hierarchy over the
+ * boundary faces, and the ray walks from cell to cell. The exit of a cell follows from the signs of
+ * its edges in the projection along the ray. They are exact, and ties have one rule: no ray is
+ * lost, and none runs for ever. A segment is split at the transfer function's nodes, and each piece
+ * is integrated in closed form up to an error of 3e-7; with several components, by Gauss' rule up
+ * to 1e-6. SetIntegration() selects a table instead.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first is
  * used up to its exit. Cells that cannot be seen, because the transfer function has no opacity

@@ -160,13 +160,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the division of cells. FIXED_DIVISION, the default, adds no points: the scalar is
-   * linear in each of the tetrahedra, whose edges can be seen in hexahedra. ADAPTIVE_DIVISION
-   * halves edges until the tetrahedra follow VTK's shape functions of the cells (voxels, hexahedra,
-   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerances, without cracks
-   * between neighbours. Cells are divided when the mesh is built, and again only if moved points or
-   * other scalars exceed twice the tolerances; otherwise the values of the new points are
-   * interpolated. See Documentation/true-cells.md.
+   * Set/Get the division of cells: FIXED_DIVISION, the default, or ADAPTIVE_DIVISION, which follows
+   * VTK's shape functions of the cells within the tolerances below. See
+   * vtkTetrahedraRayCastMapper::SetCellDivision() and Documentation/true-cells.md.
    */
   vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
   vtkGetMacro(CellDivision, int);
@@ -176,11 +172,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the tolerances of ADAPTIVE_DIVISION in the edges of the tetrahedra: the largest
-   * distance of the curved edge from the straight one, as a fraction of the diagonal of the input's
-   * bounds (default 1e-5); and the largest difference of the scalar from its linear interpolation,
-   * as a fraction of the range of its finite values (default 5e-5). They must be positive;
-   * otherwise it is an error.
+   * Set/Get the tolerances of ADAPTIVE_DIVISION, > 0, as in the mapper: of places as a fraction of
+   * the diagonal of the input's bounds (default 1e-5), and of the scalar as a fraction of the range
+   * of its finite values (default 5e-5).
    */
   vtkSetMacro(DivisionPlaceTolerance, double);
   vtkGetMacro(DivisionPlaceTolerance, double);
@@ -190,9 +184,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes. If the tolerances take
-   * more, it is an error. While cells are divided, a tetrahedron takes up to 250 bytes. Default is
-   * 2^25, some 34 million.
+   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes; more are an error.
+   * Default is 2^25, some 34 million, for which division takes up to 8 GB.
    */
   vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);

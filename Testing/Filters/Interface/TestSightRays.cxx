@@ -6,6 +6,7 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkDepthImagePoints.h"
@@ -226,6 +227,48 @@ TEST(SightRays, EyesThatCannotBeUsedAreMarked)
 }
 
 //------------------------------------------------------------------------------
+// An aborted run has no output, and the next one is whole.
+template <typename Filter>
+class SightRaySteps : public testing::Test
+{
+};
+using StepFilters =
+  testing::Types<vtkTruePositionFilter, vtkSightRayFilter, vtkTriangulatedPositionFilter>;
+TYPED_TEST_SUITE(SightRaySteps, StepFilters);
+
+TYPED_TEST(SightRaySteps, ProgressIsReportedAndAbortObeyed)
+{
+  constexpr int count = 40000;
+  Observations seen;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    seen.Add({ 0.001 * static_cast<double>(i), -30.0, 3.0 }, Cameras[0], i);
+  }
+  const auto filter = MakePaneFilter<TypeParam>(seen.Data);
+  std::vector<double> progress;
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetClientData(&progress);
+  callback->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+      static_cast<std::vector<double>*>(data)->push_back(algorithm->GetProgress());
+      algorithm->SetAbortExecute(algorithm->GetProgress() > 0.2 ? 1 : 0);
+    });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, callback);
+  filter->Update();
+  ASSERT_FALSE(progress.empty());
+  EXPECT_GT(progress.back(), 0.2);
+  EXPECT_LT(progress.back(), 0.9);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  filter->RemoveObserver(tag);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_GE(filter->GetOutput()->GetNumberOfPoints(), count);
+}
+
+//------------------------------------------------------------------------------
 TEST(SightRays, ArraysThatAreMissingAreErrors)
 {
   Observations seen;
@@ -335,7 +378,8 @@ TEST(SightRays, LinesFollowTheExactPath)
   const auto image = reference::MakeImage(Pane, *path, 25.0);
   Observations seen;
   seen.Add(image.Virtual, eye, 0);
-  seen.Add({ 900.0, -20.0, 0.0 }, eye, 1); // beside the surfaces
+  // The straight line to this point passes the pane without meeting it.
+  seen.Add({ 900.0, -20.0, 0.0 }, eye, 1);
   const auto filter = MakePaneFilter<vtkSightRayFilter>(seen.Data);
   filter->Update();
   vtkPolyData* lines = filter->GetOutput();

@@ -2,34 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adaptive division of cells: integrals through cells of all types compared with an integrator that
 // evaluates the shape functions of the cell itself, in double precision.
-#include "IntegralScene.h"
+#include "CellIntegrator.h"
+#include "TrueCellMeshes.h"
 
-#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
-#include <vtkGenericCell.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkTransform.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iterator>
 #include <limits>
-#include <map>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -39,253 +35,6 @@ namespace
 {
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
-
-using Corners = std::vector<glm::dvec3>;
-
-const Corners Hexahedron{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
-  { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
-const Corners Wedge{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 } };
-const Corners Pyramid{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0.5, 0.5, 1 } };
-const Corners Tetrahedron{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-
-struct CellCase
-{
-  std::string Name;
-  int Type;
-  vtkIdType Points;
-  /** Random displacement of the points. Cells of high order take more pieces. */
-  double Displacement = 0.02;
-};
-
-const CellCase Cases[] = { { "hexahedron", VTK_HEXAHEDRON, 8 }, { "wedge", VTK_WEDGE, 6 },
-  { "pyramid", VTK_PYRAMID, 5 }, { "quadratic tetrahedron", VTK_QUADRATIC_TETRA, 10 },
-  { "quadratic hexahedron", VTK_QUADRATIC_HEXAHEDRON, 20 },
-  { "triquadratic hexahedron", VTK_TRIQUADRATIC_HEXAHEDRON, 27 },
-  { "quadratic wedge", VTK_QUADRATIC_WEDGE, 15 },
-  { "biquadratic wedge", VTK_BIQUADRATIC_QUADRATIC_WEDGE, 18 },
-  { "quadratic pyramid", VTK_QUADRATIC_PYRAMID, 13 },
-  { "Lagrange tetrahedron of order 3", VTK_LAGRANGE_TETRAHEDRON, 20, 0.01 },
-  { "Lagrange hexahedron of order 3", VTK_LAGRANGE_HEXAHEDRON, 64, 0.003 },
-  { "Bezier tetrahedron of order 3", VTK_BEZIER_TETRAHEDRON, 20, 0.005 } };
-
-/** A cell with points displaced at random in [-0.8, 0.8]^3, and the values of a cubic field. */
-Grid MakeCell(const CellCase& shape, double displacement, unsigned int seed)
-{
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < shape.Points; ++i)
-  {
-    ids->InsertNextId(i);
-  }
-  // The points where the type expects them.
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(shape.Points);
-  for (vtkIdType i = 0; i < shape.Points; ++i)
-  {
-    points->SetPoint(i, 0.0, 0.0, 0.0);
-  }
-  Grid grid = Grid::New();
-  grid->SetPoints(points);
-  grid->InsertNextCell(shape.Type, ids);
-  vtkCell* cell = grid->GetCell(0);
-  const double* places = cell->GetParametricCoords();
-  vtkNew<vtkDoubleArray> scalars;
-  scalars->SetName("s");
-  for (vtkIdType i = 0; i < shape.Points; ++i)
-  {
-    glm::dvec3 place(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
-    if (shape.Type == VTK_PYRAMID || shape.Type == VTK_QUADRATIC_PYRAMID)
-    {
-      // Reference coordinates of pyramids are those of a cube with one side collapsed.
-      place.x *= 1.0 - place.z;
-      place.y *= 1.0 - place.z;
-    }
-    const glm::dvec3 moved = displacement * glm::dvec3(share(random), share(random), share(random));
-    const glm::dvec3 at = 1.2 * (place - 0.4) + moved;
-    points->SetPoint(i, at.x, at.y, at.z);
-    // The larger the curved part, the more pieces: each halving of it takes a third of the time.
-    const double curved = at.x * at.y + 0.5 * at.z * at.z * at.x;
-    scalars->InsertNextValue(2.0 + at.x - 0.7 * at.y + 0.4 * at.z + 0.15 * curved);
-  }
-  grid->GetPointData()->SetScalars(scalars);
-  return grid;
-}
-
-/** Integrates along rays through one cell by its shape functions, in double precision. */
-class CellIntegrator
-{
-public:
-  CellIntegrator(vtkUnstructuredGrid* grid, vtkIdType cell)
-    : Scalars(grid->GetPointData()->GetScalars())
-  {
-    grid->GetCell(cell, this->Cell);
-    this->Weights.resize(static_cast<std::size_t>(this->Cell->GetNumberOfPoints()));
-    this->Corner = this->Cell->GetCellType() == VTK_HEXAHEDRON ? 0.5 : 0.25;
-  }
-
-  /** Scalar times length, and the length, in the cell. */
-  glm::dvec2 Integrate(const WorldRay& ray)
-  {
-    // The cells lie within 2 of the origin, and the ray is parametrised from its nearest point.
-    const double middle = -glm::dot(ray.Origin, ray.Direction);
-    constexpr int samples = 80;
-    constexpr int fine = 16;
-    constexpr double half = 2.0;
-    constexpr double step = 2.0 * half / samples;
-    // Next to a side the ray may leave the cell and come back between two samples.
-    constexpr double near = 0.1;
-    glm::dvec2 sum(0.0);
-    double begin = 0.0;
-    double last = middle - half;
-    double before = this->DepthInside(ray, last);
-    for (int i = 1; i <= samples; ++i)
-    {
-      const double end = middle - half + step * i;
-      const double there = this->DepthInside(ray, end);
-      const int parts = std::min(std::abs(before), std::abs(there)) < near ? fine : 1;
-      for (int part = 1; part <= parts; ++part)
-      {
-        const double s = end - step * (parts - part) / parts;
-        const double now = part == parts ? there : this->DepthInside(ray, s);
-        if (before < 0.0 && now >= 0.0)
-        {
-          begin = this->FindEnd(ray, last, s);
-        }
-        else if (before >= 0.0 && now < 0.0)
-        {
-          sum += this->Sum(ray, begin, this->FindEnd(ray, s, last));
-        }
-        before = now;
-        last = s;
-      }
-    }
-    return sum;
-  }
-
-private:
-  glm::dvec3 Position(const glm::dvec3& place)
-  {
-    this->Weigh(place);
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < this->Weights.size(); ++i)
-    {
-      double at[3];
-      this->Cell->GetPoints()->GetPoint(static_cast<vtkIdType>(i), at);
-      sum += this->Weights[i] * glm::dvec3(at[0], at[1], at[2]);
-    }
-    return sum;
-  }
-  void Weigh(const glm::dvec3& place)
-  {
-    const double at[3] = { place.x, place.y, place.z };
-    this->Cell->InterpolateFunctions(at, this->Weights.data());
-  }
-
-  /** Finds the parametric coordinates of a point of the ray by Newton's method. */
-  bool Invert(const WorldRay& ray, double s)
-  {
-    const glm::dvec3 target = ray.Origin + s * ray.Direction;
-    glm::dvec3 place(this->Corner);
-    for (int i = 0; i < 60; ++i)
-    {
-      const glm::dvec3 miss = target - this->Position(place);
-      constexpr double h = 1e-5;
-      glm::dmat3 slope;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        glm::dvec3 step(0.0);
-        step[axis] = h;
-        slope[axis] = (this->Position(place + step) - this->Position(place - step)) / (2.0 * h);
-      }
-      glm::dvec3 move = glm::inverse(slope) * miss;
-      const double length = glm::length(move);
-      move *= length > 0.3 ? 0.3 / length : 1.0;
-      place += move;
-      if (!(length < 1e3))
-      {
-        return false;
-      }
-      if (length < 1e-12)
-      {
-        this->Place = place;
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /** Smallest distance from a side in parametric coordinates; negative outside. */
-  double DepthInside(const WorldRay& ray, double s)
-  {
-    if (!this->Invert(ray, s))
-    {
-      return -1.0;
-    }
-    const glm::dvec3& p = this->Place;
-    double depth = std::min({ p.x, p.y, p.z });
-    switch (this->Cell->GetCellType())
-    {
-      case VTK_HEXAHEDRON:
-      case VTK_QUADRATIC_HEXAHEDRON:
-      case VTK_TRIQUADRATIC_HEXAHEDRON:
-      case VTK_LAGRANGE_HEXAHEDRON:
-      case VTK_PYRAMID:
-      case VTK_QUADRATIC_PYRAMID:
-        return std::min({ depth, 1.0 - p.x, 1.0 - p.y, 1.0 - p.z });
-      case VTK_WEDGE:
-      case VTK_QUADRATIC_WEDGE:
-      case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-        return std::min({ depth, 1.0 - p.x - p.y, 1.0 - p.z });
-      default:
-        return std::min(depth, 1.0 - p.x - p.y - p.z);
-    }
-  }
-
-  /** The end of the stretch between a place outside and one inside. */
-  double FindEnd(const WorldRay& ray, double outside, double inside)
-  {
-    for (int i = 0; i < 36; ++i)
-    {
-      const double middle = 0.5 * (outside + inside);
-      (this->DepthInside(ray, middle) >= 0.0 ? inside : outside) = middle;
-    }
-    return inside;
-  }
-
-  /** Gauss' rule of three points in panels. */
-  glm::dvec2 Sum(const WorldRay& ray, double begin, double end)
-  {
-    constexpr int panels = 4;
-    constexpr double nodes[3] = { -0.7745966692414834, 0.0, 0.7745966692414834 };
-    constexpr double weights[3] = { 5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0 };
-    const double width = (end - begin) / panels;
-    double sum = 0.0;
-    for (int panel = 0; panel < panels; ++panel)
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        EXPECT_TRUE(this->Invert(ray, begin + width * (panel + 0.5 + 0.5 * nodes[i])));
-        this->Weigh(this->Place);
-        double value = 0.0;
-        for (std::size_t k = 0; k < this->Weights.size(); ++k)
-        {
-          value += this->Weights[k] *
-            this->Scalars->GetTuple1(this->Cell->GetPointId(static_cast<int>(k)));
-        }
-        sum += weights[i] * width * value;
-      }
-    }
-    return { sum, end - begin };
-  }
-
-  vtkDataArray* Scalars;
-  vtkNew<vtkGenericCell> Cell;
-  std::vector<double> Weights;
-  double Corner;
-  glm::dvec3 Place{ 0.0 };
-};
 
 Filter MakeAdaptive(vtkDataObject* input, int size)
 {
@@ -350,114 +99,6 @@ double ErrorOf(vtkTetrahedraRayIntegral* rays, const std::vector<glm::dvec2>& tr
   return worst / most.x;
 }
 
-/** n^3 cubes in [-1, 1]^3, each column of one cell type, with inner points moved. */
-Grid MakeMixedBlock(int n, bool quadratic, unsigned int seed)
-{
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> move(-0.2 / n, 0.2 / n);
-  std::uniform_real_distribution<double> value(0.0, 1.0);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> scalars;
-  scalars->SetName("s");
-  const auto add = [&](glm::dvec3 at)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      at[axis] += std::abs(at[axis]) < 1.0 - 1e-9 ? move(random) : 0.0;
-    }
-    scalars->InsertNextValue(value(random));
-    return points->InsertNextPoint(at.x, at.y, at.z);
-  };
-  std::vector<vtkIdType> corners;
-  for (int i = 0; i < (n + 1) * (n + 1) * (n + 1); ++i)
-  {
-    corners.push_back(
-      add(2.0 / n * glm::dvec3(i % (n + 1), i / (n + 1) % (n + 1), i / (n + 1) / (n + 1)) - 1.0));
-  }
-  std::map<std::pair<vtkIdType, vtkIdType>, vtkIdType> middles;
-  const auto middleOf = [&](vtkIdType a, vtkIdType b)
-  {
-    const auto key = std::minmax(a, b);
-    auto found = middles.find(key);
-    if (found == middles.end())
-    {
-      glm::dvec3 p[2];
-      points->GetPoint(a, &p[0].x);
-      points->GetPoint(b, &p[1].x);
-      found = middles.emplace(key, add(0.5 * (p[0] + p[1]))).first;
-    }
-    return found->second;
-  };
-  Grid grid = Grid::New();
-  grid->SetPoints(points);
-  const auto addCell = [&](int linear, int curved, std::vector<vtkIdType> ids)
-  {
-    static const std::map<int, std::vector<std::pair<int, int>>> edges{
-      { VTK_TETRA, { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } } },
-      { VTK_PYRAMID,
-        { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } } },
-      { VTK_WEDGE,
-        { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 }, { 1, 4 },
-          { 2, 5 } } },
-      { VTK_HEXAHEDRON,
-        { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 },
-          { 1, 5 }, { 2, 6 }, { 3, 7 } } }
-    };
-    const std::vector<vtkIdType> ends = ids;
-    for (const auto& edge : edges.at(linear))
-    {
-      if (quadratic)
-      {
-        ids.push_back(middleOf(
-          ends[static_cast<std::size_t>(edge.first)], ends[static_cast<std::size_t>(edge.second)]));
-      }
-    }
-    grid->InsertNextCell(
-      quadratic ? curved : linear, static_cast<vtkIdType>(ids.size()), ids.data());
-  };
-  for (int c = 0; c < n * n * n; ++c)
-  {
-    vtkIdType h[8];
-    for (std::size_t i = 0; i < 8; ++i)
-    {
-      const int x = c % n + static_cast<int>(Hexahedron[i].x);
-      const int y = c / n % n + static_cast<int>(Hexahedron[i].y);
-      const int z = c / n / n + static_cast<int>(Hexahedron[i].z);
-      h[i] = corners[static_cast<std::size_t>((z * (n + 1) + y) * (n + 1) + x)];
-    }
-    // Columns along y: wedges share their triangles with wedges only.
-    switch ((c % n + c / n / n) % 3)
-    {
-      case 0:
-        addCell(VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, { h, h + 8 });
-        break;
-      case 1:
-        addCell(VTK_WEDGE, VTK_QUADRATIC_WEDGE, { h[0], h[1], h[4], h[3], h[2], h[7] });
-        addCell(VTK_WEDGE, VTK_QUADRATIC_WEDGE, { h[1], h[5], h[4], h[2], h[6], h[7] });
-        break;
-      default:
-      {
-        glm::dvec3 center(0.0);
-        for (const vtkIdType id : h)
-        {
-          glm::dvec3 p;
-          points->GetPoint(id, &p.x);
-          center += p / 8.0;
-        }
-        const vtkIdType apex = add(center);
-        for (const std::array<int, 4>& f : { std::array<int, 4>{ 0, 1, 2, 3 }, { 4, 7, 6, 5 },
-               { 0, 4, 5, 1 }, { 3, 2, 6, 7 }, { 0, 3, 7, 4 }, { 1, 5, 6, 2 } })
-        {
-          addCell(VTK_PYRAMID, VTK_QUADRATIC_PYRAMID, { h[f[0]], h[f[1]], h[f[2]], h[f[3]], apex });
-        }
-      }
-    }
-  }
-  grid->GetPointData()->SetScalars(scalars);
-  return grid;
-}
-
 void ExpectOneError(vtkTetrahedraRayIntegral* rays, const std::string& text)
 {
   vtkNew<ErrorObserver> observer;
@@ -494,53 +135,6 @@ vtkSmartPointer<vtkImageData> MakeImage(int n)
   return image;
 }
 
-/** Integral of the trilinear field of an image in [-1, 1]^3: a cubic in each voxel. */
-double IntegrateImage(vtkImageData* image, int n, const WorldRay& ray)
-{
-  std::vector<double> cuts;
-  double begin = -1e30;
-  double end = 1e30;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double o = ray.Origin[axis];
-    const double d = ray.Direction[axis];
-    begin = std::max(begin, std::min((-1.0 - o) / d, (1.0 - o) / d));
-    end = std::min(end, std::max((-1.0 - o) / d, (1.0 - o) / d));
-    for (int i = 0; i <= n; ++i)
-    {
-      cuts.push_back((-1.0 + 2.0 * i / n - o) / d);
-    }
-  }
-  std::sort(cuts.begin(), cuts.end());
-  const auto valueAt = [&](double s)
-  {
-    const glm::dvec3 at = 0.5 * n * (ray.Origin + s * ray.Direction + 1.0);
-    const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(at)), 0, n - 1);
-    const glm::dvec3 t = at - glm::dvec3(cell);
-    double value = 0.0;
-    for (const glm::dvec3& c : Hexahedron)
-    {
-      const glm::dvec3 w = c * t + (1.0 - c) * (1.0 - t);
-      const glm::ivec3 p = cell + glm::ivec3(c);
-      value += w.x * w.y * w.z *
-        image->GetPointData()->GetScalars()->GetTuple1((p.z * (n + 1) + p.y) * (n + 1) + p.x);
-    }
-    return value;
-  };
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-  {
-    const double a = std::max(cuts[i], begin);
-    const double b = std::min(cuts[i + 1], end);
-    // Gauss' rule of two points is exact for cubics.
-    const double offset = 0.5 * (b - a) / std::sqrt(3.0);
-    sum += b > a
-      ? 0.5 * (b - a) * (valueAt(0.5 * (a + b) - offset) + valueAt(0.5 * (a + b) + offset))
-      : 0.0;
-  }
-  return sum;
-}
-
 void SetScalars(vtkDataSet* grid, const std::function<double(const glm::dvec3&)>& field)
 {
   vtkNew<vtkDoubleArray> scalars;
@@ -562,7 +156,7 @@ class TrueCellTypes : public testing::TestWithParam<std::size_t>
 
 TEST_P(TrueCellTypes, IntegralsFollowTheShapeFunctions)
 {
-  const CellCase& shape = Cases[GetParam()];
+  const CellCase& shape = CellCases[GetParam()];
   const Grid grid = MakeCell(shape, shape.Displacement, 3);
   const Filter rays = MakeAdaptive(grid, 10);
   rays->Update();
@@ -573,7 +167,7 @@ TEST_P(TrueCellTypes, IntegralsFollowTheShapeFunctions)
   const double adaptive = ErrorOf(rays, truth);
   // The error that is stated for the default tolerances.
   EXPECT_LE(adaptive, 1.0e-4);
-  std::printf("%-34s %8lld tetrahedra, error %.2g", shape.Name.c_str(),
+  std::printf("%-34s %8lld tetrahedra, error %.2g", shape.Name,
     static_cast<long long>(rays->GetNumberOfTetrahedra()), adaptive);
   rays->SetCellDivisionToFixed();
   rays->Update();
@@ -587,13 +181,13 @@ TEST_P(TrueCellTypes, IntegralsFollowTheShapeFunctions)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  AllTypes, TrueCellTypes, testing::Range(std::size_t{ 0 }, std::size(Cases)));
+  AllTypes, TrueCellTypes, testing::Range(std::size_t{ 0 }, std::size(CellCases)));
 
 TEST(TrueCells, TheErrorConvergesWithTheTolerances)
 {
   for (const std::size_t i : { 0, 3, 9 })
   {
-    const CellCase& shape = Cases[i];
+    const CellCase& shape = CellCases[i];
     SCOPED_TRACE(shape.Name);
     const Grid grid = MakeCell(shape, 0.06, 5);
     const Filter rays = MakeAdaptive(grid, 12);
@@ -610,8 +204,8 @@ TEST(TrueCells, TheErrorConvergesWithTheTolerances)
       rays->Update();
       error = ErrorOf(rays, truth);
       first = first == 0.0 ? error : first;
-      std::printf("%-34s tolerance %.2g: %8lld tetrahedra, error %.2g\n", shape.Name.c_str(),
-        tolerance, static_cast<long long>(rays->GetNumberOfTetrahedra()), error);
+      std::printf("%-34s tolerance %.2g: %8lld tetrahedra, error %.2g\n", shape.Name, tolerance,
+        static_cast<long long>(rays->GetNumberOfTetrahedra()), error);
       // The displaced ends of a ray's way, which meets sides at an angle, and the value.
       EXPECT_LE(error, 4.0 * tolerance);
       EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
@@ -770,7 +364,7 @@ TEST(TrueCells, CellsOfTheInputAreKnown)
 
 TEST(TrueCells, BadSettingsAreErrors)
 {
-  const Grid grid = MakeCell(Cases[0], 0.05, 2);
+  const Grid grid = MakeCell(CellCases[0], 0.05, 2);
   const Filter rays = MakeCoarse(grid, 8);
   for (const double bad : { 0.0, -1.0, NaN })
   {
@@ -791,7 +385,7 @@ TEST(TrueCells, BadSettingsAreErrors)
 TEST(TrueCells, OddCellsAreCounted)
 {
   // Folded: one corner is pushed through the opposite one.
-  Grid grid = MakeCell(Cases[0], 0.0, 2);
+  Grid grid = MakeCell(CellCases[0], 0.0, 2);
   const auto movePoint = [&grid](vtkIdType i, double x, double y, double z)
   {
     grid->GetPoints()->SetPoint(i, x, y, z);
@@ -809,7 +403,7 @@ TEST(TrueCells, OddCellsAreCounted)
   // A point that is not finite, and a repeated one: linear, without the parts that cannot be drawn.
   for (const bool repeated : { false, true })
   {
-    grid = MakeCell(Cases[0], 0.0, 2);
+    grid = MakeCell(CellCases[0], 0.0, 2);
     vtkIdType ids[8] = { 0, 1, 2, 2, 4, 5, 6, 6 };
     if (repeated)
     {
@@ -829,7 +423,7 @@ TEST(TrueCells, OddCellsAreCounted)
     EXPECT_EQ(rays->GetNumberOfCellDivisions(), 0);
   }
   // A point out of range is not read.
-  grid = MakeCell(Cases[0], 0.05, 2);
+  grid = MakeCell(CellCases[0], 0.05, 2);
   const vtkIdType bad[8] = { 0, 1, 2, 3, 4, 5, 6, 1000000 };
   const vtkIdType good[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
   grid->GetCells()->ReplaceCellAtId(0, 8, bad);
@@ -841,7 +435,7 @@ TEST(TrueCells, OddCellsAreCounted)
   EXPECT_GT(rays->GetNumberOfRejectedCells(), 0);
   EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
   // A type without a volume is left out, and the others are drawn.
-  grid = MakeCell(Cases[0], 0.05, 2);
+  grid = MakeCell(CellCases[0], 0.05, 2);
   grid->InsertNextCell(VTK_QUAD, 4, good);
   rays = MakeCoarse(grid, 16);
   vtkNew<ErrorObserver> fourth;
@@ -855,7 +449,7 @@ TEST(TrueCells, OddCellsAreCounted)
 TEST(TrueCells, LengthsOfInterpolatedVectorsAreDrawn)
 {
   // A vector that turns along z: its length is 1 at the points and less between them.
-  const Grid grid = MakeCell(Cases[0], 0.0, 2);
+  const Grid grid = MakeCell(CellCases[0], 0.0, 2);
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName("v");
   vectors->SetNumberOfComponents(3);
