@@ -459,6 +459,12 @@ void vtkTetrahedraRayCastRepresentation::SetDivisionScalarTolerance(double toler
 }
 
 //------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMaximumNumberOfPieces(int pieces)
+{
+  this->Mapper->SetMaximumNumberOfPieces(pieces);
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetEarlyTerminationOpacity(double opacity)
 {
   this->Mapper->SetEarlyTerminationOpacity(opacity);

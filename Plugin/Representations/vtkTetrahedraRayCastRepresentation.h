@@ -75,6 +75,7 @@ public:
   void SetCellDivision(int division);
   void SetDivisionPlaceTolerance(double tolerance);
   void SetDivisionScalarTolerance(double tolerance);
+  void SetMaximumNumberOfPieces(int pieces);
   void SetEarlyTerminationOpacity(double opacity);
   void SetAutoAdjustSampleDistances(bool adjust);
   void SetImageSampleDistance(double distance);

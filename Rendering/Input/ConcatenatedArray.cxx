@@ -75,32 +75,53 @@ ConcatenatedArray::ConcatenatedArray(
   {
     this->Firsts.push_back(next);
     next += part.Scalars->GetNumberOfTuples();
-    this->MostComponents = std::max(this->MostComponents, part.Scalars->GetNumberOfComponents());
   }
 }
 
 //------------------------------------------------------------------------------
-double ConcatenatedArray::ValueOf(std::int32_t number, int component) const
+ConcatenatedArray::Tuple ConcatenatedArray::Find(std::int32_t number) const
 {
   const auto after = std::upper_bound(this->Firsts.begin() + 1, this->Firsts.end(), number);
   const auto part = static_cast<std::size_t>(after - this->Firsts.begin()) - 1;
-  vtkDataArray* array = this->Input.Parts[part].Scalars;
-  const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
-  return component == ScalarSelection::Magnitude
-    ? LengthOf(array, tuple)
-    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : component);
+  return { this->Input.Parts[part].Scalars, static_cast<vtkIdType>(number - this->Firsts[part]) };
+}
+
+//------------------------------------------------------------------------------
+double ConcatenatedArray::ValueOf(std::int32_t number) const
+{
+  const Tuple tuple = this->Find(number);
+  return this->Component == ScalarSelection::Magnitude
+    ? LengthOf(tuple.Array, tuple.Number)
+    : tuple.Array->GetComponent(
+        tuple.Number, tuple.Array->GetNumberOfComponents() == 1 ? 0 : this->Component);
+}
+
+//------------------------------------------------------------------------------
+double ConcatenatedArray::GetComponent(std::int32_t number, int component) const
+{
+  const Tuple tuple = this->Find(number);
+  return component < tuple.Array->GetNumberOfComponents()
+    ? tuple.Array->GetComponent(tuple.Number, component)
+    : 0.0;
 }
 
 //------------------------------------------------------------------------------
 /** Length of the interpolated tuple, which is not the interpolated length. */
 double ConcatenatedArray::InterpolatedLength(std::int32_t number) const
 {
-  double length = 0.0;
-  for (int component = 0; component < this->MostComponents; ++component)
+  // The points of a row are those of one cell, and so of one part.
+  int components = 1;
+  double length = this->Points->Interpolate(number,
+    [&](std::int32_t point)
+    {
+      components = this->Find(point).Array->GetNumberOfComponents();
+      return this->GetComponent(point, 0);
+    });
+  for (int component = 1; component < components; ++component)
   {
     length = std::hypot(length,
-      this->Points->Interpolate(
-        number, [this, component](std::int32_t point) { return this->ValueOf(point, component); }));
+      this->Points->Interpolate(number,
+        [this, component](std::int32_t point) { return this->GetComponent(point, component); }));
   }
   return length;
 }
@@ -110,14 +131,14 @@ double ConcatenatedArray::operator()(std::int32_t number) const
 {
   if (!this->Points || number < this->Points->GetFirstPoint())
   {
-    return this->ValueOf(number, this->Component);
+    return this->ValueOf(number);
   }
-  if (this->Component == ScalarSelection::Magnitude && this->MostComponents > 1)
+  if (this->Component == ScalarSelection::Magnitude)
   {
     return this->InterpolatedLength(number);
   }
   return this->Points->Interpolate(
-    number, [this](std::int32_t point) { return this->ValueOf(point, this->Component); });
+    number, [this](std::int32_t point) { return this->ValueOf(point); });
 }
 
 //------------------------------------------------------------------------------

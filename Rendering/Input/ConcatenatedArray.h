@@ -7,8 +7,12 @@
 #include "Volume/Division/WeightedPoints.h"
 #include "Volume/Optics/ScalarNormalization.h"
 
+#include "vtkType.h"
+
 #include <cstdint>
 #include <vector>
+
+class vtkDataArray;
 
 namespace meniscus
 {
@@ -27,16 +31,23 @@ public:
     const InputBlocks& input, int component, const WeightedPoints* points = nullptr);
 
   double operator()(std::int32_t number) const;
+  /** A component of a tuple of the arrays; 0 beyond those of its part. */
+  double GetComponent(std::int32_t number, int component) const;
 
 private:
-  double ValueOf(std::int32_t number, int component) const;
+  /** A tuple of one part. */
+  struct Tuple
+  {
+    vtkDataArray* Array;
+    vtkIdType Number;
+  };
+  Tuple Find(std::int32_t number) const;
+  double ValueOf(std::int32_t number) const;
   double InterpolatedLength(std::int32_t number) const;
 
   const InputBlocks& Input;
   int Component;
   const WeightedPoints* Points;
-  /** Largest number of components. */
-  int MostComponents = 1;
   std::vector<std::int64_t> Firsts;
 };
 

@@ -78,7 +78,9 @@ PointFields FieldsOf(
   fields.IsLength = request.Component == ScalarSelection::Magnitude && components.size() > 1;
   for (const int component : components)
   {
-    const ConcatenatedArray valueOf(request.Fields, component);
+    const ConcatenatedArray array(request.Fields, component);
+    const auto valueOf = [&](std::int32_t point)
+    { return fields.IsLength ? array.GetComponent(point, component) : array(point); };
     std::vector<double> values(static_cast<std::size_t>(fields.NumberOfPoints));
     ForEachBlock(values.size(), loop,
       [&](std::size_t, std::size_t first, std::size_t last)
@@ -93,8 +95,8 @@ PointFields FieldsOf(
   return fields;
 }
 
-/** Difference between the largest and the smallest value that are finite. */
-double RangeOf(const PointFields& fields, std::size_t field)
+/** Smallest and largest value that are finite. */
+ScalarRange RangeOf(const PointFields& fields, std::size_t field)
 {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -111,19 +113,47 @@ double RangeOf(const PointFields& fields, std::size_t field)
       highest = std::max(highest, value);
     }
   }
-  return lowest <= highest ? highest - lowest : 0.0;
+  return lowest <= highest ? ScalarRange{ lowest, highest } : ScalarRange{ 0.0, 0.0 };
+}
+
+/** Largest magnitude of the coordinates that are finite. */
+double LargestCoordinate(const PointFields& fields)
+{
+  double most = 0.0;
+  for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
+  {
+    const glm::dvec3 at = glm::abs(fields.Points[static_cast<std::size_t>(p)]);
+    most = IsFinite(at) ? std::max({ most, at.x, at.y, at.z }) : most;
+  }
+  return most;
+}
+
+/**
+ * Bound of the rounding error of an interpolated value, for values up to `most` in magnitude. A
+ * division cannot resolve smaller differences. In a hexahedron of order 3 a weight takes 23
+ * roundings (three cubic polynomials of 7 and two products) and the sum of 64 products 63; the
+ * magnitudes of the weights add up to at most 1.64^3 = 4.4, so 379 roundings are the most. Cells of
+ * higher orders have larger bounds, but rounding errors do not all have one sign.
+ */
+double RoundingOf(double most)
+{
+  return 512.0 * std::numeric_limits<double>::epsilon() * most;
 }
 
 /** @param slack factor of the tolerances. */
 DivisionLimits LimitsOf(const DivisionSettings& settings, const PointFields& fields, double slack)
 {
   DivisionLimits limits;
-  limits.Place = slack * settings.PlaceTolerance * DiagonalOf(fields);
+  limits.Place = std::max(
+    slack * settings.PlaceTolerance * DiagonalOf(fields), RoundingOf(LargestCoordinate(fields)));
   limits.MostPieces =
     std::min<std::int64_t>(settings.MostPieces, TetrahedralMesh::MaximumNumberOfCells);
   for (std::size_t field = 0; field < fields.GetNumberOfFields(); ++field)
   {
-    limits.Values[field] = slack * settings.ScalarTolerance * RangeOf(fields, field);
+    const ScalarRange range = RangeOf(fields, field);
+    limits.Values[field] =
+      std::max(slack * settings.ScalarTolerance * (range.Highest - range.Lowest),
+        RoundingOf(std::max(std::abs(range.Lowest), std::abs(range.Highest))));
   }
   return limits;
 }
@@ -143,6 +173,22 @@ const RangeLoop& LoopFor(const std::vector<vtkDataSet*>& grids, const RangeLoop&
 {
   static const RangeLoop serial = SerialLoop;
   return std::all_of(grids.begin(), grids.end(), IsThreadSafe) ? loop : serial;
+}
+
+/** True if there are types of cells with shape functions of a higher degree. */
+bool MayBeCurved(const std::vector<vtkDataSet*>& grids)
+{
+  for (vtkDataSet* grid : grids)
+  {
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      if (ShapeOf(grid->GetCellType(cell)).Degree != 0)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 /** Tetrahedra between corners as pieces of their cells. */
@@ -269,11 +315,15 @@ void DividedCells::Clear()
 }
 
 //------------------------------------------------------------------------------
-DivisionStatus DividedCells::Divide(
-  const DivisionRequest& request, const RangeLoop& loop, const std::function<bool()>& goOn)
+DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeLoop& loop,
+  const std::function<bool(double)>& progress)
 {
   this->Clear();
   const std::vector<vtkDataSet*> grids = GridsOf(request.Fields);
+  if (!MayBeCurved(grids))
+  {
+    return DivisionStatus::Ok;
+  }
   const PointsSource points(grids, loop);
   std::vector<CellPiece> pieces;
   std::vector<CellPiece> invalid;
@@ -283,10 +333,6 @@ DivisionStatus DividedCells::Divide(
     this->MatchPositions = view.MatchPositions;
     this->Omitted = source.DescribeOmitted();
     this->PositionsDecide = source.SplitsByPosition();
-    if (!view.SourceCells)
-    {
-      return DivisionStatus::Ok; // tetrahedra only
-    }
     PieceCollector collector(grids, view, points.GetView());
     collector.Collect(pieces, invalid);
     this->Used = collector.HasCurved();
@@ -299,7 +345,7 @@ DivisionStatus DividedCells::Divide(
   const PointFields fields = FieldsOf(request, points, loop);
   const DivisionStatus status = this->Division.Divide(
     std::move(pieces), fields, [&grids]() { return std::make_unique<GridShapeFunctions>(grids); },
-    LimitsOf(request.Settings, fields, 1.0), LoopFor(grids, loop), goOn);
+    LimitsOf(request.Settings, fields, 1.0), LoopFor(grids, loop), progress);
   if (status != DivisionStatus::Ok)
   {
     return status;
@@ -315,7 +361,7 @@ DivisionStatus DividedCells::Divide(
     }
   }
   this->Division.ForgetPieces();
-  this->Positions = this->ComputePositions(request.Fields, loop);
+  this->Positions = this->ComputePositions(points, loop);
   return status;
 }
 
@@ -356,7 +402,13 @@ bool DividedCells::Holds(const DivisionRequest& request, const RangeLoop& loop) 
 std::vector<double> DividedCells::ComputePositions(
   const InputBlocks& input, const RangeLoop& loop) const
 {
-  const PointsSource points(GridsOf(input), loop);
+  return this->ComputePositions(PointsSource(GridsOf(input), loop), loop);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> DividedCells::ComputePositions(
+  const PointsSource& points, const RangeLoop& loop) const
+{
   const PointsView& view = points.GetView();
   const std::int64_t size = points.GetNumberOfPoints() + this->GetPoints().GetSize();
   std::vector<double> positions(3 * static_cast<std::size_t>(size));

@@ -16,6 +16,8 @@
 namespace meniscus
 {
 
+class PointsSource;
+
 /** Settings of the division of cells, as the user gives them. */
 struct DivisionSettings
 {
@@ -27,10 +29,13 @@ struct DivisionSettings
   double ScalarTolerance = 5e-5;
   std::int64_t MostPieces = std::int64_t{ 1 } << 25;
 
-  bool operator==(const DivisionSettings& other) const
+  /** True if cells are divided alike; the limit of pieces is not compared. */
+  bool DividesAs(const DivisionSettings& other) const
   {
-    return this->IsAdaptive == other.IsAdaptive && this->PlaceTolerance == other.PlaceTolerance &&
-      this->ScalarTolerance == other.ScalarTolerance && this->MostPieces == other.MostPieces;
+    return this->IsAdaptive == other.IsAdaptive &&
+      (!this->IsAdaptive ||
+        (this->PlaceTolerance == other.PlaceTolerance &&
+          this->ScalarTolerance == other.ScalarTolerance));
   }
   /** Reason why the settings cannot be used; empty if they can. */
   std::string DescribeFault() const;
@@ -54,8 +59,8 @@ public:
    * Divides the cells. Those without shape functions (polyhedra, prisms) and those with a repeated
    * or invalid point are linear: their tetrahedra are only divided as their neighbours ask for.
    */
-  DivisionStatus Divide(
-    const DivisionRequest& request, const RangeLoop& loop, const std::function<bool()>& goOn);
+  DivisionStatus Divide(const DivisionRequest& request, const RangeLoop& loop,
+    const std::function<bool(double)>& progress);
   /** Forgets the division. */
   void Clear();
   /** True if there are cells with shape functions of a higher degree; otherwise all is empty. */
@@ -86,6 +91,8 @@ public:
   std::int64_t GetBytes() const;
 
 private:
+  std::vector<double> ComputePositions(const PointsSource& points, const RangeLoop& loop) const;
+
   CellDivision Division;
   bool Used = false;
   bool MatchPositions = false;

@@ -48,17 +48,35 @@ InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
     this->PointWatch.HasChanged(PointVersions(input), [&input]() { return DigestPoints(input); });
   const bool newFields = this->HasNewFields(division);
   const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
-  const bool newDivision = !(division.Settings == this->BuiltDivision);
+  const bool newDivision = this->IsNewDivision(division.Settings);
   if (!newCells && !newPoints && !newFields && !lacksSources && !newDivision)
   {
+    report.Error = this->BuildError;
     return report;
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  const bool sameCells = !newCells && !lacksSources && !newDivision;
+  const bool sameCells = !newCells && !lacksSources && !newDivision && this->BuildError.empty();
   const bool holds = sameCells &&
     (!this->Divided.IsUsed() || this->Divided.Holds(division, ThreadedLoop)) &&
     (!newPoints || this->MovePoints(input));
-  return holds ? report : this->BuildMesh(GridsOf(input), progress, division);
+  if (!holds)
+  {
+    report = this->BuildMesh(GridsOf(input), progress, division);
+    this->BuildError = report.Error;
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+/** True if the mesh has to be divided for these settings. */
+bool VolumeInput::IsNewDivision(const DivisionSettings& settings)
+{
+  // Another limit makes no difference to a division that keeps it.
+  const bool sameLimit = settings.MostPieces == this->BuiltDivision.MostPieces ||
+    (this->BuildError.empty() && this->Divided.GetCounts().Pieces <= settings.MostPieces);
+  const bool same = settings.DividesAs(this->BuiltDivision) && sameLimit;
+  this->BuiltDivision = settings;
+  return !same;
 }
 
 //------------------------------------------------------------------------------
@@ -70,6 +88,10 @@ bool VolumeInput::HasNewFields(const DivisionRequest& division)
     return false;
   }
   const InputBlocks& fields = division.Fields;
+  if (fields.Place == FieldAssociation::Cells && this->DividedPlace == FieldAssociation::Cells)
+  {
+    return false; // constant in each cell
+  }
   const bool changed = this->FieldWatch.HasChanged(
     ScalarVersions(fields), [&fields]() { return DigestScalars(fields); });
   const bool same =
@@ -116,7 +138,6 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   this->MeshVersion.Bump();
   this->LinkVersion.Bump();
   this->InputCells = std::vector<std::int32_t>();
-  this->BuiltDivision = division.Settings;
   this->Divided.Clear();
 
   InputReport report;
@@ -139,12 +160,16 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   {
     return this->BuildFromCells(grids, control);
   }
-  const DivisionStatus status =
-    this->Divided.Divide(division, ThreadedLoop, [&progress]() { return progress(0.0); });
+  const DivisionStatus status = this->Divided.Divide(
+    division, ThreadedLoop, [&progress](double done) { return progress(0.5 * done); });
+  if (status == DivisionStatus::Ok && !this->Divided.IsUsed())
+  {
+    return this->BuildFromCells(grids, control);
+  }
   if (status == DivisionStatus::Ok)
   {
-    return this->Divided.IsUsed() ? this->BuildDivided(control)
-                                  : this->BuildFromCells(grids, control);
+    control.Progress = [&progress](double done) { return progress(0.5 + 0.5 * done); };
+    return this->BuildDivided(control);
   }
   this->Mesh = TetrahedralMesh();
   this->Divided.Clear();

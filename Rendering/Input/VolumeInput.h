@@ -139,6 +139,7 @@ private:
   void BuildTables(TetrahedraView view, const MeshBuildControl& control, const std::string& omitted,
     InputReport& report);
   bool HasNewFields(const DivisionRequest& division);
+  bool IsNewDivision(const DivisionSettings& settings);
   bool MovePoints(const InputBlocks& input);
 
   TetrahedralMesh Mesh;
@@ -158,6 +159,8 @@ private:
   DividedCells Divided;
   /** Settings and fields that the cells were divided for. */
   DivisionSettings BuiltDivision;
+  /** Error of the last build; empty if it succeeded. */
+  std::string BuildError;
   FieldAssociation DividedPlace = FieldAssociation::Points;
   int DividedComponent = 0;
   ContentWatch FieldWatch;

@@ -10,8 +10,12 @@ from paraview import servermanager, simple
 TOLERANCE = 1e-3
 
 
+def value(algorithm, name):
+    return int(re.search(r"^ *%s: (\d+)$" % name, str(algorithm), re.MULTILINE).group(1))
+
+
 def count(mapper, name):
-    return int(re.search(r"^ *NumberOf%s: (\d+)$" % name, str(mapper), re.MULTILINE).group(1))
+    return value(mapper, "NumberOf" + name)
 
 
 def test():
@@ -37,8 +41,10 @@ def check_frames(field):
     assert PluginTesting.screenshot(view, "true-cells-adaptive") != fixed
     assert count(mapper, "CellDivisions") == 1, "adaptive"
     view.CameraPosition = [3, 4, 5]
+    display.MaximumNumberOfPieces = 1000000
     simple.Render(view)
     assert count(mapper, "CellDivisions") == 1, "camera"
+    assert value(mapper, "MaximumNumberOfPieces") == 1000000
 
 
 def check_integrals(field):
@@ -47,6 +53,7 @@ def check_integrals(field):
                                         FrameAxis2=[0, 1, 0])
     rays.ScalarArray = ["POINTS", "product"]
     rays.DivisionScalarTolerance = TOLERANCE
+    rays.MaximumNumberOfPieces = 1000000
     worst = {}
     for division in "Fixed", "Adaptive":
         rays.CellDivision = division
@@ -58,6 +65,7 @@ def check_integrals(field):
     # 1.5 times the tolerance of the scalar along a way of 1, doubled for the cubic part.
     assert worst["Adaptive"] <= 2 * 1.5 * TOLERANCE, worst
     assert worst["Fixed"] > 0.01, worst
+    assert value(rays.GetClientSideObject(), "MaximumNumberOfPieces") == 1000000
 
 
 if __name__ == "__main__":

@@ -189,22 +189,31 @@ public:
     , Limits(limits)
     , Loop(loop)
     , Points(fields.NumberOfPoints)
+    , Samples(static_cast<std::size_t>(fields.NumberOfPoints))
     , Levels(static_cast<std::size_t>(fields.NumberOfPoints), 0)
   {
-    this->Samples.reserve(static_cast<std::size_t>(fields.NumberOfPoints));
-    for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
-    {
-      this->Samples.push_back(SampleAt(fields, static_cast<std::int32_t>(p)));
-    }
+    ForEachBlock(this->Samples.size(), loop,
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t p = first; p < last; ++p)
+        {
+          this->Samples[p] = SampleAt(fields, static_cast<std::int32_t>(p));
+        }
+      });
   }
 
   /** Returns false if no edge is to be divided. */
   bool Mark();
+  /** False if dividing the marked edges makes too many pieces or points. */
+  bool HasRoom() const;
   void AddPoints();
   /** Returns false if there are too many pieces. */
   bool Split();
 
-  std::int64_t GetNumberOfUnresolved() const { return this->Unresolved; }
+  std::int64_t GetNumberOfUnresolved() const
+  {
+    return static_cast<std::int64_t>(this->Unresolved.GetSize());
+  }
   WeightedPoints& GetPoints() { return this->Points; }
   const std::vector<CellSample>& GetSamples() const { return this->Samples; }
 
@@ -213,6 +222,8 @@ private:
   {
     EdgePoints Edge;
     EdgeOwner Owner;
+    /** True for an edge, or the longest one of a face or piece, beyond the limits. */
+    bool IsBeyond;
   };
 
   void TestEdges(std::vector<Wish>& wishes);
@@ -241,7 +252,8 @@ private:
   std::vector<double> Squares;
   /** 1 for points of marked edges. */
   std::vector<std::uint8_t> Touched;
-  std::int64_t Unresolved = 0;
+  /** Edges beyond the limits that are not divided. */
+  EdgeIndex Unresolved;
 };
 
 //------------------------------------------------------------------------------
@@ -296,7 +308,7 @@ void CellDivision::Round::TestEdges(std::vector<Wish>& wishes)
   {
     if (bent[i] != 0)
     {
-      wishes.push_back({ edges.GetEdges()[i], owners[i] });
+      wishes.push_back({ edges.GetEdges()[i], owners[i], true });
     }
   }
 }
@@ -329,7 +341,7 @@ void CellDivision::Round::AddInside(ShapeTest& test, std::int32_t number, const 
   if (!test.IsMiddleStraight(piece, corners, count, this->Samples))
   {
     const int edge = this->LongestEdge(piece, corners, count);
-    wishes.push_back({ EdgeOf(piece, edge), { number, edge } });
+    wishes.push_back({ EdgeOf(piece, edge), { number, edge }, true });
   }
 }
 
@@ -368,7 +380,9 @@ void CellDivision::Round::TestInside(std::vector<Wish>& wishes) const
  * Adds the longest edges of triangles with an edge to divide that follows many halvings. A part of
  * an edge may be beyond the limits although the edge is within them: the two
  * shorter sides of a triangle would then be halved in turns for ever, since the points that this
- * adds approach a third of the longest side, which stays whole.
+ * adds approach a third of the longest side, which stays whole. Pieces that are linear are left
+ * out: their edges are halved for their neighbours only, and the points that this adds lie where
+ * the neighbours' shape functions say.
  */
 void CellDivision::Round::AddLongEdges(std::vector<Wish>& wishes) const
 {
@@ -387,13 +401,14 @@ void CellDivision::Round::AddLongEdges(std::vector<Wish>& wishes) const
     const CellPiece& piece = this->Pieces[p];
     for (const auto& face : Faces)
     {
-      const bool isLate = late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||
-        late.Find(EdgeOf(piece, face.Edges[1])) != EdgeIndex::None ||
-        late.Find(EdgeOf(piece, face.Edges[2])) != EdgeIndex::None;
+      const bool isLate = piece.Degree > 0 &&
+        (late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||
+          late.Find(EdgeOf(piece, face.Edges[1])) != EdgeIndex::None ||
+          late.Find(EdgeOf(piece, face.Edges[2])) != EdgeIndex::None);
       if (isLate)
       {
         const int edge = this->LongestEdge(piece, face.Corners, 3);
-        wishes.push_back({ EdgeOf(piece, edge), { static_cast<std::int32_t>(p), edge } });
+        wishes.push_back({ EdgeOf(piece, edge), { static_cast<std::int32_t>(p), edge }, false });
       }
     }
   }
@@ -425,7 +440,12 @@ bool CellDivision::Round::Mark()
     }
     if (this->LevelOf(edge) >= this->Limits.MostLevels)
     {
-      ++this->Unresolved;
+      // The sort is stable, so the first wish for an edge is one beyond the limits, if there is
+      // one.
+      if (wishes[i].IsBeyond)
+      {
+        this->Unresolved.Add(edge);
+      }
       continue;
     }
     this->Marked.Add(edge);
@@ -435,6 +455,15 @@ bool CellDivision::Round::Mark()
     this->Touched[static_cast<std::size_t>(edge.Second)] = 1;
   }
   return this->Marked.GetSize() > 0;
+}
+
+//------------------------------------------------------------------------------
+bool CellDivision::Round::HasRoom() const
+{
+  // Each marked edge halves one piece at least.
+  const std::size_t count = this->Marked.GetSize();
+  return static_cast<std::int64_t>(this->Pieces.size() + count) <= this->Limits.MostPieces &&
+    this->Samples.size() + count <= std::numeric_limits<std::int32_t>::max();
 }
 
 //------------------------------------------------------------------------------
@@ -527,20 +556,20 @@ void CellDivision::Round::SplitPiece(const CellPiece& piece, std::vector<CellPie
 bool CellDivision::Round::Split()
 {
   std::vector<std::vector<CellPiece>> parts(NumberOfBlocks(this->Pieces.size()));
+  std::atomic<std::size_t> size(0);
+  const auto most = static_cast<std::size_t>(this->Limits.MostPieces);
   ForEachBlock(this->Pieces.size(), this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      for (std::size_t p = first; p < last; ++p)
+      // Blocks that come after the limit are not split, so as not to take more memory.
+      for (std::size_t p = first; size.load(std::memory_order_relaxed) <= most && p < last; ++p)
       {
+        const std::size_t before = parts[block].size();
         this->SplitPiece(this->Pieces[p], parts[block]);
+        size.fetch_add(parts[block].size() - before, std::memory_order_relaxed);
       }
     });
-  std::size_t size = 0;
-  for (const std::vector<CellPiece>& some : parts)
-  {
-    size += some.size();
-  }
-  if (static_cast<std::int64_t>(size) > this->Limits.MostPieces)
+  if (size > most)
   {
     return false;
   }
@@ -557,7 +586,7 @@ bool CellDivision::Round::Split()
 //------------------------------------------------------------------------------
 DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFields& fields,
   const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
-  const std::function<bool()>& goOn)
+  const std::function<bool(double)>& progress)
 {
   this->Pieces = std::move(pieces);
   this->Counts = DivisionCounts();
@@ -566,18 +595,35 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
     piece.NewEdges = piece.Degree > 0 ? EveryEdge : 0;
   }
   Round round(this->Pieces, fields, functions, limits, loop);
+  // The first rounds take little time. Most divisions end within thirty.
+  double rounds = 0.0;
+  const auto goesOn = [&](double share)
+  {
+    rounds += share;
+    return progress(1.0 - std::exp2(-rounds / 8.0));
+  };
   while (round.Mark())
   {
-    if (!goOn())
+    if (!round.HasRoom())
+    {
+      return DivisionStatus::TooLarge;
+    }
+    if (!goesOn(0.5))
     {
       return DivisionStatus::Aborted;
     }
     round.AddPoints();
-    if (fields.NumberOfPoints + round.GetPoints().GetSize() >
-        std::numeric_limits<std::int32_t>::max() ||
-      !round.Split())
+    if (!goesOn(0.25))
+    {
+      return DivisionStatus::Aborted;
+    }
+    if (!round.Split())
     {
       return DivisionStatus::TooLarge;
+    }
+    if (!goesOn(0.25))
+    {
+      return DivisionStatus::Aborted;
     }
   }
   this->Points = std::move(round.GetPoints());

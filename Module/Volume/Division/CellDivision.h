@@ -64,7 +64,7 @@ struct DivisionCounts
   std::int64_t Pieces = 0;
   /** Edges that were divided: as many as there are new points. */
   std::int64_t DividedEdges = 0;
-  /** Edges beyond the tolerance that were not divided, because of DivisionLimits::MostLevels. */
+  /** Edges found beyond the tolerance that were not divided, because of MostLevels. */
   std::int64_t UnresolvedEdges = 0;
   /** Cells that are folded: pieces with either orientation overlap by more than the tolerance. */
   std::int64_t FoldedCells = 0;
@@ -92,11 +92,12 @@ public:
   /**
    * Divides the cells, which replaces earlier results.
    * @param pieces tetrahedra of the cells; those of one cell follow each other.
-   * @param goOn returns false to abort.
+   * @param progress called several times per round with the fraction done, an estimate, since the
+   *   number of rounds is not known; returns false to abort.
    */
   DivisionStatus Divide(std::vector<CellPiece> pieces, const PointFields& fields,
     const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
-    const std::function<bool()>& goOn);
+    const std::function<bool(double)>& progress);
 
   /**
    * True if the edges of the pieces are within the limits for other positions or values of the

@@ -57,9 +57,24 @@ CellSample SampleOf(const PointFields& fields, const PointWeights& row)
 //------------------------------------------------------------------------------
 CellSample SampleAt(const PointFields& fields, std::int32_t point)
 {
-  PointWeights row;
-  row.Add(point, 1.0);
-  return SampleOf(fields, row);
+  const auto index = static_cast<std::size_t>(point);
+  CellSample sample;
+  sample.Position = fields.Points[index];
+  double squares = 0.0;
+  for (std::size_t field = 0; field < fields.Values.size(); ++field)
+  {
+    const double value = fields.Values[field][index];
+    squares += value * value;
+    if (!fields.IsLength)
+    {
+      sample.Values[field] = value;
+    }
+  }
+  if (fields.IsLength)
+  {
+    sample.Values[0] = std::sqrt(squares);
+  }
+  return sample;
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
@@ -382,6 +383,89 @@ TEST(TrueCells, BadSettingsAreErrors)
   EXPECT_GT(rays->GetOutput()->GetNumberOfPoints(), 0);
 }
 
+TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
+{
+  // Sums of weights times a constant differ from it in the last digits, as do constants in arrays.
+  for (const double constant : { 0.0, 0.1, 1.0 / 3.0, 293.15, -1e300 })
+  {
+    for (const double step : { 0.0, 1e-16 })
+    {
+      SCOPED_TRACE(constant);
+      const Grid grid = MakeCell(CellCases[0], 0.05, 2);
+      vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+      for (vtkIdType i = 0; i < 8; ++i)
+      {
+        scalars->SetTuple1(i, constant * (1.0 + step * static_cast<double>(i)));
+      }
+      const Filter rays = MakeAdaptive(grid, 4);
+      rays->SetDivisionPlaceTolerance(1.0);
+      rays->Update();
+      EXPECT_LE(rays->GetNumberOfTetrahedra(), 6);
+      EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+    }
+  }
+  // The same for places far from the origin: a cube, whose edges are straight.
+  Grid cube = MakeCell(CellCases[0], 0.0, 2);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    double at[3];
+    cube->GetPoint(i, at);
+    cube->GetPoints()->SetPoint(i, at[0] + 1e6, at[1] - 2e6, at[2] + 3e6);
+    cube->GetPointData()->GetScalars()->SetTuple1(i, 1.0);
+  }
+  const Filter rays = MakeAdaptive(cube, 4);
+  rays->SetDivisionPlaceTolerance(1e-12);
+  rays->Update();
+  EXPECT_LE(rays->GetNumberOfTetrahedra(), 6);
+  EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+}
+
+TEST(TrueCells, AnErrorLastsAsLongAsItsCause)
+{
+  const auto waves = [](const glm::dvec3& at)
+  { return std::sin(9.0 * at.x) * std::cos(7.0 * at.z); };
+  const auto slope = [](const glm::dvec3& at) { return at.x; };
+  const Grid grid = MakeCell(CellCases[0], 0.05, 2);
+  SetScalars(grid, slope);
+  const Filter rays = MakeCoarse(grid, 8);
+  rays->Update();
+  const vtkTypeInt64 pieces = rays->GetNumberOfTetrahedra();
+  const std::vector<double> integrals = ValuesOf(rays, "Integral");
+  rays->SetMaximumNumberOfPieces(pieces);
+  // A field that takes more pieces than that, twice without a change in between.
+  SetScalars(grid, waves);
+  const std::string text = "takes more than " + std::to_string(pieces) + " tetrahedra";
+  ExpectOneError(rays, text);
+  ExpectOneError(rays, text);
+  SetScalars(grid, slope);
+  rays->Update();
+  EXPECT_EQ(rays->GetNumberOfTetrahedra(), pieces);
+  EXPECT_EQ(ValuesOf(rays, "Integral"), integrals);
+}
+
+TEST(TrueCells, SettingsThatChangeNothingCostNothing)
+{
+  const Grid grid = MakeMixedBlock(2, true, 9);
+  Filter rays = MakeCoarse(grid, 8);
+  rays->SetCellDivisionToFixed();
+  rays->Update();
+  rays->SetDivisionScalarTolerance(1e-3);
+  rays->SetMaximumNumberOfPieces(7);
+  rays->Update();
+  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  rays = MakeCoarse(grid, 8);
+  rays->SetMaximumNumberOfPieces(1000000);
+  rays->Update();
+  rays->SetMaximumNumberOfPieces(2000000);
+  rays->Update();
+  rays->SetMaximumNumberOfPieces(rays->GetNumberOfTetrahedra());
+  rays->Update();
+  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
+  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  rays->SetMaximumNumberOfPieces(rays->GetNumberOfTetrahedra() - 1);
+  ExpectOneError(rays, "takes more than");
+}
+
 TEST(TrueCells, OddCellsAreCounted)
 {
   // Folded: one corner is pushed through the opposite one.
@@ -444,6 +528,110 @@ TEST(TrueCells, OddCellsAreCounted)
   ASSERT_EQ(fourth->Warnings.size(), 1u);
   EXPECT_NE(fourth->Warnings[0].find("1 vtkQuad"), std::string::npos) << fourth->Warnings[0];
   EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
+}
+
+TEST(TrueCells, LinearNeighboursDoNotMisplaceNewPoints)
+{
+  // Points at a quarter of three edges: the inverse of the shape is singular at a corner. A linear
+  // tetrahedron shares a face with that corner.
+  const auto make = [](const std::vector<vtkIdType>& linear, bool isFirst)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    const glm::dvec3 places[11] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
+      { 0.25, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 0.25, 0 }, { 0, 0, 0.25 }, { 0.5, 0, 0.5 },
+      { 0, 0.5, 0.5 }, { -0.3, 0.2, 0.2 } };
+    const double values[11] = { 0, 1, 1, 1, 0.5, 1, 0.5, 0.5, 1, 1, 0.7 };
+    vtkNew<vtkDoubleArray> scalars;
+    scalars->SetName("s");
+    for (int i = 0; i < 11; ++i)
+    {
+      points->InsertNextPoint(&places[i].x);
+      scalars->InsertNextValue(values[i]);
+    }
+    Grid grid = Grid::New();
+    grid->SetPoints(points);
+    const vtkIdType curved[10] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 };
+    for (const bool turn : { true, false })
+    {
+      if (turn == isFirst)
+      {
+        grid->InsertNextCell(VTK_TETRA, 4, linear.data());
+      }
+      else
+      {
+        grid->InsertNextCell(VTK_QUADRATIC_TETRA, 10, curved);
+      }
+    }
+    grid->GetPointData()->SetScalars(scalars);
+    return grid;
+  };
+  std::vector<double> first;
+  for (const std::vector<vtkIdType>& linear : { std::vector<vtkIdType>{ 10, 0, 2, 3 },
+         std::vector<vtkIdType>{ 3, 10, 2, 0 }, std::vector<vtkIdType>{ 2, 3, 0, 10 } })
+  {
+    for (const bool isFirst : { true, false })
+    {
+      const Filter rays = MakeAdaptive(make(linear, isFirst), 20);
+      rays->SetDivisionPlaceTolerance(1.0);
+      rays->SetDivisionScalarTolerance(1e-4);
+      rays->SetMaximumNumberOfPieces(100000);
+      rays->Update();
+      std::vector<double> found = ValuesOf(rays, "Integral");
+      ASSERT_FALSE(found.empty());
+      found.push_back(static_cast<double>(rays->GetNumberOfTetrahedra()));
+      first = first.empty() ? found : first;
+      ASSERT_EQ(found.size(), first.size());
+      for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        EXPECT_NEAR(found[i], first[i], 1e-5) << i;
+      }
+    }
+  }
+}
+
+TEST(TrueCells, BlocksMayDifferInComponents)
+{
+  // Lengths of tuples of one, two and three components, with values up to 2 in each block.
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int block = 0; block < 3; ++block)
+  {
+    const Grid grid = MakeCell(CellCases[0], 0.02, 2);
+    vtkNew<vtkDoubleArray> vectors;
+    vectors->SetName("v");
+    vectors->SetNumberOfComponents(block + 1);
+    vectors->SetNumberOfTuples(8);
+    vectors->FillComponent(0, 0.0);
+    for (vtkIdType i = 0; i < 8; ++i)
+    {
+      double at[3];
+      grid->GetPoint(i, at);
+      grid->GetPoints()->SetPoint(i, at[0] + 3.0 * block, at[1], at[2]);
+      std::vector<double> tuple(static_cast<std::size_t>(block) + 1, 0.0);
+      tuple.back() = 1.0 + static_cast<double>(i % 2);
+      vectors->SetTuple(i, tuple.data());
+    }
+    grid->GetPointData()->AddArray(vectors);
+    blocks->SetBlock(static_cast<unsigned int>(block), grid);
+  }
+  const Filter rays = MakeCoarse(blocks, 40);
+  SetRectangle(rays, { 0.0, 0.0, -1.0 }, 7.0);
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "v");
+  rays->SetArrayComponent(-1);
+  rays->ComputeMaximumOn();
+  rays->ComputeMinimumOn();
+  rays->Update();
+  int seen = 0;
+  for (const double value : ValuesOf(rays, "Maximum"))
+  {
+    EXPECT_TRUE(std::isnan(value) || (value > 1.0 && value < 2.0 + 1e-6)) << value;
+    seen += std::isnan(value) ? 0 : 1;
+  }
+  EXPECT_GT(seen, 30);
+  for (const double value : ValuesOf(rays, "Minimum"))
+  {
+    EXPECT_TRUE(std::isnan(value) || value > 1.0 - 1e-6) << value;
+  }
 }
 
 TEST(TrueCells, LengthsOfInterpolatedVectorsAreDrawn)

@@ -31,7 +31,7 @@ namespace
 const glm::vec3 Corners[8] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
   { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
-bool GoOn()
+bool GoOn(double)
 {
   return true;
 }
@@ -423,8 +423,37 @@ TEST(CellDivision, LimitsAreKeptAndReported)
   limits.MostPieces = 1000;
   EXPECT_EQ(block.Divide(division, limits), DivisionStatus::TooLarge);
   EXPECT_EQ(division.Divide(block.GetPieces(), block.Fields, block.GetFunctions(),
-              LimitsOf(1e-5, 1e-5), SerialLoop, []() { return false; }),
+              LimitsOf(1e-5, 1e-5), SerialLoop, [](double) { return false; }),
     DivisionStatus::Aborted);
+}
+
+TEST(CellDivision, ProgressAscendsAndEachReportMayAbort)
+{
+  Block block(2, 0.2, 13);
+  block.SetValues(Waves);
+  const auto divide = [&block](std::size_t most, std::vector<double>& reports)
+  {
+    CellDivision division;
+    const auto progress = [&reports, most](double done)
+    {
+      reports.push_back(done);
+      return reports.size() <= most;
+    };
+    return division.Divide(block.GetPieces(), block.Fields, block.GetFunctions(),
+      LimitsOf(1e-2, 1e-2), SerialLoop, progress);
+  };
+  std::vector<double> all;
+  ASSERT_EQ(divide(1000, all), DivisionStatus::Ok);
+  EXPECT_GE(all.size(), 6u);
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+  EXPECT_GT(all.front(), 0.0);
+  EXPECT_LT(all.back(), 1.0);
+  for (std::size_t most = 0; most < all.size(); ++most)
+  {
+    std::vector<double> some;
+    EXPECT_EQ(divide(most, some), DivisionStatus::Aborted);
+    EXPECT_EQ(some.size(), most + 1);
+  }
 }
 
 TEST(CellDivision, FoldedCellsAreCounted)
