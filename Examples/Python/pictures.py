@@ -11,13 +11,15 @@ import argparse
 import os
 import types
 
-from gallery import common, pools, solids, through, volumes
+from gallery import cells, common, pools, solids, steps, through, volumes
 
 PICTURES = {
     "readme-volume": volumes.draw_flames,
     "readme-refraction": pools.draw_pool,
     "gallery-shock": volumes.draw_shock,
     "gallery-radiograph": volumes.draw_radiograph,
+    "gallery-cells": cells.draw_cells,
+    "gallery-blow": steps.draw_blow,
     "gallery-walls": solids.draw_walls,
     "gallery-rings": pools.draw_rings,
     "gallery-waves": through.draw_waves,

@@ -22,6 +22,9 @@ VIRIDIS = ((0.27, 0.00, 0.33), (0.28, 0.20, 0.49), (0.21, 0.36, 0.55), (0.15, 0.
            (0.12, 0.63, 0.53), (0.36, 0.77, 0.39), (0.70, 0.87, 0.17), (0.99, 0.91, 0.14))
 BONE = ((0.00, 0.00, 0.01), (0.12, 0.12, 0.17), (0.25, 0.25, 0.35), (0.37, 0.40, 0.48),
         (0.50, 0.56, 0.60), (0.63, 0.72, 0.72), (0.80, 0.86, 0.86), (1.00, 1.00, 1.00))
+# Blue below zero, red above.
+SIGNED = ((0.10, 0.25, 0.70), (0.35, 0.60, 0.95), (0.85, 0.85, 0.85), (0.97, 0.60, 0.35),
+          (0.75, 0.10, 0.15))
 NIGHT = ((0.015, 0.02, 0.04), (0.07, 0.09, 0.14))
 
 
@@ -106,6 +109,24 @@ def light_flames(renderer):
     add_lights(renderer, ((-0.8, 0.8, 1.0), (1.0, 0.97, 0.9), 1.1),
                ((1.0, -0.3, 0.6), (0.5, 0.65, 1.0), 0.5))
     look_from(renderer, (-15.0, 14.5, 48.0), (9.0, -0.7, 29.0), (0, 1, 0), 28.0)
+    renderer.ResetCameraClippingRange()
+
+
+def make_shock(mesh):
+    """Isosurfaces of the density around the blunt fin."""
+    values = (1.12, 1.9, 2.7, 3.6)
+    colors = make_colors(VIRIDIS, 0.2, 3.8)
+    look = make_look(colors, make_opacity(zip(values, (0.4, 0.45, 0.6, 1.0))), 1.0)
+    look.SetAmbient(0.35)
+    look.SetDiffuse(1.1)
+    return colors, make_volume(mesh, look, values)
+
+
+def light_shock(renderer):
+    """Camera, in front of the plane of symmetry, and lights for the blunt fin."""
+    add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
+               ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
+    look_from(renderer, (-9.5, -10.0, 7.0), (2.2, 2.4, 2.5), (0, 0, 1), 27.0)
     renderer.ResetCameraClippingRange()
 
 
