@@ -112,24 +112,6 @@ def light_flames(renderer):
     renderer.ResetCameraClippingRange()
 
 
-def make_shock(mesh):
-    """Isosurfaces of the density around the blunt fin."""
-    values = (1.12, 1.9, 2.7, 3.6)
-    colors = make_colors(VIRIDIS, 0.2, 3.8)
-    look = make_look(colors, make_opacity(zip(values, (0.4, 0.45, 0.6, 1.0))), 1.0)
-    look.SetAmbient(0.35)
-    look.SetDiffuse(1.1)
-    return colors, make_volume(mesh, look, values)
-
-
-def light_shock(renderer):
-    """Camera, in front of the plane of symmetry, and lights for the blunt fin."""
-    add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
-               ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
-    look_from(renderer, (-9.5, -10.0, 7.0), (2.2, 2.4, 2.5), (0, 0, 1), 27.0)
-    renderer.ResetCameraClippingRange()
-
-
 def make_plane(origin, first, second, cells):
     plane = vtkPlaneSource()
     plane.SetOrigin(*origin)
