@@ -10,17 +10,41 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <glm/common.hpp>
+
 namespace meniscus
 {
+
+namespace
+{
+
+/** Centre of the bounds of points. */
+glm::dvec3 GetCenter(const std::vector<glm::dvec3>& points)
+{
+  glm::dvec3 lowest = points.front();
+  glm::dvec3 highest = points.front();
+  for (const glm::dvec3& point : points)
+  {
+    lowest = glm::min(lowest, point);
+    highest = glm::max(highest, point);
+  }
+  return 0.5 * lowest + 0.5 * highest;
+}
+
+} // anonymous namespace
 
 //------------------------------------------------------------------------------
 TetrahedronCells MeshByDelaunay(const TriangleSurface& surface)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
+  // Relative to the surface's centre: VTK squares the coordinates of circumscribed spheres, which
+  // far from the origin would lose the digits of the surface.
+  const glm::dvec3 center = GetCenter(surface.Points);
   for (const glm::dvec3& point : surface.Points)
   {
-    points->InsertNextPoint(&point.x);
+    const glm::dvec3 local = point - center;
+    points->InsertNextPoint(&local.x);
   }
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points);

@@ -410,6 +410,42 @@ TEST(DelaunayMeshes, FillTheSurface)
 }
 
 //------------------------------------------------------------------------------
+// Far from the origin, where squares of coordinates lose the digits of the surface.
+TEST(DelaunayMeshes, FillSurfacesFarAway)
+{
+  for (const double distance : { 1e4, 1e5, 1e6 })
+  {
+    SCOPED_TRACE(distance);
+    const auto surface = MakeGeodesicSphere(1.0, 2);
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      double x[3];
+      surface->GetPoint(p, x);
+      surface->GetPoints()->SetPoint(p, distance + x[0], 0.7 * distance + 1.3 * x[1], 0.8 * x[2]);
+    }
+    const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->Text, "");
+    double volume = 0.0;
+    vtkUnstructuredGrid* grid = filter->GetOutput();
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    {
+      double corner[4][3];
+      for (int i = 0; i < 4; ++i)
+      {
+        grid->GetPoint(grid->GetCell(c)->GetPointId(i), corner[i]);
+        corner[i][0] -= distance;
+        corner[i][1] -= 0.7 * distance;
+      }
+      volume += vtkTetra::ComputeVolume(corner[0], corner[1], corner[2], corner[3]);
+    }
+    // The coordinates are rounded to epsilon times the distance; the area is below 20.
+    EXPECT_NEAR(volume, GeodesicSphereVolume(1.0, 2) * 1.3 * 0.8, 20.0 * 3e-16 * distance);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST(DelaunayMeshes, ReportLostTriangles)
 {
   const auto crossing =
