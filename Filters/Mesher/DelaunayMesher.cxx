@@ -18,6 +18,13 @@ namespace meniscus
 namespace
 {
 
+/**
+ * Size of VTK's bounding points relative to the surface. A triangle of the convex hull is lost if
+ * its circumscribed sphere reaches them. Squares of their coordinates are rounded to about 1e-12 of
+ * the square of the surface's size.
+ */
+constexpr double BoundingSize = 100.0;
+
 /** Centre of the bounds of points. */
 glm::dvec3 GetCenter(const std::vector<glm::dvec3>& points)
 {
@@ -51,6 +58,7 @@ TetrahedronCells MeshByDelaunay(const TriangleSurface& surface)
   vtkNew<vtkDelaunay3D> delaunay;
   delaunay->SetInputData(cloud);
   delaunay->SetTolerance(0.0);
+  delaunay->SetOffset(BoundingSize);
   // Its warnings of degenerate cells go nowhere: the cells are checked.
   vtkNew<vtkCallbackCommand> silence;
   delaunay->AddObserver(vtkCommand::WarningEvent, silence);

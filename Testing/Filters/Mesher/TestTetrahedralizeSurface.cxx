@@ -446,6 +446,30 @@ TEST(DelaunayMeshes, FillSurfacesFarAway)
 }
 
 //------------------------------------------------------------------------------
+// Triangles of a convex surface are Delaunay faces, with empty spheres that here are much larger
+// than the surface.
+TEST(DelaunayMeshes, FillFlatConvexSurfaces)
+{
+  for (const double height : { 0.5, 0.2, 0.05 })
+  {
+    SCOPED_TRACE(height);
+    const auto surface = MakeGeodesicSphere(1.0, 3);
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      double x[3];
+      surface->GetPoint(p, x);
+      surface->GetPoints()->SetPoint(p, x[0], 1.3 * x[1], height * x[2]);
+    }
+    const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->Text, "");
+    const double volume = GeodesicSphereVolume(1.0, 3) * 1.3 * height;
+    EXPECT_NEAR(Measure(filter->GetOutput()).Volume, volume, 1e-12 * volume);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST(DelaunayMeshes, ReportLostTriangles)
 {
   const auto crossing =
