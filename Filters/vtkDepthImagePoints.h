@@ -11,6 +11,10 @@
  * depth buffer, are left out. The other point arrays of the image are copied, and the point array
  * PixelId has the number of the pixel.
  *
+ * VTK's vtkDepthImageToPointCloud is not used: it only takes depth buffers, draws the first and the
+ * last pixel at the edges of the view instead of half a pixel inside, keeps depths that are not
+ * finite and copies no arrays but colours.
+ *
  * vtkTruePositionFilter with the camera's position as the eye moves the points to where they are.
  *
  * @sa vtkTruePositionFilter

@@ -55,17 +55,39 @@ struct Tracks
   std::vector<vtkIdType> Ids;
 };
 
+/** True if all values are whole numbers that vtkIdType can hold. */
+bool AreWhole(vtkDataArray* ids)
+{
+  if (ids->GetDataType() != VTK_FLOAT && ids->GetDataType() != VTK_DOUBLE)
+  {
+    return true;
+  }
+  // The first power of two that is too large; exact as a double.
+  const double end = std::ldexp(1.0, std::numeric_limits<vtkIdType>::digits);
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    const double id = ids->GetTuple1(i);
+    if (!(id == std::floor(id) && std::fabs(id) < end))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 Tracks CollectTracks(vtkDataArray* ids)
 {
   Tracks tracks;
-  const auto get = [ids](vtkIdType i) { return static_cast<vtkIdType>(ids->GetTuple1(i)); };
+  vtkNew<vtkIdTypeArray> exact; // doubles cannot hold numbers above 2^53
+  exact->DeepCopy(ids);
+  const vtkIdType* values = exact->GetPointer(0);
   tracks.Observations.resize(static_cast<std::size_t>(ids->GetNumberOfTuples()));
   std::iota(tracks.Observations.begin(), tracks.Observations.end(), vtkIdType(0));
   std::stable_sort(tracks.Observations.begin(), tracks.Observations.end(),
-    [&get](vtkIdType a, vtkIdType b) { return get(a) < get(b); });
+    [values](vtkIdType a, vtkIdType b) { return values[a] < values[b]; });
   for (std::size_t i = 0; i < tracks.Observations.size(); ++i)
   {
-    const vtkIdType id = get(tracks.Observations[i]);
+    const vtkIdType id = values[tracks.Observations[i]];
     if (tracks.Ids.empty() || tracks.Ids.back() != id)
     {
       tracks.Ids.push_back(id);
@@ -135,16 +157,15 @@ struct PointArrays
 
 /** Traces the ray of an observation. Returns false if it has none. */
 bool TraceObservation(meniscus::SightRayTracer& tracer, const glm::dvec3& eye,
-  const glm::dvec3& seen, meniscus::TriangulationRay& ray)
+  const glm::dvec3& seen, meniscus::StackSightRay& ray)
 {
   const double distance = glm::length(seen - eye);
   if (!std::isfinite(distance) || distance == 0.0 ||
-    tracer.SetEye(eye) != meniscus::EyeStatus::Ready)
+    tracer.SetEye(eye) != meniscus::EyeStatus::Ready || !tracer.IsMediumKnown())
   {
     return false;
   }
-  tracer.Trace((seen - eye) / distance, ray.Ray);
-  ray.Passed = tracer.GetNumberOfPassedInterfaces();
+  tracer.Trace((seen - eye) / distance, ray);
   return true;
 }
 
@@ -191,13 +212,20 @@ int vtkTriangulatedPositionFilter::RequestData(
                                                          "empty.");
     return 0;
   }
+  if (!AreWhole(ids))
+  {
+    vtkErrorMacro("The array \"" << this->PointIdArrayName
+                                 << "\" has values that are not whole numbers, or are too large; "
+                                    "the output is empty.");
+    return 0;
+  }
   const Tracks tracks = CollectTracks(ids);
   PointArrays arrays(tracks.Ids);
   const double medium = this->GetExteriorIndexOfRefraction();
   const auto triangulate = [&](vtkIdType begin, vtkIdType end)
   {
     meniscus::EyeTracers tracers(this->GetStack(), medium);
-    std::vector<meniscus::TriangulationRay> rays;
+    std::vector<meniscus::StackSightRay> rays;
     for (vtkIdType i = begin; i < end; ++i)
     {
       const auto track = static_cast<std::size_t>(i);

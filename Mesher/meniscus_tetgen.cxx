@@ -19,6 +19,11 @@
 #include <new>
 #include <string>
 
+#ifdef __linux__
+#include <csignal>
+#include <sys/prctl.h>
+#endif
+
 namespace
 {
 
@@ -179,11 +184,22 @@ MeshingAnswer Mesh(const MeshingTask& task)
   return hasFlat && !task.KeepsSurface ? Mesh(task, true) : answer;
 }
 
+//------------------------------------------------------------------------------
+// Ends this program together with the thread that has started it, which waits for it otherwise:
+// nobody would read the answer, and the time limit is that thread's.
+void EndWithParent()
+{
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
+  EndWithParent();
   MeshingTask task;
   if (argc != 3 || !meniscus::ReadMeshingTask(argv[1], task))
   {

@@ -32,7 +32,10 @@ struct MesherProcess
   /** Called several times a second with the seconds since the start; false ends the program. */
   std::function<bool(double)> GoesOn;
 
-  /** Runs the program to an end. No file and no process remains. */
+  /**
+   * Runs the program to an end. No file and no process remains, unless the host is killed
+   * meanwhile: the files then remain, and so does the program; meniscus_tetgen ends too on Linux.
+   */
   ProcessEnd Run(const MeshingTask& task, MeshingAnswer& answer) const;
 };
 

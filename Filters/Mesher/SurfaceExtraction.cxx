@@ -18,8 +18,9 @@
 #include "vtkTriangleFilter.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -28,13 +29,6 @@ namespace meniscus
 
 namespace
 {
-
-/** Value of an added point on the surface: weighted values of three points of the input. */
-struct SurfacePlace
-{
-  std::array<vtkIdType, 3> Points = { 0, 0, 0 };
-  std::array<double, 3> Weights = { 1.0, 0.0, 0.0 };
-};
 
 //------------------------------------------------------------------------------
 // The joined surface as data whose point i is that of the kernel.
@@ -58,43 +52,73 @@ vtkSmartPointer<vtkPolyData> ToPolyData(const TriangleSurface& surface)
 }
 
 //------------------------------------------------------------------------------
-// Places of the points on the boundary, in the triangle that is nearest.
-std::vector<SurfacePlace> FindPlaces(
-  const TriangleSurface& surface, const TetrahedronCells& cells, const std::vector<bool>& boundary)
+// Sets the arrays at points that were added on the surface, by interpolation in the triangle that
+// is nearest.
+void InterpolateOnSurface(vtkPointData* arrays, const TriangleSurface& surface,
+  const TetrahedronCells& cells, const std::vector<std::size_t>& added, vtkPointData* target)
 {
   const auto data = ToPolyData(surface);
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(data);
   locator->BuildLocator();
   vtkNew<vtkGenericCell> cell;
-  std::vector<SurfacePlace> places(cells.Points.size());
-  for (std::size_t p = 0; p < cells.Points.size(); ++p)
+  vtkNew<vtkIdList> corners;
+  for (const std::size_t p : added)
   {
-    SurfacePlace& place = places[p];
-    if (p < surface.Points.size())
-    {
-      place.Points.fill(static_cast<vtkIdType>(surface.Sources[p]));
-      continue;
-    }
-    if (!boundary[p])
-    {
-      continue;
-    }
     double closest[3];
     double distance = 0.0;
     vtkIdType id = -1;
     int part = 0;
     locator->FindClosestPoint(&cells.Points[p].x, closest, cell, id, part, distance);
     double local[3];
+    double weights[3];
     data->GetCell(id, cell);
-    cell->EvaluatePosition(closest, nullptr, part, local, distance, place.Weights.data());
+    cell->EvaluatePosition(closest, nullptr, part, local, distance, weights);
+    // A value that is not finite does not count where its weight is zero.
+    double used[3];
+    corners->Reset();
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const int corner = surface.Triangles[static_cast<std::size_t>(id)][i];
-      place.Points[i] = static_cast<vtkIdType>(surface.Sources[static_cast<std::size_t>(corner)]);
+      if (weights[i] != 0.0)
+      {
+        const int corner = surface.Triangles[static_cast<std::size_t>(id)][i];
+        used[corners->GetNumberOfIds()] = weights[i];
+        corners->InsertNextId(
+          static_cast<vtkIdType>(surface.Sources[static_cast<std::size_t>(corner)]));
+      }
+    }
+    target->InterpolatePoint(arrays, static_cast<vtkIdType>(p), corners, used);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Continues the components of an array to the points without `given`. Those that have no
+// continuation are NaN there, or 0 for integers. Returns false if there is one.
+bool ContinueInside(const HarmonicField& field, const std::vector<bool>& given, vtkDataArray* array)
+{
+  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  const double none = isReal ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  bool all = true;
+  std::vector<double> values(given.size());
+  for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+  {
+    for (std::size_t p = 0; p < values.size(); ++p)
+    {
+      values[p] = given[p] ? array->GetComponent(static_cast<vtkIdType>(p), component) : 0.0;
+    }
+    const bool continued = field.Continue(values);
+    all = all && continued;
+    for (std::size_t p = 0; p < values.size(); ++p)
+    {
+      if (!given[p])
+      {
+        const double value = continued ? values[p] : none;
+        array->SetComponent(
+          static_cast<vtkIdType>(p), component, isReal ? value : std::round(value));
+      }
     }
   }
-  return places;
+  return all;
 }
 
 } // anonymous namespace
@@ -152,60 +176,58 @@ void CopyCells(const TetrahedronCells& cells, vtkUnstructuredGrid* grid)
 int ContinueArrays(vtkPolyData* data, const TriangleSurface& surface, const TetrahedronCells& cells,
   vtkUnstructuredGrid* grid)
 {
-  vtkPointData* arrays = data->GetPointData();
-  if (arrays->GetNumberOfArrays() == 0)
+  vtkNew<vtkPointData> arrays;
+  arrays->ShallowCopy(data->GetPointData());
+  for (int a = arrays->GetNumberOfArrays(); a-- > 0;)
+  {
+    if (!arrays->GetArray(a)) // strings, for example
+    {
+      arrays->RemoveArray(a);
+    }
+  }
+  vtkPointData* target = grid->GetPointData();
+  target->CopyGlobalIdsOff();
+  target->CopyPedigreeIdsOff();
+  const auto count = static_cast<vtkIdType>(cells.Points.size());
+  target->CopyAllocate(arrays, count);
+  target->SetNumberOfTuples(count);
+  const std::size_t own = surface.Points.size();
+  for (std::size_t p = 0; p < own; ++p)
+  {
+    target->CopyData(arrays, static_cast<vtkIdType>(surface.Sources[p]), static_cast<vtkIdType>(p));
+  }
+  if (cells.Points.size() == own || target->GetNumberOfArrays() == 0)
   {
     return 0;
   }
   std::vector<bool> given = FindBoundaryPoints(cells);
-  const std::vector<SurfacePlace> places = FindPlaces(surface, cells, given);
-  const HarmonicField field(cells, given);
-  const auto count = static_cast<vtkIdType>(cells.Points.size());
-  int failures = 0;
-  grid->GetPointData()->CopyGlobalIdsOff();
-  for (int a = 0; a < arrays->GetNumberOfArrays(); ++a)
+  std::vector<std::size_t> onSurface;
+  std::size_t inside = 0;
+  for (std::size_t p = own; p < given.size(); ++p)
   {
-    vtkDataArray* source = arrays->GetArray(a); // null for strings
-    if (!source || source == arrays->GetGlobalIds() || source == arrays->GetPedigreeIds())
+    if (given[p])
     {
-      continue;
+      onSurface.push_back(p);
     }
-    auto target = vtk::TakeSmartPointer(source->NewInstance());
-    target->SetName(source->GetName());
-    target->SetNumberOfComponents(source->GetNumberOfComponents());
-    target->SetNumberOfTuples(count);
-    const bool isReal = source->GetDataType() == VTK_FLOAT || source->GetDataType() == VTK_DOUBLE;
-    bool failed = false;
-    for (int component = 0; component < source->GetNumberOfComponents(); ++component)
+    else
     {
-      std::vector<double> values(cells.Points.size(), 0.0);
-      for (std::size_t p = 0; p < values.size(); ++p)
-      {
-        for (std::size_t i = 0; given[p] && i < 3; ++i)
-        {
-          values[p] += places[p].Weights[i] == 0.0
-            ? 0.0
-            : places[p].Weights[i] * source->GetComponent(places[p].Points[i], component);
-        }
-      }
-      const bool continued = field.Continue(values);
-      failed = failed || !continued;
-      for (vtkIdType p = 0; p < count; ++p)
-      {
-        const auto i = static_cast<std::size_t>(p);
-        const double value = given[i] || continued
-          ? values[i]
-          : (isReal ? std::numeric_limits<double>::quiet_NaN() : 0.0);
-        target->SetComponent(p, component, isReal ? value : std::round(value));
-      }
+      ++inside;
     }
-    failures += failed ? 1 : 0;
-    const int index = grid->GetPointData()->AddArray(target);
-    const int role = arrays->IsArrayAnAttribute(a);
-    if (role >= 0)
-    {
-      grid->GetPointData()->SetActiveAttribute(index, role);
-    }
+  }
+  if (!onSurface.empty())
+  {
+    InterpolateOnSurface(arrays, surface, cells, onSurface, target);
+  }
+  if (inside == 0)
+  {
+    return 0;
+  }
+  std::fill_n(given.begin(), own, true);
+  const HarmonicField field(cells, given);
+  int failures = 0;
+  for (int a = 0; a < target->GetNumberOfArrays(); ++a)
+  {
+    failures += ContinueInside(field, given, target->GetArray(a)) ? 0 : 1;
   }
   return failures;
 }

@@ -105,8 +105,8 @@ std::string DescribeSolidFault(SolidFault fault)
       return {};
     case SolidFault::LostFacets:
       return "The Delaunay cells of the surface's points do not have all of its triangles as "
-             "faces: the surface crosses itself, or is too coarse for vtkDelaunay3D. Refine it, "
-             "or use TetGen.";
+             "faces: the surface crosses itself, is too coarse for vtkDelaunay3D, or has points "
+             "that are almost on a common sphere. Refine it, or use TetGen.";
     case SolidFault::Nesting:
       return "Parts of the surface are nested or overlap in a way that leaves inside and outside "
              "undefined: cavities must be wound the other way round.";

@@ -35,7 +35,10 @@ enum class SurfaceFault
   InsideOut    ///< a volume that is not positive
 };
 
-/** Fault of a surface and the number of triangles or edges that have it. */
+/**
+ * Fault of a surface and the number of edges that have it; of points for NotFinite, of all
+ * triangles for InsideOut, 0 for Empty.
+ */
 struct SurfaceReport
 {
   SurfaceFault Fault = SurfaceFault::None;

@@ -116,16 +116,16 @@ bool HarmonicField::Continue(std::vector<double>& values) const
   {
     if (this->Given[i])
     {
+      if (!std::isfinite(values[i]))
+      {
+        return false;
+      }
       lowest = std::min(lowest, values[i]);
       highest = std::max(highest, values[i]);
     }
   }
-  // A value that is not finite has no harmonic continuation, and a constant is its own.
-  if (!std::isfinite(lowest) || !std::isfinite(highest))
-  {
-    return false;
-  }
   const auto isFree = [&](std::size_t i) { return !this->Given[i] && this->Diagonal[i] > 0.0; };
+  // If all given values are equal, this is the solution.
   for (std::size_t i = 0; i < count; ++i)
   {
     values[i] = this->Given[i] ? values[i] : lowest;

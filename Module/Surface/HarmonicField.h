@@ -22,8 +22,8 @@ public:
   HarmonicField(const TetrahedronCells& cells, const std::vector<bool>& given);
 
   /**
-   * Computes the values of the other points. Returns false if the iteration did not converge; the
-   * values are then not the solution.
+   * Computes the values of the other points. Returns false if a given value is not finite or the
+   * iteration did not converge; the values are then not the solution.
    * @pre every connected part of the mesh has a point with `given`.
    */
   bool Continue(std::vector<double>& values) const;

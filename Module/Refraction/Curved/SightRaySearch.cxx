@@ -18,12 +18,12 @@ namespace
 {
 
 /** Cone of the sight rays to a patch: a tube that starts at the eye. */
-TubeBounds BoundSightRays(const CurvedPatch& patch, const glm::dvec3& eye)
+TubeBounds BoundSightRays(const CurvedPatch& patch, double bulge, const glm::dvec3& eye)
 {
   const glm::dvec3 sights[3] = { patch.Corner[0] - eye, patch.Corner[1] - eye,
     patch.Corner[2] - eye };
   const DirectionBox sight =
-    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, BoundBulge(patch));
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
   return BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, &eye, 1, 0.0);
 }
 
@@ -36,19 +36,22 @@ SightRaySearch::SightRaySearch(const CurvedMembraneSolver& geometry)
   : Geometry(geometry)
   , Tree(geometry.GetTree())
   , Distance(std::max(geometry.GetMembrane().GetRadius(), glm::length(geometry.GetMedia().Eye)))
+  , Slack(geometry.GetMembrane().GetSlack(glm::length(geometry.GetMedia().Eye)))
 {
-  const glm::dvec3& eye = geometry.GetMedia().Eye;
-  this->Tree.Refit([&geometry, &eye](std::int32_t facet)
-    { return BoundSightRays(geometry.GetPatches().GetPatch(facet), eye); },
-    SerialLoop);
-  // A position is a sum of a few products of coordinates.
-  const double slack = 256.0 * std::numeric_limits<double>::epsilon() * this->Distance;
+  const CurvedPatches& patches = geometry.GetPatches();
   const std::size_t facets = geometry.GetMembrane().GetFacets().size();
+  this->Bulges.reserve(facets);
   for (std::size_t i = 0; i < facets; ++i)
   {
-    this->Bulges.push_back(
-      BoundBulge(geometry.GetPatches().GetPatch(static_cast<std::int32_t>(i))) + slack);
+    this->Bulges.push_back(BoundBulge(patches.GetPatch(static_cast<std::int32_t>(i))));
   }
+  this->Tree.Refit(
+    [this, &patches](std::int32_t facet)
+    {
+      return BoundSightRays(patches.GetPatch(facet), this->Bulges[static_cast<std::size_t>(facet)],
+        this->Geometry.GetMedia().Eye);
+    },
+    SerialLoop);
 }
 
 //------------------------------------------------------------------------------
@@ -67,7 +70,7 @@ bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, P
       const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
       if (!PassesNear({ frame.Project(patch.Corner[0]), frame.Project(patch.Corner[1]),
                         frame.Project(patch.Corner[2]) },
-            place, this->Bulges[static_cast<std::size_t>(facet)]))
+            place, this->Bulges[static_cast<std::size_t>(facet)] + this->Slack))
       {
         return all;
       }

@@ -36,7 +36,8 @@ private:
   const CurvedMembraneSolver& Geometry;
   RayTubeTree Tree;
   double Distance;            ///< of the places along sight rays that the tree is asked for
-  std::vector<double> Bulges; ///< of the patches, with the rounding of positions
+  double Slack;               ///< rounding of positions
+  std::vector<double> Bulges; ///< of the patches
 };
 
 }

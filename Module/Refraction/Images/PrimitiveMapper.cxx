@@ -547,7 +547,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   std::int32_t facet = context.Facet;
   CurvedPatch patch = *context.Patch;
   const PatchPoint start = patch.Evaluate(guess);
-  if (!this->RunsAlong(patch, nodes, on.Line, l, b))
+  if (!this->StaysAlong(patch, nodes, on.Line, l, b))
   {
     if (!this->Geometry.MeetLine(on.Line, start.Normal, facet, b, l))
     {

@@ -110,7 +110,7 @@ private:
     const ClippedBoundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
-  bool RunsAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
+  bool StaysAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
     glm::dvec2& b) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
   bool EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,

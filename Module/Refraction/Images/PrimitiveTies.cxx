@@ -9,17 +9,26 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace meniscus
 {
+namespace
+{
+
+std::array<glm::dvec3, 3> GetCorners(const SubCell& nodes)
+{
+  return { nodes[0].From.At.Position, nodes[1].From.At.Position, nodes[2].From.At.Position };
+}
+
+}
 
 //------------------------------------------------------------------------------
-// Maps a primitive that is in front of the membrane by less than the error of interpolation, if at
-// all: all of it is drawn as if it were behind. A side in the membrane, within rounding of object
-// and membrane, is no waterline that could be computed. Returns false, and adds nothing, if a part
-// of the primitive is farther in front.
+// Maps a primitive as if all of it were behind the membrane, if no part is farther in front than
+// the tolerance. A side in the membrane, within rounding of object and membrane, is no waterline
+// that could be computed. Returns false, and adds nothing, if a part is farther in front.
 bool PrimitiveMapper::MapAsBehind(Context& context, ImageMesh& images) const
 {
   const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
@@ -126,52 +135,30 @@ void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
 // false if the part of the primitive in the sub-cell is in front of the membrane.
 bool PrimitiveMapper::ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const
 {
-  glm::dvec3 behind;
-  std::array<glm::dvec3, 3> side;
-  std::array<glm::dvec3, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const auto at = static_cast<glm::length_t>(i);
-    corners[i] = nodes[i].From.At.Position;
-    behind[at] = whole[i].Value[0];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      side[k][at] = whole[i].Value[k + 1];
-    }
-  }
+  const std::array<glm::dvec3, 3> corners = GetCorners(nodes);
   // Membrane and object were moved from world coordinates.
   const Membrane& membrane = this->Geometry.GetMembrane();
   const double slack =
     membrane.GetSlack(glm::length(corners[0]) + glm::length(membrane.GetOrigin()));
-  const SurfaceTie tie = FindSurfaceTie(context, corners, behind, side, slack);
-  for (std::size_t i = 0; i < 3 && tie == SurfaceTie::Behind; ++i)
-  {
-    whole[i].Value[0] = 0.0;
-  }
-  return tie != SurfaceTie::InFront;
+  return ResolveSurfaceTie(context, corners, 0, slack, whole);
 }
 
 //------------------------------------------------------------------------------
-// True if a side leaves the membrane at its place `l`, over the length of the sub-cell, by less
-// than linear interpolation in the sub-cell leaves the rays. Then the sub-cell does not determine
+// True if the side, around its place `l`, stays closer to the membrane, over one length of the
+// sub-cell, than the error of linear interpolation there. Then the sub-cell does not determine
 // where the two cross, and may have a crossing where they have none. Moves `b` to the foot of the
 // place.
-bool PrimitiveMapper::RunsAlong(const CurvedPatch& patch, const SubCell& nodes,
+bool PrimitiveMapper::StaysAlong(const CurvedPatch& patch, const SubCell& nodes,
   const ObjectLine& side, double l, glm::dvec2& b) const
 {
-  const glm::dvec3 across = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
-    nodes[2].From.At.Position - nodes[0].From.At.Position);
-  const double area = glm::length(across);
   const double most = this->GetReach(nodes);
+  glm::dvec3 normal;
   glm::dvec2 foot = b;
   double distance = 0.0;
-  const bool runsAlong = area > 0.0 &&
-    std::fabs(glm::dot(across, side.Direction)) * GetSize(nodes) <=
-      most * area * glm::length(side.Direction) &&
-    MeetPatch(patch, { side.GetPoint(l), across / area }, foot, distance) &&
-    std::fabs(distance) <= most;
-  b = runsAlong ? foot : b;
-  return runsAlong;
+  const bool staysClose = RunsAlong(side.Direction, GetCorners(nodes), most, normal) &&
+    MeetPatch(patch, { side.GetPoint(l), normal }, foot, distance) && std::fabs(distance) <= most;
+  b = staysClose ? foot : b;
+  return staysClose;
 }
 
 }

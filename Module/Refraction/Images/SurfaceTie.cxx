@@ -17,7 +17,7 @@ namespace
 // close to the cell. The line is compared at two places, up to twice the cell's longest side from
 // its middle. There a barycentric coordinate is at most 1 / 3 + 2 longest / height, and the plane
 // is off by the error of the corners times the sum of the three.
-bool RunsAlong(const ObjectLine& line, const std::array<glm::dvec3, 3>& corners, double slack)
+bool LiesInPlane(const ObjectLine& line, const std::array<glm::dvec3, 3>& corners, double slack)
 {
   const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -43,6 +43,18 @@ double GetLongestSide(const std::array<glm::dvec3, 3>& corners)
 }
 
 //------------------------------------------------------------------------------
+bool RunsAlong(const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners, double most,
+  glm::dvec3& normal)
+{
+  const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double area = glm::length(across);
+  normal = across / area;
+  return area > 0.0 &&
+    std::fabs(glm::dot(across, direction)) * GetLongestSide(corners) <=
+    most * area * glm::length(direction);
+}
+
+//------------------------------------------------------------------------------
 SurfaceTie FindSurfaceTie(const ObjectPrimitive& primitive,
   const std::array<glm::dvec3, 3>& corners, const glm::dvec3& behind,
   const std::array<glm::dvec3, 3>& side, double slack)
@@ -64,7 +76,7 @@ SurfaceTie FindSurfaceTie(const ObjectPrimitive& primitive,
   for (std::size_t k = primitive.IsLine ? PrimitiveConstraints - 1 : 1; k < PrimitiveConstraints;
        ++k)
   {
-    if (RunsAlong(primitive.Sides[k].Line, corners, slack))
+    if (LiesInPlane(primitive.Sides[k].Line, corners, slack))
     {
       // Both values are the distance of a corner from the side, times factors of constant signs.
       const bool isBehind = primitive.IsLine || glm::dot(behind, side[k - 1]) > 0.0;

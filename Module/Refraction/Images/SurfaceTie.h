@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace meniscus
 {
@@ -36,8 +38,45 @@ SurfaceTie FindSurfaceTie(const ObjectPrimitive& primitive,
   const std::array<glm::dvec3, 3>& corners, const glm::dvec3& behind,
   const std::array<glm::dvec3, 3>& side, double slack);
 
+/**
+ * Resolves the tie of a primitive with the surface at one end of a leg, whose constraint is that of
+ * number `constraint`: 0 at the beginning of the leg, PrimitiveConstraints at its end. The surface
+ * gets the value 0, which clips nothing, at the cell's corners `whole`. Returns false if the leg
+ * does not show the primitive in the cell.
+ */
+template <typename Corner>
+bool ResolveSurfaceTie(const ObjectPrimitive& primitive, const std::array<glm::dvec3, 3>& corners,
+  int constraint, double slack, std::vector<Corner>& whole)
+{
+  const bool isEnd = constraint == PrimitiveConstraints;
+  glm::dvec3 behind;
+  std::array<glm::dvec3, 3> side;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const auto at = static_cast<glm::length_t>(i);
+    behind[at] = isEnd ? -whole[i].Value[constraint] : whole[i].Value[constraint];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      side[k][at] = whole[i].Value[k + 1];
+    }
+  }
+  const SurfaceTie tie = FindSurfaceTie(primitive, corners, behind, side, slack);
+  for (std::size_t i = 0; i < 3 && tie != SurfaceTie::None; ++i)
+  {
+    whole[i].Value[constraint] = 0.0;
+  }
+  return tie != (isEnd ? SurfaceTie::Behind : SurfaceTie::InFront);
+}
+
 /** Length of the longest side of a triangle. */
 double GetLongestSide(const std::array<glm::dvec3, 3>& corners);
+
+/**
+ * True if a line leaves a plane parallel to a triangle, over the length of the triangle's longest
+ * side, by `most` or less. `normal` is set to the unit normal of the triangle.
+ */
+bool RunsAlong(const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners, double most,
+  glm::dvec3& normal);
 
 }
 

@@ -38,9 +38,9 @@ glm::dvec3 Load(const double* array, std::size_t index)
 // times the longest edges, at most 2 sqrt(3) radii, which takes another 14 epsilon of height.
 constexpr double LocalRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
-// Height of a triangle over its longest edge; 0 if its area is within rounding or an edge is too
-// long for a double. Edges are scaled by the largest coordinate, so that the squares of tiny and
-// huge ones stay within the range of double.
+// Lower bound of a triangle's height above its longest edge; 0 if its area is within rounding or an
+// edge is too long for a double. Edges are scaled by the largest coordinate, so that the squares of
+// tiny and huge ones stay within the range of double.
 double GetHeight(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   glm::dvec3 first = b - a;
@@ -121,7 +121,7 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
 }
 
 //------------------------------------------------------------------------------
-/** Returns the smallest height of an accepted facet over its longest edge. */
+/** Returns the least of GetHeight() of the accepted facets. */
 double Membrane::AcceptFacets(const MembraneInput& input)
 {
   const auto isPoint = [&input](std::int64_t index)

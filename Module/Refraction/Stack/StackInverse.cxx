@@ -54,8 +54,8 @@ StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen,
   leg = 0;
   const glm::dvec3 first =
     ray.Legs.size() > 1 ? ray.Legs[1].Origin : sight.Origin + sight.Length * sight.Direction;
-  // Distance of the point behind the first surface, over the index of its medium. The part of it
-  // that is in front of a leg is subtracted.
+  // Sum of the lengths of the legs behind the first surface up to the point, each divided by the
+  // index of its medium. The share of each passed leg is subtracted.
   double rest = glm::dot(seen - first, sight.Direction) / sight.Index;
   if (!std::isfinite(sight.Length) || rest <= 0.0)
   {

@@ -19,6 +19,12 @@ namespace
 // the last step, 1e-14 of a facet.
 constexpr double LastStep = 1e-7;
 
+/** Side of a link's interface from which rays arrive, or where they go on: see SightLeg. */
+std::size_t GetSide(const RefractionStack::Link& link, bool behind)
+{
+  return 2 * link.Index + (link.Passage.FromFront == behind ? 1 : 0);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -58,8 +64,9 @@ void TraceSightRay(
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   constexpr double endless = std::numeric_limits<double>::infinity();
   ray.Legs.clear();
-  ray.Legs.push_back(
-    { eye, direction, links.empty() ? medium : links.front().Passage.Before, endless });
+  const std::size_t begin = links.empty() ? 0 : GetSide(links.front(), false);
+  ray.Legs.push_back({ eye, direction, links.empty() ? medium : links.front().Passage.Before,
+    endless, { begin, begin } });
   for (std::size_t k = 0; k < links.size(); ++k)
   {
     SightLeg& leg = ray.Legs.back();
@@ -78,7 +85,10 @@ void TraceSightRay(
       ray.End = PathEnd::Reflected;
       return;
     }
-    ray.Legs.push_back({ at.Position, refracted.Direction, passage.Behind, endless });
+    const std::size_t behind = GetSide(links[k], true);
+    const std::size_t next = k + 1 < links.size() ? GetSide(links[k + 1], false) : behind;
+    ray.Legs.push_back(
+      { at.Position, refracted.Direction, passage.Behind, endless, { behind, next } });
   }
   ray.End = PathEnd::Passed;
 }

@@ -57,6 +57,12 @@ struct SightLeg
   glm::dvec3 Direction; ///< of length 1
   double Index;         ///< of refraction
   double Length;        ///< infinite if the leg meets no further surface
+  /**
+   * Sides of the interfaces at its begin and at its end, which tell its medium: twice the
+   * interface's number in the list, plus 1 on the side that its normals point away from. An end
+   * without an interface has the side of the other end; both are 0 if no interface refracts.
+   */
+  std::size_t Sides[2];
 };
 
 /** A sight ray. */
@@ -97,10 +103,13 @@ public:
     TraceSightRay(this->Stack, this->Medium, direction, ray);
   }
 
-  /** Number of refracting interfaces of the whole list that lie behind the eye, on its far side. */
-  std::size_t GetNumberOfPassedInterfaces() const
+  /**
+   * False if no ray from the eye passes the surfaces in the order of the list: which of the media
+   * is around the eye is then an assumption.
+   */
+  bool IsMediumKnown() const
   {
-    return this->Stack.GetNumberOfInterfaces() - this->Stack.GetLinks().size();
+    return this->Stack.GetNumberOfInterfaces() == 0 || this->Stack.HasPassage();
   }
 
   const RefractionStack& GetStack() const { return this->Stack; }

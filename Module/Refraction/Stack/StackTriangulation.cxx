@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace meniscus
@@ -79,38 +80,59 @@ std::size_t CountSeenLegs(const StackSightRay& ray)
   return ray.Legs.size() - (ray.End == PathEnd::Missed && ray.Legs.size() > 1 ? 1 : 0);
 }
 
+/** The leg of a ray that shows the medium on a side of an interface; null if there is none. */
+const SightLeg* FindLeg(const StackSightRay& ray, std::size_t side)
+{
+  const auto end = ray.Legs.begin() + static_cast<std::ptrdiff_t>(CountSeenLegs(ray));
+  const auto leg = std::find_if(ray.Legs.begin(), end,
+    [side](const SightLeg& each) { return each.Sides[0] == side || each.Sides[1] == side; });
+  return leg == end ? nullptr : &*leg;
+}
+
+/** Legs of all rays on a side of an interface. Returns false if a ray has none. */
+bool FindLegs(
+  const std::vector<StackSightRay>& rays, std::size_t side, std::vector<const SightLeg*>& legs)
+{
+  legs.clear();
+  for (const StackSightRay& ray : rays)
+  {
+    legs.push_back(FindLeg(ray, side));
+    if (!legs.back())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 }
 
 //------------------------------------------------------------------------------
-TriangulatedPoint Triangulate(const std::vector<TriangulationRay>& rays)
+TriangulatedPoint Triangulate(const std::vector<StackSightRay>& rays)
 {
   TriangulatedPoint result;
   if (rays.size() < 2)
   {
     return result;
   }
-  std::size_t first = 0;
-  std::size_t end = std::numeric_limits<std::size_t>::max();
-  for (const TriangulationRay& ray : rays)
-  {
-    first = std::max(first, ray.Passed);
-    end = std::min(end, ray.Passed + CountSeenLegs(ray.Ray));
-  }
   result.State = TriangulationState::NoMedium;
   double least = std::numeric_limits<double>::infinity();
-  std::vector<const SightLeg*> legs(rays.size());
-  for (std::size_t medium = end; medium-- > first;)
+  std::vector<const SightLeg*> legs;
+  std::vector<const SightLeg*> known;
+  const auto use = [&](std::size_t side)
   {
-    for (std::size_t i = 0; i < rays.size(); ++i)
+    // The sides at both ends of a leg usually have the same legs.
+    if (!FindLegs(rays, side, legs) || legs == known)
     {
-      legs[i] = &rays[i].Ray.Legs[medium - rays[i].Passed];
+      return;
     }
+    known = legs;
     glm::dvec3 position;
     if (!MeetLines(legs, position))
     {
       result.State =
         result.State == TriangulationState::Found ? result.State : TriangulationState::Parallel;
-      continue;
+      return;
     }
     const double squares = GetSquares(legs, position);
     if (squares < least)
@@ -119,6 +141,12 @@ TriangulatedPoint Triangulate(const std::vector<TriangulationRay>& rays)
       result = { position, std::sqrt(squares / static_cast<double>(rays.size())),
         GetLargestAngle(legs), TriangulationState::Found };
     }
+  };
+  for (std::size_t i = CountSeenLegs(rays.front()); i-- > 0;)
+  {
+    const SightLeg& leg = rays.front().Legs[i];
+    use(leg.Sides[1]);
+    use(leg.Sides[0]);
   }
   return result;
 }

@@ -7,7 +7,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <cstddef>
 #include <vector>
 
 namespace meniscus
@@ -31,20 +30,15 @@ struct TriangulatedPoint
   TriangulationState State = TriangulationState::TooFewRays;
 };
 
-/** A sight ray, and the number of refracting interfaces of the list that its eye is behind. */
-struct TriangulationRay
-{
-  StackSightRay Ray;
-  std::size_t Passed;
-};
-
 /**
- * The point with the least sum of squared distances from sight rays. The point lies in one medium:
- * for each medium that all rays reach, the point nearest to the lines of the legs there is
- * computed; that with the least distances from the legs themselves is the result, the farther one
- * of two that are equal. A leg that misses the next surface shows nothing.
+ * The point with the least sum of squared distances from sight rays of one stack, whose eyes may be
+ * on different sides of an interface. The point lies in one medium: for each medium that all rays
+ * reach, the point nearest to the lines of the legs there is computed; that with the least
+ * distances from the legs themselves is the result, of two that are equal the one farther along the
+ * first ray. Legs are in the same medium if they touch the same side of an interface. A leg that
+ * misses the next surface shows nothing.
  */
-TriangulatedPoint Triangulate(const std::vector<TriangulationRay>& rays);
+TriangulatedPoint Triangulate(const std::vector<StackSightRay>& rays);
 
 }
 

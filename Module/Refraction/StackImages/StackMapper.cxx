@@ -180,28 +180,11 @@ bool StackMapper::ResolveTies(
     {
       continue;
     }
-    const int constraint = isEnd ? PrimitiveConstraints : 0;
-    glm::dvec3 behind;
-    std::array<glm::dvec3, 3> side;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const auto at = static_cast<glm::length_t>(i);
-      behind[at] = isEnd ? -whole[i].Value[constraint] : whole[i].Value[constraint];
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        side[k][at] = whole[i].Value[k + 1];
-      }
-    }
     const std::array<glm::dvec3, 3> corners = GetSurfaceCorners(cell.Cell, isEnd);
-    const SurfaceTie tie =
-      FindSurfaceTie(primitive, corners, behind, side, this->GetSlack(surface, corners[0]));
-    if (tie == (isEnd ? SurfaceTie::Behind : SurfaceTie::InFront))
+    if (!ResolveSurfaceTie(primitive, corners, isEnd ? PrimitiveConstraints : 0,
+          this->GetSlack(surface, corners[0]), whole))
     {
       return false;
-    }
-    for (std::size_t i = 0; i < 3 && tie != SurfaceTie::None; ++i)
-    {
-      whole[i].Value[constraint] = 0.0;
     }
   }
   return true;

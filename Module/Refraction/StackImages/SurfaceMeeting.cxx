@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -13,16 +12,14 @@ namespace
 {
 
 // True if a line, at and around `place`, is closer to a surface than `error` lengths of the cell.
-bool RunsAlong(const RefractionStack::Link& link, const ObjectLine& line, const glm::dvec3& place,
+bool StaysAlong(const RefractionStack::Link& link, const ObjectLine& line, const glm::dvec3& place,
   const std::array<glm::dvec3, 3>& corners, double error)
 {
-  const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const double area = glm::length(across);
   const double most = error * GetLongestSide(corners);
+  glm::dvec3 normal;
   SurfaceCrossing crossing;
-  return std::fabs(glm::dot(across, line.Direction)) <=
-    error * area * glm::length(line.Direction) &&
-    area > 0.0 && link.Surface->FindCrossing(place, across / area, 0, -most, most, crossing);
+  return RunsAlong(line.Direction, corners, most, normal) &&
+    link.Surface->FindCrossing(place, normal, 0, -most, most, crossing);
 }
 
 }
@@ -41,7 +38,7 @@ bool MoveToSurface(const RefractionStack::Link& link, const ObjectLine& side,
 {
   const ObjectLine line{ side.Origin - link.Shift, side.Direction };
   const glm::dvec3 guess = line.GetPoint(l);
-  if (RunsAlong(link, line, guess, corners, error))
+  if (StaysAlong(link, line, guess, corners, error))
   {
     return true;
   }

@@ -19,9 +19,9 @@ std::array<glm::dvec3, 3> GetSurfaceCorners(const LegCell& cell, bool isEnd);
 
 /**
  * Moves a place on a side, its parameter `l`, to the nearest crossing of the side with a surface.
- * The place stays where it is if the side leaves the surface, over the length of the cell, by less
- * than linear interpolation in the cell leaves the rays: then the cell does not determine where the
- * two cross, and may have a crossing where they have none.
+ * The place stays where it is if the side stays closer to the surface, over one length of the cell,
+ * than the error of linear interpolation there: then the cell does not determine where the two
+ * cross, and may have a crossing where they have none.
  * @param corners  the surface at the corners of the cell
  * @param error    error of linear interpolation in the cell, over the length of the cell
  * @return false if there is no crossing within the length of the cell

@@ -104,7 +104,8 @@ double ValueOf(vtkDataSetAttributes* data, const char* name, vtkIdType i)
 
 /**
  * Direction in which an eye sees a point behind planes, by bisection of the distance at which the
- * ray meets the first plane: the exact path's radius at the point's depth increases with it.
+ * ray meets the first plane: the exact path's radius at the point's depth increases with it, up to
+ * total reflection.
  */
 glm::dvec3 FindDirection(const std::vector<reference::ExactSurface>& surfaces,
   const glm::dvec3& eye, const glm::dvec3& point)
@@ -119,6 +120,11 @@ glm::dvec3 FindDirection(const std::vector<reference::ExactSurface>& surfaces,
   {
     const double middle = 0.5 * (low + high);
     const auto path = reference::TraceExactly(surfaces, eye, aim(middle));
+    if (!path)
+    {
+      high = middle;
+      continue;
+    }
     const glm::dvec3& from = path->Points.back();
     const glm::dvec3& direction = path->Directions.back();
     const glm::dvec3 end = from + (point.y - from.y) / direction.y * direction;
@@ -337,6 +343,166 @@ TEST(SightRays, TriangulatePointsThroughAPane)
     EXPECT_GT(ValueOf(arrays, "RayAngle", i), 10.0);
   }
   EXPECT_EQ(filter->GetNumberOfPointsWithoutPosition(), 0);
+}
+
+/** As FindDirection, for an eye in water at y < 0 and a point in air: mirrored at y = 0. */
+glm::dvec3 FindDirectionFromBelow(const glm::dvec3& eye, const glm::dvec3& point)
+{
+  const glm::dvec3 mirror(1.0, -1.0, 1.0);
+  return mirror *
+    FindDirection({ { 1.333, 1.0, glm::dvec3(0.0), 0.0, Up } }, mirror * eye, mirror * point);
+}
+
+//------------------------------------------------------------------------------
+// Eyes in air and in water, one or two of each, see points in water and in air.
+TEST(SightRays, EyesOnBothSidesOfASurface)
+{
+  const std::vector<reference::ExactSurface> surface{ { 1.0, 1.333, glm::dvec3(0.0), 0.0, Up } };
+  const std::vector<glm::dvec3> above{ { 20.0, 60.0, 10.0 }, { -30.0, 45.0, 5.0 } };
+  const std::vector<glm::dvec3> below{ { -25.0, -50.0, 40.0 }, { 35.0, -20.0, -15.0 } };
+  Observations seen;
+  std::vector<glm::dvec3> truth;
+  unsigned seed = 4;
+  vtkIdType rays = 0;
+  for (vtkIdType i = 0; i < 120; ++i)
+  {
+    const bool isInWater = i % 2 == 0;
+    const glm::dvec3 point(20.0 * GetRandom(seed) - 10.0,
+      (isInWater ? -1.0 : 1.0) * (2.0 + 40.0 * GetRandom(seed)), 20.0 * GetRandom(seed) - 10.0);
+    truth.push_back(point);
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      if (k == 0 || i % 3 != 0)
+      {
+        const glm::dvec3 direction =
+          isInWater ? FindDirection(surface, above[k], point) : glm::normalize(point - above[k]);
+        seen.Add(above[k] + (1.0 + 90.0 * GetRandom(seed)) * direction, above[k], i);
+        ++rays;
+      }
+      if (k == 0 || i % 3 != 1)
+      {
+        const glm::dvec3 direction =
+          isInWater ? glm::normalize(point - below[k]) : FindDirectionFromBelow(below[k], point);
+        seen.Add(below[k] + (1.0 + 90.0 * GetRandom(seed)) * direction, below[k], i);
+        ++rays;
+      }
+    }
+  }
+  vtkNew<vtkTriangulatedPositionFilter> filter;
+  filter->SetInputData(seen.Data);
+  filter->SetMembraneData(MakePlaneAt(0.0));
+  filter->SetInteriorIndexOfRefraction(1.333);
+  filter->Update();
+  vtkPointData* arrays = filter->GetOutput()->GetPointData();
+  for (vtkIdType i = 0; i < 120; ++i)
+  {
+    EXPECT_EQ(ValueOf(arrays, "TriangulationState", i), vtkTriangulatedPositionFilter::FOUND);
+    // Rounding of numbers up to 100, and of the directions' bisection, over the rays' angles.
+    EXPECT_LT(
+      glm::length(PointOf(filter->GetOutput(), i) - truth[static_cast<std::size_t>(i)]), 1e-10)
+      << i;
+    EXPECT_LT(ValueOf(arrays, "Residual", i), 1e-10);
+    rays -= static_cast<vtkIdType>(ValueOf(arrays, "NumberOfRays", i));
+  }
+  EXPECT_EQ(rays, 0);
+}
+
+//------------------------------------------------------------------------------
+// A pane in air, whose glass is seen from both sides. The list can be passed from either.
+TEST(SightRays, EyesOnBothSidesOfAPane)
+{
+  const glm::dvec3 above(20.0, 60.0, 10.0);
+  const glm::dvec3 below(-25.0, -70.0, 40.0);
+  const glm::dvec3 mirror(1.0, -1.0, 1.0);
+  const glm::dvec3 shift(0.0, 10.0, 0.0); // the lower side of the pane to y = 0
+  const std::vector<reference::ExactSurface> side{ { 1.0, 1.5, glm::dvec3(0.0), 0.0, Up } };
+  Observations seen;
+  const std::vector<glm::dvec3> truth{ { 3.0, -4.0, 2.0 }, { 5.0, -22.0, -9.0 } };
+  seen.Add(above + FindDirection(side, above, truth[0]), above, 0);
+  seen.Add(
+    below + mirror * FindDirection(side, mirror * (below + shift), mirror * (truth[0] + shift)),
+    below, 0);
+  // Below the pane: one eye sees the point through it.
+  std::vector<reference::ExactSurface> both(Pane);
+  both[1].Behind = 1.0;
+  seen.Add(above + FindDirection(both, above, truth[1]), above, 1);
+  seen.Add(truth[1], below, 1);
+  const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
+  filter->GetInterfaces()->GetInterface(1)->SetInteriorIndexOfRefraction(1.0);
+  filter->Update();
+  for (vtkIdType i = 0; i < 2; ++i)
+  {
+    EXPECT_LT(
+      glm::length(PointOf(filter->GetOutput(), i) - truth[static_cast<std::size_t>(i)]), 1e-10)
+      << i;
+  }
+}
+
+//------------------------------------------------------------------------------
+// From an eye in the water no ray passes the list of air, glass and water, so that the medium
+// around it is not known.
+TEST(SightRays, EyesBehindAListHaveNoRays)
+{
+  const glm::dvec3 point(5.0, -30.0, 3.0);
+  const glm::dvec3 diver(-40.0, -60.0, 7.0);
+  Observations seen;
+  for (const glm::dvec3& eye : { Cameras[0], Cameras[1] })
+  {
+    seen.Add(eye + FindDirection(Pane, eye, point), eye, 0);
+  }
+  seen.Add(point, diver, 0);
+  const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
+  filter->Update();
+  EXPECT_EQ(ValueOf(filter->GetOutput()->GetPointData(), "NumberOfRays", 0), 2.0);
+  EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - point), 1e-10);
+}
+
+//------------------------------------------------------------------------------
+// Numbers that only differ in bits that a double does not have.
+TEST(SightRays, NumbersOfPointsMayBeLarge)
+{
+  const vtkIdType large = vtkIdType(1) << 60;
+  Observations seen;
+  for (const vtkIdType id : { large + 8, large + 7 })
+  {
+    const glm::dvec3 point(static_cast<double>(id - large), 20.0, 5.0);
+    seen.Add(point, Cameras[0], id);
+    seen.Add(point, Cameras[1], id);
+  }
+  const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 2);
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("PointId"));
+  EXPECT_EQ(ids->GetValue(0), large + 7);
+  EXPECT_EQ(ids->GetValue(1), large + 8);
+  EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - glm::dvec3(7.0, 20.0, 5.0)), 1e-10);
+}
+
+//------------------------------------------------------------------------------
+TEST(SightRays, NumbersOfPointsAreWhole)
+{
+  for (const double bad : { std::nan(""), -std::numeric_limits<double>::infinity(), 1e19, 0.5 })
+  {
+    Observations seen;
+    seen.Add({ 5.0, 20.0, 3.0 }, Cameras[0], 0);
+    seen.Add({ 5.0, 20.0, 3.0 }, Cameras[1], 0);
+    vtkNew<vtkDoubleArray> ids;
+    ids->SetName("PointId");
+    ids->InsertNextValue(7.0);
+    ids->InsertNextValue(7.0);
+    seen.Data->GetPointData()->AddArray(ids);
+    const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->Errors, 0) << messages->Text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 1);
+    ids->SetValue(1, bad);
+    ids->Modified();
+    filter->Update();
+    EXPECT_NE(messages->Text.find("not whole numbers"), std::string::npos) << messages->Text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -19,6 +19,16 @@
 #include <thread>
 #include <utility>
 
+#ifdef __linux__
+#include <csignal>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
+
 using namespace meniscus::testing;
 
 namespace
@@ -152,3 +162,42 @@ TEST_F(MesherScripts, WithoutPlaceForFiles)
   setenv("TMPDIR", (this->Folder / "missing").c_str(), 1);
   EXPECT_NE(this->Run("exit 0").find("could not be written"), std::string::npos);
 }
+
+#if defined(__linux__) && defined(MENISCUS_TETGEN_PROGRAM)
+//------------------------------------------------------------------------------
+// A host starts TetGen's program, and is killed while the program writes to a pipe that is full.
+TEST_F(MesherScripts, TetGenEndsWithItsHost)
+{
+  std::string program = MENISCUS_TETGEN_PROGRAM;
+  if (!std::filesystem::exists(program))
+  {
+    GTEST_SKIP() << "not in the build tree";
+  }
+  std::string task = (this->Folder / "task").string();
+  std::string answer = (this->Folder / "answer").string();
+  this->Filter->SetMaximumVolume(1e-4); // an answer of more bytes than a pipe can hold
+  this->Run("cp \"$1\" '" + task + "'");
+  ASSERT_EQ(mkfifo(answer.c_str(), S_IRUSR | S_IWUSR), 0);
+  char* arguments[] = { &program[0], &task[0], &answer[0], nullptr };
+  const pid_t host = fork();
+  ASSERT_GE(host, 0);
+  if (host == 0)
+  {
+    pid_t process = 0;
+    posix_spawn(&process, program.c_str(), nullptr, nullptr, arguments, environ);
+    for (;;)
+    {
+      pause();
+    }
+  }
+  // Succeeds as soon as the program opens its answer.
+  const int pipe = open(answer.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(pipe, 0);
+  kill(host, SIGKILL);
+  waitpid(host, nullptr, 0);
+  // No process writes any more when the program has ended.
+  pollfd state{ pipe, 0, 0 };
+  EXPECT_EQ(poll(&state, 1, 10000), 1) << "the program goes on";
+  close(pipe);
+}
+#endif

@@ -7,11 +7,13 @@
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImplicitPolyDataDistance.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTetra.h"
 #include "vtkTetrahedralizeSurface.h"
 #include "vtkTriangle.h"
@@ -172,6 +174,84 @@ struct KnownSolid
   double Volume;
 };
 
+/**
+ * Adds point arrays: keys that a double cannot hold, named components, ids, strings, and one array
+ * for each kind of value that is not finite.
+ */
+void AddArrays(vtkPolyData* surface)
+{
+  vtkNew<vtkIdTypeArray> keys;
+  keys->SetName("keys");
+  vtkNew<vtkDoubleArray> named;
+  named->SetName("named");
+  named->SetNumberOfComponents(3);
+  vtkNew<vtkStringArray> strings;
+  strings->SetName("strings");
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("ids");
+  const char* const names[3] = { "east", "north", "up" };
+  for (int i = 0; i < 3; ++i)
+  {
+    named->SetComponentName(i, names[i]);
+  }
+  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  {
+    keys->InsertNextValue((vtkIdType(1) << 60) + p);
+    named->InsertNextTuple(surface->GetPoint(p));
+    strings->InsertNextValue("text");
+    ids->InsertNextValue(p);
+  }
+  surface->GetPointData()->AddArray(keys);
+  surface->GetPointData()->SetVectors(named);
+  surface->GetPointData()->AddArray(strings);
+  surface->GetPointData()->SetGlobalIds(ids);
+  for (const double bad : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(std::to_string(bad).c_str());
+    array->SetNumberOfTuples(surface->GetNumberOfPoints());
+    array->Fill(1.0);
+    array->SetValue(3, bad);
+    surface->GetPointData()->AddArray(array);
+  }
+}
+
+/** Checks the arrays of AddArrays at the surface's points. */
+void CheckArrays(vtkUnstructuredGrid* grid, vtkPolyData* surface)
+{
+  vtkPointData* arrays = grid->GetPointData();
+  ASSERT_EQ(arrays->GetNumberOfArrays(), 5);
+  EXPECT_EQ(arrays->GetArray("ids"), nullptr);
+  auto* keys = vtkIdTypeArray::SafeDownCast(arrays->GetArray("keys"));
+  vtkDataArray* named = arrays->GetVectors();
+  ASSERT_NE(keys, nullptr);
+  ASSERT_NE(named, nullptr);
+  EXPECT_STREQ(named->GetName(), "named");
+  EXPECT_STREQ(named->GetComponentName(1), "north");
+  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  {
+    double expected[3];
+    surface->GetPoint(p, expected);
+    const vtkIdType at = grid->FindPoint(expected);
+    EXPECT_EQ(keys->GetValue(at), (vtkIdType(1) << 60) + p);
+    EXPECT_EQ(named->GetComponent(at, 2), expected[2]);
+    EXPECT_EQ(arrays->GetArray("inf")->GetComponent(at, 0), p == 3 ? HUGE_VAL : 1.0);
+  }
+}
+
+/** A geodesic sphere of radius 1, stretched along y and z. */
+vtkSmartPointer<vtkPolyData> MakeEllipsoid(int levels, double y, double z)
+{
+  const auto surface = MakeGeodesicSphere(1.0, levels);
+  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    surface->GetPoint(p, x);
+    surface->GetPoints()->SetPoint(p, x[0], y * x[1], z * x[2]);
+  }
+  return surface;
+}
+
 std::vector<KnownSolid> KnownSolids()
 {
   return { { "box", MakeBox(2.0, 3.0, 5.0), 30.0 },
@@ -283,15 +363,7 @@ TEST_F(TetGenMeshes, CountCellsAboveTheBound)
 // Triangles at 179.99 degrees are not taken for one plane.
 TEST_F(TetGenMeshes, KeepShallowBumps)
 {
-  const auto sphere = MakeGeodesicSphere(1.0, 3);
-  vtkPoints* points = sphere->GetPoints();
-  for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p)
-  {
-    double x[3];
-    points->GetPoint(p, x);
-    points->SetPoint(p, x[0], x[1], 1e-4 * x[2]);
-  }
-  const auto filter = MakeFilter(sphere, vtkTetrahedralizeSurface::TETGEN);
+  const auto filter = MakeFilter(MakeEllipsoid(3, 1.0, 1e-4), vtkTetrahedralizeSurface::TETGEN);
   filter->PreserveSurfaceOn();
   const auto messages = Observe(filter);
   filter->Update();
@@ -375,6 +447,22 @@ TEST_F(TetGenMeshes, ContinueArrays)
 }
 
 //------------------------------------------------------------------------------
+// Arrays with a value that is not finite have no continuation, whichever value it is.
+TEST_F(TetGenMeshes, KeepArraysAtThePointsOfTheSurface)
+{
+  const auto surface = MakeGeodesicSphere(1.0, 2);
+  AddArrays(surface);
+  const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::TETGEN);
+  filter->SetMaximumVolume(0.01);
+  filter->PreserveSurfaceOn();
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_TRUE(Contains(messages->Text, "3 point arrays cannot be continued"));
+  EXPECT_GT(filter->GetNumberOfAddedPoints(), 0);
+  CheckArrays(filter->GetOutput(), surface);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(TetGenMeshes, ReportSurfacesThatCross)
 {
   const auto crossing =
@@ -389,14 +477,8 @@ TEST_F(TetGenMeshes, ReportSurfacesThatCross)
 // Delaunay cells have the boundary of the points' convex hull; here that is the surface.
 TEST(DelaunayMeshes, FillTheSurface)
 {
-  const auto surface = MakeGeodesicSphere(1.0, 2);
+  const auto surface = MakeEllipsoid(2, 1.3, 0.8);
   const double volume = GeodesicSphereVolume(1.0, 2) * 1.3 * 0.8;
-  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
-  {
-    double x[3];
-    surface->GetPoint(p, x);
-    surface->GetPoints()->SetPoint(p, x[0], 1.3 * x[1], 0.8 * x[2]);
-  }
   const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
   const auto messages = Observe(filter);
   filter->Update();
@@ -407,6 +489,67 @@ TEST(DelaunayMeshes, FillTheSurface)
   EXPECT_EQ(static_cast<vtkIdType>(figures.Boundary.size()), surface->GetNumberOfCells());
   EXPECT_EQ(filter->GetNumberOfAddedPoints(), 0);
   EXPECT_EQ(filter->GetUsedMesher(), vtkTetrahedralizeSurface::DELAUNAY);
+}
+
+//------------------------------------------------------------------------------
+// Far from the origin, where squares of coordinates lose the digits of the surface.
+TEST(DelaunayMeshes, FillSurfacesFarAway)
+{
+  for (const double distance : { 1e4, 1e5, 1e6 })
+  {
+    SCOPED_TRACE(distance);
+    const auto surface = Moved(MakeEllipsoid(2, 1.3, 0.8), { distance, 0.7 * distance, 0.0 });
+    const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->Text, "");
+    double volume = 0.0;
+    vtkUnstructuredGrid* grid = filter->GetOutput();
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    {
+      double corner[4][3];
+      for (int i = 0; i < 4; ++i)
+      {
+        grid->GetPoint(grid->GetCell(c)->GetPointId(i), corner[i]);
+        corner[i][0] -= distance;
+        corner[i][1] -= 0.7 * distance;
+      }
+      volume += vtkTetra::ComputeVolume(corner[0], corner[1], corner[2], corner[3]);
+    }
+    // The coordinates are rounded to epsilon times the distance; the area is below 20.
+    EXPECT_NEAR(volume, GeodesicSphereVolume(1.0, 2) * 1.3 * 0.8, 20.0 * 3e-16 * distance);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Without added points nothing is continued.
+TEST(DelaunayMeshes, KeepArraysAtThePointsOfTheSurface)
+{
+  const auto surface = MakeEllipsoid(2, 1.3, 0.8);
+  AddArrays(surface);
+  const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Text, "");
+  CheckArrays(filter->GetOutput(), surface);
+}
+
+//------------------------------------------------------------------------------
+// Triangles of a convex surface are Delaunay faces, with empty spheres that here are much larger
+// than the surface.
+TEST(DelaunayMeshes, FillFlatConvexSurfaces)
+{
+  for (const double height : { 0.5, 0.2, 0.05 })
+  {
+    SCOPED_TRACE(height);
+    const auto filter =
+      MakeFilter(MakeEllipsoid(3, 1.3, height), vtkTetrahedralizeSurface::DELAUNAY);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->Text, "");
+    const double volume = GeodesicSphereVolume(1.0, 3) * 1.3 * height;
+    EXPECT_NEAR(Measure(filter->GetOutput()).Volume, volume, 1e-12 * volume);
+  }
 }
 
 //------------------------------------------------------------------------------
