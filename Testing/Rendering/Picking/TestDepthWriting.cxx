@@ -7,6 +7,9 @@
 
 #include <vtkCamera.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkPlaneSource.h>
+#include <vtkRefractingInterface.h>
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTetrahedraVolumePicker.h>
@@ -16,6 +19,7 @@
 #include <vtkWorldPointPicker.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace meniscus::test;
 using Mapper = vtkTetrahedraRayCastMapper;
@@ -104,6 +108,72 @@ TEST(TetrahedraRayCastDepth, ClosedForm)
     EXPECT_EQ(scene.RenderAndRead(middle, middle), 1.0);
     mapper->SetDepthWriting(Mapper::NO_DEPTH);
     EXPECT_EQ(scene.RenderAndRead(middle, middle), 1.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Behind refracting planes a place is drawn on the straight ray, at the lengths of the legs times
+ * n0 / n (Eq. 2.4), whatever the pixel.
+ */
+TEST(TetrahedraRayCastDepth, BehindRefractingSurfaces)
+{
+  struct Plane
+  {
+    double Z;
+    double Index; ///< behind it
+  };
+  const std::vector<Plane> water{ { 1.5, 1.333 } };
+  const std::vector<Plane> pane{ { 2.0, 1.5 }, { 1.75, 1.333 } };
+  for (const std::vector<Plane>& planes : { water, pane })
+  {
+    DepthScene scene(false);
+    Mapper* mapper = scene.Scene.GetRayCaster();
+    vtkNew<vtkRefractingInterfaceCollection> interfaces;
+    double before = 1.0;
+    for (const Plane& plane : planes)
+    {
+      vtkNew<vtkPlaneSource> surface;
+      surface->SetOrigin(-9.0, -9.0, plane.Z);
+      surface->SetPoint1(9.0, -9.0, plane.Z);
+      surface->SetPoint2(-9.0, 9.0, plane.Z);
+      surface->Update();
+      mapper->AddMembraneData(surface->GetOutput());
+      vtkNew<vtkRefractingInterface> item;
+      item->SetExteriorIndexOfRefraction(before);
+      item->SetInteriorIndexOfRefraction(plane.Index);
+      interfaces->AddItem(item);
+      before = plane.Index;
+    }
+    mapper->SetInterfaces(interfaces);
+    for (const int column : { Size / 2, Size / 2 + 9 })
+    {
+      const int row = Size / 2 - 5;
+      const PixelRays rays(scene.Scene.GetRenderer());
+      const auto direction = rays.GetRay(column, row).Direction;
+      const double across = std::hypot(direction[0], direction[1]);
+      const double cosine = 1.0 / std::hypot(1.0, across);
+      const double sine = across * cosine;
+      const auto cosineIn = [sine](double index)
+      { return std::sqrt(1.0 - sine * sine / (index * index)); };
+      // Depth at which a place at this true z is drawn.
+      const auto drawn = [&](double z)
+      {
+        double length = (5.0 - planes.front().Z) / cosine;
+        for (std::size_t k = 0; k < planes.size(); ++k)
+        {
+          const double end = k + 1 < planes.size() ? planes[k + 1].Z : z;
+          length += (planes[k].Z - end) / cosineIn(planes[k].Index) / planes[k].Index;
+        }
+        return WindowDepth(false, length * cosine);
+      };
+      mapper->SetDepthWriting(Mapper::FIRST_VISIBLE_DEPTH);
+      EXPECT_NEAR(scene.RenderAndRead(column, row), drawn(1.0), Tolerance);
+      mapper->SetDepthWriting(Mapper::OPACITY_DEPTH);
+      mapper->SetDepthOpacity(0.5);
+      const double t = std::sqrt(2.0 * std::log(2.0) * cosineIn(planes.back().Index));
+      EXPECT_NEAR(scene.RenderAndRead(column, row), drawn(1.0 - t), Tolerance);
+    }
   }
 }
 
