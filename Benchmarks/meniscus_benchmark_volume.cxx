@@ -11,6 +11,7 @@
 #include "Volume/VolumeOutput.h"
 #include "Volume/VolumeProbe.h"
 #include "Volume/VolumeReport.h"
+#include "Volume/VolumeSteps.h"
 
 #include <vtkSMPTools.h>
 #include <vtkUnstructuredGrid.h>
@@ -201,6 +202,11 @@ int main(int argc, char* argv[])
   if (options.Growth)
   {
     PrintGrowth(std::cout, options);
+    return EXIT_SUCCESS;
+  }
+  if (options.Steps)
+  {
+    PrintSteps(std::cout, options);
     return EXIT_SUCCESS;
   }
   return CompareAll(options);

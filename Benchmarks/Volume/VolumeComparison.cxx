@@ -35,15 +35,6 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-double CpuMilliseconds()
-{
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return 1e3 * (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-    1e-3 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
-//------------------------------------------------------------------------------
 // Accumulates |image - reference| over the pixels of several views.
 class ErrorSum
 {
@@ -74,6 +65,15 @@ private:
 };
 
 } // anonymous namespace
+
+//------------------------------------------------------------------------------
+double CpuMilliseconds()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1e3 * (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+    1e-3 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
 
 //------------------------------------------------------------------------------
 Spread SpreadOf(std::vector<double> values)

@@ -73,6 +73,9 @@ struct Spread
 
 Spread SpreadOf(std::vector<double> values);
 
+/** Processor time of all threads of the process so far. */
+double CpuMilliseconds();
+
 /** Ratio of the times of a frame of `slow` and the frame of `fast` in the same round. */
 Spread RatioOf(const Figures& slow, const Figures& fast, bool cpu = false);
 

@@ -48,6 +48,8 @@ const char* const VolumeUsage =
   "  --device           only print names and limits of the graphics device, one per line\n"
   "  --growth           ms per frame for generated blocks of 10k to 5M tetrahedra\n"
   "  --growth-limit N   up to N thousand tetrahedra (default 5000)\n"
+  "  --steps            shares of the first frame that time steps of the mesh take (processor "
+  "time)\n"
   "  --report           the goals of the mapper, each beside what is measured\n"
   "  --row NAME         only this row of the report: native, native-1024, opengl, sparse, opaque,\n"
   "                     setup, edit, scalars, memory, membrane, growth, error\n"
@@ -92,7 +94,7 @@ bool ReadFlag(const std::string& key, VolumeOptions& options)
   const std::map<std::string, bool*> flags{ { "--help", &options.Help }, { "-h", &options.Help },
     { "--zsweep", &options.ZSweep }, { "--growth", &options.Growth },
     { "--report", &options.Report }, { "--bandwidth", &options.Bandwidth },
-    { "--device", &options.Device } };
+    { "--device", &options.Device }, { "--steps", &options.Steps } };
   const auto flag = flags.find(key);
   if (flag != flags.end())
   {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Time steps on one mesh: the share that a step takes of the first frame of a mesh. */
+#ifndef meniscus_Benchmarks_Volume_VolumeSteps_h
+#define meniscus_Benchmarks_Volume_VolumeSteps_h
+
+#include <iosfwd>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+struct VolumeOptions;
+
+/**
+ * Prints a Markdown table, natively and through OpenGL, with and without light: processor time of
+ * the first frame of a mesh, and of steps with new scalars, new points, both, or new arrays of the
+ * same values, relative to that. All arrays of a step are new. Frames have 8 x 8 pixels.
+ */
+void PrintSteps(std::ostream& out, const VolumeOptions& options);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif
