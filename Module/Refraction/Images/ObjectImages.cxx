@@ -358,42 +358,17 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
 void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
   const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const
 {
-  std::vector<char> isCommon(seams.size(), 0);
-  const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
-  {
-    const auto at = std::lower_bound(seams.begin(), seams.end(), side);
-    return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
-  };
-  VisitPolygonSides(
-    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
-    [&find, &isCommon](const Seam& side)
+  EdgeSubdivision division(this->Geometry, this->Tolerance);
+  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces,
+    [this, &division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
     {
-      const std::ptrdiff_t at = find(side);
-      if (at >= 0)
+      if (this->HaveOneImage(point.Source.data(), 2) &&
+        this->FindSide(point.Source.data(), 2) == Side::Behind)
       {
-        isCommon[static_cast<std::size_t>(at)] = 1;
+        division.MoveOntoEdge(
+          this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
       }
     });
-  EdgeSubdivision division(this->Geometry, this->Tolerance);
-  for (ImagePoint& point : pieces.Points)
-  {
-    if (point.GetNumberOfSources() != 2)
-    {
-      continue;
-    }
-    const std::ptrdiff_t at = find({ std::min(point.Source[0], point.Source[1]),
-      std::max(point.Source[0], point.Source[1]), 0 });
-    if (at >= 0 && isCommon[static_cast<std::size_t>(at)] &&
-      this->HaveOneImage(point.Source.data(), 2) &&
-      this->FindSide(point.Source.data(), 2) == Side::Behind)
-    {
-      // The place is measured from the end with the lower index, whichever has the larger weight,
-      // so that all copies move alike.
-      const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
-      division.MoveOntoEdge(this->GetImagedPoint(point.Source[low]),
-        this->GetImagedPoint(point.Source[1 - low]), point.Weight[1 - low], point.Vertex);
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -61,7 +61,7 @@ bool PrimitiveMapper::MapAsBehind(Context& context, ImageMesh& images) const
 // is cut off, any if that is to be found.
 double PrimitiveMapper::GetLengthInFront(const Context& context) const
 {
-  if (context.IsPartInFront)
+  if (context.IsPartInFront != nullptr)
   {
     return std::numeric_limits<double>::infinity();
   }

@@ -67,6 +67,46 @@ void VisitPolygonSides(
 std::vector<Seam> FindSeams(
   const ObjectCells& cells, std::size_t count, const unsigned char* isMapped);
 
+/**
+ * Calls `visit(low, high, place, point)` for each point of `pieces` on a seam that a polygon shares
+ * which has not been mapped. `place` is the point's parameter from 0 at the end with the lower
+ * index, whichever has the larger weight, so that all copies of a point get the same.
+ */
+template <typename Visit>
+void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& cells,
+  std::size_t count, const unsigned char* isMapped, ImageMesh& pieces, const Visit& visit)
+{
+  const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
+  {
+    const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+    return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
+  };
+  std::vector<char> isCommon(seams.size(), 0);
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
+    [&find, &isCommon](const Seam& side)
+    {
+      const std::ptrdiff_t at = find(side);
+      if (at >= 0)
+      {
+        isCommon[static_cast<std::size_t>(at)] = 1;
+      }
+    });
+  for (ImagePoint& point : pieces.Points)
+  {
+    if (point.GetNumberOfSources() != 2)
+    {
+      continue;
+    }
+    const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
+    const std::ptrdiff_t at = find({ point.Source[low], point.Source[1 - low], 0 });
+    if (at >= 0 && isCommon[static_cast<std::size_t>(at)])
+    {
+      visit(point.Source[low], point.Source[1 - low], point.Weight[1 - low], point);
+    }
+  }
+}
+
 class SeamClosure
 {
 public:

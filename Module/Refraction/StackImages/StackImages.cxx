@@ -192,10 +192,42 @@ void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
   const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
-  if (closesSeams && !seams.empty())
+  if (seams.empty())
   {
-    const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+    return;
+  }
+  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces,
+    [this, &eye](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+    {
+      if (this->GetNumberOfImages(static_cast<std::size_t>(low)) == 1 &&
+        this->GetNumberOfImages(static_cast<std::size_t>(high)) == 1)
+      {
+        this->MoveOntoEdge(this->GetFirstImage(low), this->GetFirstImage(high), place, eye, point);
+      }
+    });
+  if (closesSeams)
+  {
     this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Moves a point onto the straight side of a whole polygon, if it is on the branch that the polygon
+// draws.
+void StackImages::MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
+  const glm::dvec3& eye, ImagePoint& point) const
+{
+  // The polygon and the piece are each within the tolerance of the true image.
+  constexpr double sameBranch = 2.0;
+  const glm::dvec3 drawn = (1.0 - place) * low.Vertex.Position + place * high.Vertex.Position;
+  const glm::dvec3 there = drawn - eye;
+  const glm::dvec3 seen = point.Vertex.Position - eye;
+  if (low.Passed == point.Passed && high.Passed == point.Passed &&
+    glm::length(glm::cross(there, seen)) <=
+      sameBranch * this->Tolerance * glm::length(there) * glm::length(seen))
+  {
+    point.Vertex.Position = drawn;
   }
 }
 

@@ -60,6 +60,8 @@ private:
 
   bool ClipTriangles(
     const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
+  void MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
+    const glm::dvec3& eye, ImagePoint& point) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
 
   const StackSolver& Solver;

@@ -189,11 +189,13 @@ TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
   object.Map(solver, Tolerance);
   EXPECT_GT(object.Report.Whole, object.GetCount() / 10);
   EXPECT_GT(object.Report.Mapped, object.GetCount() / 10);
-  const Comparison result = Compare(solver, object, 9000, 35);
-  EXPECT_GT(result.Hits, 500);
-  EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
-  RecordProperty("hits", result.Hits);
-  RecordProperty("off", result.Off);
+  // With the last three seeds, a ray is wrong if pieces do not end on the sides of whole triangles.
+  for (const unsigned seed : { 35u, 55u, 57u, 93u })
+  {
+    const Comparison result = Compare(solver, object, 9000, seed);
+    EXPECT_GT(result.Hits, 500);
+    EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays << ", seed " << seed;
+  }
   RecordProperty("whole", static_cast<int>(object.Report.Whole));
 }
 
