@@ -49,6 +49,25 @@ void BuildMesh(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * cells);
 }
 
+/** Gradients of the vertices of a smooth field, as for light. Items are cells. */
+void VertexGradients(benchmark::State& state)
+{
+  const MeshArrays arrays = MakeArrays();
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  std::vector<double> scalars;
+  for (const std::int64_t point : mesh.GetSourcePoints())
+  {
+    const glm::dvec3 at = arrays.PointAt(point);
+    scalars.push_back(at.x * at.y + at.z);
+  }
+  for (auto step : state)
+  {
+    benchmark::DoNotOptimize(ComputeVertexGradients(mesh, scalars, 1.0));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.GetCells().size()));
+}
+
 /** Optics of a frame. */
 struct FrameKind
 {
@@ -163,6 +182,7 @@ void RegisterFrames()
 }
 
 BENCHMARK(BuildMesh)->Unit(benchmark::kMillisecond);
+BENCHMARK(VertexGradients)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 
