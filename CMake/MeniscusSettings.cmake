@@ -47,6 +47,20 @@ function (meniscus_target_flags target)
   endif ()
 endfunction ()
 
+# Makes a program a part of the target meniscus_tests_LABEL, which builds all tests of a label.
+function (meniscus_label_tests target label)
+  if (NOT TARGET meniscus_tests_${label})
+    add_custom_target(meniscus_tests_${label})
+  endif ()
+  add_dependencies(meniscus_tests_${label} ${target})
+endfunction ()
+
+# meniscus_discover_tests(TARGET LABEL [PROPERTY VALUE]...): adds the tests of a GoogleTest program.
+function (meniscus_discover_tests target label)
+  meniscus_label_tests(${target} ${label})
+  gtest_discover_tests(${target} PROPERTIES LABELS ${label} ${ARGN})
+endfunction ()
+
 # Tests also run on real meshes where they find them.
 set(MENISCUS_DATA_DIR "$ENV{MENISCUS_DATA_DIR}" CACHE PATH
   "Folder with blunt_fin.vtu, combustor.vtu, crushed_can.vtu")

@@ -107,7 +107,8 @@ std::uint32_t HilbertCurve::Code(const glm::dvec3& position) const
   for (int axis = 0; axis < 3; ++axis)
   {
     const double place = (position[axis] - this->Lower[axis]) * this->CellsPerUnit;
-    cell[axis] = static_cast<std::uint32_t>(std::min(std::max(place, 0.0), lastCell));
+    // NaN, from boxes whose length or scale is beyond the range of double, becomes 0.
+    cell[axis] = static_cast<std::uint32_t>(std::min(std::max(0.0, place), lastCell));
   }
   return HilbertCode(cell);
 }

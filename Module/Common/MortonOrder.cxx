@@ -86,7 +86,8 @@ std::uint32_t MortonCurve::Code(const glm::dvec3& position) const
   for (int axis = 0; axis < 3; ++axis)
   {
     const double cell = (position[axis] - this->Lower[axis]) * this->Scale[axis];
-    const double clamped = std::min(std::max(cell, 0.0), CellsPerAxis - 1.0);
+    // NaN, from boxes whose length or scale is beyond the range of double, becomes 0.
+    const double clamped = std::min(std::max(0.0, cell), CellsPerAxis - 1.0);
     code |= SpreadBits(static_cast<std::uint32_t>(clamped)) << axis;
   }
   return code;

@@ -84,11 +84,11 @@ std::vector<double> ShinePhotons(
       const auto end = waves.Refract(place + 1e6 * sun, place, 1.0);
       const glm::dvec3 along = *end - place;
       const glm::dvec3 hit = place + (y - place.y) / along.y * along;
-      const auto column = static_cast<int>(std::floor((hit.x / size + 0.5) * cells));
-      const auto row = static_cast<int>(std::floor((hit.z / size + 0.5) * cells));
-      if (column >= 0 && column < cells && row >= 0 && row < cells)
+      const double column = std::floor((hit.x / size + 0.5) * cells);
+      const double row = std::floor((hit.z / size + 0.5) * cells);
+      if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
       {
-        flux[static_cast<std::size_t>(row) * cells + column] += power;
+        flux[static_cast<std::size_t>(row * cells + column)] += power;
       }
     }
   }

@@ -266,9 +266,10 @@ TEST(StackLight, ABallConcentratesLightAsExactRaysDo)
         double at = 0.0;
         const double power = TraceBall(radius, y, at);
         const glm::dvec2 hit = place * (at / radius);
-        const auto column = static_cast<int>(std::floor((hit.x / size + 0.5) * cells));
-        const auto row = static_cast<int>(std::floor((hit.y / size + 0.5) * cells));
-        if (column >= 0 && column < cells && row >= 0 && row < cells)
+        // Infinite for rays that go up.
+        const double column = std::floor((hit.x / size + 0.5) * cells);
+        const double row = std::floor((hit.y / size + 0.5) * cells);
+        if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
         {
           truth[static_cast<std::size_t>(row * cells + column)] +=
             power * std::pow(80.0 / rays * cells / size, 2.0);

@@ -104,6 +104,12 @@ TEST(HilbertCurve, ClampsToTheBoxAndTakesFlatBoxes)
   EXPECT_NE(flat.Code(glm::dvec3(3.0, 1.0, 0.0)), flat.Code(glm::dvec3(1.0, 1.0, 0.0)));
   const HilbertCurve point(glm::dvec3(2.0), glm::dvec3(2.0));
   EXPECT_EQ(point.Code(glm::dvec3(2.0)), 0u);
+  // 1024 cells per 1e-310 are beyond the range of double, and so is the length of the other box.
+  const HilbertCurve tiny(glm::dvec3(0.0), glm::dvec3(1e-310));
+  EXPECT_EQ(tiny.Code(glm::dvec3(0.0)), 0u);
+  EXPECT_EQ(tiny.Code(glm::dvec3(1e-310)), cube.Code(glm::dvec3(1.0)));
+  const HilbertCurve vast(glm::dvec3(-1e308), glm::dvec3(1e308));
+  EXPECT_EQ(vast.Code(glm::dvec3(1e308)), 0u);
 }
 
 TEST(CoherentOrder, RowsOfAGridAreKept)

@@ -40,3 +40,14 @@ TEST(MortonOrder, SortsStablyAndClampsToTheBox)
   EXPECT_EQ(curve.Code(glm::dvec3(-5.0)), 0u);
   EXPECT_EQ(curve.Code(glm::dvec3(9.0, 9.0, 9.0)), 0x1B6DB6DBu); // x and y full, z flat
 }
+
+TEST(MortonOrder, TakesBoxesThatAreTooFlatForTheirScale)
+{
+  // 1024 cells per 1e-310 are beyond the range of double, and so is the length of the other box.
+  const MortonCurve thin(glm::dvec3(0.0), glm::dvec3(1.0, 1.0, 1e-310));
+  EXPECT_EQ(thin.Code(glm::dvec3(0.0)), 0u);
+  EXPECT_EQ(thin.Code(glm::dvec3(0.0, 0.0, 1e-310)), 0x24924924u); // z full
+  const MortonCurve vast(glm::dvec3(-1e308), glm::dvec3(1e308));
+  EXPECT_EQ(vast.Code(glm::dvec3(-1e308)), 0u);
+  EXPECT_EQ(vast.Code(glm::dvec3(1e308)), 0u);
+}
