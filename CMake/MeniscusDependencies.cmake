@@ -40,9 +40,10 @@ if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   # ParaView's package uses Python's targets without finding them.
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews WrapClientServer ProcessXML)
+  # ParaView's own VTK or the one that it was built with, which ParaView has put into VTK_DIR. The
+  # package of 5.13 does not look for HDF5 and netCDF on behalf of its other modules.
   find_package(VTK REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
-    OPTIONAL_COMPONENTS ${_meniscus_optional_components}
-    PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
+    OPTIONAL_COMPONENTS ${_meniscus_optional_components} hdf5 netcdf)
 else ()
   find_package(VTK 9.1 REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
     OPTIONAL_COMPONENTS ${_meniscus_optional_components} ${_meniscus_test_components}

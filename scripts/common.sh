@@ -6,9 +6,10 @@ cd "$ROOT"
 JOBS="${MENISCUS_JOBS:-$(nproc)}"
 export DEBIAN_FRONTEND=noninteractive
 
-# Packages that a fresh Debian 12 lacks, per purpose.
-PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython3-dev libglm-dev
-  libopenmesh-dev libgtest-dev libbenchmark-dev)
+# Packages that a fresh Debian 12 lacks, per purpose. The first are those without VTK.
+PACKAGES_KERNEL=(g++ cmake ninja-build python3 libpython3-dev libglm-dev libopenmesh-dev
+  libgtest-dev libbenchmark-dev)
+PACKAGES_BUILD=("${PACKAGES_KERNEL[@]}" libvtk9-dev python3-vtk9)
 # Needed by a part of the benchmarks only; the build works without it.
 PACKAGES_BENCHMARKS=(libembree-dev)
 # TetGen, under the AGPL: for MENISCUS_WITH_TETGEN.
@@ -31,7 +32,8 @@ PACKAGES_POVRAY=(povray)
 # conflicts with python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
 PACKAGES_PARAVIEW=(paraview paraview-dev libutfcpp-dev libpng-dev libx11-dev libopenmpi-dev
   openmpi-bin libgl-dev libopengl-dev libglew-dev libfreetype-dev libjpeg-dev liblz4-dev liblzma-dev
-  libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev)
+  libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev
+  libhdf5-mpi-dev libnetcdf-dev)
 
 say()
 {

@@ -8,6 +8,9 @@ import traceback
 from paraview import simple
 from vtkmodules.vtkIOImage import vtkPNGReader
 
+if not hasattr(simple, "GenerateSurfaceNormals"):
+    simple.GenerateSurfaceNormals = simple.SurfaceNormals  # its name in ParaView 6
+
 SKIP = 125
 BACKGROUND = (0.0, 0.0, 0.0)
 SIZE = 300

@@ -23,6 +23,9 @@ WORST = {2: 2, 4: 3}
 # Share of the pixels of a mesh with inverted cells that may exceed the bound: where ParaView cuts
 # two overlapping cells, a ray may meet the other one first.
 SHARE_OF_INVERTED = {"crushed_can": 1e-4}
+# Pictures of several ranks in which the centre of a cell is exactly on the side of a box. They are
+# not compared where ParaView loses such cells (RanksScene.loses_cells()).
+LOST_CELLS = ("FiveCompositeBall", "FiveIsosurfaceBall", "Colorswavelet47")
 # Rounding of the filter's input, single precision in a scene 16 wide. An image is found from that
 # of its neighbour, which may be on another rank, so it differs by the remaining error of Newton's
 # method.
@@ -171,6 +174,7 @@ def print_memory(name):
 
 
 def run(mpirun, pvbatch, ranks, names):
+    """Returns the output."""
     command = [mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), pvbatch,
                os.path.join(HERE, "RanksScene.py"), "Ranks%d" % ranks, str(ranks)] + names
     environment = dict(os.environ, LD_PRELOAD=os.environ.get("MENISCUS_EXPAT_TOKENS", ""))
@@ -185,6 +189,7 @@ def run(mpirun, pvbatch, ranks, names):
         sys.exit("ParaView failed on %d ranks" % ranks)
     if not names:
         check_warnings(done.stdout, ranks > 1)
+    return done.stdout
 
 
 def check_warnings(log, several):
@@ -212,8 +217,8 @@ def main():
         if old.startswith("Ranks") and any(name in old for name in names or [old]):
             os.remove(os.path.join(FOLDER, old))
     passed = True
-    for ranks in (1, 2, 4):
-        run(mpirun, pvbatch, ranks, names)
+    log = "".join(run(mpirun, pvbatch, ranks, names) for ranks in (1, 2, 4))
+    lost = LOST_CELLS if "LOSES CELLS" in log else ()
     compares = {"rgb": compare_pictures, "points": compare_points, "light": compare_light,
                 "samples": compare_samples}
     made = sorted(name for name in os.listdir(FOLDER) if name.startswith("Ranks1")
@@ -223,6 +228,9 @@ def main():
     for name in made:
         if name.endswith(".memory"):
             print_memory(name)
+            continue
+        if any(scene in name for scene in lost):
+            print("%-36s not compared: this ParaView loses cells" % name)
             continue
         compare = compare_colors if "Colors" in name else compares[name.split(".")[-1]]
         of = name.split("Of")[-1][0]

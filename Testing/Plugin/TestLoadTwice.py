@@ -16,7 +16,9 @@ def test():
     # ParaView's own plugins are in a folder next to the library of its Python modules.
     with open("/proc/self/maps") as file:
         library = next(line.split()[-1] for line in file if "libvtkRemotingViews" in line)
-    other = os.path.join(os.path.dirname(library), "paraview-5.11", "plugins", OTHER, OTHER + ".so")
+    version = simple.GetParaViewVersion()
+    folder = "paraview-%d.%d" % (version.major, version.minor)
+    other = os.path.join(os.path.dirname(library), folder, "plugins", OTHER, OTHER + ".so")
     found = os.path.exists(other)
     if found:
         simple.LoadPlugin(other, remote=False, ns=globals())
