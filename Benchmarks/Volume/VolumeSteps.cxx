@@ -159,7 +159,7 @@ void PrintSteps(std::ostream& out, const VolumeOptions& options)
           << std::setprecision(1) << setUp;
       for (const StepKind& kind : Kinds)
       {
-        out << " | " << std::setprecision(0) << 100.0 * run.MeasureSteps(kind, steps) / setUp;
+        out << " | " << std::setprecision(1) << 100.0 * run.MeasureSteps(kind, steps) / setUp;
       }
       out << " |" << std::endl;
     }
