@@ -124,6 +124,7 @@ protected:
   bool RunInSteps(vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body);
   /** The stack of the last UpdateScene(). */
   const meniscus::RefractionStack& GetStack() const;
+  /** The surfaces, their interfaces and the stack made of them. */
   meniscus::StackScene& GetStackScene() const;
 
 private:

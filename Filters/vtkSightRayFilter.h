@@ -36,6 +36,7 @@ public:
   static vtkSightRayFilter* New();
   vtkTypeMacro(vtkSightRayFilter, vtkSightRayAlgorithm);
 
+  /** The output, which is a vtkPolyData whatever the input is. */
   vtkPolyData* GetOutput() { return this->GetPolyDataOutput(); }
 
 protected:

@@ -46,6 +46,7 @@ public:
   vtkTypeMacro(vtkTriangulatedPositionFilter, vtkSightRayAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** The output, which is a vtkPolyData whatever the input is. */
   vtkPolyData* GetOutput() { return this->GetPolyDataOutput(); }
 
   /** Values of the array TriangulationState. */
