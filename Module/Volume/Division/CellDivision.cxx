@@ -19,141 +19,7 @@ namespace meniscus
 namespace
 {
 
-constexpr int EdgeEnds[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
-/** Triangles of a piece. */
-constexpr struct
-{
-  int Corners[3];
-  int Edges[3];
-} Faces[4] = { { { 1, 2, 3 }, { 3, 4, 5 } }, { { 0, 2, 3 }, { 1, 2, 5 } },
-  { { 0, 1, 3 }, { 0, 2, 4 } }, { { 0, 1, 2 }, { 0, 1, 3 } } };
 constexpr std::uint8_t EveryEdge = 0x3F;
-
-EdgePoints EdgeOf(const CellPiece& piece, int edge)
-{
-  return { piece.Points[static_cast<std::size_t>(EdgeEnds[edge][0])],
-    piece.Points[static_cast<std::size_t>(EdgeEnds[edge][1])] };
-}
-
-/**
- * Barycentric coordinates of the place that is drawn next to a position: its projection on a
- * triangle, or itself in a tetrahedron. Those of the middle if the corners span no area or volume.
- */
-std::array<double, 4> ProjectedOn(
-  const std::array<CellSample, 4>& corners, int count, const glm::dvec3& position)
-{
-  const glm::dvec3 u = corners[1].Position - corners[0].Position;
-  const glm::dvec3 v = corners[2].Position - corners[0].Position;
-  // For a triangle, the third direction is its normal.
-  const glm::dvec3 w = count == 4 ? corners[3].Position - corners[0].Position : glm::cross(u, v);
-  const glm::dmat3 span(u, v, w);
-  const double share = 1.0 / count;
-  std::array<double, 4> weights{ share, share, share, count == 4 ? share : 0.0 };
-  if (glm::determinant(span) != 0.0)
-  {
-    const glm::dvec3 along = glm::inverse(span) * (position - corners[0].Position);
-    const double last = count == 4 ? along.z : 0.0;
-    weights = { 1.0 - along.x - along.y - last, along.x, along.y, last };
-  }
-  return weights;
-}
-
-/** Tests edges, faces and pieces against the limits; for use by one thread. */
-class ShapeTest
-{
-public:
-  ShapeTest(
-    const PointFields& fields, const ShapeFunctionsMaker& functions, const DivisionLimits& limits)
-    : Sampler(fields, functions)
-    , Limits(limits)
-    , NumberOfFields(fields.GetNumberOfFields())
-  {
-  }
-
-  /** Compares an edge with its chord; its ends are sampled first. */
-  bool IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to, int parts)
-  {
-    return this->IsEdgeStraight(
-      cell, from, to, this->Sampler.Sample(cell, from), this->Sampler.Sample(cell, to), parts);
-  }
-
-  /**
-   * Compares an edge with its chord.
-   * @param a, b samples of its ends.
-   * @param parts number of equal parts whose ends are sampled.
-   */
-  bool IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to,
-    const CellSample& a, const CellSample& b, int parts)
-  {
-    const glm::dvec3 chord = b.Position - a.Position;
-    const double square = glm::dot(chord, chord);
-    bool straight = true;
-    for (int i = 1; i < parts && straight; ++i)
-    {
-      const double t = static_cast<double>(i) / parts;
-      const CellSample sample =
-        this->Sampler.Sample(cell, glm::mix(glm::dvec3(from), glm::dvec3(to), t));
-      const glm::dvec3 offset = sample.Position - a.Position;
-      // The place on the chord that is drawn next to the sample.
-      const double along =
-        square > 0.0 ? glm::clamp(glm::dot(offset, chord) / square, 0.0, 1.0) : t;
-      CellSample drawn;
-      drawn.Position = along * chord;
-      for (std::size_t field = 0; field < this->NumberOfFields; ++field)
-      {
-        drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
-      }
-      straight = this->AreClose(sample, drawn, glm::length(offset - drawn.Position));
-    }
-    return straight;
-  }
-
-  /**
-   * Compares the middle of some corners of a piece, 3 or 4 of them, with its linear shape.
-   * @param points samples of all points.
-   */
-  bool IsMiddleStraight(
-    const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points)
-  {
-    std::array<CellSample, 4> samples;
-    glm::dvec3 place(0.0);
-    for (int i = 0; i < count; ++i)
-    {
-      const auto corner = static_cast<std::size_t>(corners[i]);
-      samples[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(piece.Points[corner])];
-      place += glm::dvec3(piece.Places[corner]) / static_cast<double>(count);
-    }
-    const CellSample sample = this->Sampler.Sample(piece.Cell, place);
-    const std::array<double, 4> weights = ProjectedOn(samples, count, sample.Position);
-    CellSample drawn;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-    {
-      drawn.Position += weights[i] * samples[i].Position;
-      for (std::size_t field = 0; field < this->NumberOfFields; ++field)
-      {
-        drawn.Values[field] += weights[i] * samples[i].Values[field];
-      }
-    }
-    return this->AreClose(sample, drawn, glm::length(sample.Position - drawn.Position));
-  }
-
-private:
-  /** Differences that are not finite are not divided: no division would make them smaller. */
-  bool AreClose(const CellSample& sample, const CellSample& drawn, double distance) const
-  {
-    bool close = !(distance > this->Limits.Place);
-    for (std::size_t field = 0; field < this->NumberOfFields; ++field)
-    {
-      const double difference = std::abs(sample.Values[field] - drawn.Values[field]);
-      close = close && !(difference > this->Limits.Values[field] && std::isfinite(difference));
-    }
-    return close;
-  }
-
-  CellSampler Sampler;
-  const DivisionLimits& Limits;
-  std::size_t NumberOfFields;
-};
 
 /**
  * Number of equal parts whose ends are sampled. The difference of a polynomial of degree d from its
@@ -349,8 +215,7 @@ void CellDivision::Round::AddInside(ShapeTest& test, std::int32_t number, const 
 /** Tests the faces and the insides of new pieces of cells with a high degree. */
 void CellDivision::Round::TestInside(std::vector<Wish>& wishes) const
 {
-  constexpr int corners[5][4] = { { 1, 2, 3, 0 }, { 0, 2, 3, 1 }, { 0, 1, 3, 2 }, { 0, 1, 2, 3 },
-    { 0, 1, 2, 3 } };
+  constexpr int corners[4] = { 0, 1, 2, 3 };
   std::vector<std::vector<Wish>> found(NumberOfBlocks(this->Pieces.size()));
   ForEachBlock(this->Pieces.size(), this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -362,11 +227,12 @@ void CellDivision::Round::TestInside(std::vector<Wish>& wishes) const
         {
           continue;
         }
-        for (int i = 0; i < 5; ++i)
+        const auto number = static_cast<std::int32_t>(p);
+        for (const auto& face : PieceFaces)
         {
-          this->AddInside(
-            test, static_cast<std::int32_t>(p), corners[i], i < 4 ? 3 : 4, found[block]);
+          this->AddInside(test, number, face.Corners, 3, found[block]);
         }
+        this->AddInside(test, number, corners, 4, found[block]);
       }
     });
   for (const std::vector<Wish>& some : found)
@@ -399,7 +265,7 @@ void CellDivision::Round::AddLongEdges(std::vector<Wish>& wishes) const
   for (std::size_t p = 0; late.GetSize() > 0 && p < this->Pieces.size(); ++p)
   {
     const CellPiece& piece = this->Pieces[p];
-    for (const auto& face : Faces)
+    for (const auto& face : PieceFaces)
     {
       const bool isLate = piece.Degree > 0 &&
         (late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||

@@ -4,8 +4,10 @@
 #define meniscus_Volume_Division_CellDivision_h
 
 #include "Common/RangeLoop.h"
+#include "Volume/Division/CellPiece.h"
 #include "Volume/Division/EdgeIndex.h"
 #include "Volume/Division/ShapeFunctions.h"
+#include "Volume/Division/ShapeTest.h"
 #include "Volume/Division/WeightedPoints.h"
 
 #include <glm/vec3.hpp>
@@ -13,42 +15,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace meniscus
 {
-
-/** A tetrahedron of a cell. */
-struct CellPiece
-{
-  std::array<std::int32_t, 4> Points{};
-  /** Reference coordinates of the points in the cell. */
-  std::array<glm::vec3, 4> Places{};
-  std::int32_t Cell = 0;
-  /**
-   * Degree of the shape functions along an axis of the cell; 0 for a piece that is linear, whose
-   * edges are divided only if a neighbour's shape asks for it.
-   */
-  std::uint8_t Degree = 0;
-  /** Bits of the edges that have not been tested. */
-  std::uint8_t NewEdges = 0;
-};
-
-/** Accuracy of a division. */
-struct DivisionLimits
-{
-  /** Largest distance between a curved edge and its chord. */
-  double Place = 0.0;
-  /** Largest difference of each value. */
-  std::array<double, CellSample::MostFields> Values{};
-  /**
-   * Number of divisions, at most, that lead to a point. 23 are the most for which reference
-   * coordinates are exact in single precision.
-   */
-  int MostLevels = 23;
-  std::int64_t MostPieces = std::numeric_limits<std::int32_t>::max();
-};
 
 enum class DivisionStatus
 {

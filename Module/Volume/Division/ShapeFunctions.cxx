@@ -6,6 +6,35 @@
 
 namespace meniscus
 {
+namespace
+{
+
+/** Sample with a position and the value that `valueOf` gives for each list of values. */
+template <typename ValueOf>
+CellSample MakeSample(const PointFields& fields, const glm::dvec3& position, const ValueOf& valueOf)
+{
+  CellSample sample;
+  sample.Position = position;
+  double squares = 0.0;
+  for (std::size_t field = 0; field < fields.Values.size(); ++field)
+  {
+    const double value = valueOf(fields.Values[field]);
+    squares += value * value;
+    if (!fields.IsLength)
+    {
+      sample.Values[field] = value;
+    }
+  }
+  if (fields.IsLength)
+  {
+    sample.Values[0] = std::sqrt(squares);
+  }
+  return sample;
+}
+
+}
+
+//------------------------------------------------------------------------------
 
 ShapeFunctions::~ShapeFunctions() = default;
 
@@ -27,54 +56,29 @@ const PointWeights& CellSampler::Weigh(std::int32_t cell, const glm::dvec3& plac
 //------------------------------------------------------------------------------
 CellSample SampleOf(const PointFields& fields, const PointWeights& row)
 {
-  CellSample sample;
-  double squares = 0.0;
+  glm::dvec3 position(0.0);
   for (std::size_t i = 0; i < row.Points.size(); ++i)
   {
-    sample.Position += row.Weights[i] * fields.Points[static_cast<std::size_t>(row.Points[i])];
+    position += row.Weights[i] * fields.Points[static_cast<std::size_t>(row.Points[i])];
   }
-  for (std::size_t field = 0; field < fields.Values.size(); ++field)
+  const auto valueOf = [&row](const std::vector<double>& values)
   {
-    const std::vector<double>& values = fields.Values[field];
     double sum = 0.0;
     for (std::size_t i = 0; i < row.Points.size(); ++i)
     {
       sum += row.Weights[i] * values[static_cast<std::size_t>(row.Points[i])];
     }
-    squares += sum * sum;
-    if (!fields.IsLength)
-    {
-      sample.Values[field] = sum;
-    }
-  }
-  if (fields.IsLength)
-  {
-    sample.Values[0] = std::sqrt(squares);
-  }
-  return sample;
+    return sum;
+  };
+  return MakeSample(fields, position, valueOf);
 }
 
 //------------------------------------------------------------------------------
 CellSample SampleAt(const PointFields& fields, std::int32_t point)
 {
   const auto index = static_cast<std::size_t>(point);
-  CellSample sample;
-  sample.Position = fields.Points[index];
-  double squares = 0.0;
-  for (std::size_t field = 0; field < fields.Values.size(); ++field)
-  {
-    const double value = fields.Values[field][index];
-    squares += value * value;
-    if (!fields.IsLength)
-    {
-      sample.Values[field] = value;
-    }
-  }
-  if (fields.IsLength)
-  {
-    sample.Values[0] = std::sqrt(squares);
-  }
-  return sample;
+  return MakeSample(fields, fields.Points[index],
+    [index](const std::vector<double>& values) { return values[index]; });
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Division/ShapeTest.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * Barycentric coordinates of the place that is drawn next to a position: its projection on a
+ * triangle, or itself in a tetrahedron. Those of the middle if the corners span no area or volume.
+ */
+std::array<double, 4> ProjectedOn(
+  const std::array<CellSample, 4>& corners, int count, const glm::dvec3& position)
+{
+  const glm::dvec3 u = corners[1].Position - corners[0].Position;
+  const glm::dvec3 v = corners[2].Position - corners[0].Position;
+  // For a triangle, the third direction is its normal.
+  const glm::dvec3 w = count == 4 ? corners[3].Position - corners[0].Position : glm::cross(u, v);
+  const glm::dmat3 span(u, v, w);
+  const double share = 1.0 / count;
+  std::array<double, 4> weights{ share, share, share, count == 4 ? share : 0.0 };
+  if (glm::determinant(span) != 0.0)
+  {
+    const glm::dvec3 along = glm::inverse(span) * (position - corners[0].Position);
+    const double last = count == 4 ? along.z : 0.0;
+    weights = { 1.0 - along.x - along.y - last, along.x, along.y, last };
+  }
+  return weights;
+}
+
+}
+
+//------------------------------------------------------------------------------
+ShapeTest::ShapeTest(
+  const PointFields& fields, const ShapeFunctionsMaker& functions, const DivisionLimits& limits)
+  : Sampler(fields, functions)
+  , Limits(limits)
+  , NumberOfFields(fields.GetNumberOfFields())
+{
+}
+
+//------------------------------------------------------------------------------
+bool ShapeTest::IsEdgeStraight(
+  std::int32_t cell, const glm::vec3& from, const glm::vec3& to, int parts)
+{
+  return this->IsEdgeStraight(
+    cell, from, to, this->Sampler.Sample(cell, from), this->Sampler.Sample(cell, to), parts);
+}
+
+//------------------------------------------------------------------------------
+bool ShapeTest::IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to,
+  const CellSample& a, const CellSample& b, int parts)
+{
+  const glm::dvec3 chord = b.Position - a.Position;
+  const double square = glm::dot(chord, chord);
+  bool straight = true;
+  for (int i = 1; i < parts && straight; ++i)
+  {
+    const double t = static_cast<double>(i) / parts;
+    const CellSample sample =
+      this->Sampler.Sample(cell, glm::mix(glm::dvec3(from), glm::dvec3(to), t));
+    const glm::dvec3 offset = sample.Position - a.Position;
+    // The place on the chord that is drawn next to the sample.
+    const double along = square > 0.0 ? glm::clamp(glm::dot(offset, chord) / square, 0.0, 1.0) : t;
+    CellSample drawn;
+    drawn.Position = along * chord;
+    for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+    {
+      drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
+    }
+    straight = this->AreClose(sample, drawn, glm::length(offset - drawn.Position));
+  }
+  return straight;
+}
+
+//------------------------------------------------------------------------------
+bool ShapeTest::IsMiddleStraight(
+  const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points)
+{
+  std::array<CellSample, 4> samples;
+  glm::dvec3 place(0.0);
+  for (int i = 0; i < count; ++i)
+  {
+    const auto corner = static_cast<std::size_t>(corners[i]);
+    samples[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(piece.Points[corner])];
+    place += glm::dvec3(piece.Places[corner]) / static_cast<double>(count);
+  }
+  const CellSample sample = this->Sampler.Sample(piece.Cell, place);
+  const std::array<double, 4> weights = ProjectedOn(samples, count, sample.Position);
+  CellSample drawn;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    drawn.Position += weights[i] * samples[i].Position;
+    for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+    {
+      drawn.Values[field] += weights[i] * samples[i].Values[field];
+    }
+  }
+  return this->AreClose(sample, drawn, glm::length(sample.Position - drawn.Position));
+}
+
+//------------------------------------------------------------------------------
+/** Differences that are not finite are not divided: no division would make them smaller. */
+bool ShapeTest::AreClose(const CellSample& sample, const CellSample& drawn, double distance) const
+{
+  bool close = !(distance > this->Limits.Place);
+  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+  {
+    const double difference = std::abs(sample.Values[field] - drawn.Values[field]);
+    close = close && !(difference > this->Limits.Values[field] && std::isfinite(difference));
+  }
+  return close;
+}
+
+}
