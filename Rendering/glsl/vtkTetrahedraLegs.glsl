@@ -8,7 +8,8 @@
 // World length of a grid unit of depth.
 float lengthPerGridDepth()
 {
-  return viewToWorldUnit * length(viewToWorld * rayAlong) * DEPTH_UNIT;
+  float perDepth = length(viewToWorld * rayAlong) * DEPTH_UNIT;
+  return min(viewToWorldUnit * perDepth, LARGEST_LENGTH_PER_DEPTH);
 }
 
 // Depth on the sight ray of a window depth.

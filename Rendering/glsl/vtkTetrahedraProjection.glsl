@@ -45,6 +45,10 @@ void collect(float term)
 
 uniform vec2 rangeShare;             // position in the data's range: at 0, per scalar
 
+// Larger parts of an integral, which is shown up to 1, count as this: sums of infinity and its
+// rounding error would not be numbers.
+const float LARGEST_TERM = 18446744073709551616.0; // 2^64
+
 void startPart(float scalar)
 {
   findInterval(scalar);
@@ -61,8 +65,8 @@ bool integratePiece()
   float pieceLength = (reached - segmentDone) * segmentLength;
   vec3 scalars = vec3(segmentScalar, 0.5 * (segmentScalar + to), to);
   vec3 attenuations = intervalRange.z + (scalars - intervalRange.x) * intervalRange.w;
-  collect(pieceLength / 6.0 *
-    dot(vec3(1.0, 4.0, 1.0), max(attenuations, 0.0) * (rangeShare.x + rangeShare.y * scalars)));
+  vec3 values = max(attenuations, 0.0) * (rangeShare.x + rangeShare.y * scalars);
+  collect(min(pieceLength * dot(vec3(1.0, 4.0, 1.0) / 6.0, values), LARGEST_TERM));
   visibleLength += pieceLength;
   segmentDone = reached;
   segmentScalar = to;

@@ -122,6 +122,11 @@ void VolumeRun::ReadComponents(const TetrahedralMesh& mesh)
     const float x = NormalizedNumber(this->Reader);
     const float y = NormalizedNumber(this->Reader);
     const glm::vec3 values(x, y, NormalizedNumber(this->Reader));
+    // As in the mapper, a vertex without one of its values has no scalar.
+    if (std::isnan(values.x) || std::isnan(values.y) || std::isnan(values.z))
+    {
+      this->Input.Normalized[static_cast<std::size_t>(v)] = std::numeric_limits<float>::quiet_NaN();
+    }
     this->Input.Components.push_back(
       this->Scene.Mixture == ComponentMixture::RedGreenBlueOpacity ? glm::abs(values) : values);
   }

@@ -61,7 +61,8 @@ public:
     double MeasuredFrom = 0.0;
     /**
      * Mixture of the components of vertices in composite blending, and the components besides the
-     * scalar. For RayMeasuring::VertexBins, Components has the values of the bins.
+     * scalar. A vertex with a value that is NaN has no scalar either. For RayMeasuring::VertexBins,
+     * Components has the values of the bins.
      */
     ComponentMixture Mixture = ComponentMixture::None;
     const glm::vec3* Components = nullptr;

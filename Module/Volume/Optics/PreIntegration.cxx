@@ -38,11 +38,6 @@ glm::dvec3 ColorAt(const TransferFunctionInterval& interval, double scalar)
   return glm::dvec3(interval.Color) + (scalar - interval.Lower) * glm::dvec3(interval.ColorSlope);
 }
 
-glm::dvec3 EmissionAt(const TransferFunctionInterval& interval, double scalar)
-{
-  return AttenuationAt(interval, scalar) * ColorAt(interval, scalar);
-}
-
 /** Opacity of a segment with constant or mean attenuation. */
 double Opacity(double attenuation, double length)
 {
@@ -60,10 +55,14 @@ std::vector<TransferFunctionInterval> Moved(
       constexpr double beyond = std::numeric_limits<float>::max();
       return static_cast<float>(std::clamp((scalar - middle) * perHalfRange, -beyond, beyond));
     };
+    const double width = static_cast<double>(interval.Upper) - interval.Lower;
     interval.Lower = move(interval.Lower);
     interval.Upper = move(interval.Upper);
-    interval.AttenuationSlope = static_cast<float>(interval.AttenuationSlope / perHalfRange);
-    interval.ColorSlope = glm::vec3(glm::dvec3(interval.ColorSlope) / perHalfRange);
+    // The new ends are rounded, so the slopes follow the new width: the values at the ends stay.
+    const double newWidth = static_cast<double>(interval.Upper) - interval.Lower;
+    const double perWidth = newWidth > 0.0 ? width / newWidth : 0.0;
+    interval.AttenuationSlope = static_cast<float>(interval.AttenuationSlope * perWidth);
+    interval.ColorSlope = glm::vec3(glm::dvec3(interval.ColorSlope) * perWidth);
   }
   return intervals;
 }
@@ -120,22 +119,29 @@ void PreIntegrationTable::SampleFunction(const std::vector<TransferFunctionInter
   const int count = 2 * this->Scalars - 1;
   const auto scalarOf = [count](int i) { return -1.0 + 2.0 * i / (count - 1); };
   this->Samples.assign(count, Sample());
-  Sample sum;
+  double depth = 0.0;
   std::size_t at = 0;
   double from = scalarOf(0);
   for (int i = 0; i < count; ++i)
   {
     const double to = scalarOf(i);
-    // Within an interval attenuation is linear and its product with colour quadratic, so the
-    // midpoint rule and Simpson's rule are exact.
+    Sample& sample = this->Samples[i];
+    // Within an interval attenuation is linear and its product with colour quadratic, so Simpson's
+    // rule is exact. The same weights for both make colours a mean, also where attenuation is cut
+    // off at 0 by its rounding error.
     const auto add = [&](double end)
     {
       const TransferFunctionInterval& interval = intervals[at];
-      const double middle = 0.5 * (from + end);
-      sum.Depth += (end - from) * AttenuationAt(interval, middle);
-      sum.Emission += (end - from) / 6.0 *
-        (EmissionAt(interval, from) + 4.0 * EmissionAt(interval, middle) +
-          EmissionAt(interval, end));
+      const double sixth = (end - from) / 6.0;
+      const auto addAt = [&](double scalar, double weight)
+      {
+        const double part = weight * AttenuationAt(interval, scalar);
+        sample.StepDepth += part;
+        sample.StepEmission += part * ColorAt(interval, scalar);
+      };
+      addAt(from, sixth);
+      addAt(0.5 * (from + end), 4.0 * sixth);
+      addAt(end, sixth);
       from = end;
     };
     while (at + 1 < intervals.size() && intervals[at].Upper < to)
@@ -147,9 +153,10 @@ void PreIntegrationTable::SampleFunction(const std::vector<TransferFunctionInter
       ++at;
     }
     add(to);
-    sum.Attenuation = AttenuationAt(intervals[at], to);
-    sum.Color = ColorAt(intervals[at], to);
-    this->Samples[i] = sum;
+    depth += sample.StepDepth;
+    sample.Depth = depth;
+    sample.Attenuation = AttenuationAt(intervals[at], to);
+    sample.Color = ColorAt(intervals[at], to);
   }
 }
 
@@ -187,20 +194,29 @@ PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& l
 {
   const int count = this->Scalars;
   Slice slice(static_cast<std::size_t>(count) * count);
+  const auto at = [count](int front, int back)
+  { return static_cast<std::size_t>(back) * count + front; };
   loop(count,
     [&](std::size_t first, std::size_t last)
     {
-      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      for (int low = static_cast<int>(first); low < static_cast<int>(last); ++low)
       {
-        for (int f = 0; f < count; ++f)
+        slice[at(low, low)] = glm::vec3(this->Samples[2 * low].Color);
+        // Sums of what lies in between, not differences of integrals: where attenuation is small
+        // beside that elsewhere, nothing would be left of such differences but rounding errors.
+        double depth = 0.0;
+        glm::dvec3 emission(0.0);
+        for (int high = low + 1; high < count; ++high)
         {
-          const Sample& front = this->Samples[2 * f];
-          const Sample& back = this->Samples[2 * b];
-          const double depth = back.Depth - front.Depth;
+          for (int i = 2 * high - 1; i <= 2 * high; ++i)
+          {
+            depth += this->Samples[i].StepDepth;
+            emission += this->Samples[i].StepEmission;
+          }
           // Entries without opacity also need a colour, for interpolation: that of the middle.
-          slice[static_cast<std::size_t>(b) * count + f] = depth != 0.0
-            ? glm::vec3((back.Emission - front.Emission) / depth)
-            : glm::vec3(this->Samples[f + b].Color);
+          slice[at(low, high)] =
+            glm::vec3(depth > 0.0 ? emission / depth : this->Samples[low + high].Color);
+          slice[at(high, low)] = slice[at(low, high)];
         }
       }
     });

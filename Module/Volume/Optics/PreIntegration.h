@@ -78,14 +78,16 @@ private:
 
   /**
    * Samples at 2 Scalars - 1 places, so that the middle of two scalars is one of them: attenuation,
-   * colour, and the integrals up to that place of attenuation and of attenuation times colour.
+   * colour, the integral of attenuation up to that place, and the integrals of attenuation and of
+   * attenuation times colour from the sample before.
    */
   struct Sample
   {
     double Attenuation = 0.0;
     glm::dvec3 Color{ 0.0 };
     double Depth = 0.0;
-    glm::dvec3 Emission{ 0.0 };
+    double StepDepth = 0.0;
+    glm::dvec3 StepEmission{ 0.0 };
   };
 
   std::vector<Sample> Samples;

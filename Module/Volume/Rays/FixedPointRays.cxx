@@ -202,8 +202,8 @@ PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& s
     this->SetAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth),
       ray.Offset[axis], ray.Slope[axis]);
   }
-  ray.LengthPerDepth = static_cast<float>(
-    glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);
+  ray.LengthPerDepth =
+    LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);
   ray.StartDepth = -1.0e+30f;
   ray.EndDepth = 1.0e+30f;
   ray.FirstEntry = 0;

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -67,7 +68,7 @@ public:
    */
   float GetLengthPerDepth(const glm::dvec2& fromCenter) const
   {
-    return static_cast<float>(glm::length(
+    return LimitedLength(glm::length(
       this->Along + fromCenter.x * this->AlongPerColumn + fromCenter.y * this->AlongPerRow));
   }
   /**
@@ -138,12 +139,21 @@ public:
    * 2^31 * 2^-26 = 32. The sum is 192.5.
    */
   static constexpr double RoundingOfRay = 193.0;
+  /**
+   * Largest length per grid unit of depth. Depths differ by less than 2^32, so that a sum of
+   * lengths stays below 2^127, a finite float; larger scenes look as if they had this size.
+   */
+  static constexpr float LargestLengthPerDepth = 39614081257132168796771975168.0f; // 2^95
   /** Depth of a vertex in the grid, in units of the frame. */
   static double DepthOf(std::int32_t gridDepth) { return gridDepth / GridPerDepth; }
   /** Grid units of depth per unit of the frame. */
   static constexpr double GridPerDepth = PacketVertex::GridPerDepth;
 
 private:
+  static float LimitedLength(double length)
+  {
+    return static_cast<float>(std::min(length, double{ LargestLengthPerDepth }));
+  }
   void SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
 
   RayFrame Frame;

@@ -112,6 +112,7 @@ std::string ShaderConstants()
 {
   return Enumerators() + MediumConstants() +
     Define("GRID_PER_DEPTH", static_cast<float>(FixedPointRays::GridPerDepth)) +
+    Define("LARGEST_LENGTH_PER_DEPTH", FixedPointRays::LargestLengthPerDepth) +
     Define("MODEL_UNIT", static_cast<float>(TetrahedralMesh::PositionUnit)) +
     Define("NOWHERE", RefractedRayLine::Nowhere) +
     DefineNumber("NUMBER_OF_FRAMES", RefractionFrames::Number) +

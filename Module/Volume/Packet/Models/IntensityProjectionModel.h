@@ -66,6 +66,11 @@ public:
   static constexpr int NumberOfValues = 2;
   /** Values of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f };
+  /**
+   * Larger parts of an integral, which is shown up to 1, count as this: sums of infinity and its
+   * rounding error would not be numbers.
+   */
+  static constexpr float LargestTerm = 18446744073709551616.0f; // 2^64
   /** Value of each lane, and the length over which it was collected. */
   void Store(float (&values)[NumberOfValues][Simd::Width]) const
   {
@@ -140,9 +145,9 @@ auto IntensityProjectionModel<Simd>::Advance(Mask lanes) -> Mask
     return Simd::Max(attenuation, zero) *
       Simd::Fma(this->SharePerScalar, scalar, this->ShareAtZero);
   };
-  const Float sum =
-    valueAt(this->From) + valueAt(to) + Simd::Splat(4.0f) * valueAt(half * (this->From + to));
-  this->Collected.Add(lanes, length * Simd::Splat(1.0f / 6.0f) * sum);
+  const Float mean = Simd::Splat(1.0f / 6.0f) * (valueAt(this->From) + valueAt(to)) +
+    Simd::Splat(2.0f / 3.0f) * valueAt(half * (this->From + to));
+  this->Collected.Add(lanes, Simd::Min(length * mean, Simd::Splat(LargestTerm)));
   this->Remaining = Simd::Select(lanes, this->Remaining - length, this->Remaining);
   this->From = Simd::Select(lanes, to, this->From);
   this->Intervals.Move(part.Upward, part.Downward);

@@ -238,6 +238,52 @@ TEST(PreIntegration, LimitedAttenuationsGrowToTheirLimit)
     1e-6);
 }
 
+// Where attenuation is 14 orders of magnitude smaller than elsewhere, colours are not lost in
+// differences of integrals.
+TEST(PreIntegration, FaintRangesKeepTheirColor)
+{
+  const glm::vec3 faint(0.25f, 0.5f, 0.75f);
+  PreIntegrationTable table;
+  table.Build(Intervals({ { -1.0, 1e12, { 1, 0, 0 } }, { -0.5, 1e12, { 1, 0, 0 } },
+                { -0.5, 0.01, glm::dvec3(faint) }, { 1.0, 0.01, glm::dvec3(faint) } }),
+    1.0, 9, 1);
+  ASSERT_EQ(table.GetNumberOfLengths(), 1);
+  for (int back = 3; back < 9; ++back)
+  {
+    for (int front = 3; front < 9; ++front)
+    {
+      const float* entry = &table.GetValues()[4 * static_cast<std::size_t>(9 * back + front)];
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        EXPECT_NEAR(entry[channel], faint[channel], 1e-6) << front << " to " << back;
+      }
+    }
+  }
+}
+
+// A ramp as narrow as floats allow may change its width when the range of scalars is mapped to
+// [-1, 1]; its colours stay between those of its ends.
+TEST(PreIntegration, NarrowRampsKeepTheirEnds)
+{
+  const double last = std::nextafter(1.0f, 0.0f);
+  const auto function =
+    Intervals({ { last, 1.0, glm::dvec3(0.0) }, { 1.0, 2.0, glm::dvec3(1.0) } });
+  for (double lowest = -1.0; lowest < 0.7; lowest += 0.01)
+  {
+    PreIntegrationTable table;
+    table.Build(function, 1.0, 5, 1, SerialLoop, ScalarRange{ lowest, 1.0 });
+    for (const float value : table.GetValues())
+    {
+      ASSERT_GE(value, 0.0f) << lowest;
+      ASSERT_LE(value, 2.0f) << lowest;
+    }
+    const float* darkest = table.GetValues().data();
+    const float* brightest = darkest + table.GetValues().size() - 4;
+    ASSERT_EQ(darkest[0], 0.0f) << lowest;
+    ASSERT_EQ(brightest[0], 1.0f) << lowest;
+  }
+}
+
 TEST(PreIntegration, DoesNotDependOnTheThreads)
 {
   const RangeLoop two = [](std::size_t count, const RangeBody& body)

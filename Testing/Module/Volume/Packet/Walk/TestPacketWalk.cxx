@@ -33,6 +33,26 @@ PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
   return scene;
 }
 
+/** A mesh of this size about the origin, with an attenuation of one over it, and a camera before
+ * it. */
+PictureScene MakeSceneOfSize(double scale)
+{
+  MeshArrays arrays = KuhnGrid(2);
+  for (double& coordinate : arrays.Points)
+  {
+    coordinate = scale * (coordinate - 0.5);
+  }
+  PictureScene scene = MakeScene(arrays, 1.0 / scale);
+  RayFrameInput input;
+  input.WorldToView = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -10.0 * scale));
+  input.ViewToClip = glm::perspective(0.2, 1.0, scale, 30.0 * scale);
+  input.Center = scene.Mesh.GetCenter();
+  input.Radius = scene.Mesh.GetRadius();
+  input.ImageSize = glm::dvec2(64.0);
+  EXPECT_EQ(ComputeRayFrame(input, scene.Frame), RayFrameStatus::Ok) << scale;
+  return scene;
+}
+
 /** Runs each test with every instruction set that this processor supports. */
 class PacketWalkTest : public testing::TestWithParam<InstructionSet>
 {
@@ -98,23 +118,31 @@ TEST_P(PacketWalkTest, TinyAndHugeMeshes)
 {
   for (const double scale : { 1e-30, 1e-6, 1e6, 1e30 })
   {
-    MeshArrays arrays = KuhnGrid(2);
-    for (double& coordinate : arrays.Points)
-    {
-      coordinate = scale * (coordinate - 0.5);
-    }
-    PictureScene scene = MakeScene(arrays, 1.0 / scale);
-    RayFrameInput input;
-    input.WorldToView = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -10.0 * scale));
-    input.ViewToClip = glm::perspective(0.2, 1.0, scale, 30.0 * scale);
-    input.Center = scene.Mesh.GetCenter();
-    input.Radius = scene.Mesh.GetRadius();
-    input.ImageSize = glm::dvec2(64.0);
-    ASSERT_EQ(ComputeRayFrame(input, scene.Frame), RayFrameStatus::Ok) << scale;
+    const PictureScene scene = MakeSceneOfSize(scale);
     const Picture picture = CastPicture(scene, 64, GetParam());
     EXPECT_EQ(picture.Statistics.Lost, 0);
     EXPECT_NEAR(picture.Alpha(32, 32), 1.0 - std::exp(-1.0), 1e-5) << scale;
   }
+}
+
+// Lengths that exceed all floats: means stay what they are, integrals are as large as can be shown.
+TEST_P(PacketWalkTest, MeansAndIntegralsOfEndlessMeshes)
+{
+  PictureScene scene = MakeSceneOfSize(1e60);
+  scene.Intervals = ConstantFunction(0.5);
+  const auto castCenter = [&](BlendMode blending)
+  {
+    scene.Optics.Blending = blending;
+    const Picture picture = CastPicture(scene, 64, GetParam());
+    EXPECT_EQ(picture.Statistics.Lost, 0);
+    const float* rgba = &picture.Rgba[4 * (32 * 64 + 32)];
+    return glm::vec4(rgba[0], rgba[1], rgba[2], rgba[3]);
+  };
+  EXPECT_EQ(castCenter(BlendMode::AverageIntensity).a, 0.5f);
+  EXPECT_EQ(castCenter(BlendMode::Additive), glm::vec4(1.0f));
+  // The product of attenuation and length exceeds all floats as well.
+  scene.Intervals = ConstantFunction(1e30);
+  EXPECT_EQ(castCenter(BlendMode::Additive), glm::vec4(1.0f));
 }
 
 TEST_P(PacketWalkTest, NeedlesSeenAslant)
