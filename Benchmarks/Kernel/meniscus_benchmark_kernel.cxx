@@ -8,6 +8,7 @@
 #include "RefractionTestRandom.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Stack/StackSolver.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/SurfaceLighting.h"
@@ -16,6 +17,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -115,7 +117,7 @@ void CastFrame(benchmark::State& state, InstructionSet set, const FrameKind& kin
 void SetWaves(CurvedMembraneSolver& solver, int cells)
 {
   solver.SetMembrane(reference::MakeWaves(200.0, cells, 2.0, 3.0).AsInput());
-  solver.SetEye(glm::dvec3(20.0, 10.0, 300.0), 1.0, 1.333);
+  solver.SetEye(glm::dvec3(20.0, 300.0, 10.0), 1.0, 1.333);
 }
 
 /** Points in random order below the waves, as x, y and z in turn. */
@@ -126,7 +128,7 @@ std::vector<double> MakePoints()
   std::vector<double> points;
   for (std::size_t i = 0; i < number; ++i)
   {
-    const glm::dvec3 point = random.Point(glm::dvec3(-60.0), glm::dvec3(60.0, 60.0, -10.0));
+    const glm::dvec3 point = random.Point(glm::dvec3(-60.0), glm::dvec3(60.0, -10.0, 60.0));
     points.insert(points.end(), { point.x, point.y, point.z });
   }
   return points;
@@ -165,6 +167,71 @@ void FindAllImages(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size() / 3));
 }
 
+/** Points of a grid below the waves, as x, y and z in turn. */
+std::vector<double> MakeGridPoints()
+{
+  constexpr int across = 128;
+  constexpr double spacing = 1.0;
+  std::vector<double> points;
+  for (int layer = 0; layer < 4; ++layer)
+  {
+    for (int row = 0; row < 32; ++row)
+    {
+      for (int column = 0; column < across; ++column)
+      {
+        points.insert(points.end(),
+          { spacing * (column - across / 2), -60.0 - 10.0 * layer, spacing * (row - 16) });
+      }
+    }
+  }
+  return points;
+}
+
+/** One image of each point of a grid behind wavy surfaces; Arg is their number. */
+void SolveThroughInterfaces(benchmark::State& state)
+{
+  std::vector<StackInterface> interfaces;
+  for (int i = 0; i < state.range(0); ++i)
+  {
+    reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, 2.0 + i, 3.0);
+    waves.Translate(glm::dvec3(0.0, -15.0 * i, 0.0));
+    auto surface = std::make_shared<StackSurface>();
+    surface->SetMembrane(waves.AsInput());
+    interfaces.push_back({ surface, { 1.0 + 0.2 * i, 1.2 + 0.2 * i } });
+  }
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  CurvedMembraneSolver one;
+  StackSolver several;
+  if (interfaces.size() == 1)
+  {
+    one.SetMembrane(reference::MakeWaves(200.0, 50, 2.0, 3.0).AsInput());
+    one.SetEye(eye, 1.0, 1.2);
+  }
+  else
+  {
+    several.SetInterfaces(interfaces);
+    several.SetEye(eye);
+  }
+  const std::vector<double> points = MakeGridPoints();
+  const std::size_t count = points.size() / 3;
+  std::vector<VirtualVertex> vertices(count);
+  std::vector<StackDetail> details(count);
+  std::vector<double> legs(count * interfaces.size());
+  for (auto step : state)
+  {
+    if (interfaces.size() == 1)
+    {
+      one.Solve(points.data(), 0, count, vertices.data());
+    }
+    else
+    {
+      several.Solve(points.data(), 0, count, vertices.data(), details.data(), legs.data());
+    }
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+}
+
 void RegisterFrames()
 {
   for (const InstructionSet set : GetInstructionSets())
@@ -184,6 +251,7 @@ void RegisterFrames()
 BENCHMARK(BuildMesh)->Unit(benchmark::kMillisecond);
 BENCHMARK(VertexGradients)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
+BENCHMARK(SolveThroughInterfaces)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 
 }

@@ -30,15 +30,15 @@ struct RayJet
 inline RayJet MakeSightRay(const glm::dvec3& eye, const PatchJet& at)
 {
   const glm::dvec3 away = at.Position - eye;
-  const double distance = glm::length(away);
+  const double inverse = 1.0 / glm::length(away);
   RayJet ray;
   ray.Origin = at.Position;
-  ray.Direction = away / distance;
+  ray.Direction = inverse * away;
   for (int k = 0; k < 2; ++k)
   {
     ray.OriginBy[k] = at.PositionBy[k];
     ray.DirectionBy[k] =
-      (at.PositionBy[k] - ray.Direction * glm::dot(ray.Direction, at.PositionBy[k])) / distance;
+      inverse * (at.PositionBy[k] - ray.Direction * glm::dot(ray.Direction, at.PositionBy[k]));
   }
   return ray;
 }
@@ -75,7 +75,8 @@ inline RayKind Refract(
   RayJet& ray, const glm::dvec3& normal, const glm::dvec3 normalBy[2], double ratio, double& cosine)
 {
   const double length = glm::length(normal);
-  const glm::dvec3 n = normal / length;
+  const double perLength = 1.0 / length;
+  const glm::dvec3 n = perLength * normal;
   const double c = glm::dot(ray.Direction, n);
   // Written so that a NaN fails.
   if (!(c < 0.0 && length > CurvedPatch::ShortestNormal))
@@ -89,14 +90,15 @@ inline RayKind Refract(
   }
   const double root = std::sqrt(radicand);
   const double g = -ratio * c - root;
+  const double gByCosine = -ratio - ratio * ratio * c / root;
   for (int k = 0; k < 2; ++k)
   {
-    const glm::dvec3 nBy = (normalBy[k] - n * glm::dot(n, normalBy[k])) / length;
+    const glm::dvec3 nBy = perLength * (normalBy[k] - n * glm::dot(n, normalBy[k]));
     const double cBy = glm::dot(ray.DirectionBy[k], n) + glm::dot(ray.Direction, nBy);
-    const double gBy = -ratio * cBy - ratio * ratio * c * cBy / root;
-    ray.DirectionBy[k] = ratio * ray.DirectionBy[k] + gBy * n + g * nBy;
+    ray.DirectionBy[k] = ratio * ray.DirectionBy[k] + gByCosine * cBy * n + g * nBy;
   }
-  ray.Direction = glm::normalize(ratio * ray.Direction + g * n);
+  // Of unit length within rounding, as the vectors that it is made of.
+  ray.Direction = ratio * ray.Direction + g * n;
   cosine = -c;
   return RayKind::Refracted;
 }

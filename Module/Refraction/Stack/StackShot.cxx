@@ -16,14 +16,16 @@ namespace
 constexpr double Border = PatchCrossings::Border;
 
 // The error after a step is of the order of the step's square, in units of a facet of each surface
-// that the path meets: the remaining error is at most about 1e-12 of a facet, except near a
-// caustic. Where the eye is closer to the surface than a facet is wide, that distance takes the
-// place of the facet's size.
-constexpr double LastStep = 1e-6;
+// that the path meets: if the first step is this short, the remaining error is about 1e-12 of a
+// facet. Where the eye is closer to the surface than a facet is wide, that distance takes the place
+// of the facet's size.
+constexpr double ShortStep = 1e-6;
 
 // Newton's method converges quadratically: a step s behind a step r leaves about (s / r^2) s^2.
-// Next to a critical angle the factor is large. Error up to which this is small enough.
-constexpr double LargestError = 1e-10;
+// Next to a critical angle or a caustic the factor is large. Error, in facets, up to which the step
+// s is the last one, and a limit of s: the factor is that of the step before.
+constexpr double LargestError = 2e-12;
+constexpr double LastStep = 1e-5;
 
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
 constexpr int LongestWalk = 64;
@@ -80,9 +82,11 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
 {
   const RayJet& first = path.Points[0].Ray;
   const glm::dvec3 shift = move.x * first.OriginBy[0] + move.y * first.OriginBy[1];
-  const double part = size / before;
-  return size < LastStep && part * part * size <= LargestError &&
-    glm::length(shift) <= LastStep * glm::length(first.Origin - stack.GetEye());
+  const double part = size / before; // 0 at the first step
+  const bool isLast =
+    part > 0.0 ? size < LastStep && part * part * size <= LargestError : size < ShortStep;
+  const glm::dvec3 sight = first.Origin - stack.GetEye();
+  return isLast && glm::dot(shift, shift) <= ShortStep * ShortStep * glm::dot(sight, sight);
 }
 
 // Newton's method; `trace(place, off)` sets the path, with an error of the order of the square of

@@ -33,6 +33,20 @@ constexpr std::size_t QuickTries = 3;
 constexpr int QuickSteps = 12;
 constexpr double FarthestGuess = 4.0;
 
+// Parameters of a ray by which its origin moves by `shift`, as far as it can within the surface.
+glm::dvec2 GetParameters(const RayJet& ray, const glm::dvec3& shift)
+{
+  const glm::dvec3& u = ray.OriginBy[0];
+  const glm::dvec3& v = ray.OriginBy[1];
+  const double uu = glm::dot(u, u);
+  const double uv = glm::dot(u, v);
+  const double vv = glm::dot(v, v);
+  const double su = glm::dot(shift, u);
+  const double sv = glm::dot(shift, v);
+  const double inverse = 1.0 / (uu * vv - uv * uv);
+  return { inverse * (su * vv - sv * uv), inverse * (sv * uu - su * uv) };
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -135,8 +149,8 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, Sta
 }
 
 //------------------------------------------------------------------------------
-// Places are predicted by their derivatives at the last point. Where the steps are equal and stay
-// in one patch, half of the change of the derivatives since the step before gives the second order.
+// Places are predicted by their derivatives at the last point. Where the steps are equal, half of
+// the change of the derivatives since the step before gives the second order, across patches, too.
 bool StackSolver::Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const
 {
   if (memory.Path.Count == 0)
@@ -156,11 +170,11 @@ bool StackSolver::Follow(const glm::dvec3& local, Memory& memory, StackPath& pat
   for (std::size_t i = 0; i < path.Count; ++i)
   {
     PathPoint& point = path.Points[i];
-    StackPlace& before = memory.Changes[i];
-    const glm::dvec2 change = move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
-    const bool isSmooth = isSame && before.Facet == point.Place.Facet;
-    const glm::dvec2 predicted = isSmooth ? change + 0.5 * (change - before.B) : change;
-    before = { point.Place.Facet, change };
+    const glm::dvec3 change = move.x * point.Ray.OriginBy[0] + move.y * point.Ray.OriginBy[1];
+    const glm::dvec2 both =
+      isSame ? move + GetParameters(point.Ray, 0.5 * (change - memory.Changes[i])) : move;
+    const glm::dvec2 predicted = both.x * point.PlaceBy[0] + both.y * point.PlaceBy[1];
+    memory.Changes[i] = change;
     first = i == 0 ? predicted : first;
     point.Place.B += i == 0 ? glm::dvec2(0.0) : predicted;
   }

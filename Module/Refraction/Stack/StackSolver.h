@@ -83,8 +83,8 @@ public:
     StackPath Path; ///< without points if there is none
     glm::dvec3 Point{ 0.0 };
     glm::dvec3 Step{ 0.0 }; ///< of the points; 0 after a search
-    /** Changes of the places at this step, to first order, each in the patch before it. */
-    std::vector<StackPlace> Changes;
+    /** Changes of the sight points at this step, to first order. */
+    std::vector<glm::dvec3> Changes;
   };
 
   /**
