@@ -131,6 +131,10 @@ class TestErrorVolume(PropertyTest):
         self.check_pair(self.volume, "InteriorIndexOfRefraction", [1.0])
         self.check_pair(self.volume, "ModelBounds", [(1, 2, 3, 4, 5, 6)])
         self.check_pair(self.volume, "SampleDimensions", [(7, 8, 9)])
+        self.check_pair(self.volume, "ColorLimits", [(0.1, 0.2, 0.3)])
+        self.assertFalse(self.volume.GetAngularErrors())
+        self.volume.AngularErrorsOn()
+        self.assertTrue(self.volume.GetAngularErrors())
 
     def test_exact_membrane(self):
         sphere = vtkSphere()
