@@ -210,9 +210,9 @@ def join(images, axis):
 
 
 def draw_resolutions(size):
-    """Top: flat facets and 2, 3, 5 and 8 vertices per side. Bottom: 22 vertices, 8 vertices and more
-    facets, the plain triangle with all images, and traced rays. Pixels that differ from those are
-    marked."""
+    """Top: flat facets and 2, 3, 5 and 8 vertices per side. Bottom: 22 vertices, 8 vertices and
+    more facets, the plain triangle with all images, and traced rays. Pixels that differ from those
+    are marked."""
     coarse, fine = make_bowl(5), make_bowl(8)
     traced = trace(size)
     truth = get_covered(traced)
@@ -347,6 +347,8 @@ def draw_errors(size):
         if name == "Pixels":
             actor.GetMapper().SetLookupTable(look)
             actor.GetMapper().UseLookupTableScalarRangeOn()
+        actor.GetProperty().SetAmbient(0.6)
+        actor.GetProperty().SetDiffuse(0.7)
         renderer = common.make_renderer()
         renderer.AddActor(actor)
         surface = common.make_actor(membrane, (1.0, 1.0, 0.0))

@@ -166,22 +166,22 @@ TEST(MembraneCells, FocusTurnsCellsOver)
 // A cylindrical lens focuses in one direction, and so mirrors.
 TEST(MembraneCells, CylindersMirror)
 {
-  const auto trough = MakeMembrane(reference::MakePlane(0.0, 100.0, 6));
-  vtkDataArray* normals = trough->GetPointData()->GetNormals();
-  for (vtkIdType i = 0; i < trough->GetNumberOfPoints(); ++i)
+  const auto gutter = MakeMembrane(reference::MakePlane(0.0, 100.0, 6));
+  vtkDataArray* normals = gutter->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < gutter->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 p = PointOf(trough, i);
+    const glm::dvec3 p = PointOf(gutter, i);
     const double y = 300.0 - std::sqrt(300.0 * 300.0 - p.x * p.x);
-    trough->GetPoints()->SetPoint(i, p.x, y, p.z);
+    gutter->GetPoints()->SetPoint(i, p.x, y, p.z);
     normals->SetTuple3(i, -p.x / 300.0, (300.0 - y) / 300.0, 0.0);
   }
-  const auto filter = MakeFilter(trough, glm::dvec3(0.0, 3000.0, 0.0), 1.5, 1.0);
+  const auto filter = MakeFilter(gutter, glm::dvec3(0.0, 3000.0, 0.0), 1.5, 1.0);
   for (const double length : { 300.0, 2000.0 })
   {
     filter->SetCellLength(length);
     filter->Update();
     vtkUnstructuredGrid* grid = filter->GetOutput();
-    ASSERT_EQ(grid->GetNumberOfCells(), trough->GetNumberOfCells());
+    ASSERT_EQ(grid->GetNumberOfCells(), gutter->GetNumberOfCells());
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
       EXPECT_EQ(ValueOf(grid->GetCellData(), "Orientation", cell), length < 500.0 ? 1.0 : -1.0);
