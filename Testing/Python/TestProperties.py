@@ -4,8 +4,8 @@
 import unittest
 
 from meniscus import (
-    vtkRefractedGeometryFilter, vtkRefractedLightFilter, vtkRefractionErrorVolume,
-    vtkTetrahedraRayCastMapper)
+    vtkMembraneCellFilter, vtkRefractedGeometryFilter, vtkRefractedLightFilter,
+    vtkRefractionErrorVolume, vtkTetrahedraRayCastMapper)
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -148,6 +148,17 @@ class TestErrorVolume(PropertyTest):
         self.check_counters(self.volume, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfMeasuredSamples", "MeanError",
             "StandardDeviation", "LargestError"])
+
+
+class TestMembraneCells(PropertyTest):
+    def test_properties(self):
+        cells = vtkMembraneCellFilter()
+        self.check_pair(cells, "EyePosition", [(1, 2, 3)])
+        self.check_pair(cells, "ExteriorIndexOfRefraction", [1.333])
+        self.check_pair(cells, "InteriorIndexOfRefraction", [1.0])
+        self.check_pair(cells, "CellLength", [2.5])
+        self.check_counters(cells, [
+            "NumberOfBackFacingFacets", "NumberOfTotallyReflectedFacets", "NumberOfMissedFacets"])
 
 
 if __name__ == "__main__":

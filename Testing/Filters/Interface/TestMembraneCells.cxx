@@ -63,11 +63,13 @@ vtkSmartPointer<vtkMembraneCellFilter> MakeFilter(
 }
 
 /**
- * Compares every cell with the exact rays through the corners of its facet. Positions are sums of a
- * few products of coordinates of up to 500, whose rounding is 1e-13 each.
+ * Compares every cell with the exact rays through the corners of its facet, which a wedge has in
+ * reverse order if its rays go the way of the facet's normal (`fromBehind`). Positions are sums of
+ * a few products of coordinates of up to 500, whose rounding is 1e-13 each.
  */
 void ExpectExactCells(vtkMembraneCellFilter* filter, vtkPolyData* first,
-  const std::vector<reference::ExactSurface>& surfaces, const glm::dvec3& eye)
+  const std::vector<reference::ExactSurface>& surfaces, const glm::dvec3& eye,
+  bool fromBehind = false)
 {
   constexpr double rounding = 1e-11;
   filter->Update();
@@ -84,7 +86,7 @@ void ExpectExactCells(vtkMembraneCellFilter* filter, vtkPolyData* first,
       static_cast<vtkIdType>(ValueOf(grid->GetCellData(), "FacetId", cell)), corners);
     for (vtkIdType i = 0; i < 3; ++i)
     {
-      const glm::dvec3 corner = PointOf(first, corners->GetId(i));
+      const glm::dvec3 corner = PointOf(first, corners->GetId(fromBehind ? 2 - i : i));
       auto path = reference::TraceExactly(surfaces, eye, glm::normalize(corner - eye));
       ASSERT_TRUE(path);
       path->Points.push_back(path->Points.back() + Length * path->Directions.back());
@@ -100,6 +102,11 @@ void ExpectExactCells(vtkMembraneCellFilter* filter, vtkPolyData* first,
       EXPECT_NEAR(ValueOf(grid->GetPointData(), "OpticalPath", far), optical, rounding);
     }
     EXPECT_EQ(ValueOf(grid->GetCellData(), "Orientation", cell), 1.0);
+    // VTK's order of a wedge: the normal of the first triangle points out of the cell.
+    const glm::dvec3 near = PointOf(grid, CornerOf(grid, cell, 0));
+    const glm::dvec3 normal = glm::cross(
+      PointOf(grid, CornerOf(grid, cell, 1)) - near, PointOf(grid, CornerOf(grid, cell, 2)) - near);
+    EXPECT_LT(glm::dot(normal, PointOf(grid, CornerOf(grid, cell, 3)) - near), 0.0);
   }
   EXPECT_EQ(filter->GetNumberOfBackFacingFacets() + filter->GetNumberOfTotallyReflectedFacets() +
       filter->GetNumberOfMissedFacets(),
@@ -120,6 +127,16 @@ TEST(MembraneCells, PlaneAndSphere)
   const auto curved = MakeFilter(bowl, above, 1.0, 1.51);
   ExpectExactCells(curved, bowl,
     { { 1.0, 1.51, glm::dvec3(0.0, 250.0, 0.0), 250.0, glm::dvec3(0.0), true } }, above);
+}
+
+//------------------------------------------------------------------------------
+// The side of a surface that the eye is on follows from its normals.
+TEST(MembraneCells, FromBehind)
+{
+  const auto plane = MakeFlatMembrane();
+  const glm::dvec3 below(20.0, -300.0, 10.0);
+  const auto filter = MakeFilter(plane, below, 1.333, 1.0);
+  ExpectExactCells(filter, plane, { { 1.0, 1.333, glm::dvec3(0.0), 0.0, -Up } }, below, true);
 }
 
 //------------------------------------------------------------------------------
