@@ -40,7 +40,7 @@
  * Samples are measured in parallel with vtkSMPTools; results do not depend on the number of
  * threads. An implicit function is evaluated on all of them, as in vtkSampleFunction. Progress is
  * reported; after an abort the output is empty. Cost: about 1 microsecond per sample and thread
- * with FLAT_FACETS, 3 with CURVED; angles take 10 to 20 more traced rays. The membrane's mesh is
+ * with FLAT_FACETS, 3 with CURVED; angles take up to ten times as long. The membrane's mesh is
  * read again only if its values change, and rays are computed again only if the eye or an index
  * changes.
  *
