@@ -13,6 +13,7 @@
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -22,6 +23,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -34,6 +36,24 @@ namespace
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
+
+/** Colour of an error, see vtkRefractionErrorVolume::SetColorLimits(). */
+std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
+{
+  constexpr double darkest = 80.0;
+  constexpr std::size_t channels[3] = { 1, 2, 0 }; // green, blue, red
+  for (std::size_t band = 0; band < 3; ++band)
+  {
+    if (error < limits[band])
+    {
+      std::array<unsigned char, 3> color{};
+      color[channels[band]] =
+        static_cast<unsigned char>(darkest + (255.0 - darkest) * error / limits[band]);
+      return color;
+    }
+  }
+  return { 255, 255, 255 };
+}
 
 }
 
@@ -161,6 +181,22 @@ bool vtkRefractionErrorVolume::HasValidBox()
 }
 
 //------------------------------------------------------------------------------
+bool vtkRefractionErrorVolume::HasValidLimits()
+{
+  const double* limits = this->ColorLimits;
+  // Written so that a NaN fails.
+  if (!(0.0 < limits[0] && limits[0] <= limits[1] && limits[1] <= limits[2] &&
+        std::isfinite(limits[2])))
+  {
+    vtkErrorMacro("ColorLimits " << limits[0] << ", " << limits[1] << " and " << limits[2]
+                                 << " are not positive, finite and in ascending order; the output "
+                                    "is empty.");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
@@ -210,7 +246,7 @@ int vtkRefractionErrorVolume::RequestData(
     return 0;
   }
   const bool hasStack = meniscus::HasStack(this->Interfaces, inputs[0]);
-  if (!this->HasValidBox() ||
+  if (!this->HasValidBox() || !this->HasValidLimits() ||
     !(hasStack ? this->UpdateStacks(inputs[0], inputs[1])
                : this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1]))))
   {
@@ -279,8 +315,8 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
     exact = std::make_unique<meniscus::PatchesAsSurface>(
       itself ? internals.Scene.GetCurved() : internals.Reference.GetCurved());
   }
-  const meniscus::ErrorSampler sampler(
-    *exact, eye, this->GetExteriorIndexOfRefraction(), this->GetInteriorIndexOfRefraction());
+  const meniscus::ErrorSampler sampler(*exact, eye, this->GetExteriorIndexOfRefraction(),
+    this->GetInteriorIndexOfRefraction(), this->AngularErrors);
   const meniscus::RefractionScene& scene = internals.Scene;
   return this->RunOverSamples(output->GetNumberOfPoints(),
     [&internals, &sampler, &scene, output](vtkIdType begin, vtkIdType end)
@@ -325,18 +361,42 @@ void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
   vtkNew<vtkUnsignedCharArray> states;
   states->SetName("SampleState");
   states->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("ErrorColor");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     const bool measured = samples[i].State == meniscus::SampleState::Measured;
+    colors->SetTypedTuple(static_cast<vtkIdType>(i),
+      (measured ? ColorOf(samples[i].Error, this->ColorLimits) : std::array<unsigned char, 3>{})
+        .data());
     errors->SetValue(static_cast<vtkIdType>(i),
       measured ? samples[i].Error : std::numeric_limits<double>::quiet_NaN());
     states->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(samples[i].State));
   }
   output->GetPointData()->SetScalars(errors);
   output->GetPointData()->AddArray(states);
+  output->GetPointData()->AddArray(colors);
+  if (this->AngularErrors)
+  {
+    this->AddAngles(output);
+  }
   const meniscus::ErrorSummary summary = meniscus::Summarize(samples.data(), samples.size());
   this->SetStatistics(output, summary.Mean, summary.Deviation, summary.Largest,
     static_cast<vtkTypeInt64>(summary.Count));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::AddAngles(vtkImageData* output)
+{
+  vtkNew<vtkDoubleArray> angles;
+  angles->SetName("AngularError");
+  for (const meniscus::ErrorSample& sample : this->Internals->Samples)
+  {
+    angles->InsertNextValue(vtkMath::DegreesFromRadians(sample.Angle));
+  }
+  output->GetPointData()->AddArray(angles);
 }
 
 //------------------------------------------------------------------------------
@@ -377,6 +437,9 @@ void vtkRefractionErrorVolume::PrintSelf(ostream& os, vtkIndent indent)
      << this->ModelBounds[5] << ")\n";
   os << indent << "SampleDimensions: (" << this->SampleDimensions[0] << ", "
      << this->SampleDimensions[1] << ", " << this->SampleDimensions[2] << ")\n";
+  os << indent << "AngularErrors: " << this->AngularErrors << "\n";
+  os << indent << "ColorLimits: (" << this->ColorLimits[0] << ", " << this->ColorLimits[1] << ", "
+     << this->ColorLimits[2] << ")\n";
   os << indent << "MeanError: " << this->GetMeanError() << "\n";
   os << indent << "StandardDeviation: " << this->GetStandardDeviation() << "\n";
   os << indent << "LargestError: " << this->GetLargestError() << "\n";

@@ -21,12 +21,17 @@
  * - otherwise the curved patches of the membrane itself. This measures the error of FLAT_FACETS
  *   only; CURVED has no error by this measure, and the filter warns.
  *
- * Output is a vtkImageData with two point arrays:
+ * Output is a vtkImageData with point arrays:
  * - `RefractionError` (the active scalars, 1 double, world length): NaN if not measured;
  * - `SampleState` (1 unsigned char): MEASURED, NO_IMAGE (outside the visible volume),
  *   SEVERAL_IMAGES (zones of convergence; with FLAT_FACETS, points in more than one cell),
  *   NO_EXACT_POINT (the sight ray misses the exact surface or is totally reflected), NOT_FINITE
- *   (coordinates out of range).
+ *   (coordinates out of range);
+ * - `ErrorColor` (3 unsigned char): the thesis's colours, green below the first of ColorLimits,
+ * blue below the second, red below the third and white above, darker for smaller errors of the same
+ *   colour; black if not measured;
+ * - `AngularError` (1 double, degrees), with AngularErrorsOn(): angle at the eye between the places
+ *   where the sample is drawn and where it would be seen; NaN if there is no such place nearby.
  *
  * As in the thesis, the statistics are over MEASURED samples only. They are also in the field data,
  * as `MeanError`, `StandardDeviation`, `LargestError` and `NumberOfMeasuredSamples`, and refer to
@@ -35,12 +40,14 @@
  * Samples are measured in parallel with vtkSMPTools; results do not depend on the number of
  * threads. An implicit function is evaluated on all of them, as in vtkSampleFunction. Progress is
  * reported; after an abort the output is empty. Cost: about 1 microsecond per sample and thread
- * with FLAT_FACETS, 3 with CURVED. The membrane's mesh is read again only if its values change, and
- * rays are computed again only if the eye or an index changes.
+ * with FLAT_FACETS, 3 with CURVED; angles take up to ten times as long. The membrane's mesh is
+ * read again only if its values change, and rays are computed again only if the eye or an index
+ * changes.
  *
  * @note A point with an error of 20 units far below the membrane may look better than one with an
- *   error of 2 just below it (thesis): the error is a length in the interior, not an angle at the
- *   eye.
+ *   error of 2 just below it (thesis): `RefractionError` is a length in the interior.
+ *   `AngularError` is what a viewer sees. In a picture of h rows with a view angle of a, an error
+ *   of e in the middle is h tan(e) / (2 tan(a / 2)) pixels.
  * @note A ray may meet an implicit function beyond the border of the membrane's mesh.
  *
  * @sa vtkRefractedGeometryFilter
@@ -184,6 +191,25 @@ public:
 
   /** @{ */
   /**
+   * Set/Get whether the array AngularError is made. Default is off.
+   */
+  vtkSetMacro(AngularErrors, bool);
+  vtkGetMacro(AngularErrors, bool);
+  vtkBooleanMacro(AngularErrors, bool);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the errors, in world units, at which the array ErrorColor turns from green to blue,
+   * from blue to red and from red to white. Values that are not positive, finite and in ascending
+   * order are an error. Defaults are 1, 10 and 100, as in the thesis.
+   */
+  vtkSetVector3Macro(ColorLimits, double);
+  vtkGetVector3Macro(ColorLimits, double);
+  /** @} */
+
+  /** @{ */
+  /**
    * Statistics of the last update: mean, standard deviation and largest of the errors, in world
    * units, and the number of samples. 0 if nothing was measured.
    */
@@ -229,6 +255,7 @@ private:
   void operator=(const vtkRefractionErrorVolume&) = delete;
 
   bool HasValidBox();
+  bool HasValidLimits();
   bool UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference);
   bool UpdateStacks(vtkInformationVector* membranes, vtkInformationVector* references);
   bool MeasureSamples(vtkImageData* output);
@@ -236,11 +263,14 @@ private:
   bool RunOverSamples(
     vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body);
   void FillOutput(vtkImageData* output);
+  void AddAngles(vtkImageData* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
   int MembraneModel = CURVED;
   double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
   int SampleDimensions[3] = { 40, 40, 40 };
+  bool AngularErrors = false;
+  double ColorLimits[3] = { 1.0, 10.0, 100.0 };
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;

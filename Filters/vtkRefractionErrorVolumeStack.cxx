@@ -126,7 +126,7 @@ bool vtkRefractionErrorVolume::MeasureStack(vtkImageData* output)
   const meniscus::StackSolver& finer =
     internals.HasStackReference ? internals.StackReference.GetSolver() : solver;
   const ExactSurfaces exact(this->Interfaces, solver.GetStack(), finer.GetStack());
-  const meniscus::StackErrorSampler sampler(solver, exact);
+  const meniscus::StackErrorSampler sampler(solver, exact, this->AngularErrors);
   return this->RunOverSamples(output->GetNumberOfPoints(),
     [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
     {

@@ -36,6 +36,9 @@ const double Pi = std::acos(-1.0);
 // Tangent of half the view angle: the well fills the image.
 constexpr double HalfTangent = 0.26;
 const glm::dvec3 Target(0.0, -30.0, 0.0);
+constexpr double SquareSide = 200.0;
+constexpr double SphereRadius = 141.5; // the corners of the square almost reach the equator
+constexpr double FarSide = 50.0;       // the well's far wall is below the membrane's border
 
 void AddSide(vtkPoints* points, vtkCellArray* quads, const glm::dvec3& origin, const glm::dvec3& u,
   const glm::dvec3& v, int n)
@@ -85,15 +88,30 @@ vtkSmartPointer<vtkPolyData> MakeWell(int n)
   return well;
 }
 
+void Translate(vtkPolyData* data, const glm::dvec3& by)
+{
+  vtkPoints* points = data->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 p;
+    points->GetPoint(i, &p.x);
+    p += by;
+    points->SetPoint(i, &p.x);
+  }
+  points->Modified();
+  data->Modified();
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-WellScene::WellScene(int cells, int quads)
-  : Field{ reference::HeightField::Shape::Waves, 200.0, 1.5, 0.03 * Pi, 1.0, 1.333 }
+WellScene::WellScene(int cells, int quads, WellSurface surface)
+  : Surface(surface)
+  , Field{ reference::HeightField::Shape::Waves, SquareSide, 1.5, 0.03 * Pi, 1.0, 1.333 }
   , Present(this->Field)
   , Cells(cells)
   , Well(MakeWell(quads))
-  , Membrane(testing::MakeMembrane(this->Field.MakeMesh(cells)))
+  , Membrane(testing::MakeMembrane(this->MakeMesh()))
 {
   this->Filter->SetInputData(0, this->Well);
   this->Filter->SetMembraneData(this->Membrane);
@@ -107,6 +125,32 @@ WellScene::WellScene(int cells, int quads)
 WellScene::~WellScene() = default;
 
 //------------------------------------------------------------------------------
+reference::MembraneMesh WellScene::MakeMesh() const
+{
+  switch (this->Surface)
+  {
+    case WellSurface::Waves:
+      return this->Field.MakeMesh(this->Cells);
+    case WellSurface::Plane:
+      return reference::MakeSquare(SquareSide, this->Cells, 0.0);
+    case WellSurface::HemisphereUp:
+    case WellSurface::HemisphereDown:
+      break;
+  }
+  reference::MembraneMesh mesh = reference::MakeSquare(SquareSide, this->Cells, SphereRadius);
+  if (this->Surface == WellSurface::HemisphereDown)
+  {
+    for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+    {
+      mesh.Points[i + 1] = SphereRadius - mesh.Points[i + 1];
+      mesh.Normals[i] = -mesh.Normals[i];
+      mesh.Normals[i + 2] = -mesh.Normals[i + 2];
+    }
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
 reference::HeightField WellScene::FieldAt(double time) const
 {
   reference::HeightField field = this->Field;
@@ -117,6 +161,11 @@ reference::HeightField WellScene::FieldAt(double time) const
 //------------------------------------------------------------------------------
 void WellScene::MoveMembrane(double time)
 {
+  if (this->Surface != WellSurface::Waves)
+  {
+    Translate(this->Membrane, { 0.0, 0.01 * std::sin(time), 0.0 });
+    return;
+  }
   this->Present = this->FieldAt(time);
   vtkPoints* points = this->Membrane->GetPoints();
   vtkDataArray* normals = this->Membrane->GetPointData()->GetNormals();
@@ -157,16 +206,13 @@ void WellScene::ChangeColors(int number)
 //------------------------------------------------------------------------------
 void WellScene::MoveWell(double time)
 {
-  vtkPoints* points = this->Well->GetPoints();
-  const double by = 0.01 * std::sin(time);
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    points->SetPoint(i, p[0], p[1] + by, p[2]);
-  }
-  points->Modified();
-  this->Well->Modified();
+  Translate(this->Well, { 0.0, 0.01 * std::sin(time), 0.0 });
+}
+
+//------------------------------------------------------------------------------
+void WellScene::MoveWellAside()
+{
+  Translate(this->Well, { FarSide, 0.0, 0.0 });
 }
 
 //------------------------------------------------------------------------------

@@ -21,9 +21,18 @@ namespace meniscus
 namespace benchmark
 {
 
+/** Forms of the well's membrane. */
+enum class WellSurface
+{
+  Waves,
+  Plane,
+  HemisphereUp,  ///< concave to the eye
+  HemisphereDown ///< convex to the eye
+};
+
 /**
- * The thesis's well: four walls and a bottom of coloured quads below waves, drawn at 512 x 512
- * pixels through the filter for an eye above it.
+ * The thesis's well: four walls and a bottom of coloured quads below waves or one of the thesis's
+ * refractors, drawn at 512 x 512 pixels through the filter for an eye above it.
  */
 class WellScene
 {
@@ -33,21 +42,27 @@ public:
   static constexpr double Top = -5.0;
 
   /** `cells` x `cells` x 2 facets, `quads` x `quads` quads on each of five sides. */
-  WellScene(int cells, int quads);
+  WellScene(int cells, int quads, WellSurface surface = WellSurface::Waves);
   ~WellScene();
 
   vtkRefractedGeometryFilter* GetFilter() { return this->Filter; }
   vtkPolyData* GetWell() { return this->Well; }
+  /** The waves at rest. */
   const reference::HeightField& MakeField() const { return this->Field; }
+  /** The membrane at its first place. */
+  reference::MembraneMesh MakeMesh() const;
 
-  /** The membrane at a given time. */
+  /** Waves at a given time. */
   reference::HeightField FieldAt(double time) const;
+  /** Changes the amplitude of waves, or moves another surface up and down. */
   void MoveMembrane(double time);
   /** Moves the eye on a circle. */
   void MoveEye(double time);
   void ChangeColors(int number);
   /** Moves the well itself up and down. */
   void MoveWell(double time);
+  /** Moves the well to the far side of the membrane, where its outer facets show it. */
+  void MoveWellAside();
 
   testing::PixelCamera GetCamera() const;
 
@@ -67,6 +82,7 @@ public:
 private:
   void SetUpWindow();
 
+  WellSurface Surface;
   reference::HeightField Field;
   reference::HeightField Present;
   int Cells;

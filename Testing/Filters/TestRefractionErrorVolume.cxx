@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error volumes compared with the thesis's tables, measured by other means; exact surfaces of every
 // kind; and invalid input.
+#include "AnalyticMembrane.h"
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"
 
 #include "vtkCallbackCommand.h"
@@ -17,12 +19,15 @@
 #include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
 #include "vtkSMPTools.h"
 #include "vtkSphere.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -117,6 +122,140 @@ std::vector<double> GetErrors(vtkRefractionErrorVolume* volume)
 bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
 {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/** Angle between two directions in degrees. */
+double AngleOf(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return 180.0 / Pi * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+//------------------------------------------------------------------------------
+// The sight point of each sample on the exact plane or sphere, by bracketed roots.
+TEST(RefractionErrorVolume, AnglesAtTheEye)
+{
+  int compared = 0;
+  for (const ThesisRow& row : GetThesisRows())
+  {
+    const bool chosen = std::strcmp(row.Table, "4.2") == 0 || std::strcmp(row.Table, "4.1") == 0;
+    if (!chosen || row.EyeHeight != 450.0)
+    {
+      continue;
+    }
+    const double radius = row.SphereRatio * 141.5;
+    const auto volume = MakeThesisVolume(row);
+    volume->SetSampleDimensions(9, 8, 9);
+    volume->AngularErrorsOn();
+    volume->Update();
+    meniscus::FlatMembraneSolver solver;
+    solver.SetMembrane(MakeDisc(141.5, 5, radius).AsInput());
+    const glm::dvec3 eye(row.EyeOffset, row.EyeHeight, 0.0);
+    solver.SetEye(eye, row.Exterior, row.Interior);
+    const AnalyticMembrane exact{ radius, row.Exterior, row.Interior };
+    vtkImageData* output = volume->GetOutput();
+    vtkDataArray* angles = output->GetPointData()->GetArray("AngularError");
+    ASSERT_TRUE(angles);
+    vtkDataArray* states = output->GetPointData()->GetArray("SampleState");
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      glm::dvec3 point;
+      output->GetPoint(i, &point.x);
+      const auto sights = exact.FindSightPoints(eye, point);
+      if (states->GetTuple1(i) != vtkRefractionErrorVolume::MEASURED || sights.size() != 1)
+      {
+        EXPECT_TRUE(sights.size() == 1 || std::isnan(angles->GetTuple1(i)));
+        continue;
+      }
+      ++compared;
+      // Rounding of 1e-13 of a distance of about 1000, at an angle of incidence of up to 85
+      // degrees.
+      const double truth = AngleOf(solver.SolvePoint(point).Position - eye, sights[0] - eye);
+      EXPECT_NEAR(angles->GetTuple1(i), truth, 1e-9) << row.EyeOffset << " " << radius;
+    }
+  }
+  EXPECT_GT(compared, 800);
+}
+
+//------------------------------------------------------------------------------
+// A list whose second interface changes nothing.
+TEST(RefractionErrorVolume, AnglesThroughAList)
+{
+  const auto membrane = MakeMembrane(Waves.MakeMesh(16));
+  vtkNew<WavesFunction> function;
+  std::vector<double> angles[2];
+  for (const bool list : { false, true })
+  {
+    const auto volume = MakeVolume(membrane);
+    if (list)
+    {
+      vtkNew<vtkRefractingInterfaceCollection> interfaces;
+      interfaces->AddInterface(1.0, 1.333)->SetExactSurface(function);
+      interfaces->AddInterface(1.333, 1.333);
+      volume->SetInterfaces(interfaces);
+      volume->AddMembraneData(MakeMembrane(MakeSquare(200.0, 4, 0.0)));
+    }
+    else
+    {
+      volume->SetExactMembrane(function);
+    }
+    volume->AngularErrorsOn();
+    volume->Update();
+    vtkDataArray* array = volume->GetOutput()->GetPointData()->GetArray("AngularError");
+    ASSERT_TRUE(array);
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      angles[list].push_back(array->GetTuple1(i));
+    }
+  }
+  int compared = 0;
+  double largest = 0.0;
+  ASSERT_EQ(angles[0].size(), angles[1].size());
+  for (std::size_t i = 0; i < angles[0].size(); ++i)
+  {
+    if (std::isfinite(angles[0][i]) && std::isfinite(angles[1][i]))
+    {
+      ++compared;
+      largest = std::max(largest, angles[0][i]);
+      EXPECT_NEAR(angles[0][i], angles[1][i], 1e-8);
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_GT(largest, 1e-4); // the mesh is coarse
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, ColorsFollowTheLimits)
+{
+  const auto volume = MakeThesisVolume(GetThesisRows()[17]); // the hemisphere of Table 4.2
+  volume->SetColorLimits(2.0, 5.0, 8.0);
+  volume->Update();
+  const std::vector<double> errors = GetErrors(volume);
+  vtkDataArray* colors = volume->GetOutput()->GetPointData()->GetArray("ErrorColor");
+  ASSERT_TRUE(colors);
+  ASSERT_EQ(colors->GetNumberOfComponents(), 3);
+  int found[5] = { 0, 0, 0, 0, 0 };
+  for (std::size_t i = 0; i < errors.size(); ++i)
+  {
+    double rgb[3];
+    colors->GetTuple(static_cast<vtkIdType>(i), rgb);
+    const double e = errors[i];
+    double expected[3] = { 255.0, 255.0, 255.0 };
+    int band = 3;
+    if (!(e >= 8.0))
+    {
+      band = std::isnan(e) ? 4 : (e < 2.0 ? 0 : (e < 5.0 ? 1 : 2));
+      const int channel = band == 0 ? 1 : (band == 1 ? 2 : 0);
+      const double limits[3] = { 2.0, 5.0, 8.0 };
+      std::fill(expected, expected + 3, 0.0);
+      expected[channel] = band == 4 ? 0.0 : std::floor(80.0 + 175.0 * e / limits[band]);
+    }
+    ++found[band];
+    EXPECT_TRUE(std::equal(rgb, rgb + 3, expected)) << e;
+  }
+  for (const int number : found)
+  {
+    EXPECT_GT(number, 100);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -471,6 +610,17 @@ TEST_F(RefractionErrorVolumeBadInput, Boxes)
     [](vtkRefractionErrorVolume* v) { v->SetSampleDimensions(12, 0, 12); }, mend);
   this->ExpectErrorAndRecovery(
     [](vtkRefractionErrorVolume* v) { v->SetSampleDimensions(-3, 12, 12); }, mend);
+}
+
+TEST_F(RefractionErrorVolumeBadInput, ColorLimits)
+{
+  const auto mend = [](vtkRefractionErrorVolume* v) { v->SetColorLimits(1.0, 10.0, 100.0); };
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetColorLimits(10.0, 1.0, 100.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetColorLimits(0.0, 1.0, 100.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetColorLimits(1.0, NaN, 100.0); }, mend);
 }
 
 TEST_F(RefractionErrorVolumeBadInput, EyesAndIndices)

@@ -4,8 +4,8 @@
 import unittest
 
 from meniscus import (
-    vtkRefractedGeometryFilter, vtkRefractedLightFilter, vtkRefractionErrorVolume,
-    vtkTetrahedraRayCastMapper)
+    vtkMembraneCellFilter, vtkRefractedGeometryFilter, vtkRefractedLightFilter,
+    vtkRefractionErrorVolume, vtkTetrahedraRayCastMapper)
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -131,6 +131,10 @@ class TestErrorVolume(PropertyTest):
         self.check_pair(self.volume, "InteriorIndexOfRefraction", [1.0])
         self.check_pair(self.volume, "ModelBounds", [(1, 2, 3, 4, 5, 6)])
         self.check_pair(self.volume, "SampleDimensions", [(7, 8, 9)])
+        self.check_pair(self.volume, "ColorLimits", [(0.1, 0.2, 0.3)])
+        self.assertFalse(self.volume.GetAngularErrors())
+        self.volume.AngularErrorsOn()
+        self.assertTrue(self.volume.GetAngularErrors())
 
     def test_exact_membrane(self):
         sphere = vtkSphere()
@@ -144,6 +148,17 @@ class TestErrorVolume(PropertyTest):
         self.check_counters(self.volume, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfMeasuredSamples", "MeanError",
             "StandardDeviation", "LargestError"])
+
+
+class TestMembraneCells(PropertyTest):
+    def test_properties(self):
+        cells = vtkMembraneCellFilter()
+        self.check_pair(cells, "EyePosition", [(1, 2, 3)])
+        self.check_pair(cells, "ExteriorIndexOfRefraction", [1.333])
+        self.check_pair(cells, "InteriorIndexOfRefraction", [1.0])
+        self.check_pair(cells, "CellLength", [2.5])
+        self.check_counters(cells, [
+            "NumberOfBackFacingFacets", "NumberOfTotallyReflectedFacets", "NumberOfMissedFacets"])
 
 
 if __name__ == "__main__":

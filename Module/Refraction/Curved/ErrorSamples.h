@@ -16,6 +16,8 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -74,6 +76,8 @@ struct ErrorSample
 {
   double Error = 0.0; ///< length in world units; meaningful for measured samples only
   SampleState State = SampleState::NoImage;
+  /** Angle at the eye in radians, see FindAngularError; NaN if it is not measured. */
+  double Angle = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ErrorSummary
@@ -85,13 +89,34 @@ struct ErrorSummary
   std::size_t Count = 0; ///< number of measured samples
 };
 
+/** Exact ray behind the last surface: a place that it passes and its unit direction. */
+struct ExactRay
+{
+  glm::dvec3 Origin{ 0.0 };
+  glm::dvec3 Direction{ 0.0 };
+};
+
+/** Traces the exact sight ray along a unit vector. Returns false if nothing is refracted there. */
+using ExactTrace = std::function<bool(const glm::dvec3& direction, ExactRay& ray)>;
+
+/**
+ * Angle at the eye between the unit vector `seen`, along which `point` is drawn, and the sight ray
+ * that really shows the point, found by Newton's method from there; NaN if it finds none.
+ */
+double FindAngularError(const glm::dvec3& seen, const glm::dvec3& point, const ExactTrace& trace);
+
 class ErrorSampler
 {
 public:
-  /** The eye in world coordinates and the indices must be those of the geometries under test. */
-  ErrorSampler(const ExactSurface& exact, const glm::dvec3& eye, double exterior, double interior)
+  /**
+   * The eye in world coordinates and the indices must be those of the geometries under test. Angles
+   * are measured if `angles` is set.
+   */
+  ErrorSampler(const ExactSurface& exact, const glm::dvec3& eye, double exterior, double interior,
+    bool angles = false)
     : Exact(exact)
     , Optics{ eye, exterior, interior }
+    , Angles(angles)
   {
   }
 
@@ -103,9 +128,12 @@ public:
 
 private:
   ErrorSample Compare(const glm::dvec3& point, const VirtualVertex& vertex) const;
+  bool Trace(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
+    ExactRay& behind) const;
 
   const ExactSurface& Exact;
   Media Optics;
+  bool Angles;
 };
 
 /**

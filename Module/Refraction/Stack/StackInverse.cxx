@@ -101,42 +101,78 @@ ErrorSample StackErrorSampler::Measure(const glm::dvec3& point) const
 }
 
 //------------------------------------------------------------------------------
+// The exact ray behind the interfaces of a path. `first` is set to the point in which it meets the
+// first of them, `between` to its length from there to the last one, each part divided by the index
+// of refraction along it.
+bool StackErrorSampler::Trace(const StackPath& path, const glm::dvec3& direction, ExactRay& behind,
+  glm::dvec3& first, double& between) const
+{
+  const RefractionStack& stack = this->Solver.GetStack();
+  behind = { stack.GetEye() + stack.GetOrigin(), direction };
+  between = 0.0;
+  for (std::size_t k = 0; k < path.Count; ++k)
+  {
+    const InterfacePassage& passage = stack.GetLinks()[k].Passage;
+    const glm::dvec3 near = path.Points[k].Ray.Origin + stack.GetOrigin();
+    PatchPoint at;
+    if (!this->Exact.Meet(k, behind.Origin, behind.Direction, near, at))
+    {
+      return false;
+    }
+    if (k == 0)
+    {
+      first = at.Position;
+    }
+    else
+    {
+      between += glm::length(at.Position - behind.Origin) / passage.Before;
+    }
+    const RefractionRay ray =
+      ComputeRefractionRay(behind.Direction, at.Normal, passage.Before / passage.Behind);
+    if (ray.Kind != RayKind::Refracted)
+    {
+      return false;
+    }
+    behind = { at.Position, ray.Direction };
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 ErrorSample StackErrorSampler::Compare(
   const glm::dvec3& point, const StackVertex& vertex, const StackPath& path) const
 {
   const RefractionStack& stack = this->Solver.GetStack();
-  const ErrorSample notMet{ 0.0, SampleState::NoExactPoint };
-  glm::dvec3 origin = stack.GetEye() + stack.GetOrigin();
-  glm::dvec3 direction = glm::normalize(vertex.Position - origin);
-  double rest = 0.0;
-  for (std::size_t k = 0; k < path.Count; ++k)
+  const glm::dvec3 direction =
+    glm::normalize(vertex.Position - (stack.GetEye() + stack.GetOrigin()));
+  ExactRay ray;
+  glm::dvec3 first(0.0);
+  double between = 0.0;
+  if (!this->Trace(path, direction, ray, first, between))
   {
-    const InterfacePassage& passage = stack.GetLinks()[k].Passage;
-    PatchPoint at;
-    if (!this->Exact.Meet(k, origin, direction, path.Points[k].Ray.Origin + stack.GetOrigin(), at))
-    {
-      return notMet;
-    }
-    rest = k == 0 ? glm::dot(vertex.Position - at.Position, direction) / passage.Before
-                  : rest - glm::length(at.Position - origin) / passage.Before;
-    const RefractionRay ray =
-      ComputeRefractionRay(direction, at.Normal, passage.Before / passage.Behind);
-    if (ray.Kind != RayKind::Refracted)
-    {
-      return notMet;
-    }
-    origin = at.Position;
-    direction = ray.Direction;
+    return { 0.0, SampleState::NoExactPoint };
   }
+  const double rest =
+    glm::dot(vertex.Position - first, direction) / stack.GetLinks()[0].Passage.Before - between;
   // A virtual vertex in front of the last exact surface corresponds to no point behind it.
   const double depth = rest * stack.GetLinks()[path.Count - 1].Passage.Behind;
-  const double error = glm::length(origin + depth * direction - point);
+  const double error = glm::length(ray.Origin + depth * ray.Direction - point);
   if (depth < 0.0)
   {
-    return notMet;
+    return { 0.0, SampleState::NoExactPoint };
   }
-  return std::isfinite(error) ? ErrorSample{ error, SampleState::Measured }
-                              : ErrorSample{ 0.0, SampleState::NotFinite };
+  if (!std::isfinite(error))
+  {
+    return { 0.0, SampleState::NotFinite };
+  }
+  ErrorSample sample{ error, SampleState::Measured };
+  if (this->Angles)
+  {
+    sample.Angle = FindAngularError(direction, point,
+      [&](const glm::dvec3& along, ExactRay& behind)
+      { return this->Trace(path, along, behind, first, between); });
+  }
+  return sample;
 }
 
 }

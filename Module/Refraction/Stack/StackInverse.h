@@ -46,10 +46,11 @@ StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen,
 class StackErrorSampler
 {
 public:
-  /** Solver and exact surfaces must outlive this object. */
-  StackErrorSampler(const StackSolver& solver, const StackSurfaces& exact)
+  /** Solver and exact surfaces must outlive this object. `angles` as for ErrorSampler. */
+  StackErrorSampler(const StackSolver& solver, const StackSurfaces& exact, bool angles = false)
     : Solver(solver)
     , Exact(exact)
+    , Angles(angles)
   {
   }
 
@@ -59,9 +60,12 @@ public:
 private:
   ErrorSample Compare(
     const glm::dvec3& point, const StackVertex& vertex, const StackPath& path) const;
+  bool Trace(const StackPath& path, const glm::dvec3& direction, ExactRay& behind,
+    glm::dvec3& first, double& between) const;
 
   const StackSolver& Solver;
   const StackSurfaces& Exact;
+  bool Angles;
 };
 
 }

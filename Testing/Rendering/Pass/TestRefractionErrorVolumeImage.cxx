@@ -27,7 +27,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace meniscus::test;
@@ -40,21 +39,6 @@ constexpr int Threshold = 1; // grey levels: rounding to 8 bits
 constexpr int Samples = 20;
 constexpr double Spacing = 20.0;
 constexpr double Radius = 141.5;
-
-void ColourOf(double error, unsigned char* rgb)
-{
-  const double limits[3] = { 1.0, 10.0, 100.0 };
-  const int channels[3] = { 1, 2, 0 }; // green, blue, red
-  std::fill(rgb, rgb + 3, static_cast<unsigned char>(255));
-  for (int k = 2; k >= 0; --k)
-  {
-    if (error < limits[k])
-    {
-      std::fill(rgb, rgb + 3, static_cast<unsigned char>(0));
-      rgb[channels[k]] = static_cast<unsigned char>(80.0 + 175.0 * error / limits[k]);
-    }
-  }
-}
 
 /** The blocks behind the plane z = 0 that were measured. */
 vtkSmartPointer<vtkPolyData> MakeBlocks(vtkImageData* volume)
@@ -69,10 +53,8 @@ vtkSmartPointer<vtkPolyData> MakeBlocks(vtkImageData* volume)
     volume->GetPoint(i, p);
     if (p[2] <= 0.0 && std::isfinite(errors->GetTuple1(i)))
     {
-      unsigned char rgb[3];
-      ColourOf(errors->GetTuple1(i), rgb);
       points->InsertNextPoint(p);
-      colours->InsertNextTypedTuple(rgb);
+      colours->InsertNextTuple(i, volume->GetPointData()->GetArray("ErrorColor"));
     }
   }
   vtkNew<vtkPolyData> centres;
