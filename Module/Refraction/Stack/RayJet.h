@@ -97,7 +97,7 @@ inline RayKind Refract(
     const double cBy = glm::dot(ray.DirectionBy[k], n) + glm::dot(ray.Direction, nBy);
     ray.DirectionBy[k] = ratio * ray.DirectionBy[k] + gByCosine * cBy * n + g * nBy;
   }
-  // Of unit length within rounding, as the vectors that it is made of.
+  // The length is 1 within rounding, as are those of the vectors that it is made of.
   ray.Direction = ratio * ray.Direction + g * n;
   cosine = -c;
   return RayKind::Refracted;
