@@ -40,6 +40,22 @@ inline void AddFaces(
 #endif
 }
 
+/**
+ * Whether an array keeps each component in an array of its own now. Since VTK 9.2 it may hold whole
+ * tuples instead, and does so unless it was given component arrays; versions without
+ * GetStorageType() do not tell.
+ */
+template <typename Array>
+auto KeepsComponentsApart(Array* array, int) -> decltype(array->GetStorageType(), bool{})
+{
+  return array->GetStorageType() == Array::SOA;
+}
+template <typename Array>
+bool KeepsComponentsApart(Array*, long)
+{
+  return VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 0);
+}
+
 /** Name of a cell type, such as "vtkWedge"; may be null. */
 inline const char* NameOfCellType(int type)
 {

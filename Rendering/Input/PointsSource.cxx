@@ -3,6 +3,7 @@
 #include "Rendering/Input/PointsSource.h"
 
 #include "Common/BlockLoop.h"
+#include "Rendering/Common/VTKVersions.h"
 #include "Rendering/Input/GridLayout.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -25,7 +26,8 @@ bool ViewCoordinates(vtkDataArray* points, PointsView& view)
     view = PointsView(triples->GetPointer(0));
     return true;
   }
-  if (auto* axes = vtkSOADataArrayTemplate<T>::FastDownCast(points))
+  auto* axes = vtkSOADataArrayTemplate<T>::FastDownCast(points);
+  if (axes && KeepsComponentsApart(axes, 0))
   {
     view = PointsView(axes->GetComponentArrayPointer(0), axes->GetComponentArrayPointer(1),
       axes->GetComponentArrayPointer(2));

@@ -263,6 +263,11 @@ TYPED_TEST(SightRaySteps, ProgressIsReportedAndAbortObeyed)
     });
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, callback);
   filter->Update();
+  // The last report of the filter is that which aborts it. VTK 9.3 reports an end even so.
+  if (!progress.empty() && progress.back() == 1.0)
+  {
+    progress.pop_back();
+  }
   ASSERT_FALSE(progress.empty());
   EXPECT_GT(progress.back(), 0.2);
   EXPECT_LT(progress.back(), 0.9);
