@@ -30,7 +30,7 @@ namespace
 {
 
 // Points per task of a thread.
-constexpr vtkIdType Grain = 512;
+constexpr auto Chain = static_cast<vtkIdType>(meniscus::TruePositions::Chain);
 
 static_assert(
   vtkTruePositionFilter::UNREFRACTED == static_cast<int>(meniscus::SeenState::Unrefracted) &&
@@ -78,6 +78,9 @@ public:
   meniscus::PointEyes Eyes;
   double Exterior = 1.0;
   double Interior = 1.0;
+  /** Properties of the membrane: see PatchBuild. */
+  meniscus::SteepDirections Steep;
+  vtkTypeInt64 PatchBuild = -1;
   /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
   std::unique_ptr<meniscus::TruePositions> Truth;
   vtkTypeInt64 EyeUpdate = -1;
@@ -86,11 +89,32 @@ public:
 
   void UpdateTruth()
   {
+    const meniscus::CurvedMembraneSolver& solver = this->Scene.GetCurved();
+    if (this->PatchBuild != this->Scene.GetNumberOfPatchBuilds())
+    {
+      this->Steep.Build(solver.GetMembrane(), solver.GetPatches());
+      this->PatchBuild = this->Scene.GetNumberOfPatchBuilds();
+    }
     if (this->EyeUpdate != this->Scene.GetNumberOfEyeUpdates())
     {
-      this->Truth = std::make_unique<meniscus::TruePositions>(this->Scene.GetCurved());
+      this->Truth = std::make_unique<meniscus::TruePositions>(solver, this->Steep);
       this->EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
     }
+  }
+
+  /** True position behind one interface, after the points that are recorded in `memory`. */
+  meniscus::StackTruePosition FindOne(
+    const glm::dvec3& seen, meniscus::TruePositions::Memory& memory) const
+  {
+    const glm::dvec3 eye = this->Eyes.Get(0);
+    meniscus::TruePosition found = this->Truth->Find(seen, memory);
+    const bool refracted = found.State == meniscus::SeenState::Refracted;
+    const double path = refracted ? this->Exterior * glm::length(found.SightPoint - eye) +
+        this->Interior * glm::length(found.Position - found.SightPoint)
+                                  : this->Exterior * glm::length(seen - eye);
+    // Equal indices change no bit.
+    found.Position = this->Exterior == this->Interior ? seen : found.Position;
+    return { found, path };
   }
 };
 
@@ -217,28 +241,6 @@ bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformation
 }
 
 //------------------------------------------------------------------------------
-meniscus::StackTruePosition vtkTruePositionFilter::FindOne(const double at[3]) const
-{
-  const glm::dvec3 seen(at[0], at[1], at[2]);
-  const glm::dvec3 eye = this->Internals->Eyes.Get(0);
-  const double exterior = this->Internals->Exterior;
-  const double interior = this->Internals->Interior;
-  meniscus::TruePosition found = this->Internals->Truth->Find(seen);
-  const bool refracted = found.State == meniscus::SeenState::Refracted;
-  const double path = refracted ? exterior * glm::length(found.SightPoint - eye) +
-      interior * glm::length(found.Position - found.SightPoint)
-                                : exterior * glm::length(seen - eye);
-  // Equal indices change no bit.
-  found.Position = exterior == interior ? seen : found.Position;
-  return { found, path };
-}
-
-//------------------------------------------------------------------------------
-meniscus::StackTruePosition vtkTruePositionFilter::FindThroughStack(const double at[3]) const
-{
-  return meniscus::FindTruePosition(
-    this->GetStack(), this->Internals->Exterior, { at[0], at[1], at[2] });
-}
 
 //------------------------------------------------------------------------------
 /** Returns false after an abort. */
@@ -247,24 +249,39 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   const vtkIdType count = input->GetNumberOfPoints();
   PointArrays arrays(count);
   const vtkInternals& internals = *this->Internals;
+  // One chain.
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
     meniscus::SightRayTracer tracer(this->GetStack(), internals.Exterior);
+    meniscus::TruePositions::Memory memory;
     for (vtkIdType i = begin; i < end; ++i)
     {
-      double seen[3];
-      input->GetPoint(i, seen);
+      glm::dvec3 seen;
+      input->GetPoint(i, &seen.x);
       const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
-        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), { seen[0], seen[1], seen[2] })
-        : (internals.HasStack ? this->FindThroughStack(seen) : this->FindOne(seen));
+        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen)
+        : (internals.HasStack
+              ? meniscus::FindTruePosition(tracer.GetStack(), internals.Exterior, seen)
+              : internals.FindOne(seen, memory));
       arrays.Positions->SetTypedTuple(i, &found.Position.x);
       arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
       arrays.States->SetValue(i, static_cast<unsigned char>(found.State));
       arrays.Paths->SetValue(i, found.OpticalPath);
     }
   };
-  if (!this->RunInSteps(
-        count, [&](vtkIdType begin, vtkIdType end) { vtkSMPTools::For(begin, end, Grain, move); }))
+  // Threads take whole chains, so that results do not depend on the threads.
+  const auto moveChains = [&move](vtkIdType begin, vtkIdType end)
+  {
+    vtkSMPTools::For(0, (end - begin + Chain - 1) / Chain, 1,
+      [&](vtkIdType first, vtkIdType last)
+      {
+        for (vtkIdType i = first; i < last; ++i)
+        {
+          move(begin + i * Chain, std::min(begin + (i + 1) * Chain, end));
+        }
+      });
+  };
+  if (!this->RunInSteps(count, moveChains))
   {
     return false;
   }

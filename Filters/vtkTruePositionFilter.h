@@ -35,11 +35,6 @@
 
 #include <memory> // For std::unique_ptr
 
-namespace meniscus
-{
-struct StackTruePosition;
-}
-
 class VTKMENISCUS_EXPORT vtkTruePositionFilter : public vtkSightRayAlgorithm
 {
 public:
@@ -81,8 +76,6 @@ private:
   void operator=(const vtkTruePositionFilter&) = delete;
 
   bool UpdateRefraction(vtkPointSet* points, vtkInformationVector* membranes);
-  meniscus::StackTruePosition FindOne(const double seen[3]) const;
-  meniscus::StackTruePosition FindThroughStack(const double seen[3]) const;
   bool MovePoints(vtkPointSet* input, vtkPointSet* output);
 
   class vtkInternals;

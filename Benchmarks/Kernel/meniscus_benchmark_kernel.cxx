@@ -8,6 +8,8 @@
 #include "RefractionTestRandom.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/SteepDirections.h"
+#include "Refraction/Curved/TruePositions.h"
 #include "Refraction/Stack/StackSolver.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
@@ -232,6 +234,32 @@ void SolveThroughInterfaces(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
 }
 
+/** True positions of the points of a grid; Arg is the number of cells along the waves' side. */
+void FindTruePositions(benchmark::State& state)
+{
+  CurvedMembraneSolver solver;
+  SetWaves(solver, static_cast<int>(state.range(0)));
+  SteepDirections steep;
+  steep.Build(solver.GetMembrane(), solver.GetPatches());
+  const TruePositions truth(solver, steep);
+  const std::vector<double> points = MakeGridPoints();
+  const std::size_t count = points.size() / 3;
+  for (auto step : state)
+  {
+    TruePositions::Memory memory;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (i % TruePositions::Chain == 0)
+      {
+        memory = TruePositions::Memory();
+      }
+      const double* p = points.data() + 3 * i;
+      benchmark::DoNotOptimize(truth.Find({ p[0], p[1], p[2] }, memory));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+}
+
 void RegisterFrames()
 {
   for (const InstructionSet set : GetInstructionSets())
@@ -252,6 +280,7 @@ BENCHMARK(BuildMesh)->Unit(benchmark::kMillisecond);
 BENCHMARK(VertexGradients)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveThroughInterfaces)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
+BENCHMARK(FindTruePositions)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 
 }

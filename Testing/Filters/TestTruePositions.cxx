@@ -11,6 +11,7 @@
 #include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
+#include "vtkSMPTools.h"
 #include "vtkTruePositionFilter.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -18,8 +19,11 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -133,6 +137,75 @@ TEST(TruePositions, UndoTheRefractionOfWaves)
   // Newton's method ends 1e-12 of the membrane's size from the sight point.
   EXPECT_LT(MeasureWayBack(membrane, 2000, refracted), 1e-9);
   EXPECT_EQ(refracted, 2000);
+}
+
+// Rays to points in rows start where the last one met the surface, those to points far apart are
+// searched: from patch to patch, beyond the border, behind rough and steep waves, and through a
+// ball.
+TEST(TruePositions, DoNotDependOnTheOrderOfPoints)
+{
+  using namespace meniscus::reference;
+  MembraneMesh ball = MakeSphere(24, 1.0);
+  for (double& coordinate : ball.Points)
+  {
+    coordinate *= 60.0;
+  }
+  std::mt19937 engine(5);
+  for (const MembraneMesh& mesh : { MakeWaves(200.0, 40, 2.0, 3.0), MakeWaves(200.0, 12, 2.0, 3.0),
+         MakeRandom(200.0, 20, 0.5, 0.05, 1), MakeWaves(200.0, 40, 15.0, 4.0), ball })
+  {
+    const auto membrane = MakeMembrane(mesh);
+    std::vector<Point> rows;
+    for (int row = 0; row < 40; ++row)
+    {
+      for (int i = 0; i < 100; ++i)
+      {
+        rows.push_back({ -150.0 + 3.0 * i, -70.3 + 2.0 * row, -100.0 + 5.0 * row });
+      }
+    }
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), engine);
+    std::vector<Point> shuffled;
+    for (const std::size_t i : order)
+    {
+      shuffled.push_back(rows[i]);
+    }
+    const auto inRows = MakeInverse(MakePoints(rows), membrane);
+    const auto apart = MakeInverse(MakePoints(shuffled), membrane);
+    inRows->Update();
+    apart->Update();
+    int refracted = 0;
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      const auto here = static_cast<vtkIdType>(order[i]);
+      const auto there = static_cast<vtkIdType>(i);
+      ASSERT_EQ(StateOf(inRows->GetOutput(), here), StateOf(apart->GetOutput(), there)) << here;
+      refracted += StateOf(inRows->GetOutput(), here) == vtkTruePositionFilter::REFRACTED;
+      // Newton's method ends 1e-14 of a facet from the root, except where rays are tangential.
+      EXPECT_LT(
+        glm::length(PointOf(inRows->GetOutput(), here) - PointOf(apart->GetOutput(), there)), 1e-10)
+        << here;
+    }
+    EXPECT_GT(refracted, 500);
+  }
+}
+
+TEST(TruePositions, ThreadsChangeNoBit)
+{
+  const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 2.0, 3.0));
+  const auto seen = MakePoints(MakeDeepPoints(20000)); // more than one step of progress
+  const auto one = MakeInverse(seen, membrane);
+  const auto two = MakeInverse(seen, membrane);
+  vtkSMPTools::Initialize(1);
+  one->Update();
+  vtkSMPTools::Initialize(2);
+  two->Update();
+  vtkSMPTools::Initialize(0);
+  for (vtkIdType i = 0; i < seen->GetNumberOfPoints(); ++i)
+  {
+    ASSERT_EQ(PointOf(one->GetOutput(), i), PointOf(two->GetOutput(), i)) << i;
+  }
 }
 
 TEST(TruePositions, KeepPointsInFrontAndBeside)

@@ -239,8 +239,7 @@ void StackChecker::CheckPoint(
   const bool isDecided = this->Solver.GetNumberOfUndecidedSearches() == undecided;
   this->Tally.Undecided += !isDecided;
   StackSolver::Memory memory;
-  StackPath path;
-  const StackVertex first = this->Solver.SolvePoint(world, memory, path);
+  const StackVertex first = this->Solver.SolvePoint(world, memory);
   if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
   {
     this->Count(&RefractionTally::Failed, i, "no answer", 0);
@@ -264,7 +263,7 @@ void StackChecker::CheckPoint(
   };
   if (first.State == ImageState::Found)
   {
-    path.Count = static_cast<std::size_t>(first.Passed);
+    const StackPath path = first.Passed > 0 ? memory.Path : StackPath();
     this->CheckImage(i, rounded, path);
     if (isDecided && !isKnown(first.SightPoint - this->Frame, path.Count))
     {
@@ -331,7 +330,6 @@ void StackChecker::CheckChains()
   const Result threaded = solve(this->Threaded, count, ReversedThreadsLoop);
   const Result padded = solve(this->Padded, checked, SerialLoop);
   StackSolver::Memory memory;
-  StackPath path;
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto number = static_cast<int>(i);
@@ -353,11 +351,10 @@ void StackChecker::CheckChains()
       continue;
     }
     const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    const StackVertex vertex = this->Solver.SolvePoint(world, memory, path);
+    const StackVertex vertex = this->Solver.SolvePoint(world, memory);
     if (vertex.State == ImageState::Found)
     {
-      path.Count = static_cast<std::size_t>(vertex.Passed);
-      this->CheckImage(number, world - this->Frame, path);
+      this->CheckImage(number, world - this->Frame, vertex.Passed > 0 ? memory.Path : StackPath());
     }
   }
 }

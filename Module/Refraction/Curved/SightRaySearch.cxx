@@ -55,7 +55,8 @@ SightRaySearch::SightRaySearch(const CurvedMembraneSolver& geometry)
 }
 
 //------------------------------------------------------------------------------
-bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at) const
+bool SightRaySearch::Find(
+  const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at, std::int32_t& found) const
 {
   const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
   const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
@@ -85,6 +86,7 @@ bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, P
         {
           least = glm::dot(way, way);
           at = { position, glm::normalize(crossing.Normal) };
+          found = facet;
         }
       }
       return all;

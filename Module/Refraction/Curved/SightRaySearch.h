@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -30,7 +31,14 @@ public:
    * `near`, in world coordinates, with the unit normal. Returns false if there is none. Places
    * where the ray touches the membrane within rounding are not counted.
    */
-  bool Find(const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at) const;
+  bool Find(const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at) const
+  {
+    std::int32_t facet = CurvedPatches::NoFacet;
+    return this->Find(direction, near, at, facet);
+  }
+  /** Also sets the facet that the intersection lies in. */
+  bool Find(
+    const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at, std::int32_t& found) const;
 
 private:
   const CurvedMembraneSolver& Geometry;

@@ -9,6 +9,7 @@
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Stack/VectorBy.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,8 +23,8 @@ struct RayJet
 {
   glm::dvec3 Origin;
   glm::dvec3 Direction;
-  glm::dvec3 OriginBy[2];
-  glm::dvec3 DirectionBy[2];
+  VectorBy OriginBy;
+  VectorBy DirectionBy;
 };
 
 /** Ray from the eye to a point of a patch, differentiated by the place in the patch. */
@@ -34,35 +35,59 @@ inline RayJet MakeSightRay(const glm::dvec3& eye, const PatchJet& at)
   RayJet ray;
   ray.Origin = at.Position;
   ray.Direction = inverse * away;
-  for (int k = 0; k < 2; ++k)
-  {
-    ray.OriginBy[k] = at.PositionBy[k];
-    ray.DirectionBy[k] =
-      inverse * (at.PositionBy[k] - ray.Direction * glm::dot(ray.Direction, at.PositionBy[k]));
-  }
+  ray.OriginBy = MakeVectorBy(at.PositionBy);
+  ray.DirectionBy = inverse * (ray.OriginBy - ray.Direction * Dot(ray.Direction, ray.OriginBy));
   return ray;
 }
 
 /**
- * Moves the origin along the ray to the patch, which it meets at `at`. Returns in `placeBy` the
- * derivatives of the place in the patch, and in `normalBy` those of its normal.
+ * Place in the tangent plane of a patch as a function of the point of a ray that meets it: the
+ * change of each of its coordinates is the scalar product with the change of the point.
  */
-inline void Transfer(RayJet& ray, const PatchJet& at, glm::dvec2 placeBy[2], glm::dvec3 normalBy[2])
+struct PlaceGradient
+{
+  glm::dvec3 U;
+  glm::dvec3 V;
+};
+
+/** Cramer's rule for u by0 + v by1 - t direction = change of the ray's point. */
+inline PlaceGradient GetPlaceGradient(const PatchJet& at, const glm::dvec3& direction)
+{
+  const glm::dvec3 across = glm::cross(at.PositionBy[1], direction);
+  const double inverse = 1.0 / glm::dot(at.PositionBy[0], across);
+  return { inverse * across, inverse * glm::cross(direction, at.PositionBy[0]) };
+}
+
+/** Derivatives of a place in a patch. */
+struct PlaceBy
+{
+  NumberBy U{ 0.0, 0.0 };
+  NumberBy V{ 0.0, 0.0 };
+};
+
+inline glm::dvec2 GetChange(const PlaceBy& by, const glm::dvec2& move)
+{
+  return { GetChange(by.U, move), GetChange(by.V, move) };
+}
+
+/** Derivatives of a vector that depends on a place, by the parameters that the place depends on. */
+inline VectorBy Chain(const glm::dvec3 by[2], const PlaceBy& place)
+{
+  return by[0] * place.U + by[1] * place.V;
+}
+
+/**
+ * Moves the origin along the ray to the patch, which it meets at `at` with the gradient of the
+ * place there. Returns the derivatives of the place in the patch.
+ */
+inline PlaceBy Transfer(RayJet& ray, const PatchJet& at, const PlaceGradient& gradient)
 {
   const double distance = glm::dot(at.Position - ray.Origin, ray.Direction);
-  // Cramer's rule for u by0 + v by1 - t direction = change of the ray at this distance.
-  const glm::dvec3 across = glm::cross(at.PositionBy[1], ray.Direction);
-  const double inverse = 1.0 / glm::dot(at.PositionBy[0], across);
-  for (int k = 0; k < 2; ++k)
-  {
-    const glm::dvec3 change = ray.OriginBy[k] + distance * ray.DirectionBy[k];
-    const double u = inverse * glm::dot(change, across);
-    const double v = inverse * glm::dot(at.PositionBy[0], glm::cross(change, ray.Direction));
-    placeBy[k] = { u, v };
-    ray.OriginBy[k] = u * at.PositionBy[0] + v * at.PositionBy[1];
-    normalBy[k] = u * at.NormalBy[0] + v * at.NormalBy[1];
-  }
+  const VectorBy change = ray.OriginBy + distance * ray.DirectionBy;
+  const PlaceBy place{ Dot(gradient.U, change), Dot(gradient.V, change) };
+  ray.OriginBy = Chain(at.PositionBy, place);
   ray.Origin = at.Position;
+  return place;
 }
 
 /**
@@ -72,7 +97,7 @@ inline void Transfer(RayJet& ray, const PatchJet& at, glm::dvec2 placeBy[2], glm
  * where the normal is too short or points along the ray.
  */
 inline RayKind Refract(
-  RayJet& ray, const glm::dvec3& normal, const glm::dvec3 normalBy[2], double ratio, double& cosine)
+  RayJet& ray, const glm::dvec3& normal, const VectorBy& normalBy, double ratio, double& cosine)
 {
   const double length = glm::length(normal);
   const double perLength = 1.0 / length;
@@ -91,12 +116,13 @@ inline RayKind Refract(
   const double root = std::sqrt(radicand);
   const double g = -ratio * c - root;
   const double gByCosine = -ratio - ratio * ratio * c / root;
-  for (int k = 0; k < 2; ++k)
-  {
-    const glm::dvec3 nBy = perLength * (normalBy[k] - n * glm::dot(n, normalBy[k]));
-    const double cBy = glm::dot(ray.DirectionBy[k], n) + glm::dot(ray.Direction, nBy);
-    ray.DirectionBy[k] = ratio * ray.DirectionBy[k] + gByCosine * cBy * n + g * nBy;
-  }
+  // Derivatives of N are perLength (normalBy - N along), those of c are cBy.
+  const NumberBy along = Dot(n, normalBy);
+  const NumberBy cBy =
+    Dot(n, ray.DirectionBy) + perLength * (Dot(ray.Direction, normalBy) - c * along);
+  const double turn = g * perLength;
+  ray.DirectionBy =
+    ratio * ray.DirectionBy + turn * normalBy + n * (gByCosine * cBy - turn * along);
   // The length is 1 within rounding, as are those of the vectors that it is made of.
   ray.Direction = ratio * ray.Direction + g * n;
   cosine = -c;

@@ -33,6 +33,15 @@ constexpr double LongestStep = 4.0;
 // at a common edge of two patches may differ by the effect of Border in both.
 constexpr double SamePlace = 4.0 * Border;
 
+const CurvedPatch& Hold(const RefractionStack::Link& link, std::int32_t facet, HeldPatch& held)
+{
+  if (held.Facet != facet)
+  {
+    held = { facet, link.Surface->GetPatch(facet, !link.Passage.FromFront) };
+  }
+  return held.Patch;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -74,7 +83,8 @@ void RefractionStack::ListLinks(
     if (way[i].Before != way[i].Behind && refracting++ >= first)
     {
       const std::shared_ptr<const StackSurface>& surface = this->List[i].Surface;
-      links.push_back({ surface, way[i], surface->GetMembrane().GetOrigin() - this->Origin, i });
+      links.push_back({ surface, way[i], surface->GetMembrane().GetOrigin() - this->Origin, i,
+        way[i].Before / way[i].Behind });
     }
   }
 }
@@ -222,6 +232,18 @@ bool RefractionStack::FindNext(std::size_t link, const glm::dvec3& origin,
 }
 
 //------------------------------------------------------------------------------
+auto RefractionStack::MakeMeeting(bool follows) const
+{
+  return [this, follows](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& jet,
+           PlaceGradient& gradient)
+  {
+    const bool isMet = this->Meet(index, ray, follows, point, jet);
+    gradient = isMet ? GetPlaceGradient(jet, ray.Direction) : gradient;
+    return isMet;
+  };
+}
+
+//------------------------------------------------------------------------------
 bool RefractionStack::Meet(
   std::size_t index, const RayJet& ray, bool follows, PathPoint& point, PatchJet& jet) const
 {
@@ -248,22 +270,19 @@ bool RefractionStack::Meet(
 
 //------------------------------------------------------------------------------
 // One step of Newton's method to the ray's crossing with the surface, across patches.
-bool RefractionStack::StepTo(
-  const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet, double& off) const
+bool RefractionStack::StepTo(const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet,
+  PlaceGradient& gradient, HeldPatch& held, double& off) const
 {
   StackPlace& place = point.Place;
   const CurvedPatches& patches = link.Surface->GetPatches();
   const glm::dvec3 origin = ray.Origin - link.Shift;
   for (int i = 0; i < LongestChase; ++i)
   {
-    const CurvedPatch patch = link.Surface->GetPatch(place.Facet, !link.Passage.FromFront);
+    const CurvedPatch& patch = Hold(link, place.Facet, held);
     patch.Evaluate(place.B, jet);
-    // Cramer's rule for by0 x + by1 y - direction l = rest.
+    gradient = GetPlaceGradient(jet, ray.Direction);
     const glm::dvec3 rest = origin - jet.Position;
-    const glm::dvec3 across = glm::cross(jet.PositionBy[1], ray.Direction);
-    const double inverse = 1.0 / glm::dot(jet.PositionBy[0], across);
-    const glm::dvec2 move(inverse * glm::dot(rest, across),
-      inverse * glm::dot(jet.PositionBy[0], glm::cross(rest, ray.Direction)));
+    const glm::dvec2 move(glm::dot(gradient.U, rest), glm::dot(gradient.V, rest));
     const double size = std::max(std::fabs(move.x), std::fabs(move.y));
     // Written so that a NaN fails.
     if (!(size <= LongestStep))
@@ -292,16 +311,16 @@ bool RefractionStack::StepTo(
 }
 
 //------------------------------------------------------------------------------
-PathEnd RefractionStack::TraceStep(
-  const StackPlace& first, std::size_t count, StackPath& path, double& off) const
+PathEnd RefractionStack::TraceStep(const StackPlace& first, std::size_t count, StackPath& path,
+  std::vector<HeldPatch>& held, double& off) const
 {
-  const Link& link = this->Links.front();
   PatchJet jet;
-  link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
+  Hold(this->Links.front(), first.Facet, held.front()).Evaluate(first.B, jet);
   off = 0.0;
   return this->TraceOn(first, jet, count, path,
-    [this, &off](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& at)
-    { return this->StepTo(this->Links[index], ray, point, at, off); });
+    [this, &held, &off](
+      std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& at, PlaceGradient& gradient)
+    { return this->StepTo(this->Links[index], ray, point, at, gradient, held[index], off); });
 }
 
 //------------------------------------------------------------------------------
@@ -311,9 +330,7 @@ PathEnd RefractionStack::Trace(
   const Link& link = this->Links.front();
   PatchJet jet;
   link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
-  return this->TraceOn(first, jet, count, path,
-    [this, follows](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& at)
-    { return this->Meet(index, ray, follows, point, at); });
+  return this->TraceOn(first, jet, count, path, this->MakeMeeting(follows));
 }
 
 //------------------------------------------------------------------------------
@@ -329,9 +346,7 @@ PathEnd RefractionStack::TraceFrom(
     jet.NormalBy[k] = glm::dvec3(0.0);
   }
   path.Forget(this->Links.size());
-  return this->TraceOn(first, jet, count, path,
-    [this](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& next)
-    { return this->Meet(index, ray, false, point, next); });
+  return this->TraceOn(first, jet, count, path, this->MakeMeeting(false));
 }
 
 //------------------------------------------------------------------------------
@@ -346,36 +361,35 @@ PathEnd RefractionStack::TraceOn(const StackPlace& first, PatchJet& jet, std::si
   {
     const Link& link = this->Links[i];
     PathPoint& point = path.Points[i];
-    glm::dvec3 normalBy[2];
+    VectorBy normalBy;
+    PlaceGradient gradient;
     if (i == 0)
     {
       jet.Position += link.Shift;
       ray = MakeSightRay(this->Eye, jet);
       path.Sight = ray.Direction;
+      path.SightBy = ray.DirectionBy;
       point.Place = first;
-      for (int k = 0; k < 2; ++k)
-      {
-        path.SightBy[k] = ray.DirectionBy[k];
-        point.PlaceBy[k] = glm::dvec2(k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0);
-        normalBy[k] = jet.NormalBy[k];
-      }
+      point.By = { NumberBy{ 1.0, 0.0 }, NumberBy{ 0.0, 1.0 } };
+      normalBy = MakeVectorBy(jet.NormalBy);
     }
-    else if (meet(i, ray, point, jet))
+    else if (meet(i, ray, point, jet, gradient))
     {
       jet.Position += link.Shift;
-      Transfer(ray, jet, point.PlaceBy, normalBy);
+      point.By = Transfer(ray, jet, gradient);
+      normalBy = Chain(jet.NormalBy, point.By);
     }
     else
     {
       return PathEnd::Missed;
     }
-    const double ratio = link.Passage.Before / link.Passage.Behind;
-    if (Refract(ray, jet.Normal, normalBy, ratio, point.Cosine) != RayKind::Refracted)
+    const bool isRefracted =
+      Refract(ray, jet.Normal, normalBy, link.Ratio, point.Cosine) == RayKind::Refracted;
+    point.Ray = ray;
+    if (!isRefracted)
     {
-      point.Ray = ray;
       return PathEnd::Reflected;
     }
-    point.Ray = ray;
     path.Count = i + 1;
   }
   return PathEnd::Passed;

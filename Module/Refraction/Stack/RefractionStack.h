@@ -44,9 +44,9 @@ struct StackPlace
 struct PathPoint
 {
   StackPlace Place;
-  glm::dvec2 PlaceBy[2]; ///< derivatives by the place in the first patch
-  RayJet Ray;            ///< behind the interface; its origin is the sight point
-  double Cosine = 0.0;   ///< of the angle of incidence
+  PlaceBy By;          ///< derivatives by the place in the first patch
+  RayJet Ray;          ///< behind the interface; its origin is the sight point
+  double Cosine = 0.0; ///< of the angle of incidence
 };
 
 enum class PathEnd
@@ -63,7 +63,7 @@ struct StackPath
   std::vector<PathPoint> Points; ///< one per interface; places of an earlier path are first guesses
   std::size_t Count = 0;         ///< number of interfaces that the path passes
   glm::dvec3 Sight;              ///< unit direction from the eye
-  glm::dvec3 SightBy[2];
+  VectorBy SightBy;
 
   /**
    * Forgets the places of an earlier path, on which the last bits of the next trace would depend:
@@ -73,6 +73,16 @@ struct StackPath
 
   /** Ray behind the last interface that is passed. */
   const RayJet& GetLast() const { return this->Points[this->Count - 1].Ray; }
+};
+
+/**
+ * The patch of each interface that a chain of paths met last: neighbouring paths mostly meet the
+ * same.
+ */
+struct HeldPatch
+{
+  std::int32_t Facet = CurvedPatches::NoFacet;
+  CurvedPatch Patch{};
 };
 
 class RefractionStack
@@ -85,6 +95,7 @@ public:
     InterfacePassage Passage;
     glm::dvec3 Shift;  ///< origin of the surface, relative to that of the stack
     std::size_t Index; ///< in the list
+    double Ratio;      ///< of the indices before and behind
   };
 
   /**
@@ -120,9 +131,10 @@ public:
   /**
    * As Trace with `follows`, but the ray takes one step of Newton's method only, from the place of
    * the path's last trace, to each next surface. `off` is set to the largest of these steps, in
-   * facets; the error of the path is of the order of its square.
+   * facets; the error of the path is of the order of its square. `held` has an element per link.
    */
-  PathEnd TraceStep(const StackPlace& first, std::size_t count, StackPath& path, double& off) const;
+  PathEnd TraceStep(const StackPlace& first, std::size_t count, StackPath& path,
+    std::vector<HeldPatch>& held, double& off) const;
 
   /**
    * Traces without derivatives from a point of the first surface with its normal, in the direction
@@ -143,13 +155,17 @@ public:
     SurfaceCrossing& crossing) const;
 
 private:
-  /** Evaluates the path behind the first surface; `meet(link, ray, point, jet)` finds the others.
+  /**
+   * Evaluates the path behind the first surface; `meet(link, ray, point, jet, gradient)` finds the
+   * others.
    */
   template <typename Meeting>
   PathEnd TraceOn(const StackPlace& first, PatchJet& jet, std::size_t count, StackPath& path,
     const Meeting& meet) const;
-  bool StepTo(
-    const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet, double& off) const;
+  bool StepTo(const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet,
+    PlaceGradient& gradient, HeldPatch& held, double& off) const;
+  /** The argument of TraceOn for complete traces. */
+  auto MakeMeeting(bool follows) const;
   bool IsPassed() const;
   bool IsPassedAt(const StackPlace& aim) const;
   bool MeetNear(

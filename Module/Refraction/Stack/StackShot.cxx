@@ -38,6 +38,11 @@ double GetLargest(const glm::dvec2& v)
   return std::max(std::fabs(v.x), std::fabs(v.y));
 }
 
+double GetLargest(const NumberBy& by)
+{
+  return std::max(std::fabs(by[0]), std::fabs(by[1]));
+}
+
 // Largest change of a place on any surface, in facets.
 double GetLargestMove(const StackPath& path, const glm::dvec2& move)
 {
@@ -46,7 +51,7 @@ double GetLargestMove(const StackPath& path, const glm::dvec2& move)
   {
     const PathPoint& point = path.Points[i];
     // Written so that a NaN is kept.
-    const double size = GetLargest(point.PlaceBy[0] * move.x + point.PlaceBy[1] * move.y);
+    const double size = GetLargest(GetChange(point.By, move));
     largest = size <= largest ? largest : size;
   }
   return largest;
@@ -59,12 +64,11 @@ void Correct(StackPath& path, const glm::dvec2& move)
   {
     PathPoint& point = path.Points[i];
     RayJet& ray = point.Ray;
-    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
-    ray.Origin += move.x * ray.OriginBy[0] + move.y * ray.OriginBy[1];
-    ray.Direction =
-      glm::normalize(ray.Direction + move.x * ray.DirectionBy[0] + move.y * ray.DirectionBy[1]);
+    point.Place.B += GetChange(point.By, move);
+    ray.Origin += GetChange(ray.OriginBy, move);
+    ray.Direction = glm::normalize(ray.Direction + GetChange(ray.DirectionBy, move));
   }
-  path.Sight = glm::normalize(path.Sight + move.x * path.SightBy[0] + move.y * path.SightBy[1]);
+  path.Sight = glm::normalize(path.Sight + GetChange(path.SightBy, move));
 }
 
 // Sets first guesses of the crossings behind the first one for the next trace.
@@ -73,7 +77,7 @@ void Predict(StackPath& path, const glm::dvec2& move)
   for (std::size_t i = 1; i < path.Count; ++i)
   {
     PathPoint& point = path.Points[i];
-    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+    point.Place.B += GetChange(point.By, move);
   }
 }
 
@@ -81,7 +85,7 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
   double size, double before)
 {
   const RayJet& first = path.Points[0].Ray;
-  const glm::dvec3 shift = move.x * first.OriginBy[0] + move.y * first.OriginBy[1];
+  const glm::dvec3 shift = GetChange(first.OriginBy, move);
   const double part = size / before; // 0 at the first step
   const bool isLast =
     part > 0.0 ? size < LastStep && part * part * size <= LargestError : size < ShortStep;
@@ -171,8 +175,9 @@ glm::dvec3 GetNearest(const RayJet& ray, const glm::dvec3& point)
 glm::dvec2 GetMove(const RayJet& ray, const glm::dvec3& at, const glm::dvec3& shift)
 {
   const double distance = glm::dot(at - ray.Origin, ray.Direction);
-  const glm::dvec3 first = ray.OriginBy[0] + distance * ray.DirectionBy[0];
-  const glm::dvec3 second = ray.OriginBy[1] + distance * ray.DirectionBy[1];
+  const VectorBy by = ray.OriginBy + distance * ray.DirectionBy;
+  const glm::dvec3 first = by[0];
+  const glm::dvec3 second = by[1];
   const glm::dvec3 across = glm::cross(second, ray.Direction);
   const double inverse = 1.0 / glm::dot(first, across);
   return { inverse * glm::dot(shift, across),
@@ -185,10 +190,8 @@ double GetFootprint(const StackPath& path, std::size_t count)
   double largest = 0.0;
   for (std::size_t i = 1; i < count; ++i)
   {
-    for (const glm::dvec2& by : path.Points[i].PlaceBy)
-    {
-      largest = std::max(largest, GetLargest(by));
-    }
+    const PlaceBy& by = path.Points[i].By;
+    largest = std::max({ largest, GetLargest(by.U), GetLargest(by.V) });
   }
   return largest;
 }
@@ -226,11 +229,11 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
 
 //------------------------------------------------------------------------------
 bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
-  StackPath& path)
+  StackPath& path, std::vector<HeldPatch>& held)
 {
   return Iterate(stack, target, place, steps, path,
-    [&stack, &target, &path](const StackPlace& at, double& off)
-    { return stack.TraceStep(at, target.Count, path, off); });
+    [&stack, &target, &path, &held](const StackPlace& at, double& off)
+    { return stack.TraceStep(at, target.Count, path, held, off); });
 }
 
 //------------------------------------------------------------------------------

@@ -61,7 +61,7 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
  * once per step.
  */
 bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
-  StackPath& path);
+  StackPath& path, std::vector<HeldPatch>& held);
 
 /**
  * True if a path that Shoot found is physical: each leg goes on to its nearest crossing, and the

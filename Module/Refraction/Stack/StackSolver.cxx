@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace meniscus
 {
@@ -36,8 +37,8 @@ constexpr double FarthestGuess = 4.0;
 // Parameters of a ray by which its origin moves by `shift`, as far as it can within the surface.
 glm::dvec2 GetParameters(const RayJet& ray, const glm::dvec3& shift)
 {
-  const glm::dvec3& u = ray.OriginBy[0];
-  const glm::dvec3& v = ray.OriginBy[1];
+  const glm::dvec3 u = ray.OriginBy[0];
+  const glm::dvec3 v = ray.OriginBy[1];
   const double uu = glm::dot(u, u);
   const double uv = glm::dot(u, v);
   const double vv = glm::dot(v, v);
@@ -83,7 +84,7 @@ void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end
   VirtualVertex* vertices, StackDetail* details, double* legs) const
 {
   Memory memory;
-  StackPath path;
+  const StackPath none{};
   const std::size_t components = this->Stack.GetNumberOfInterfaces();
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -92,11 +93,10 @@ void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end
       memory = Memory();
     }
     const glm::dvec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    const StackVertex vertex = this->SolvePoint(point, memory, path);
+    const StackVertex vertex = this->SolvePoint(point, memory);
     vertices[i] = vertex;
     details[i] = vertex;
-    path.Count = static_cast<std::size_t>(vertex.Passed);
-    this->MeasureLegs(point, path, legs + components * i);
+    this->MeasureLegs(point, vertex.Passed > 0 ? memory.Path : none, legs + components * i);
   }
 }
 
@@ -116,7 +116,7 @@ void StackSolver::MeasureLegs(const glm::dvec3& point, const StackPath& path, do
 }
 
 //------------------------------------------------------------------------------
-StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, StackPath& path) const
+StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory) const
 {
   const glm::dvec3 local = point - this->Stack.GetOrigin();
   StackVertex vertex;
@@ -130,57 +130,62 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, Sta
   {
     return this->PassThrough(point);
   }
-  bool isFound = this->Follow(local, memory, path);
+  bool isFound = this->Follow(local, memory);
   if (!isFound)
   {
     memory.Changes.clear();
   }
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
   {
-    isFound = this->FindFirst({ local, count }, path);
+    isFound = this->FindFirst({ local, count }, memory.Next);
   }
   if (!isFound)
   {
     return IsBeforeAll(this->Stack, local) ? this->PassThrough(point) : vertex;
   }
-  memory.Path = path;
+  std::swap(memory.Path, memory.Next);
   memory.Point = local;
-  return this->MakeRefracted(local, path);
+  return this->MakeRefracted(local, memory.Path);
 }
 
 //------------------------------------------------------------------------------
 // Places are predicted by their derivatives at the last point. Where the steps are equal, half of
 // the change of the derivatives since the step before gives the second order, across patches, too.
-bool StackSolver::Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const
+bool StackSolver::Follow(const glm::dvec3& local, Memory& memory) const
 {
-  if (memory.Path.Count == 0)
+  const StackPath& known = memory.Path;
+  const std::size_t count = known.Count;
+  if (count == 0)
   {
     return false;
   }
-  path = memory.Path;
-  const StackTarget target{ local, path.Count };
+  StackPath& path = memory.Next;
+  path.Points.resize(this->Stack.GetLinks().size());
+  memory.Held.resize(this->Stack.GetLinks().size());
+  const StackTarget target{ local, count };
   const glm::dvec3 step = local - memory.Point;
-  const glm::dvec2 move = GetMove(path.GetLast(), memory.Point, step);
+  const glm::dvec2 move = GetMove(known.GetLast(), memory.Point, step);
   const glm::dvec3 turn = step - memory.Step;
   const bool isSame = glm::dot(turn, turn) < SameStep * SameStep * glm::dot(step, step) &&
-    memory.Changes.size() == path.Count;
-  memory.Changes.resize(path.Count);
+    memory.Changes.size() == count;
+  memory.Changes.resize(count);
   memory.Step = step;
   glm::dvec2 first(0.0);
-  for (std::size_t i = 0; i < path.Count; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    PathPoint& point = path.Points[i];
-    const glm::dvec3 change = move.x * point.Ray.OriginBy[0] + move.y * point.Ray.OriginBy[1];
+    const PathPoint& point = known.Points[i];
+    const glm::dvec3 change = GetChange(point.Ray.OriginBy, move);
     const glm::dvec2 both =
       isSame ? move + GetParameters(point.Ray, 0.5 * (change - memory.Changes[i])) : move;
-    const glm::dvec2 predicted = both.x * point.PlaceBy[0] + both.y * point.PlaceBy[1];
+    const glm::dvec2 predicted = GetChange(point.By, both);
     memory.Changes[i] = change;
     first = i == 0 ? predicted : first;
-    point.Place.B += i == 0 ? glm::dvec2(0.0) : predicted;
+    path.Points[i].Place = { point.Place.Facet, point.Place.B + predicted };
   }
-  StackPlace place = path.Points[0].Place;
+  StackPlace place = known.Points[0].Place;
   return Advance(this->Stack, first, place, PredictedBorder) &&
-    ShootNear(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
+    ShootNear(this->Stack, target, place, FollowSteps, path, memory.Held) &&
+    IsImage(this->Stack, target, path);
 }
 
 //------------------------------------------------------------------------------
@@ -289,9 +294,8 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
   // ray.
   const RayJet& last = path.GetLast();
   const double distance = glm::dot(local - last.Origin, last.Direction);
-  const double atPoint = glm::dot(last.Direction,
-    glm::cross(last.OriginBy[0] + distance * last.DirectionBy[0],
-      last.OriginBy[1] + distance * last.DirectionBy[1]));
+  const VectorBy by = last.OriginBy + distance * last.DirectionBy;
+  const double atPoint = glm::dot(last.Direction, glm::cross(by[0], by[1]));
   const double atEye = glm::dot(path.Sight, glm::cross(path.SightBy[0], path.SightBy[1]));
   vertex.Orientation = static_cast<signed char>((atPoint < 0.0) == (atEye < 0.0) ? 1 : -1);
   return vertex;

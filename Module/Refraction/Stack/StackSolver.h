@@ -85,13 +85,15 @@ public:
     glm::dvec3 Step{ 0.0 }; ///< of the points; 0 after a search
     /** Changes of the sight points at this step, to first order. */
     std::vector<glm::dvec3> Changes;
+    std::vector<HeldPatch> Held; ///< one per interface, or none
+    StackPath Next;              ///< kept so that its memory is reused
   };
 
   /**
-   * One image of a point, as Solve finds it after the points recorded in `memory`. `path` is set
-   * to its path.
+   * One image of a point, as Solve finds it after the points recorded in `memory`. If it passes
+   * interfaces, its path is that of `memory` afterwards.
    */
-  StackVertex SolvePoint(const glm::dvec3& point, Memory& memory, StackPath& path) const;
+  StackVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
 
   /**
    * Replaces `images` by the paths of all images of a point, at most one of which is the straight
@@ -134,7 +136,7 @@ public:
   void CountUndecided() const { ++this->Undecided; }
 
 private:
-  bool Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const;
+  bool Follow(const glm::dvec3& local, Memory& memory) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
   StackVertex PassThrough(const glm::dvec3& point) const;

@@ -4,11 +4,8 @@
 
 #include "Refraction/Curved/PatchCrossings.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -39,50 +36,17 @@ MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const Range
       }
     });
   std::vector<AxisBox> boxes;
+  std::vector<DirectionBox> normals;
   boxes.reserve(count);
+  normals.reserve(count);
   for (const PatchBounds& bounds : this->Bounds)
   {
     boxes.push_back(bounds.Box);
+    normals.push_back(bounds.Normals);
   }
   this->Tree.Build(boxes);
-  this->BoundTurn();
+  this->Steep.Build(this->Surface, this->Patches, normals);
   return status;
-}
-
-//------------------------------------------------------------------------------
-// The normals of patches and facets are within some angle of their mean. Those of the curved
-// surface itself follow from its tangents, which are at right angles to the normals at the corners
-// and deviate from the facet in between by no more than these do: they are within twice the angle.
-void StackSurface::BoundTurn()
-{
-  this->LeastCosine = 2.0;
-  glm::dvec3 sum(0.0);
-  for (const PatchBounds& bounds : this->Bounds)
-  {
-    sum += bounds.Normals.Middle;
-  }
-  if (!(glm::length(sum) > 0.0))
-  {
-    return;
-  }
-  this->Axis = glm::normalize(sum);
-  double least = 1.0;
-  for (std::size_t i = 0; i < this->Bounds.size(); ++i)
-  {
-    const DirectionBox& normals = this->Bounds[i].Normals;
-    const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
-    const glm::dvec3 winding =
-      glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
-    const double side = std::copysign(1.0, glm::dot(winding, normals.Middle));
-    least = std::min({ least, side * glm::dot(glm::normalize(winding), this->Axis),
-      glm::dot(normals.Middle, this->Axis) - glm::dot(normals.Half, glm::abs(this->Axis)) });
-  }
-  // sin 2t for cos t = least; no line is certain from 45 degrees on.
-  if (least * least > 0.5 && least > 0.0 &&
-    IsConvexField(this->Surface, this->Patches, HeightFrame(this->Axis)))
-  {
-    this->LeastCosine = 2.0 * least * std::sqrt(1.0 - least * least);
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #define meniscus_Refraction_Stack_StackSurface_h
 
 #include "Common/RangeLoop.h"
+#include "Refraction/Curved/SteepDirections.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -81,15 +82,9 @@ public:
       });
   }
 
-  /**
-   * True if a line along the unit vector `direction` is known to cross the surface once at most:
-   * the surface is a field of heights over a convex polygon, and all its normals are on the same
-   * side of the line, so that the height of the line above the surface changes in one sense only.
+  /** True if a line along the unit vector `direction` is known to cross the surface once at most.
    */
-  bool IsCrossedOnce(const glm::dvec3& direction) const
-  {
-    return std::fabs(glm::dot(direction, this->Axis)) > this->LeastCosine;
-  }
+  bool IsCrossedOnce(const glm::dvec3& direction) const { return this->Steep.Contains(direction); }
 
   /** True if a point lies on the surface within rounding. */
   bool IsOnSurface(const glm::dvec3& local) const;
@@ -104,15 +99,13 @@ public:
   std::int64_t GetNumberOfUndecidedCrossings() const { return this->Undecided; }
 
 private:
-  void BoundTurn();
   bool MayCross(std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const;
 
   Membrane Surface;
   CurvedPatches Patches;
   std::vector<PatchBounds> Bounds;
   BoxTree Tree;
-  glm::dvec3 Axis{ 0.0 };   ///< mean of the normals
-  double LeastCosine = 2.0; ///< for IsCrossedOnce; above 1 if no line is known to be
+  SteepDirections Steep;
   mutable std::atomic<std::int64_t> Undecided{ 0 };
 };
 

@@ -47,8 +47,7 @@ inline void SetStack(
 inline StackVertex SolveAlone(const StackSolver& solver, const glm::dvec3& point)
 {
   StackSolver::Memory memory;
-  StackPath path;
-  return solver.SolvePoint(point, memory, path);
+  return solver.SolvePoint(point, memory);
 }
 
 }

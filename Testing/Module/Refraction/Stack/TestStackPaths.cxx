@@ -240,11 +240,10 @@ TEST(RefractionStackPaths, AgreeWithTheJointIteration)
   {
     const glm::dvec3 point(random(-40.0, 40.0), random(-60.0, -33.0), random(-40.0, 40.0));
     StackSolver::Memory memory;
-    StackPath path;
-    const StackVertex vertex = solver.SolvePoint(point, memory, path);
+    const StackVertex vertex = solver.SolvePoint(point, memory);
     ASSERT_EQ(vertex.State, ImageState::Found);
     ASSERT_EQ(vertex.Passed, 3);
-    JointEquations joint(solver.GetStack(), path, point - solver.GetStack().GetOrigin());
+    JointEquations joint(solver.GetStack(), memory.Path, point - solver.GetStack().GetOrigin());
     for (double& unknown : joint.Unknowns)
     {
       unknown += random(-0.1, 0.1);
@@ -258,7 +257,7 @@ TEST(RefractionStackPaths, AgreeWithTheJointIteration)
     for (std::size_t k = 0; k < 3; ++k)
     {
       // Newton's error of 1e-12 of a facet, and that of the differences' Jacobian, 1e-9 steps.
-      EXPECT_LT(glm::length(sights[k] - path.Points[k].Ray.Origin), 1e-8) << i << " " << k;
+      EXPECT_LT(glm::length(sights[k] - memory.Path.Points[k].Ray.Origin), 1e-8) << i << " " << k;
     }
   }
   EXPECT_GT(compared, 290);
@@ -310,8 +309,7 @@ TEST(RefractionStackPaths, LegsEndAtTheNearestCrossing)
   {
     const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -30.0), random(-60.0, 60.0));
     StackSolver::Memory memory;
-    StackPath path;
-    const StackVertex vertex = solver.SolvePoint(point, memory, path);
+    const StackVertex vertex = solver.SolvePoint(point, memory);
     if (vertex.State != ImageState::Found || vertex.Passed != 2)
     {
       continue;
