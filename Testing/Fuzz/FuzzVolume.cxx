@@ -11,6 +11,7 @@
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/VisibleScalars.h"
 #include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Rays/RayPivot.h"
 
 #include <glm/common.hpp>
 
@@ -327,7 +328,8 @@ void VolumeRun::Cast(const TetrahedralMesh& mesh)
   this->Scene.Mesh = &mesh;
   this->Scene.Boundary = &mesh.GetBoundary();
   this->Scene.Tables = &this->Input.Tables;
-  this->Scene.Rays = FixedPointRays(frame, this->Width, this->Height);
+  this->Scene.Rays = FixedPointRays(frame, this->Width, this->Height,
+    FindPivot(frame, this->Width, this->Height, *this->Scene.Mesh));
   PlaceVertices(
     mesh, this->Input.Normalized, this->Scene.Rays, SerialLoop, this->Input.Tables.Vertices);
   this->Scene.TerminationTransmittance = this->Reader.Flag() ? 0.0f : 0.01f;

@@ -10,6 +10,7 @@
 #include "Volume/Optics/VisibleScalars.h"
 #include "Volume/Rays/PlacedVertices.h"
 #include "Volume/Rays/RayFrame.h"
+#include "Volume/Rays/RayPivot.h"
 
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -98,7 +99,8 @@ public:
     {
       return result;
     }
-    scene.Rays = FixedPointRays(frame, this->Size, this->Size);
+    scene.Rays = FixedPointRays(
+      frame, this->Size, this->Size, FindPivot(frame, this->Size, this->Size, *scene.Mesh));
     PlaceVertices(this->Mesh, this->Scalars, scene.Rays, SerialLoop, this->Tables.Vertices);
     const TileCaster caster(scene);
     TileCaster::Workspace workspace;

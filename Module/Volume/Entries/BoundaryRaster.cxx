@@ -139,14 +139,23 @@ double BoundaryRaster::NearestDepth(int tile) const
 void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
 {
   workspace.Offsets.resize(2 * SizeOfRays);
+  const bool hasFractions = this->GetRays().HasFractions();
+  workspace.Fractions.resize(2 * SizeOfRays);
+  if (!hasFractions)
+  {
+    std::fill(workspace.Fractions.begin(), workspace.Fractions.end(), 0.0f);
+  }
   workspace.Slopes.resize(2 * SizeOfRays);
   for (int row = tile.Bottom; row < tile.Top; ++row)
   {
     const int first = (row - tile.Bottom) * TileSize;
     std::int32_t* const offsets = workspace.Offsets.data() + first;
+    float* const fractions = hasFractions ? workspace.Fractions.data() + first : nullptr;
     float* const slopes = workspace.Slopes.data() + first;
     this->GetRays().FillRow(tile.Left, row, tile.Right - tile.Left,
-      { { offsets, offsets + SizeOfRays }, { slopes, slopes + SizeOfRays } });
+      { { offsets, offsets + SizeOfRays },
+        { fractions, hasFractions ? fractions + SizeOfRays : nullptr },
+        { slopes, slopes + SizeOfRays } });
   }
 }
 
@@ -224,6 +233,8 @@ void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
   for (int axis = 0; axis < 2; ++axis)
   {
     job.Offsets[axis] = workspace.Offsets.data() + axis * SizeOfRays;
+    job.Fractions[axis] =
+      this->GetRays().HasFractions() ? workspace.Fractions.data() + axis * SizeOfRays : nullptr;
     job.Slopes[axis] = workspace.Slopes.data() + axis * SizeOfRays;
   }
   job.Pivot = this->GetRays().GetPivot();

@@ -61,16 +61,19 @@ public:
     std::vector<PacketSpan> Spans;
     std::size_t SpannedPixels = 0;
     std::vector<PacketHit> Hits;
-    /** Rays of the tile: SizeOfRays offsets and slopes in x, then in y. */
+    /** Lines of the tile's rays: SizeOfRays numbers each in x, then in y. */
     std::vector<std::int32_t> Offsets;
+    std::vector<float> Fractions;
     std::vector<float> Slopes;
   };
-  /** Sets offset and slope of a ray to those of the tile whose entries were collected last. */
+  /** Sets offset, fraction and slope of a ray to those of the tile whose entries were collected
+   * last. */
   static void SetLine(const Workspace& workspace, std::size_t pixel, PacketRay& ray)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       ray.Offset[axis] = workspace.Offsets[axis * SizeOfRays + pixel];
+      ray.Fraction[axis] = workspace.Fractions[axis * SizeOfRays + pixel];
       ray.Slope[axis] = workspace.Slopes[axis * SizeOfRays + pixel];
     }
   }
@@ -81,7 +84,7 @@ private:
   void FillRays(const PixelBox& tile, Workspace& workspace) const;
   void AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
 
-  /** Readable length of each row of Workspace::Offsets and Slopes (PacketSpanJob). */
+  /** Readable length of each row of the tile's lines (PacketSpanJob). */
   static constexpr int SizeOfRays = TileSize * TileSize + 16;
 
   ProjectedFaces Faces;

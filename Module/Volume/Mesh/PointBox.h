@@ -30,6 +30,7 @@ struct PointBox
     this->Upper = glm::max(this->Upper, point);
   }
   glm::dvec3 GetCenter() const { return 0.5 * this->Lower + 0.5 * this->Upper; }
+  glm::dvec3 GetHalfSize() const { return 0.5 * this->Upper - 0.5 * this->Lower; }
 };
 
 /** Box around several boxes. */

@@ -122,6 +122,7 @@ void TetrahedralMesh::ForgetAllButTables()
   this->ActiveCells = 0;
   this->UnknownCells = 0;
   this->Center = glm::dvec3(0.0);
+  this->HalfSize = glm::dvec3(0.0);
   this->Radius = 0.0;
 }
 
@@ -289,6 +290,7 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
     });
   const PointBox all = Enclose(parts);
   this->Mesh.Center = all.GetCenter();
+  this->Mesh.HalfSize = all.GetHalfSize();
 
   std::vector<MortonKey> keys(CountsToStarts(starts));
   const MortonCurve curve(all.Lower, all.Upper);

@@ -238,6 +238,8 @@ public:
   }
   /** Centre of the bounding box of the used points. */
   const glm::dvec3& GetCenter() const { return this->Center; }
+  /** Half edges of the bounding box of the used points. */
+  const glm::dvec3& GetHalfSize() const { return this->HalfSize; }
   /** Largest distance of a vertex from the centre; 0 if all vertices coincide or there are none. */
   double GetRadius() const { return this->Radius; }
 
@@ -285,6 +287,7 @@ private:
   std::int64_t ActiveCells = 0;
   std::int64_t UnknownCells = 0;
   glm::dvec3 Center{ 0.0 };
+  glm::dvec3 HalfSize{ 0.0 };
   double Radius = 0.0;
 };
 

@@ -64,7 +64,9 @@ bool TetrahedralMesh::MeasurePoints(const PointsView& points, const RangeLoop& l
   {
     return false;
   }
-  this->Center = Enclose(boxes).GetCenter();
+  const PointBox all = Enclose(boxes);
+  this->Center = all.GetCenter();
+  this->HalfSize = all.GetHalfSize();
   std::vector<double> radii(boxes.size(), 0.0);
   ForEachBlock(size, loop,
     [&](std::size_t block, std::size_t first, std::size_t last)

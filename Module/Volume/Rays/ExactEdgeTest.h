@@ -18,7 +18,7 @@ namespace meniscus
  * PacketJob.h).
  *
  * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay): one
- * rounding of a fused multiply-add whose arguments are rounded integers and the ray's slope.
+ * rounding of a fused multiply-add whose arguments are rounded numbers and the ray's slope.
  * Whoever needs them computes the same floats, so that all decisions about a ray are those of one
  * plane drawing, however the numbers were rounded.
  *
@@ -26,9 +26,9 @@ namespace meniscus
  * by Kahan's method with fused multiply-adds: its error is at most 2 units in the last place of the
  * result (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of Kahan's algorithm for
  * the accurate computation of 2x2 determinants", 2013), unless a product under- or overflows.
- * Coordinates are below 2^32. Slopes are 0 or at least 2^-40 (FixedPointRays), so they are
- * multiples of 2^-63, and so are coordinates; products and their rounding errors are multiples of
- * 2^-126, the smallest normal float.
+ * Coordinates are below 2^32. Fractions are multiples of 2^-16. Slopes are 0 or at least 2^-40
+ * (FixedPointRays), so they are multiples of 2^-63, and so are coordinates; products and their
+ * rounding errors are multiples of 2^-126, the smallest normal float.
  */
 template <class User>
 struct ExactEdgeTest
@@ -49,7 +49,8 @@ struct ExactEdgeTest
     corner.Depth = static_cast<float>(vertex.Place[2] - pivot);
     const auto coordinate = [&](int axis)
     {
-      const auto place = static_cast<float>(vertex.Place[axis] - ray.Offset[axis]);
+      const float place =
+        static_cast<float>(vertex.Place[axis] - ray.Offset[axis]) - ray.Fraction[axis];
       return std::fma(-ray.Slope[axis], corner.Depth, place);
     };
     corner.U = coordinate(0);

@@ -17,30 +17,39 @@ namespace meniscus
 namespace
 {
 
-// 2^29 - 2^12: slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
-constexpr double GridRadius = 536866816.0;
+/**
+ * Grid units of x and y per unit of the frame, times 1 + the steepest slope.
+ *
+ * In packets, u and v are differences of places and offsets, integers of 32 bits, at the pivot.
+ * Where a ray meets the mesh they are below twice this number: places are within r = GridRadius /
+ * (1 + s) of the centre, for the steepest slope s, and the pivot is within twice the unit of depth
+ * from any part of the mesh, so that offsets are within r (1 + 2 s).
+ *
+ * In shaders, slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
+ */
+constexpr double GridRadiusOf(RayGrid grid)
+{
+  return grid == RayGrid::Shaders ? 536866816.0 /* 2^29 - 2^12 */ : 1073733632.0 /* 2^30 - 2^13 */;
+}
+
+/** 2^31 - 2^12: bound of differences of places and offsets, before these are rounded. */
+constexpr double LargestDifference = 2147479552.0;
+static_assert(2.0 * GridRadiusOf(RayGrid::Packets) + 1.0 < LargestDifference, "rays are kept");
+static_assert(GridRadiusOf(RayGrid::Packets) < PacketVertex::GridPerDepth, "slopes are below 1");
+
 constexpr double FractionOfGrid = 4294967296.0; // 2^32, of slopes for shaders
 constexpr double LargestSlope = 2147483647.0;
-/**
- * Bound of the offset of a ray that may meet the mesh. Places are within r = GridRadius / (1 + s)
- * of the centre, for the steepest slope s, and the pivot within twice the unit of depth from any
- * part of the mesh: the offset is within r (1 + 2 s), less than 2 GridRadius.
- */
-constexpr double LargestOffset = 1073741824.0; // 2^30
+/** Bound of the offset at depth 0 of a line for shaders that may meet the mesh. */
+constexpr double LargestLineOffset = 1073741824.0; // 2^30
+constexpr double FractionsOfRay = 65536.0;         // PacketRay::Fraction
+/** Spacing of rays, in grid units, from which on offsets are whole grid units. */
+constexpr double FineSpacing = 32768.0; // 2^15
 /** Slopes below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
 constexpr double SmallestSlope = 9.094947017729282e-13; // 2^-40
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
-}
-
-/** Depth of the pivot: see the constructor. */
-double PivotOf(const RayFrame& frame)
-{
-  const glm::dvec2 zero(0.0);
-  const bool isParallel = frame.Slope.PerColumn == zero && frame.Slope.PerRow == zero;
-  return isParallel && frame.NearDepth <= -1.0 ? 0.0 : std::clamp(frame.NearDepth, -1.0, 1.0);
 }
 
 /** Converts a map to integers and fractions of 2^-15, with `more` added to its base. */
@@ -67,13 +76,21 @@ FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::d
 }
 
 //------------------------------------------------------------------------------
-FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height)
-  : FixedPointRays(frame, width, height, PivotOf(frame))
+FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, RayGrid grid)
+  : FixedPointRays(frame, width, height, std::clamp(frame.NearDepth, -1.0, 1.0), grid)
 {
 }
 
 //------------------------------------------------------------------------------
-FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, double pivot)
+FixedPointRays::FixedPointRays(
+  const RayFrame& frame, int width, int height, double pivot, RayGrid grid)
+  : FixedPointRays(frame, width, height, pivot, SpacingAt(frame, pivot), grid)
+{
+}
+
+//------------------------------------------------------------------------------
+FixedPointRays::FixedPointRays(
+  const RayFrame& frame, int width, int height, double pivot, double spacing, RayGrid grid)
   : Frame(frame)
   , Width(width)
   , Height(height)
@@ -90,8 +107,11 @@ FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, dou
       steepest = std::max({ steepest, slope.x, slope.y });
     }
   }
-  const double perUnit = GridRadius / (1.0 + steepest);
+  const double perUnit = GridRadiusOf(grid) / (1.0 + steepest);
   this->GridUnit = 1.0 / perUnit;
+  this->FractionsPerUnit = spacing * perUnit < FineSpacing ? FractionsOfRay : 0.0;
+  this->LargestOffset =
+    LargestDifference - perUnit * std::max(glm::length(frame.RowX), glm::length(frame.RowY));
   this->Offset = Scaled(frame.Origin, perUnit);
   this->Slope = Scaled(frame.Slope, perUnit / GridPerDepth);
   const glm::dmat3 perDepth = frame.ViewToWorld * (1.0 / GridPerDepth);
@@ -155,7 +175,7 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
   for (int axis = 0; axis < 2; ++axis)
   {
     gridOffset[axis] = static_cast<std::int32_t>(
-      std::lrint(std::clamp(origin[axis] / this->GridUnit, -LargestOffset, LargestOffset)));
+      std::lrint(std::clamp(origin[axis] / this->GridUnit, -LargestLineOffset, LargestLineOffset)));
     const double perDepth = slope[axis] / (this->GridUnit * GridPerDepth);
     gridSlope[axis] = static_cast<std::int32_t>(
       std::clamp(std::rint(perDepth * FractionOfGrid), -LargestSlope, LargestSlope));
@@ -164,32 +184,48 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
 
 //------------------------------------------------------------------------------
 /**
- * One axis of a ray.
+ * One axis of a ray. Returns what the offset lacks.
  * @param offset,slope in grid units; the offset is at depth 0.
  */
-inline void FixedPointRays::SetAxis(
+inline double FixedPointRays::SetAxis(
   double offset, double slope, std::int32_t& rayOffset, float& raySlope) const
 {
   const double atPivot = offset + slope * this->Pivot;
-  const double limited = std::min(std::max(atPivot, -LargestOffset), LargestOffset);
+  const double limited = std::min(std::max(atPivot, -this->LargestOffset), this->LargestOffset);
   // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
   // axis, and as far away.
   const bool isNear = atPivot == limited;
   const bool isSteep = std::fabs(slope) >= SmallestSlope;
   rayOffset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
   raySlope = isNear && isSteep ? static_cast<float>(slope) : 0.0f;
+  return limited - rayOffset;
+}
+
+/** A fraction of PacketRay. Truncated: twice as many fractions have the error of rounding. */
+inline float FixedPointRays::FractionOf(double rest) const
+{
+  const auto fraction = static_cast<std::int32_t>(rest * this->FractionsPerUnit);
+  return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
 }
 
 //------------------------------------------------------------------------------
 void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
 {
-  for (int i = 0; i < count; ++i)
+  for (int axis = 0; axis < 2; ++axis)
   {
-    const glm::dvec2 pixel = this->FromCenter(column + i, row);
-    const glm::dvec2 offset = this->Offset.At(pixel.x, pixel.y);
-    const glm::dvec2 slope = this->Slope.At(pixel.x, pixel.y);
-    this->SetAxis(offset.x, slope.x, rays.Offset[0][i], rays.Slope[0][i]);
-    this->SetAxis(offset.y, slope.y, rays.Offset[1][i], rays.Slope[1][i]);
+    std::int32_t* const offsets = rays.Offset[axis];
+    float* const slopes = rays.Slope[axis];
+    float* const fractions = rays.Fraction[axis];
+    for (int i = 0; i < count; ++i)
+    {
+      const glm::dvec2 pixel = this->FromCenter(column + i, row);
+      const double rest = this->SetAxis(this->Offset.At(pixel.x, pixel.y)[axis],
+        this->Slope.At(pixel.x, pixel.y)[axis], offsets[i], slopes[i]);
+      if (fractions)
+      {
+        fractions[i] = this->FractionOf(rest);
+      }
+    }
   }
 }
 
@@ -199,8 +235,8 @@ PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& s
   PacketRay ray;
   for (int axis = 0; axis < 2; ++axis)
   {
-    this->SetAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth),
-      ray.Offset[axis], ray.Slope[axis]);
+    ray.Fraction[axis] = this->FractionOf(this->SetAxis(origin[axis] / this->GridUnit,
+      slope[axis] / (this->GridUnit * GridPerDepth), ray.Offset[axis], ray.Slope[axis]));
   }
   ray.LengthPerDepth =
     LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);

@@ -18,14 +18,23 @@
 namespace meniscus
 {
 
+/** Who computes in a grid, which decides how fine it is: see FixedPointRays. */
+enum class RayGrid
+{
+  Packets,
+  /** Slopes are integers of 32 bits, in units of 2^-32, and rays may miss the mesh by far. */
+  Shaders
+};
+
 /**
  * The rays of an image's pixels, and the positions of vertices relative to them, in integer grid
  * units.
  *
  * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of about 2^-30 of the
- * frame's, x and y in units of about 2^-29 times 1 + the steepest slope, so that |u| and |v| stay
- * below 2^30 where a ray meets the mesh. Coordinates relative to a ray are floats that are defined
- * to the last bit (PacketRay), the same on every processor and for every user of a ray.
+ * frame's, x and y in units of about 2^-30 times 1 + the steepest slope, so that |u| and |v| stay
+ * below 2^31 where a ray meets the mesh. For shaders, these units are twice as large. Coordinates
+ * relative to a ray are floats that are defined to the last bit (PacketRay), the same on every
+ * processor and for every user of a ray.
  *
  * Rays pass through their offsets at a depth called pivot, and depths about a ray count from it.
  * The pivot is where the rays begin to be seen: floats near it are small and precise. Their
@@ -37,13 +46,32 @@ class FixedPointRays
 public:
   FixedPointRays() = default;
   /**
-   * The pivot is at the near clipping plane, or at the end of the mesh that is next to it. For
-   * parallel rays that begin before the mesh, whose coordinates do not depend on the pivot, it is
-   * at the mesh's centre.
+   * The pivot is at the near clipping plane, or at the end of the unit about the mesh that is next
+   * to it.
    */
-  FixedPointRays(const RayFrame& frame, int width, int height);
+  FixedPointRays(const RayFrame& frame, int width, int height, RayGrid grid = RayGrid::Packets);
   /** @param pivot depth of the pivot in units of the frame. */
-  FixedPointRays(const RayFrame& frame, int width, int height, double pivot);
+  FixedPointRays(
+    const RayFrame& frame, int width, int height, double pivot, RayGrid grid = RayGrid::Packets);
+  /**
+   * @param spacing smallest distance of rays of neighbouring pixels where they begin to be seen, in
+   *   units of the frame.
+   */
+  FixedPointRays(const RayFrame& frame, int width, int height, double pivot, double spacing,
+    RayGrid grid = RayGrid::Packets);
+
+  /** Smallest distance of rays of neighbouring pixels at a depth, in units of the frame. */
+  static double SpacingAt(const RayFrame& frame, double depth)
+  {
+    return std::min(glm::length(frame.Origin.PerColumn + depth * frame.Slope.PerColumn),
+      glm::length(frame.Origin.PerRow + depth * frame.Slope.PerRow));
+  }
+  /**
+   * Whether rays have fractions of grid units, see PacketRay. They do if the rays of neighbouring
+   * pixels are less than 2^15 grid units apart where they begin to be seen: elsewhere a ray without
+   * is displaced by at most 2^-16 of that distance.
+   */
+  bool HasFractions() const { return this->FractionsPerUnit > 0.0; }
 
   /**
    * Vector from the image's centre to the centre of pixel (column, row), in pixels, as RayFrame
@@ -54,10 +82,12 @@ public:
     return { column + 0.5 - 0.5 * this->Width, row + 0.5 - 0.5 * this->Height };
   }
 
-  /** Offsets and slopes of rays, as in PacketRay. */
+  /** Lines of rays, as in PacketRay. */
   struct RowOfRays
   {
     std::int32_t* Offset[2];
+    /** Null where rays have no fractions. */
+    float* Fraction[2];
     float* Slope[2];
   };
   /** Sets the rays of consecutive pixels of a row. */
@@ -96,8 +126,8 @@ public:
   const AffinePixelMap& GetOffset() const { return this->Offset; }
   const AffinePixelMap& GetSlope() const { return this->Slope; }
   /**
-   * Rows of the matrix from fixed-point positions to the grid. Those of x and y are in units of
-   * 2^-32, that of depth in units of 2^-31.
+   * Rows of the matrix from fixed-point positions to the grid of shaders. Those of x and y are in
+   * units of 2^-32, that of depth in units of 2^-31.
    */
   std::array<std::int32_t, 9> GetFixedPointRows() const;
 
@@ -133,12 +163,13 @@ public:
 
   /**
    * Largest deviation of u or v of a ray that may meet the mesh from the affine function, in grid
-   * units. The offset is rounded by 1/2. The integer x - offset, below 2^31, is rounded to float by
-   * up to 64, and u, below 2^31, likewise. The slope is below 1/2 and depth below 2^31: rounding
-   * the depth to float changes their product by up to 32, and rounding the slope by up to
-   * 2^31 * 2^-26 = 32. The sum is 192.5.
+   * units. Offset and fraction are rounded by 2^-17, an offset alone by 1/2. The integer x -
+   * offset, below 2^31, is rounded to float by up to 64, and so are its difference from the
+   * fraction and u, which is below 2^31. The slope is below 1 and depth below 2^31: rounding the
+   * depth to float changes their product by up to 64, and rounding the slope by up to 2^31 * 2^-25
+   * = 64. The sum is 320 + 2^-17.
    */
-  static constexpr double RoundingOfRay = 193.0;
+  static constexpr double RoundingOfRay = 321.0;
   /**
    * Largest length per grid unit of depth. Depths differ by less than 2^32, so that a sum of
    * lengths stays below 2^127, a finite float; larger scenes look as if they had this size.
@@ -154,12 +185,17 @@ private:
   {
     return static_cast<float>(std::min(length, double{ LargestLengthPerDepth }));
   }
-  void SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
+  double SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
+  float FractionOf(double rest) const;
 
   RayFrame Frame;
   int Width = 0;
   int Height = 0;
   double GridUnit = 1.0;
+  /** 2^16, or 0 if rays have no fractions. */
+  double FractionsPerUnit = 0.0;
+  /** Bound of the offsets of rays at the pivot. */
+  double LargestOffset = 0.0;
   std::int32_t Pivot = 0;
   /** Matrix from fixed-point positions to the grid. */
   glm::dmat3 ToGrid{ 0.0 };

@@ -16,7 +16,7 @@ namespace
 {
 
 static_assert(
-  4.0 * FixedPointRays::RoundingOfRay * 1073741826.0 < ProjectedFaces::Margin, "rounding of rays");
+  4.0 * FixedPointRays::RoundingOfRay * 2147483650.0 < ProjectedFaces::Margin, "rounding of rays");
 
 /** u or v of a vertex as an affine function of the pixel. */
 glm::dvec3 Coefficients(
@@ -112,6 +112,7 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
   const PixelBox whole{ 0, this->Rays.GetWidth(), 0, this->Rays.GetHeight() };
   glm::dvec2 lower(1.0e30);
   glm::dvec2 upper(-1.0e30);
+  const double rounding = 1.42 * (error > 0.0 ? error : FixedPointRays::RoundingOfRay);
   double pixelError = 0.0;
   bool facesAway = true;
   const Vertex& first = face.Vertices[0];
@@ -122,9 +123,10 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     const Vertex& vertex = face.Vertices[k];
     const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
     const bool together = vertex.U[1] * first.U[1] + vertex.V[1] * first.V[1] > 0.0;
+    const double perSide = 1.0 / side;
     const glm::dvec2 pixel = glm::dvec2(vertex.U[2] * vertex.V[0] - vertex.U[0] * vertex.V[2],
-                               vertex.U[0] * vertex.V[1] - vertex.U[1] * vertex.V[0]) /
-      side;
+                               vertex.U[0] * vertex.V[1] - vertex.U[1] * vertex.V[0]) *
+      perSide;
     if (!together || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
     {
       // Near the plane of the eye, the projection of the face is unbounded.
@@ -137,12 +139,12 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     if (error > 0.0)
     {
       margin += AreaError(face.Vertices[(k + 1) % 3], face.Vertices[(k + 2) % 3], pixel, error);
-      // (u, v) changes per pixel by at least the smaller singular value, which is the determinant
-      // over the larger one. Both u and v have errors.
-      const double largest = std::sqrt(vertex.U[1] * vertex.U[1] + vertex.U[2] * vertex.U[2] +
-        vertex.V[1] * vertex.V[1] + vertex.V[2] * vertex.V[2]);
-      pixelError = std::max(pixelError, 1.42 * error * largest / std::abs(side));
     }
+    // (u, v) changes per pixel by at least the smaller singular value, which is the determinant
+    // over the larger one. Both u and v have errors, which are many pixels next to the eye.
+    const double largest =
+      std::abs(vertex.U[1]) + std::abs(vertex.U[2]) + std::abs(vertex.V[1]) + std::abs(vertex.V[2]);
+    pixelError = std::max(pixelError, rounding * largest * std::abs(perSide));
     // Inside a face that faces away, one edge is below a third of its value at the opposite vertex.
     facesAway = facesAway && opposite < -3.0 * margin;
   }

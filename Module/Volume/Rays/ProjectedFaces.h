@@ -76,7 +76,8 @@ public:
   };
   /**
    * Box of the pixels whose rays may enter by a face; empty if the face certainly faces away.
-   * @param error error of u and v of a vertex in the caller's arithmetic, in grid units.
+   * @param error error of u and v of a vertex in the caller's arithmetic, in grid units; 0 for rays
+   *   of packets, whose error is FixedPointRays::RoundingOfRay.
    */
   Footprint BoundPixels(const Face& face, double error = 0.0) const;
 
@@ -85,10 +86,10 @@ public:
 
   /**
    * Bound of the change of an edge's area by rounding to the grid: FixedPointRays::RoundingOfRay in
-   * each of four numbers, each multiplied by another of at most 2^30 + 2, plus the much smaller
+   * each of four numbers, each multiplied by another of at most 2^31 + 2, plus the much smaller
    * error of double arithmetic.
    */
-  static constexpr double Margin = 1099511627776.0; // 2^40
+  static constexpr double Margin = 4398046511104.0; // 2^42
 
 private:
   Vertex ProjectVertex(std::int32_t vertex) const;

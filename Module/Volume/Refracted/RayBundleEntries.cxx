@@ -26,7 +26,7 @@ namespace
  * unit of rounding of a vertex across the ray and half along it, and FixedPointRays::RoundingOfRay
  * for the ray.
  */
-constexpr double GridMargin = 200.0;
+constexpr double GridMargin = 324.0;
 static_assert(
   0.5 + 0.5 + FixedPointRays::RoundingOfRay < GridMargin, "rounding of vertices and rays");
 

@@ -52,7 +52,9 @@ RefractionFrame MakeFrame(
   // passes the origin within 2 extents.
   turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
   const double pivot = std::clamp((rotation * sightPoint).z, -frame.Extent, frame.Extent);
-  frame.Rays = FixedPointRays(turned, 1, 1, pivot);
+  const double spacing = FixedPointRays::SpacingAt(view, sightPoint.z);
+  frame.Rays = FixedPointRays(turned, 1, 1, pivot, spacing);
+  frame.ShaderRays = FixedPointRays(turned, 1, 1, pivot, RayGrid::Shaders);
   return frame;
 }
 

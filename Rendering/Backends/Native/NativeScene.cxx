@@ -6,6 +6,7 @@
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
 #include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Rays/RayPivot.h"
 
 namespace meniscus
 {
@@ -90,7 +91,8 @@ TileCaster::Scene NativeScene::Make(
     scene.Refracted = tables.Membrane.See(tables.Input);
   }
   scene.Refracted.Drawn = LegsOf(frame.Refracting.Part);
-  scene.Rays = FixedPointRays(frame.Rays, width, height);
+  scene.Rays =
+    FixedPointRays(frame.Rays, width, height, FindPivot(frame.Rays, width, height, *scene.Mesh));
   const VolumeInput& input = tables.Input;
   const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
   if (versions != this->PlacedVersions || !scene.Rays.PlacesAs(this->PlacedBy))

@@ -37,7 +37,8 @@ bool OpenGLEntryLists::Update(VolumeInput& input, const RayCastFrame& frame, Ope
   {
     return false;
   }
-  const FixedPointRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
+  const FixedPointRays rays(
+    frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1], RayGrid::Shaders);
   if (this->BoundaryOfTiles != input.GetBoundaryVersions() || !rays.SeesAs(this->RaysOfTiles))
   {
     this->Fit = this->Tiles.Build(

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -29,8 +30,11 @@ constexpr int NumberOfCopies = 12;
 
 struct Rounding
 {
-  /** Rounding of points, in any direction and along the view. */
+  /** Rounding of points, in any direction. */
   double Point = 0.0;
+  /** Rounding of points as a share of the longest edge of their cells. */
+  double Edge = 0.0;
+  /** Rounding of the places where a ray meets faces, along the ray. */
   double Depth = 0.0;
   /** Share of a component's range. */
   double Scalar = 0.0;
@@ -44,12 +48,33 @@ Rounding RoundingOf(const VolumeCase& test)
   const double radius = 0.5 * DiagonalOf(b);
   const double slope = test.View.Parallel ? 0.0 : std::sqrt(2.0) * test.View.HalfHeight;
   const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
-  const double unit = test.Membrane.Mesh ? 0x1p-22 : native ? 0x1p-29 : 0x1p-24;
+  const double unit = test.Membrane.Mesh ? 0x1p-22 : native ? 0x1p-30 : 0x1p-24;
   const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
   // A ray meets about 3 cells per layer of a cube of cells, and as many terms are added up.
   const double terms = divides ? 3.0 * std::cbrt(double(test.MakeMesh().Cells.size())) : 0.0;
-  return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
+  return { 2.0 * 1.5 * unit * radius * (1.0 + slope), native ? 2.0 * 0x1p-24 : 0.0,
+    divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
     2.0 * ((native ? 2.0 : 4.0) + 0.5 * terms) * 0x1p-24 };
+}
+
+// Length of the longest edge at each point.
+std::vector<double> LongestEdges(const MeshArrays& mesh, const std::vector<MeshTetrahedron>& cells)
+{
+  std::vector<double> longest(mesh.Points.size(), 0.0);
+  for (const MeshTetrahedron& cell : cells)
+  {
+    for (const std::int64_t a : cell.Ids)
+    {
+      for (const std::int64_t b : cell.Ids)
+      {
+        const auto p = static_cast<std::size_t>(a);
+        const double length =
+          glm::distance(mesh.Points[p], mesh.Points[static_cast<std::size_t>(b)]);
+        longest[p] = std::max(longest[p], length);
+      }
+    }
+  }
+  return longest;
 }
 
 // One-sided limit of a piecewise linear function of control points: `next` is the first point at or
@@ -163,20 +188,23 @@ public:
   Truth(const VolumeCase& test, const Rounding& rounding, RandomNumbers& random)
     : Case(test)
     , Material(MaterialOf(test))
+    , DepthRounding(rounding.Depth)
+    , SeedOfDepths(random.Bits())
   {
     const MeshArrays& mesh = test.MakeMesh();
+    const std::vector<MeshTetrahedron> cells = TetrahedraOf(mesh);
+    const std::vector<double> longest = LongestEdges(mesh, cells);
     std::vector<double> points;
-    const glm::dvec3 forward = glm::normalize(test.View.Focus - test.View.Eye);
-    for (const glm::dvec3& p : mesh.Points)
+    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
     {
-      const double depth = Moved(rounding.Depth, random);
+      const double amount = rounding.Point + rounding.Edge * longest[i];
       for (int axis = 0; axis < 3; ++axis)
       {
-        points.push_back(p[axis] + depth * forward[axis] + Moved(rounding.Point, random));
+        points.push_back(mesh.Points[i][axis] + Moved(amount, random));
       }
     }
     std::vector<std::int64_t> ids;
-    for (const MeshTetrahedron& tetrahedron : TetrahedraOf(mesh))
+    for (const MeshTetrahedron& tetrahedron : cells)
     {
       ids.insert(ids.end(), tetrahedron.Ids.begin(), tetrahedron.Ids.end());
       this->Cells.push_back(tetrahedron.Cell);
@@ -279,8 +307,29 @@ private:
     }
   }
 
-  Color Project(const Ray& ray, const std::vector<RaySegment>& segments) const
+  // Moves each place where the ray meets a face.
+  std::vector<RaySegment> WithMovedEnds(const Ray& ray, std::vector<RaySegment> segments) const
   {
+    RandomNumbers random(this->SeedOfDepths);
+    const double amount =
+      this->DepthRounding / std::hypot(ray.Direction[0], ray.Direction[1], ray.Direction[2]);
+    double met = std::numeric_limits<double>::quiet_NaN();
+    double moved = 0.0;
+    for (RaySegment& segment : segments)
+    {
+      const double begin = segment.Begin == met ? moved : segment.Begin + Moved(amount, random);
+      met = segment.End;
+      moved = std::max(begin, segment.End + Moved(amount, random));
+      segment.Begin = begin;
+      segment.End = moved;
+    }
+    return segments;
+  }
+
+  Color Project(const Ray& ray, const std::vector<RaySegment>& given) const
+  {
+    const std::vector<RaySegment> segments =
+      this->DepthRounding > 0.0 ? this->WithMovedEnds(ray, given) : given;
     const int blend = this->Case.Look.Blend;
     const auto range = this->Case.MakeMesh().MakeRange(0);
     const auto projection = blend == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND
@@ -332,6 +381,8 @@ private:
 
   const VolumeCase& Case;
   reference::Material Material;
+  double DepthRounding;
+  std::uint64_t SeedOfDepths;
   std::vector<std::size_t> Cells;
   std::vector<double> CellValues;
   std::vector<std::unique_ptr<reference::ReferenceRayIntegrator>> Integrators;

@@ -5,6 +5,7 @@
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Rays/RayPivot.h"
 
 #include <algorithm>
 
@@ -17,7 +18,8 @@ namespace test
 Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, float windowDepth)
 {
   PacketTables tables;
-  const FixedPointRays rays(scene.Frame, size, size);
+  const FixedPointRays rays(
+    scene.Frame, size, size, FindPivot(scene.Frame, size, size, scene.Mesh));
   PlaceVertices(scene.Mesh, scene.Scalars, rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(scene.Intervals);
   tables.GradientIntervals = PackIntervals(scene.GradientIntervals);

@@ -33,14 +33,16 @@ struct PacketVertex
 
 /**
  * A ray and its frame of reference. Relative to the ray, a vertex has the coordinates u, v =
- * fma(-Slope, float(depth), float(place - Offset)), in grid units, for its x and y; depths count
- * from the pivot of the rays (FixedPointRays). Differences of integers are exact, each conversion
- * to float rounds once, and fma rounds once.
+ * fma(-Slope, float(depth), float(place - Offset) - Fraction), in grid units, for its x and y;
+ * depths count from the pivot of the rays (FixedPointRays). Differences of integers are exact; each
+ * conversion to float, the difference of floats and fma round once.
  */
 struct PacketRay
 {
   /** Such that differences from places of the mesh are within 32 bits. */
   std::int32_t Offset[2];
+  /** Remainder of the exact offset, in grid units: a multiple of 2^-16 within 1/2. */
+  float Fraction[2];
   /** Grid units across per grid unit of depth; 0 or at least 2^-40 in magnitude. */
   float Slope[2];
   /** World length of a grid unit of depth. */
@@ -131,8 +133,10 @@ struct PacketSpanJob
   const PacketFace* Faces;
   const PacketSpan* Spans;
   std::int32_t NumberOfSpans;
-  /** Offsets and slopes of all rays as in PacketRay; readable up to 16 entries behind the last. */
+  /** Lines of all rays as in PacketRay; readable up to 16 entries behind the last. */
   const std::int32_t* Offsets[2];
+  /** Null if all are 0. */
+  const float* Fractions[2];
   const float* Slopes[2];
   /** Pivot of the rays in grid units of depth. */
   std::int32_t Pivot;

@@ -20,11 +20,14 @@ public:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
 
-  /** Offsets and slopes of rays in x and y. */
+  /** Lines of rays in x and y, as in PacketRay. */
   struct Rays
   {
     Int Offset[2];
     Float Slope[2];
+    /** False if all fractions are 0; they need not be set then. */
+    bool HasFractions;
+    Float Fraction[2];
   };
 
   PacketFaceTest(const PacketVertex* vertices, std::int32_t pivot)
@@ -87,8 +90,11 @@ inline auto PacketFaceTest<Simd>::Test(const Rays& rays) -> Mask
     const Float depth = Simd::Splat(this->Depths[k]);
     const auto aboutRay = [&](int axis)
     {
-      const Float place =
-        Simd::ToFloat(Simd::Splat(this->Seen[k]->Place[axis]) - rays.Offset[axis]);
+      Float place = Simd::ToFloat(Simd::Splat(this->Seen[k]->Place[axis]) - rays.Offset[axis]);
+      if (rays.HasFractions)
+      {
+        place = place - rays.Fraction[axis];
+      }
       return Simd::SubtractProduct(place, rays.Slope[axis], depth);
     };
     corners[k] = { aboutRay(0), aboutRay(1) };
@@ -133,6 +139,7 @@ void FindEnteredWith(const PacketFaceJob& job)
   for (std::int32_t first = 0; first < job.NumberOfRays; first += width)
   {
     std::int32_t offsets[2][width];
+    float fractions[2][width];
     float slopes[2][width];
     std::uint64_t valid = 0;
     for (int lane = 0; lane < width; ++lane)
@@ -143,12 +150,14 @@ void FindEnteredWith(const PacketFaceJob& job)
       for (int axis = 0; axis < 2; ++axis)
       {
         offsets[axis][lane] = ray.Offset[axis];
+        fractions[axis][lane] = ray.Fraction[axis];
         slopes[axis][lane] = ray.Slope[axis];
       }
     }
     const typename PacketFaceTest<Simd>::Rays rays{ { Simd::Load(offsets[0]),
                                                       Simd::Load(offsets[1]) },
-      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) } };
+      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) }, true,
+      { Simd::Load(fractions[0]), Simd::Load(fractions[1]) } };
     for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
     {
       test.Take(job.Faces[face]);
@@ -175,9 +184,17 @@ void FindEntriesWith(PacketSpanJob& job)
     }
     for (std::int32_t first = span->First; first < span->End; first += width)
     {
-      const typename PacketFaceTest<Simd>::Rays rays{ { Simd::Load(job.Offsets[0] + first),
-                                                        Simd::Load(job.Offsets[1] + first) },
-        { Simd::Load(job.Slopes[0] + first), Simd::Load(job.Slopes[1] + first) } };
+      typename PacketFaceTest<Simd>::Rays rays;
+      rays.HasFractions = job.Fractions[0] != nullptr;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        rays.Offset[axis] = Simd::Load(job.Offsets[axis] + first);
+        rays.Slope[axis] = Simd::Load(job.Slopes[axis] + first);
+        if (rays.HasFractions)
+        {
+          rays.Fraction[axis] = Simd::Load(job.Fractions[axis] + first);
+        }
+      }
       const std::int32_t left = span->End - first;
       const unsigned int valid = left < width ? (1u << left) - 1u : (1u << width) - 1u;
       unsigned int bits = Simd::Bits(test.Test(rays)) & valid;

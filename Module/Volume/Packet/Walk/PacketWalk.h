@@ -143,9 +143,12 @@ private:
   std::int32_t StepLimit;
 
   Model Integral;
-  /** Offsets and slopes of the rays in x and y, and their pivot. */
+  /** Lines of the rays in x and y, as in PacketRay, and their pivot. */
   Int Offset[2];
+  Float Fraction[2];
   Float Slope[2];
+  /** Whether the fraction of any lane is not 0. */
+  bool HasFractions = false;
   Int Pivot;
   // Vertices of the face just entered by, counter-clockwise about the ray, and twice the areas that
   // its edges AB, BC, CA span with the ray.
@@ -174,6 +177,7 @@ private:
 
   // By lane, for the scalar code that replaces rays.
   std::int32_t Offsets[2][Width];
+  float Fractions[2][Width];
   float Slopes[2][Width];
   std::int32_t Ray[Width];
   std::int32_t Entry[Width];
@@ -222,6 +226,7 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
     this->Offsets[0][lane] = this->Offsets[1][lane] = 0;
+    this->Fractions[0][lane] = this->Fractions[1][lane] = 0.0f;
     this->Slopes[0][lane] = this->Slopes[1][lane] = 0.0f;
   }
   this->LoadLanes();
@@ -270,13 +275,18 @@ template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
   corner.Depth = Simd::ToFloat(Simd::AsInt(vertex[2]) - this->Pivot);
-  const auto aboutRay = [&](int axis)
+  Float place[2];
+  for (int axis = 0; axis < 2; ++axis)
   {
-    const Float place = Simd::ToFloat(Simd::AsInt(vertex[axis]) - this->Offset[axis]);
-    return Simd::SubtractProduct(place, this->Slope[axis], corner.Depth);
-  };
-  corner.U = aboutRay(0);
-  corner.V = aboutRay(1);
+    place[axis] = Simd::ToFloat(Simd::AsInt(vertex[axis]) - this->Offset[axis]);
+  }
+  if (this->HasFractions)
+  {
+    place[0] = place[0] - this->Fraction[0];
+    place[1] = place[1] - this->Fraction[1];
+  }
+  corner.U = Simd::SubtractProduct(place[0], this->Slope[0], corner.Depth);
+  corner.V = Simd::SubtractProduct(place[1], this->Slope[1], corner.Depth);
   corner.Scalar = vertex[3];
 }
 
@@ -551,6 +561,7 @@ bool PacketWalk<Simd, Model>::TakeRay(int lane)
     for (int axis = 0; axis < 2; ++axis)
     {
       this->Offsets[axis][lane] = ray.Offset[axis];
+      this->Fractions[axis][lane] = ray.Fraction[axis];
       this->Slopes[axis][lane] = ray.Slope[axis];
     }
     for (int k = 0; k < Model::NumberOfValues; ++k)
@@ -651,8 +662,12 @@ void PacketWalk<Simd, Model>::LoadLanes()
   for (int axis = 0; axis < 2; ++axis)
   {
     this->Offset[axis] = Simd::Load(this->Offsets[axis]);
+    this->Fraction[axis] = Simd::Load(this->Fractions[axis]);
     this->Slope[axis] = Simd::Load(this->Slopes[axis]);
   }
+  const Float zero = Simd::Splat(0.0f);
+  const Float largest = Simd::Max(Simd::Abs(this->Fraction[0]), Simd::Abs(this->Fraction[1]));
+  this->HasFractions = Simd::Bits(largest > zero) != 0;
   if constexpr (Model::UsesLines)
   {
     this->LoadLines();

@@ -7,6 +7,7 @@
 #include "Volume/Entries/BoundaryRaster.h"
 #include "Volume/Entries/EntryTiles.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/ExactEdgeTest.h"
 #include "Volume/Rays/PlacedVertices.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
@@ -119,6 +120,42 @@ ListCheck CheckLists(
   return check;
 }
 
+/** Number of the entries of all pixels' rays, found by testing every face, that a raster lacks. */
+std::int64_t CountMissedEntries(const TetrahedralMesh& mesh, const FixedPointRays& rays)
+{
+  using Test = ExactEdgeTest<void>;
+  std::vector<PacketVertex> vertices;
+  PlaceVertices(mesh, {}, rays, SerialLoop, vertices);
+  BoundaryRaster raster;
+  raster.Build(vertices, mesh.GetBoundary(), rays);
+  ProjectedFaces faces;
+  faces.Set(vertices, mesh.GetBoundary(), rays);
+  std::int64_t missed = 0;
+  BoundaryRaster::Workspace workspace;
+  for (int tile = 0; tile < raster.GetNumberOfTiles(); ++tile)
+  {
+    raster.CollectEntries(tile, workspace);
+    for (int pixel = 0; pixel < BoundaryRaster::TileSize * BoundaryRaster::TileSize; ++pixel)
+    {
+      PacketRay ray;
+      BoundaryRaster::SetLine(workspace, static_cast<std::size_t>(pixel), ray);
+      std::int64_t entries = 0;
+      for (std::size_t face = 0; face < faces.GetNumberOfFaces(); ++face)
+      {
+        const PacketFace entered = faces.GetEntered(static_cast<std::int32_t>(face));
+        const auto corner = [&](int k)
+        {
+          const std::int32_t vertex = entered.Vertices[k];
+          return Test::AboutRay(faces.GetVertex(vertex), vertex, ray, rays.GetPivot());
+        };
+        entries += ExactEntry<void>::Of(corner(0), corner(1), corner(2)).Entered;
+      }
+      missed += entries - (workspace.Lists.GetBegin(pixel + 1) - workspace.Lists.GetBegin(pixel));
+    }
+  }
+  return missed;
+}
+
 }
 
 TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
@@ -132,7 +169,8 @@ TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
       { { 0.9, 0.8, 1.1 }, 5.0 } };
     for (const auto& view : views)
     {
-      const FixedPointRays rays(FrameFrom(mesh, view.first, view.second), Pixels, Pixels);
+      const FixedPointRays rays(
+        FrameFrom(mesh, view.first, view.second), Pixels, Pixels, RayGrid::Shaders);
       EntryTiles tiles;
       ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
       const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -153,7 +191,8 @@ TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
   // direction and for needles.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
-  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
+  const FixedPointRays rays(
+    FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels, RayGrid::Shaders);
   EntryTiles tiles;
   ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
   const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -165,7 +204,8 @@ TEST(EntryTiles, DoNotDependOnTheLoop)
 {
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(7), 0.8).View()), MeshStatus::Ok);
-  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels);
+  const FixedPointRays rays(
+    FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels, RayGrid::Shaders);
   EntryTiles serial;
   EntryTiles other;
   ASSERT_TRUE(serial.Build(mesh, mesh.GetBoundary(), rays, TileSize));
@@ -198,8 +238,8 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
     const glm::dvec3 eye = glm::dvec3(0.5) + 3.0 * glm::normalize(direction);
     const RayFrame frame = FrameFrom(mesh, eye, 0.0);
     EntryTiles tiles;
-    ASSERT_TRUE(
-      tiles.Build(mesh, mesh.GetBoundary(), FixedPointRays(frame, Pixels, Pixels), TileSize));
+    ASSERT_TRUE(tiles.Build(
+      mesh, mesh.GetBoundary(), FixedPointRays(frame, Pixels, Pixels, RayGrid::Shaders), TileSize));
     for (std::size_t t = 0; t + 1 < tiles.GetBegins().size(); ++t)
     {
       const std::int32_t length = tiles.GetBegins()[t + 1] - tiles.GetBegins()[t];
@@ -211,6 +251,25 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
   }
   const double expected = ExpectedEntriesPerTile(MeasureBoundary(mesh), side);
   EXPECT_NEAR(faces / covered / expected, 1.0, 0.25);
+}
+
+TEST(BoundaryRaster, FindsEveryEntryFromAnEyeAtAVertex)
+{
+  // All rays pass the vertex where the eye is within the rounding of rays, and the pixel that shows
+  // it is undetermined. Rays with and without fractions of grid units.
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(Apart(KuhnGrid(3), 1.0).View()), MeshStatus::Ok);
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 eye = glm::dvec3(1.0, 1.0, 2.0) / 3.0 + 2.0e-10 * i;
+    const RayFrame frame = FrameFrom(mesh, eye, 60.0);
+    for (const double spacing : { 0.0, 1.0 })
+    {
+      const FixedPointRays rays(frame, Pixels, Pixels, frame.NearDepth, spacing);
+      ASSERT_EQ(rays.HasFractions(), spacing == 0.0);
+      EXPECT_EQ(CountMissedEntries(mesh, rays), 0) << i;
+    }
+  }
 }
 
 TEST(EntryLists, OrderEntriesHoweverTheyCome)
