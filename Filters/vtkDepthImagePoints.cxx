@@ -10,6 +10,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -18,6 +19,7 @@
 #include "vtkPolyData.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -38,17 +40,38 @@ public:
     camera->GetDirectionOfProjection(&this->Axis.x);
     const double aspect = static_cast<double>(width) / height;
     this->ToWorld->DeepCopy(camera->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0));
+    // Coordinates x, y and w of the view give the direction: unlike z they do not depend on the
+    // clipping range, and so have no rounding error of its ratio.
+    constexpr int rows[3] = { 0, 1, 3 };
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        this->ToDirection[i][j] = this->ToWorld->GetElement(rows[i], j);
+      }
+    }
+    vtkMath::Invert3x3(this->ToDirection, this->ToDirection);
     this->ToWorld->Invert();
   }
 
   /** The place of a pixel at a value of the depth buffer. */
   glm::dvec3 Unproject(int column, int row, double depth) const
   {
-    const double view[4] = { 2.0 * (column + 0.5) / this->Width - 1.0,
-      2.0 * (row + 0.5) / this->Height - 1.0, 2.0 * depth - 1.0, 1.0 };
+    const glm::dvec2 pixel = this->GetViewCoordinates(column, row);
+    const double view[4] = { pixel.x, pixel.y, 2.0 * depth - 1.0, 1.0 };
     double world[4];
     this->ToWorld->MultiplyPoint(view, world);
     return glm::dvec3(world[0], world[1], world[2]) / world[3];
+  }
+
+  /** Unit direction from the eye through a pixel. */
+  glm::dvec3 GetDirection(int column, int row) const
+  {
+    const glm::dvec2 pixel = this->GetViewCoordinates(column, row);
+    const double view[3] = { pixel.x, pixel.y, 1.0 };
+    glm::dvec3 direction;
+    vtkMath::Multiply3x3(this->ToDirection, view, &direction.x);
+    return glm::normalize(direction);
   }
 
   /** The place of a pixel at a depth of a type of vtkDepthImagePoints. */
@@ -58,19 +81,25 @@ public:
     {
       return this->Unproject(column, row, depth);
     }
-    // The far plane, since the near one has the larger error of direction.
-    const glm::dvec3 direction = glm::normalize(this->Unproject(column, row, 1.0) - this->Eye);
+    const glm::dvec3 direction = this->GetDirection(column, row);
     const double range =
       type == vtkDepthImagePoints::RANGE ? depth : depth / glm::dot(direction, this->Axis);
     return this->Eye + range * direction;
   }
 
 private:
+  /** From -1 to 1 across the view. */
+  glm::dvec2 GetViewCoordinates(int column, int row) const
+  {
+    return { 2.0 * (column + 0.5) / this->Width - 1.0, 2.0 * (row + 0.5) / this->Height - 1.0 };
+  }
+
   int Width;
   int Height;
   glm::dvec3 Eye;
   glm::dvec3 Axis;
   vtkNew<vtkMatrix4x4> ToWorld;
+  double ToDirection[3][3];
 };
 
 }

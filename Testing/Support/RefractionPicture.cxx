@@ -5,11 +5,13 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkDoubleArray.h"
+#include "vtkGenericCell.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStaticCellLocator.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,9 +23,6 @@ namespace meniscus::testing
 {
 namespace
 {
-
-// Error in pixels beyond which a pixel counts as showing another place.
-constexpr double AcceptedPixels = 0.5;
 
 struct DrawnCorner
 {
@@ -175,26 +174,44 @@ void AddPlaces(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-PlacePicture TracePlaces(
-  const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object)
+PlacePicture TraceRays(const PixelCamera& camera, const RayTracer& rays, const PlaceTracer& object)
 {
   const int pixels = camera.GetPixels();
   PlacePicture picture(static_cast<std::size_t>(pixels) * pixels);
-  const glm::dvec3& eye = camera.GetEye();
   for (int y = 0; y < pixels; ++y)
   {
     for (int x = 0; x < pixels; ++x)
     {
-      const glm::dvec3 ray = camera.GetRay(x, y);
-      const glm::dvec3 s = membrane.Intersect(eye, ray, -eye.y / std::min(ray.y, -1e-3));
-      const auto behind = membrane.Refract(eye, s, 1.0);
-      if (behind && std::max(std::fabs(s.x), std::fabs(s.z)) <= 0.5 * membrane.Side)
+      const std::optional<LastLeg> leg = rays(camera.GetRay(x, y));
+      if (leg)
       {
-        picture[static_cast<std::size_t>(y * pixels + x)] = object(s, *behind - s);
+        picture[static_cast<std::size_t>(y * pixels + x)] = object(leg->Start, leg->Direction);
       }
     }
   }
   return picture;
+}
+
+//------------------------------------------------------------------------------
+RayTracer MakeFieldRays(const reference::HeightField& membrane, const glm::dvec3& eye)
+{
+  return [membrane, eye](const glm::dvec3& ray) -> std::optional<LastLeg>
+  {
+    const glm::dvec3 s = membrane.Intersect(eye, ray, -eye.y / std::min(ray.y, -1e-3));
+    const auto behind = membrane.Refract(eye, s, 1.0);
+    if (behind && std::max(std::fabs(s.x), std::fabs(s.z)) <= 0.5 * membrane.Side)
+    {
+      return LastLeg{ s, *behind - s };
+    }
+    return std::nullopt;
+  };
+}
+
+//------------------------------------------------------------------------------
+PlacePicture TracePlaces(
+  const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object)
+{
+  return TraceRays(camera, MakeFieldRays(membrane, camera.GetEye()), object);
 }
 
 //------------------------------------------------------------------------------
@@ -208,6 +225,30 @@ PlaceTracer MakeSquareTracer(double y, double size)
       pixel.Place = start + direction * ((y - start.y) / direction.y);
       pixel.Covered = std::max(std::fabs(pixel.Place.x), std::fabs(pixel.Place.z)) <= 0.5 * size;
     }
+    return pixel;
+  };
+}
+
+//------------------------------------------------------------------------------
+PlaceTracer MakeMeshTracer(vtkPolyData* triangles, double length)
+{
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(triangles);
+  locator->BuildLocator();
+  return [locator = vtkSmartPointer<vtkStaticCellLocator>(locator),
+           cell = vtkSmartPointer<vtkGenericCell>::New(),
+           length](const glm::dvec3& start, const glm::dvec3& direction)
+  {
+    PlacePixel pixel;
+    glm::dvec3 from = start;
+    glm::dvec3 to = start + length * direction;
+    double t = 0.0;
+    double pcoords[3];
+    int part = 0;
+    vtkIdType id = -1;
+    constexpr double tolerance = 1e-9; // of the locator, for rays along edges
+    pixel.Covered = locator->IntersectWithLine(
+                      &from.x, &to.x, tolerance, t, &pixel.Place.x, pcoords, part, id, cell) != 0;
     return pixel;
   };
 }
@@ -264,7 +305,7 @@ PlaceComparison ComparePlaces(
     {
       const double error = glm::length(truth[i].Place - other[i].Place);
       errors.push_back(error / GetFootprint(truth, camera, i));
-      result.Place += errors.back() > AcceptedPixels;
+      result.Place += errors.back() > PlaceComparison::AcceptedPixels;
     }
   }
   if (!errors.empty())

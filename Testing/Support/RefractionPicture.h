@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,12 +82,31 @@ void AddPlaces(vtkPolyData* data);
 /** Intersection of a refracted ray with the object or its plane. */
 using PlaceTracer = std::function<PlacePixel(const glm::dvec3& start, const glm::dvec3& direction)>;
 
-/** Image of an object through the membrane; pixels that miss the membrane stay empty. */
+/** The last leg of a sight ray, of unit direction. */
+struct LastLeg
+{
+  glm::dvec3 Start;
+  glm::dvec3 Direction;
+};
+
+/** The last leg of the sight ray of a unit direction; nothing if the ray ends before. */
+using RayTracer = std::function<std::optional<LastLeg>(const glm::dvec3& direction)>;
+
+/** Image of an object by the rays of all pixels; pixels without a last leg stay empty. */
+PlacePicture TraceRays(const PixelCamera& camera, const RayTracer& rays, const PlaceTracer& object);
+
+/** Rays behind a membrane, or in front of a mirror; none for those that miss it. */
+RayTracer MakeFieldRays(const reference::HeightField& membrane, const glm::dvec3& eye);
+
+/** Image of an object by these rays. */
 PlacePicture TracePlaces(
   const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object);
 
 /** A horizontal square around the axis, at height `y`, below the membrane or above it. */
 PlaceTracer MakeSquareTracer(double y, double size);
+
+/** The nearest of the triangles within `length`; places are positions. For one thread. */
+PlaceTracer MakeMeshTracer(vtkPolyData* triangles, double length = 1e4);
 
 /** Extent of the object in a pixel: the largest distance to a neighbouring pixel's place. */
 double GetFootprint(const PlacePicture& picture, const PixelCamera& camera, std::size_t pixel);
@@ -117,6 +137,8 @@ struct PlaceComparison
   double Error = 0.0;
 
   static constexpr double Part = 0.99;
+  /** Error in pixels beyond which a pixel counts as showing another place. */
+  static constexpr double AcceptedPixels = 0.5;
 };
 
 PlaceComparison ComparePlaces(

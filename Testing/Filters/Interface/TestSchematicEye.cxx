@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The cornea of a schematic eye (R. Navarro, J. Santamaria, J. Bescos: Accommodation-dependent
-// model of the human eye with aspherics, J. Opt. Soc. Am. A 2, 1985): the pupil is seen through two
-// surfaces, in the place and size of the entrance pupil. Lengths in millimetres.
+// The pupil of a schematic eye is seen through two surfaces, in the place and size of the entrance
+// pupil.
+#include "SchematicEye.h"
 #include "StackFilterHelpers.h"
-
-#include "MembraneMeshes.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -18,60 +16,6 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::MembraneMesh;
-
-// A surface of revolution about the y axis with its vertex at y = -Vertex, and the medium behind.
-struct CorneaSurface
-{
-  double Radius;
-  double Asphericity; // Q
-  double Vertex;
-  double Behind;
-};
-
-constexpr CorneaSurface Anterior{ 7.72, -0.26, 0.0, 1.376 };
-constexpr CorneaSurface Posterior{ 6.50, 0.0, 0.55, 1.3374 };
-constexpr double Pupil = 0.55 + 3.05; // behind the anterior vertex
-
-// Depth of the conic below its vertex, r^2 + (1 + Q) s^2 = 2 R s, and the upward unit normal.
-double GetSag(const CorneaSurface& surface, double r)
-{
-  const double c = r / surface.Radius;
-  return r * c / (1.0 + std::sqrt(1.0 - (1.0 + surface.Asphericity) * c * c));
-}
-
-glm::dvec3 GetNormal(const CorneaSurface& surface, const glm::dvec3& p)
-{
-  const double sag = -surface.Vertex - p.y;
-  return glm::normalize(glm::dvec3(p.x, surface.Radius - (1.0 + surface.Asphericity) * sag, p.z));
-}
-
-// A square of `side` over the axis, 2 cells^2 facets.
-MembraneMesh MakeMesh(const CorneaSurface& surface, double side, int cells)
-{
-  MembraneMesh mesh;
-  for (int j = 0; j <= cells; ++j)
-  {
-    for (int i = 0; i <= cells; ++i)
-    {
-      glm::dvec3 p(side * (static_cast<double>(i) / cells - 0.5), 0.0,
-        side * (static_cast<double>(j) / cells - 0.5));
-      p.y = -surface.Vertex - GetSag(surface, std::hypot(p.x, p.z));
-      mesh.AddPoint(p, GetNormal(surface, p));
-    }
-  }
-  for (int j = 0; j < cells; ++j)
-  {
-    for (int i = 0; i < cells; ++i)
-    {
-      const std::int64_t a = static_cast<std::int64_t>(j) * (cells + 1) + i;
-      const std::int64_t b = a + cells + 1;
-      mesh.AddTriangle(a, b, a + 1);
-      mesh.AddTriangle(a + 1, b, b + 1);
-    }
-  }
-  return mesh;
-}
 
 // Gauss's equation at each surface, from the pupil outwards: n' / s' = n / s - (n - n') / R for
 // distances behind the surface. Returns the distance behind the anterior vertex.
@@ -103,9 +47,9 @@ glm::dvec3 LookAtPoint(const glm::dvec3& eye, const glm::dvec3& point, int cells
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->SetEyePosition(eye.x, eye.y, eye.z);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  AddInterface(filter.Get(), MakeMembrane(MakeMesh(Anterior, 9.0, cells)), 1.0, Anterior.Behind);
+  AddInterface(filter.Get(), MakeMembrane(MakeCornea(Anterior, cells)), 1.0, Anterior.Behind);
   AddInterface(
-    filter.Get(), MakeMembrane(MakeMesh(Posterior, 9.0, cells)), Anterior.Behind, Posterior.Behind);
+    filter.Get(), MakeMembrane(MakeCornea(Posterior, cells)), Anterior.Behind, Posterior.Behind);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
   glm::dvec3 seen(0.0);

@@ -25,15 +25,19 @@ std::optional<double> Meet(
     const double distance = -glm::dot(away, surface.Normal) / glm::dot(direction, surface.Normal);
     return distance >= 0.0 ? std::optional<double>(distance) : std::nullopt;
   }
-  const double middle = -glm::dot(away, direction);
-  const glm::dvec3 nearest = away + middle * direction;
+  // A spheroid is a sphere where y is multiplied by the root of its stretch.
+  const glm::dvec3 scale(1.0, std::sqrt(surface.Stretch), 1.0);
+  const glm::dvec3 along = scale * direction;
+  const double length = glm::length(along);
+  const double middle = -glm::dot(scale * away, along) / length;
+  const glm::dvec3 nearest = scale * away + middle * (along / length);
   const double squared = surface.Radius * surface.Radius - glm::dot(nearest, nearest);
   if (squared < 0.0)
   {
     return std::nullopt;
   }
-  const double distance =
-    surface.IsFarSide ? middle + std::sqrt(squared) : middle - std::sqrt(squared);
+  const double root = surface.IsFarSide ? std::sqrt(squared) : -std::sqrt(squared);
+  const double distance = (middle + root) / length;
   return distance >= 0.0 ? std::optional<double>(distance) : std::nullopt;
 }
 
@@ -89,8 +93,9 @@ std::optional<ExactPath> TraceExactly(
       return std::nullopt;
     }
     origin += *distance * incoming;
-    const glm::dvec3 normal = surface.Radius == 0.0 ? glm::normalize(surface.Normal)
-                                                    : glm::normalize(origin - surface.Centre);
+    const glm::dvec3 normal = glm::normalize(surface.Radius == 0.0
+        ? surface.Normal
+        : glm::dvec3(1.0, surface.Stretch, 1.0) * (origin - surface.Centre));
     // Along the tangent, n sin is kept; along the normal, the rest of a unit vector, the same way.
     const double along = glm::dot(incoming, normal);
     const glm::dvec3 tangential = (surface.Before / surface.Behind) * (incoming - along * normal);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Rays through planes and spheres in closed form, and their meshes: the truth for stacks of
- * interfaces, independent of the kernel's patches and equations.
+ * Rays through planes, spheres and spheroids in closed form, and their meshes: the truth for stacks
+ * of interfaces, independent of the kernel's patches and equations.
  */
 #ifndef meniscus_Testing_Reference_Refraction_ExactStack_h
 #define meniscus_Testing_Reference_Refraction_ExactStack_h
@@ -17,7 +17,7 @@
 namespace meniscus::reference
 {
 
-/** A plane or a sphere between two media, as a ray passes it. */
+/** A plane, a sphere or a spheroid between two media, as a ray passes it. */
 struct ExactSurface
 {
   double Before;
@@ -26,6 +26,7 @@ struct ExactSurface
   double Radius = 0.0;      ///< of the sphere; 0 for a plane
   glm::dvec3 Normal{ 0.0 }; ///< of the plane
   bool IsFarSide = false;   ///< the ray meets the sphere from inside
+  double Stretch = 1.0;     ///< spheroid x x + z z + Stretch y y = Radius^2 about the y axis
 };
 
 /** Points of a ray on all surfaces, and its directions: before the first one and behind each. */

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRefractionPass compared with rays through exact waves: a pool with textured walls and three
 // objects.
+#include "ComparisonSheet.h"
 #include "PoolScene.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,31 +35,20 @@ struct PoolDifference
 void Save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   constexpr int size = PoolScene::Pixels;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(3 * size, size, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  ComparisonSheet sheet(1, 3, size);
   for (int y = 0; y < size; ++y)
   {
     for (int x = 0; x < size; ++x)
     {
-      for (int c = 0; c < 3; ++c)
-      {
-        const double exact = truth.Colors[static_cast<std::size_t>(y) * size + x][c];
-        const double ours = drawn.GetPixel(x, y)[c] / 255.0;
-        const double values[3] = { ours, exact,
-          1.0 - std::min(8.0 * std::fabs(ours - exact), 1.0) };
-        for (int k = 0; k < 3; ++k)
-        {
-          static_cast<unsigned char*>(image->GetScalarPointer(k * size + x, y, 0))[c] =
-            static_cast<unsigned char>(std::lround(255.0 * values[k]));
-        }
-      }
+      const glm::dvec3& exact = truth.Colors[static_cast<std::size_t>(y) * size + x];
+      const unsigned char* pixel = drawn.GetPixel(x, y);
+      const glm::dvec3 ours = glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0;
+      sheet.SetPixel(0, 0, x, y, ours);
+      sheet.SetPixel(0, 1, x, y, exact);
+      sheet.SetPixel(0, 2, x, y, 1.0 - 8.0 * glm::abs(ours - exact));
     }
   }
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName((std::string(MENISCUS_TEMPORARY_DIR) + "/pool-" + name + ".png").c_str());
-  writer->SetInputData(image);
-  writer->Write();
+  sheet.Write(std::string(MENISCUS_TEMPORARY_DIR) + "/pool-" + name + ".png");
 }
 
 PoolDifference Compare(const meniscus::test::ByteImage& drawn, const PoolPicture& truth)

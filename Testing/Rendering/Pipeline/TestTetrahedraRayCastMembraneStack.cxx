@@ -2,20 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumes through several refracting interfaces, compared with closed forms and with rays that are
 // refracted in double precision.
-#include "MembraneScene.h"
 #include "OpticsTruth.h"
+#include "StackScene.h"
 
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPolyData.h>
-#include <vtkRefractingInterface.h>
-#include <vtkRefractingInterfaceCollection.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSMPTools.h>
-#include <vtkSphereSource.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
 #include <vtkVolumeMapper.h>
@@ -38,84 +35,6 @@ constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 double Tolerance()
 {
   return BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
-}
-
-MembraneCase Between(MembraneCase membrane, double exterior, double interior)
-{
-  membrane.Surface.Exterior = exterior;
-  membrane.Surface.Interior = interior;
-  return membrane;
-}
-
-/** Gives a mapper the surfaces and the indices of a list. */
-void SetStack(vtkTetrahedraRayCastMapper* mapper, const std::vector<MembraneCase>& stack)
-{
-  vtkNew<vtkRefractingInterfaceCollection> list;
-  mapper->RemoveAllMembranes();
-  for (const MembraneCase& membrane : stack)
-  {
-    vtkNew<vtkRefractingInterface> interface;
-    interface->SetExteriorIndexOfRefraction(membrane.Surface.Exterior);
-    interface->SetInteriorIndexOfRefraction(membrane.Surface.Interior);
-    list->AddItem(interface);
-    mapper->AddMembraneData(membrane.Mesh);
-  }
-  mapper->SetInterfaces(list);
-}
-
-/**
- * The parts of a ray, each in one medium. A ray that misses a further interface ends at the last
- * one that it met.
- * @param endsOpaque as for Refract().
- */
-std::vector<Ray> FindParts(const std::vector<MembraneCase>& stack, Ray ray, bool endsOpaque)
-{
-  std::vector<Ray> parts;
-  double eye = 0.0;
-  for (const MembraneCase& membrane : stack)
-  {
-    const RefractedRay refracted = Refract(membrane.Surface, ray, eye, endsOpaque);
-    bool meets = false;
-    for (const double at : membrane.Surface.Meet(refracted.Straight))
-    {
-      Vector3 place;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        place[axis] = ray.Origin[axis] + at * refracted.Straight.Direction[axis];
-      }
-      meets = meets || (at > eye && membrane.Surface.Has(place));
-    }
-    if (meets || parts.empty())
-    {
-      parts.push_back(refracted.Straight);
-    }
-    ray = refracted.Bent;
-    if (!meets || ray.Begin >= ray.End)
-    {
-      return parts;
-    }
-    eye = 1e-9; // not the intersection where the part begins
-  }
-  parts.push_back(ray);
-  return parts;
-}
-
-std::array<double, 4> ComposeParts(const std::vector<Ray>& parts, const TraceRay& trace)
-{
-  std::array<double, 4> total{ 0.0, 0.0, 0.0, 0.0 };
-  for (const Ray& part : parts)
-  {
-    if (part.Begin < part.End)
-    {
-      const std::array<double, 4> behind = trace(part);
-      const double left = 1.0 - total[3];
-      for (std::size_t c = 0; c < 4; ++c)
-      {
-        total[c] += left * behind[c];
-      }
-    }
-  }
-  return total;
 }
 
 struct StackTest
@@ -216,19 +135,6 @@ vtkSmartPointer<vtkVolumeProperty> MakeLinearProperty(double atLowest, double at
   property->SetScalarOpacity(opacity);
   property->SetInterpolationTypeToLinear();
   return property;
-}
-
-/** A sphere with exact normals. */
-MembraneCase MakeBallCase(const Vector3& center, double radius, int resolution)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetCenter(center.data());
-  source->SetRadius(radius);
-  source->SetThetaResolution(resolution);
-  source->SetPhiResolution(resolution);
-  source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  source->Update();
-  return { source->GetOutput(), MakeSphere(center, radius) };
 }
 
 } // anonymous namespace
