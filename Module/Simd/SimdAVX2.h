@@ -116,6 +116,7 @@ struct SimdAVX2 : SimdRowLoads<SimdAVX2, 8>
   }
   static Int And(Int a, Int b) { return { _mm256_and_si256(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm256_cvtepi32_ps(a.V) }; }
+  static Int ToInt(Float a) { return { _mm256_cvtps_epi32(a.V) }; }
   static Int ShiftRight(Int a, Int b) { return { _mm256_srlv_epi32(a.V, b.V) }; }
   static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {

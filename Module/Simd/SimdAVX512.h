@@ -94,6 +94,7 @@ struct SimdAVX512 : SimdRowLoads<SimdAVX512, 16>
   }
   static Int And(Int a, Int b) { return { _mm512_and_si512(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm512_cvtepi32_ps(a.V) }; }
+  static Int ToInt(Float a) { return { _mm512_cvtps_epi32(a.V) }; }
   static Int ShiftRight(Int a, Int b) { return { _mm512_srlv_epi32(a.V, b.V) }; }
   static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {

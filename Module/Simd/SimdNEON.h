@@ -85,6 +85,7 @@ struct SimdNEON
   }
   static Int And(Int a, Int b) { return { vandq_s32(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { vcvtq_f32_s32(a.V) }; }
+  static Int ToInt(Float a) { return { vcvtnq_s32_f32(a.V) }; }
   static Int ShiftRight(Int a, Int b)
   {
     return { vreinterpretq_s32_u32(vshlq_u32(vreinterpretq_u32_s32(a.V), vnegq_s32(b.V))) };

@@ -195,6 +195,12 @@ struct SimdPortable
   {
     return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
   }
+  /** The nearest integer, even if there are two. Any result if it has more than 32 bits. */
+  static Int ToInt(const Float& a)
+  {
+    return EachLane<std::int32_t>(
+      [](float x) { return static_cast<std::int32_t>(std::llrint(x)); }, a);
+  }
   /** The bits of a, which must not be negative, shifted right by b, 0 to 31. */
   static Int ShiftRight(const Int& a, const Int& b)
   {

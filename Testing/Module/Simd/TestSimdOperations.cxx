@@ -230,6 +230,26 @@ TYPED_TEST(SimdOperations, IntegersAndMasks)
   }
 }
 
+TYPED_TEST(SimdOperations, RoundsToTheNearestInteger)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  for (int round = 0; round < 1000; ++round)
+  {
+    float values[width];
+    std::int32_t expected[width];
+    for (int i = 0; i < width; ++i)
+    {
+      // Halves, as many as fit into the digits of a float, and numbers of any size.
+      const int shift = 1 + std::abs(this->AnyInt() % 8);
+      const std::int32_t number = this->AnyInt() >> (round % 2 == 0 ? 8 : shift);
+      values[i] = static_cast<float>(number) * (round % 2 == 0 ? 0.5f : 1.0f);
+      expected[i] = static_cast<std::int32_t>(std::nearbyint(double{ values[i] }));
+    }
+    this->ExpectSame(Simd::ToInt(Simd::Load(values)), expected, "rounding");
+  }
+}
+
 TYPED_TEST(SimdOperations, ShiftsAndTablesOfWords)
 {
   using Simd = TypeParam;

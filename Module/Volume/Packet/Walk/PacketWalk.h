@@ -28,10 +28,13 @@ namespace meniscus
  * of six. Together with the face's number in the cell it indexes a table (FaceTurns) of the link to
  * follow and the next order, for each corner that the next face may lack.
  *
- * Depths are floats that count from the pivot of the rays, where these begin to be seen: their
- * rounding errors, and those of segments' lengths, are at most 2^-24 of the distance from there.
- * Differences of integer depths from a cell's own corner would be exact in small cells anywhere,
- * but each is rounded on its own in long cells, and lengths of needles came out less precise.
+ * Depths count from the pivot of the rays. The point in which a ray meets a face is an integer
+ * depth and a remainder. Depths of corners are subtracted from the integer of the previous face,
+ * which is exact, so that the length of a segment has a rounding error of a few times 2^-24 of the
+ * mean distance of the corners from it, weighted as they are in the point: small cells are as
+ * precise as large ones, wherever they are, and so are thin cells next to a corner. Only the ends
+ * of rays are compared with depths in floats, which are precise to 2^-24 of the distance from the
+ * pivot.
  */
 template <class Simd, class Model>
 class PacketWalk
@@ -54,7 +57,7 @@ private:
     Float U;
     Float V;
     /** Grid units from the pivot. */
-    Float Depth;
+    Int Depth;
     Float Scalar;
     /** Further values that models need. */
     VertexValues Others{};
@@ -62,15 +65,18 @@ private:
   /** Point in which a ray meets a face. */
   struct FacePoint
   {
-    /** Grid units from the pivot. */
-    Float Depth;
+    /** The depth, in grid units from the pivot: an integer and the remainder, at most 1/2. */
+    Int Whole;
+    Float Rest;
     Float Scalar;
     VertexValues Values;
 
+    Float GetDepth() const { return Simd::ToFloat(this->Whole); }
     /** Takes over all members in some lanes. */
     void Replace(Mask lanes, const FacePoint& other)
     {
-      this->Depth = Simd::Select(lanes, other.Depth, this->Depth);
+      this->Whole = Simd::Select(lanes, other.Whole, this->Whole);
+      this->Rest = Simd::Select(lanes, other.Rest, this->Rest);
       this->Scalar = Simd::Select(lanes, other.Scalar, this->Scalar);
       this->Values.Replace(lanes, other.Values);
     }
@@ -100,7 +106,7 @@ private:
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
-  void Interpolate(FacePoint& point) const;
+  Float MoveToFace(FacePoint& point) const;
   Int OppositeVertices(Int cellFace) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
@@ -205,12 +211,12 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   const Int none = Simd::Splat(0);
   const Float zero = Simd::Splat(0.0f);
   this->Pivot = Simd::Splat(job.Pivot);
-  this->A = Corner{ zero, zero, zero, zero };
+  this->A = Corner{ zero, zero, none, zero };
   this->A.Others.Clear();
   this->B = this->C = this->A;
   this->AreaAB = this->AreaBC = this->AreaCA = zero;
   this->Order = none;
-  this->Face = FacePoint{ zero, zero, this->A.Others };
+  this->Face = FacePoint{ none, zero, zero, this->A.Others };
   this->Line = { zero, zero, zero, zero, zero, { zero, zero, zero } };
   // Gradients come first.
   const bool gradients = job.Medium && job.VertexGradients;
@@ -274,7 +280,7 @@ void PacketWalk<Simd, Model>::Run()
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
-  corner.Depth = Simd::ToFloat(Simd::AsInt(vertex[2]) - this->Pivot);
+  corner.Depth = Simd::AsInt(vertex[2]) - this->Pivot;
   Float place[2];
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -285,8 +291,9 @@ inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& cor
     place[0] = place[0] - this->Fraction[0];
     place[1] = place[1] - this->Fraction[1];
   }
-  corner.U = Simd::SubtractProduct(place[0], this->Slope[0], corner.Depth);
-  corner.V = Simd::SubtractProduct(place[1], this->Slope[1], corner.Depth);
+  const Float depth = Simd::ToFloat(corner.Depth);
+  corner.U = Simd::SubtractProduct(place[0], this->Slope[0], depth);
+  corner.V = Simd::SubtractProduct(place[1], this->Slope[1], depth);
   corner.Scalar = vertex[3];
 }
 
@@ -385,68 +392,26 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
 }
 
 //------------------------------------------------------------------------------
-/**
- * Finds the point in which the rays meet ABC. A face without projected area keeps the given point.
- */
-template <class Simd, class Model>
-inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
-{
-  const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
-  const Mask real = total > Simd::Splat(0.0f);
-  const Float inverse = Simd::Splat(1.0f) / total;
-  // Products are fused in every instruction set: in needles most of the sum cancels.
-  const auto meanFrom = [&](Float a, Float b, Float c, Float areaAB, Float areaCA)
-  {
-    const Float sum = Simd::SubtractProduct(areaAB * (a - c), areaCA, b - a);
-    return Simd::SubtractProduct(a, sum, inverse);
-  };
-  const auto mean = [&](Float a, Float b, Float c)
-  { return meanFrom(a, b, c, this->AreaAB, this->AreaCA); };
-  FacePoint met;
-  met.Depth = mean(this->A.Depth, this->B.Depth, this->C.Depth);
-  met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
-  if constexpr (Model::SeesJumps)
-  {
-    // Relative to the corner with the largest weight: where the corners with weight have one
-    // scalar, as along an edge in an isosurface, the result is exactly that scalar.
-    const Mask notA = Simd::Max(this->AreaAB, this->AreaCA) > this->AreaBC;
-    const Mask c = notA & (this->AreaAB > this->AreaCA);
-    const auto rotate = [&](Float ofA, Float ofB, Float ofC)
-    { return Simd::Select(c, ofC, Simd::Select(notA, ofB, ofA)); };
-    const Float first = rotate(this->A.Scalar, this->B.Scalar, this->C.Scalar);
-    const Float second = rotate(this->B.Scalar, this->C.Scalar, this->A.Scalar);
-    const Float third = rotate(this->C.Scalar, this->A.Scalar, this->B.Scalar);
-    met.Scalar = meanFrom(first, second, third, rotate(this->AreaAB, this->AreaBC, this->AreaCA),
-      rotate(this->AreaCA, this->AreaAB, this->AreaBC));
-  }
-  for (int i = 0; i < VertexValues::Size; ++i)
-  {
-    met.Values.Of[i] = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
-  }
-  point.Replace(real, met);
-}
-
-//------------------------------------------------------------------------------
 /** Passes the part of the ray between the last face and this one to the integral. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
   FacePoint exit = this->Face;
-  this->Interpolate(exit);
-  const Float faceDepth = this->Face.Depth;
-  const Float depth = exit.Depth;
+  const Float crossing = this->MoveToFace(exit);
+  const Float faceDepth = this->Face.GetDepth();
+  const Float depth = exit.GetDepth();
   const Float faceScalar = this->Face.Scalar;
 
   // The part before the largest depth reached has been passed already and is not passed again.
   const Float start = Simd::Max(this->DepthNow, this->StartDepth);
   const Float end = Simd::Min(depth, this->EndDepth);
-  const Float length = end - start;
   Float from = faceScalar;
   Float to = exit.Scalar;
   VertexValues fromValues = this->Face.Values;
   VertexValues toValues = exit.Values;
   const Mask late = start > faceDepth;
   const Mask early = depth > end;
+  const Float length = Simd::Select(late | early, end - start, crossing);
   if (this->Job.CellScalars)
   {
     // A jump between cells is integrated where the cell is entered, unless the ray begins behind
@@ -695,8 +660,10 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   area(this->B, this->C, this->AreaBC);
   area(this->C, this->A, this->AreaCA);
   // A face without projected area is met at its first vertex.
-  FacePoint entry{ this->A.Depth, this->A.Scalar, this->A.Others };
-  this->Interpolate(entry);
+  // Once more from there, relative to a depth that is close.
+  FacePoint entry{ this->A.Depth, Simd::Splat(0.0f), this->A.Scalar, this->A.Others };
+  this->MoveToFace(entry);
+  this->MoveToFace(entry);
   if (this->Job.CellScalars)
   {
     const Int zero = Simd::Splat(0);
@@ -704,12 +671,13 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
       this->Job.CellScalars, Simd::Select(this->CellFace < zero, zero, this->CellFace));
   }
   this->Face.Replace(lanes, entry);
-  this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, entry.Depth), this->DepthNow);
+  this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, entry.GetDepth()), this->DepthNow);
   this->Integral.Enter(lanes);
 }
 
 }
 
+#include "Volume/Packet/Walk/PacketWalkFaces.h"
 #include "Volume/Packet/Walk/PacketWalkOptics.h"
 #include "Volume/Packet/Walk/PacketWalkTies.h"
 
