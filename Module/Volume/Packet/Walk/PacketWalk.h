@@ -106,7 +106,7 @@ private:
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
-  Float MoveToFace(FacePoint& point) const;
+  Float MoveToFace(Mask lanes, FacePoint& point) const;
   Int OppositeVertices(Int cellFace) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
@@ -397,7 +397,7 @@ template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
   FacePoint exit = this->Face;
-  const Float crossing = this->MoveToFace(exit);
+  const Float crossing = this->MoveToFace(lanes, exit);
   const Float faceDepth = this->Face.GetDepth();
   const Float depth = exit.GetDepth();
   const Float faceScalar = this->Face.Scalar;
@@ -405,13 +405,14 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   // The part before the largest depth reached has been passed already and is not passed again.
   const Float start = Simd::Max(this->DepthNow, this->StartDepth);
   const Float end = Simd::Min(depth, this->EndDepth);
+  const Mask late = start > faceDepth;
+  const Mask early = depth > this->EndDepth;
+  const bool isCut = Simd::Bits(lanes & (late | early)) != 0;
+  const Float length = isCut ? Simd::Select(late | early, end - start, crossing) : crossing;
   Float from = faceScalar;
   Float to = exit.Scalar;
   VertexValues fromValues = this->Face.Values;
   VertexValues toValues = exit.Values;
-  const Mask late = start > faceDepth;
-  const Mask early = depth > end;
-  const Float length = Simd::Select(late | early, end - start, crossing);
   if (this->Job.CellScalars)
   {
     // A jump between cells is integrated where the cell is entered, unless the ray begins behind
@@ -420,7 +421,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
     from = Simd::Select(this->StartDepth > faceDepth, to, faceScalar);
     from = Model::SeesJumps ? from : to;
   }
-  else if (Simd::Bits(lanes & (late | early)) != 0)
+  else if (isCut)
   {
     const Float whole = depth - faceDepth;
     const Float perDepth = (exit.Scalar - faceScalar) / whole;
@@ -434,21 +435,18 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
       toValues.Replace(early, at(end));
     }
   }
-  const Mask segment = lanes & (length > Simd::Splat(0.0f));
   const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
     crossed.Gradient, this->Line };
   this->Pending =
-    this->Pending | this->Integral.Begin(segment, from, to, length * this->LengthPerDepth, place);
+    this->Pending | this->Integral.Begin(lanes, from, to, length * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
-  Mask known = lanes;
   if (this->Job.CellScalars)
   {
     // The scalar is that of the last integrated cell.
-    known =
-      SegmentsOf<Simd>(segment, from, to, length) | Simd::AndNot(lanes, depth > this->StartDepth);
-    exit.Scalar = crossed.CellScalar;
+    const Mask known =
+      SegmentsOf<Simd>(lanes, from, to, length) | Simd::AndNot(lanes, depth > this->StartDepth);
+    exit.Scalar = Simd::Select(known, crossed.CellScalar, faceScalar);
   }
-  exit.Scalar = Simd::Select(known, exit.Scalar, faceScalar);
   this->Face.Replace(lanes, exit);
 }
 
@@ -662,8 +660,8 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   // A face without projected area is met at its first vertex.
   // Once more from there, relative to a depth that is close.
   FacePoint entry{ this->A.Depth, Simd::Splat(0.0f), this->A.Scalar, this->A.Others };
-  this->MoveToFace(entry);
-  this->MoveToFace(entry);
+  this->MoveToFace(lanes, entry);
+  this->MoveToFace(lanes, entry);
   if (this->Job.CellScalars)
   {
     const Int zero = Simd::Splat(0);

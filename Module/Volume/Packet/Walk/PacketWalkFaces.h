@@ -12,13 +12,13 @@ namespace meniscus
 //------------------------------------------------------------------------------
 /**
  * Moves a point of the rays to that in which they meet ABC, and returns the difference of the
- * depths. The given scalars are not used. A face without projected area keeps the point.
+ * depths. The given scalars are not used. A face without projected area keeps the point; the
+ * results of other lanes are undefined.
  */
 template <class Simd, class Model>
-inline auto PacketWalk<Simd, Model>::MoveToFace(FacePoint& point) const -> Float
+inline auto PacketWalk<Simd, Model>::MoveToFace(Mask lanes, FacePoint& point) const -> Float
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
-  const Mask real = total > Simd::Splat(0.0f);
   const Float inverse = Simd::Splat(1.0f) / total;
   // Products are fused in every instruction set: in needles most of the sum cancels.
   const auto meanFrom = [&](Float a, Float b, Float c, Float areaAB, Float areaCA)
@@ -34,7 +34,7 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(FacePoint& point) const -> Float
     Simd::SubtractProduct(this->AreaAB * ahead[2], this->AreaCA, ahead[1]), this->AreaBC, ahead[0]);
   const Float moved = sum * inverse;
   const Int whole = Simd::ToInt(moved);
-  const Float difference = moved - point.Rest;
+  Float difference = moved - point.Rest;
   FacePoint met;
   met.Whole = point.Whole + whole;
   met.Rest = moved - Simd::ToFloat(whole);
@@ -57,8 +57,14 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(FacePoint& point) const -> Float
   {
     met.Values.Of[i] = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
   }
-  point.Replace(real, met);
-  return Simd::Select(real, difference, Simd::Splat(0.0f));
+  const Mask flat = Simd::AndNot(lanes, total > Simd::Splat(0.0f));
+  if (Simd::Bits(flat) != 0)
+  {
+    met.Replace(flat, point);
+    difference = Simd::Select(flat, Simd::Splat(0.0f), difference);
+  }
+  point = met;
+  return difference;
 }
 
 }
