@@ -290,9 +290,53 @@ private:
   std::vector<RaySegment> Segments(const Ray& ray) const
   {
     std::vector<RaySegment> segments;
-    this->Integrators[0]->FindSegments(this->Clipped(ray), segments);
+    this->FindSegments(0, this->Clipped(ray), segments);
     this->TakeCellValues(segments);
     return segments;
+  }
+
+  // Segments of one component. Where cells overlap, invisible ones hide nothing.
+  void FindSegments(std::size_t component, const Ray& ray, std::vector<RaySegment>& segments) const
+  {
+    this->Integrators[component]->FindVisibleSegments(
+      ray, [this](std::int64_t cell) { return this->CanBeSeen(cell); }, segments);
+  }
+
+  bool CanBeSeen(std::int64_t cell) const
+  {
+    if (this->IsProjection())
+    {
+      return true;
+    }
+    if (this->Case.Look.Blend == vtkVolumeMapper::ISOSURFACE_BLEND)
+    {
+      return std::any_of(this->Surfaces.begin(), this->Surfaces.end(),
+        [&](const reference::Surface& surface) { return this->Holds(cell, surface.Scalar); });
+    }
+    if (!this->CellValues.empty())
+    {
+      const double value = this->CellValues[this->Cells[static_cast<std::size_t>(cell)]];
+      return this->Functions[0].GetValue(value).Attenuation > 0.0;
+    }
+    // The opacity of components that are mixed is that of the last.
+    const std::size_t first = this->Case.Look.Independent ? 0 : this->Integrators.size() - 1;
+    for (std::size_t c = first; c < this->Integrators.size(); ++c)
+    {
+      if (this->Integrators[c]->CanBeSeen(cell, this->Functions[c]))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool Holds(std::int64_t cell, double scalar) const
+  {
+    const reference::ReferenceMesh& mesh = this->Integrators[0]->MakeMesh();
+    const std::int64_t* const ids = mesh.GetCell(static_cast<std::size_t>(cell));
+    const auto range = std::minmax({ mesh.GetScalar(ids[0]), mesh.GetScalar(ids[1]),
+      mesh.GetScalar(ids[2]), mesh.GetScalar(ids[3]) });
+    return range.first <= scalar && scalar <= range.second;
   }
 
   void TakeCellValues(std::vector<RaySegment>& segments) const
@@ -345,7 +389,7 @@ private:
     std::vector<std::vector<RaySegment>> segments(this->Integrators.size());
     for (std::size_t c = 0; c < segments.size(); ++c)
     {
-      this->Integrators[c]->FindSegments(this->Clipped(ray), segments[c]);
+      this->FindSegments(c, this->Clipped(ray), segments[c]);
     }
     const auto mixture = this->Case.Look.Independent ? reference::Mixture::Independent
       : segments.size() == 2                         ? reference::Mixture::ColorAndOpacity

@@ -291,6 +291,9 @@ std::vector<VolumeRelation> MeshRelations()
   divisible.Small = true;
   CaseNeeds free = NoVertexGradients();
   free.Small = true;
+  free.NoFolds = true;
+  CaseNeeds noFolds = NoVertexGradients();
+  noFolds.NoFolds = true;
   const auto divided = [](int parts) {
     return [parts](VolumeCase& test, RandomNumbers&) { DivideTetrahedra(test.MakeMesh(), parts); };
   };
@@ -314,14 +317,14 @@ std::vector<VolumeRelation> MeshRelations()
       TakeValuesOfVertices },
     RelationOf("points of no cell", 2, CaseNeeds(),
       [](VolumeCase& test, RandomNumbers& random) { AddIdlePoints(test.MakeMesh(), random); }),
-    RelationOf("points given per cell", 4, NoVertexGradients(),
+    RelationOf("points given per cell", 4, noFolds,
       [](VolumeCase& test, RandomNumbers&) { UnsharePoints(test.MakeMesh()); }),
     RelationOf("cells doubled", 4, NoVertexGradients(), DoubleCells),
     RelationOf("cells doubled across blocks", 4, free, DoubleAcrossBlocks),
-    RelationOf("blocks", 4, NoVertexGradients(),
+    RelationOf("blocks", 4, noFolds,
       [](VolumeCase& test, RandomNumbers& random)
       { test.Blocks = SplitMesh(test.MakeMesh(), 2 + random.Below(4), random); }),
-    RelationOf("blocks appended", 3, NoVertexGradients(),
+    RelationOf("blocks appended", 3, noFolds,
       [](VolumeCase& test, RandomNumbers& random)
       { test.Blocks = { AppendMeshes(SplitMesh(test.MakeMesh(), 2 + random.Below(4), random)) }; }),
     RelationOf("tetrahedra in 4", 3, divisible, divided(4)),

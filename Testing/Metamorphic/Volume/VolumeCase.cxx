@@ -4,6 +4,7 @@
 
 #include "MapScene.h"
 #include "MeshFamilies.h"
+#include "ReferenceMesh.h"
 #include "VolumeScene.h"
 
 #include <vtkColorTransferFunction.h>
@@ -275,6 +276,23 @@ void OffsetValues(MeshArrays& mesh, RandomNumbers& random)
   }
 }
 
+bool IsFolded(const MeshArrays& mesh)
+{
+  std::vector<double> points;
+  for (const glm::dvec3& p : mesh.Points)
+  {
+    points.insert(points.end(), { p.x, p.y, p.z });
+  }
+  std::vector<std::int64_t> ids;
+  for (const MeshTetrahedron& tetrahedron : TetrahedraOf(mesh))
+  {
+    ids.insert(ids.end(), tetrahedron.Ids.begin(), tetrahedron.Ids.end());
+  }
+  std::vector<double> scalars(mesh.Points.size());
+  const reference::ReferenceMesh cells(std::move(points), std::move(ids), std::move(scalars));
+  return cells.NumberOfInvertedCells() > 0;
+}
+
 FamilyMesh ChooseMesh(const CaseNeeds& needs, RandomNumbers& random)
 {
   for (;;)
@@ -285,7 +303,8 @@ FamilyMesh ChooseMesh(const CaseNeeds& needs, RandomNumbers& random)
       family = MeshFamily::RandomPoints;
     }
     FamilyMesh mesh = MakeFamilyMesh(family, needs.Linear, random);
-    if ((!needs.Tetrahedra || mesh.Mesh.IsTetrahedral()) && !mesh.Mesh.Cells.empty())
+    if ((!needs.Tetrahedra || mesh.Mesh.IsTetrahedral()) && !mesh.Mesh.Cells.empty() &&
+      !(needs.NoFolds && IsFolded(mesh.Mesh)))
     {
       return mesh;
     }

@@ -105,6 +105,11 @@ struct CaseNeeds
   bool NoCellData = false;
   /** True: no gradients at all. */
   bool NoGradients = false;
+  /**
+   * True: no mesh with inverted cells. Where a mesh is folded over itself, rays follow shared
+   * faces, so that cells that share none are shown in another order.
+   */
+  bool NoFolds = false;
   /** True: meshes of a few thousand cells at most. */
   bool Small = false;
 };

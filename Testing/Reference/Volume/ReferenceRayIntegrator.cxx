@@ -15,6 +15,8 @@ namespace reference
 namespace
 {
 
+using CellTest = ReferenceRayIntegrator::CellTest;
+
 // Gaps and clipped lengths below this fraction of the diagonal are rounding, not geometry:
 // half-spaces are widened by 1e-13, and a face met at 1e-4 radian stretches that by 1e4.
 constexpr double NegligibleLength = 1e-9;
@@ -227,37 +229,10 @@ bool Clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
   return true;
 }
 
-// True if a function attenuates anywhere in a cell's range of scalars.
-bool CanBeSeen(
-  const ReferenceMesh& mesh, std::int64_t id, const ReferenceTransferFunction& function)
-{
-  const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(id));
-  double low = mesh.GetScalar(ids[0]);
-  double high = low;
-  for (int i = 1; i < 4; ++i)
-  {
-    low = std::min(low, mesh.GetScalar(ids[i]));
-    high = std::max(high, mesh.GetScalar(ids[i]));
-  }
-  const auto& nodes = function.GetNodes();
-  for (std::size_t piece = function.PieceOf(low); piece <= function.PieceOf(high); ++piece)
-  {
-    const double from = piece > 0 ? std::max(low, nodes[piece - 1].Scalar) : low;
-    const double to = piece < nodes.size() ? std::min(high, nodes[piece].Scalar) : high;
-    if ((from < to || low == high) &&
-      (function.ValueInPiece(piece, from).Attenuation > 0.0 ||
-        function.ValueInPiece(piece, to).Attenuation > 0.0))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Cells crossed, each found independently, in the order of entry; with a function, only visible
-// cells.
+// Cells crossed, each found independently, in the order of entry; with a test, only those that
+// pass it.
 void FindCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
-  const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
+  const CellTest* canBeSeen, std::vector<Crossing>& crossings)
 {
   static thread_local std::vector<std::int64_t> candidates;
   candidates.clear();
@@ -268,7 +243,7 @@ void FindCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, con
   Crossing crossing;
   for (const std::int64_t id : candidates)
   {
-    if ((!function || CanBeSeen(mesh, id, *function)) && Clip(mesh, id, ray, origin, crossing))
+    if ((!canBeSeen || (*canBeSeen)(id)) && Clip(mesh, id, ray, origin, crossing))
     {
       crossings.push_back(crossing);
     }
@@ -428,13 +403,13 @@ private:
 
 // All crossings of the whole line, in face order.
 void FindOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
-  const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
+  const CellTest* canBeSeen, std::vector<Crossing>& crossings)
 {
   Ray whole = ray;
   whole.Begin = -std::numeric_limits<double>::max();
   whole.End = std::numeric_limits<double>::max();
   std::vector<Crossing> found;
-  FindCrossings(mesh, tree, whole, function, found);
+  FindCrossings(mesh, tree, whole, canBeSeen, found);
   crossings.clear();
   for (const std::size_t i : FaceOrder(mesh, found).GetOrder())
   {
@@ -475,28 +450,63 @@ RayReport ReferenceRayIntegrator::FindSegments(
 }
 
 //------------------------------------------------------------------------------
-RayReport ReferenceRayIntegrator::FindVisibleSegments(const Ray& ray,
-  const ReferenceTransferFunction& function, std::vector<RaySegment>& segments) const
+bool ReferenceRayIntegrator::CanBeSeen(
+  std::int64_t cell, const ReferenceTransferFunction& function) const
+{
+  const std::int64_t* ids = this->Mesh.GetCell(static_cast<std::size_t>(cell));
+  double low = this->Mesh.GetScalar(ids[0]);
+  double high = low;
+  for (int i = 1; i < 4; ++i)
+  {
+    low = std::min(low, this->Mesh.GetScalar(ids[i]));
+    high = std::max(high, this->Mesh.GetScalar(ids[i]));
+  }
+  const auto& nodes = function.GetNodes();
+  for (std::size_t piece = function.PieceOf(low); piece <= function.PieceOf(high); ++piece)
+  {
+    const double from = piece > 0 ? std::max(low, nodes[piece - 1].Scalar) : low;
+    const double to = piece < nodes.size() ? std::min(high, nodes[piece].Scalar) : high;
+    if ((from < to || low == high) &&
+      (function.ValueInPiece(piece, from).Attenuation > 0.0 ||
+        function.ValueInPiece(piece, to).Attenuation > 0.0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+RayReport ReferenceRayIntegrator::FindVisibleSegments(
+  const Ray& ray, const CellTest& canBeSeen, std::vector<RaySegment>& segments) const
 {
   const RayReport report = this->FindSegments(ray, nullptr, segments);
   // Without overlap, invisible segments are superfluous but harmless.
-  return report.Ordered || report.Overlaps > 0 ? this->FindSegments(ray, &function, segments)
+  return report.Ordered || report.Overlaps > 0 ? this->FindSegments(ray, &canBeSeen, segments)
                                                : report;
 }
 
 //------------------------------------------------------------------------------
-RayReport ReferenceRayIntegrator::FindSegments(const Ray& ray,
-  const ReferenceTransferFunction* function, std::vector<RaySegment>& segments) const
+RayReport ReferenceRayIntegrator::FindVisibleSegments(const Ray& ray,
+  const ReferenceTransferFunction& function, std::vector<RaySegment>& segments) const
+{
+  return this->FindVisibleSegments(
+    ray, [&](std::int64_t cell) { return this->CanBeSeen(cell, function); }, segments);
+}
+
+//------------------------------------------------------------------------------
+RayReport ReferenceRayIntegrator::FindSegments(
+  const Ray& ray, const CellTest* canBeSeen, std::vector<RaySegment>& segments) const
 {
   static thread_local std::vector<Crossing> crossings;
-  FindCrossings(this->Mesh, this->Tree, ray, function, crossings);
+  FindCrossings(this->Mesh, this->Tree, ray, canBeSeen, crossings);
   const double lengthPerUnit = MakeLength(ray.Direction);
   const double negligible = NegligibleLength * this->Mesh.GetDiagonal() / lengthPerUnit;
   RayReport report;
   report.Ordered = NeedsOrder(this->Mesh, crossings, negligible);
   if (report.Ordered)
   {
-    FindOrderedCrossings(this->Mesh, this->Tree, ray, function, crossings);
+    FindOrderedCrossings(this->Mesh, this->Tree, ray, canBeSeen, crossings);
   }
   segments.clear();
   double cursor = -std::numeric_limits<double>::max();

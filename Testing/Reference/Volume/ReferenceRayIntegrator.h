@@ -26,6 +26,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace meniscus
@@ -77,9 +78,15 @@ public:
   /** Segments in order along the ray, without overlap. The vector is reused by the caller. */
   RayReport FindSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
-  /** As above, without the cells that the function makes invisible, wherever cells overlap. */
+  using CellTest = std::function<bool(std::int64_t cell)>;
+  /** As above, without the cells that cannot be seen, wherever cells overlap. */
+  RayReport FindVisibleSegments(
+    const Ray& ray, const CellTest& canBeSeen, std::vector<RaySegment>& segments) const;
+  /** As above, by CanBeSeen(). */
   RayReport FindVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
     std::vector<RaySegment>& segments) const;
+  /** True if the function attenuates anywhere in the cell's range of scalars. */
+  bool CanBeSeen(std::int64_t cell, const ReferenceTransferFunction& function) const;
 
   /**
    * Premultiplied RGBA along the segments that one of the two functions returned for the same ray.
@@ -112,8 +119,8 @@ public:
   std::vector<CoveredSpan> CoveredSpans(const Ray& ray) const;
 
 private:
-  RayReport FindSegments(const Ray& ray, const ReferenceTransferFunction* function,
-    std::vector<RaySegment>& segments) const;
+  RayReport FindSegments(
+    const Ray& ray, const CellTest* canBeSeen, std::vector<RaySegment>& segments) const;
 
   ReferenceMesh Mesh;
   ReferenceCellTree Tree;
