@@ -27,6 +27,10 @@ using reference::RaySegment;
 using Color = std::array<double, 4>;
 
 constexpr int NumberOfCopies = 12;
+/** With those of Extend(). */
+constexpr int LargestNumberOfCopies = 200;
+/** An image with more pixels that differ is wrong, whatever further copies say. */
+constexpr int LargestNumberOfPixels = 64;
 
 struct Rounding
 {
@@ -467,28 +471,57 @@ std::array<double, 4> Conditioning::GetExact(int x, int y)
 }
 
 //------------------------------------------------------------------------------
-double Conditioning::GetSpread(int x, int y)
+void Conditioning::PixelRange::Include(const Color& color)
 {
-  this->MakeCopies();
-  Color low;
-  Color high;
-  low.fill(1e300);
-  high.fill(-1e300);
-  for (const auto& copy : this->Copies)
+  for (std::size_t c = 0; c < color.size(); ++c)
   {
-    const Color color = copy->Trace(x, y, *this->Copies.front());
-    for (std::size_t c = 0; c < 4; ++c)
-    {
-      low[c] = std::min(low[c], color[c]);
-      high[c] = std::max(high[c], color[c]);
-    }
+    this->Low[c] = std::min(this->Low[c], color[c]);
+    this->High[c] = std::max(this->High[c], color[c]);
   }
+}
+
+//------------------------------------------------------------------------------
+double Conditioning::PixelRange::GetSpread() const
+{
   double largest = 0.0;
-  for (std::size_t c = 0; c < 4; ++c)
+  for (std::size_t c = 0; c < this->Low.size(); ++c)
   {
-    largest = std::max(largest, high[c] - low[c]);
+    largest = std::max(largest, this->High[c] - this->Low[c]);
   }
   return largest;
+}
+
+//------------------------------------------------------------------------------
+Conditioning::PixelRange Conditioning::FindRange(int x, int y, double needed)
+{
+  const Color exact = this->GetExact(x, y);
+  PixelRange range{ x, y, exact, exact, needed };
+  for (const auto& copy : this->Copies)
+  {
+    range.Include(copy->Trace(x, y, *this->Copies.front()));
+  }
+  return range;
+}
+
+//------------------------------------------------------------------------------
+void Conditioning::Extend(std::vector<PixelRange>& pixels)
+{
+  this->MakeCopies();
+  RandomNumbers random(2);
+  const auto lacks = [](const PixelRange& pixel) { return !(pixel.GetSpread() >= pixel.Needed); };
+  for (int i = NumberOfCopies; i < LargestNumberOfCopies; ++i)
+  {
+    const auto lacking = std::count_if(pixels.begin(), pixels.end(), lacks);
+    if (lacking == 0 || lacking > LargestNumberOfPixels)
+    {
+      return;
+    }
+    Truth copy(this->Case, RoundingOf(this->Case), random);
+    for (PixelRange& pixel : pixels)
+    {
+      pixel.Include(copy.Trace(pixel.X, pixel.Y, *this->Copies.front()));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -35,7 +35,7 @@ namespace test
  *   along the ray in single precision: 2 units natively, 4 by shaders. The mean adds up a term per
  *   cell, half a unit each. Twice that for two images. Points and scalars are moved by the full
  *   amount, to either side: a random move of vertices displaces an edge by its full size in one of
- *   a few draws only, and 12 draws are made.
+ *   a few draws only. 12 draws are made, and more for pixels that differ by more (Extend()).
  */
 class Conditioning
 {
@@ -43,8 +43,28 @@ public:
   explicit Conditioning(const VolumeCase& test);
   ~Conditioning();
 
-  /** Range of the exact results of a pixel, the largest of the channels. */
-  double GetSpread(int x, int y);
+  /** A pixel and the range of its exact results. */
+  struct PixelRange
+  {
+    int X;
+    int Y;
+    std::array<double, 4> Low;
+    std::array<double, 4> High;
+    /** Spread from which on no more results are needed. */
+    double Needed;
+
+    void Include(const std::array<double, 4>& color);
+    /** The largest of the channels. */
+    double GetSpread() const;
+  };
+
+  /** Range of a pixel's results for the scene and 12 copies. */
+  PixelRange FindRange(int x, int y, double needed);
+  /**
+   * Adds the results of further copies to the ranges of pixels, up to 200 in all, if few of them
+   * need it: the range of a few random copies is less than the range of all roundings.
+   */
+  void Extend(std::vector<PixelRange>& pixels);
 
   /** Exact colour of a pixel, premultiplied. */
   std::array<double, 4> GetExact(int x, int y);

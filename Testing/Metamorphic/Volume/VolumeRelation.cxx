@@ -126,26 +126,39 @@ void VolumeTrial::ExpectSame(
   {
     this->Fail(words + ": " + complaint);
   }
-  WorstPixel worst;
+  std::vector<Conditioning::PixelRange> sensitive;
   for (int y = 0; y < before.Height; ++y)
   {
     for (int x = 0; x < before.Width; ++x)
     {
       const std::array<int, 2> at = map(x, y);
-      const float* a = before.GetPixel(x, y);
-      const float* b = changed.GetPixel(at[0], at[1]);
-      const double d = Difference(a, b);
-      const double allowed =
-        d <= tolerance ? tolerance : tolerance + this->Condition.GetSpread(x, y);
-      if (d > tolerance && d <= allowed)
+      const double d = Difference(before.GetPixel(x, y), changed.GetPixel(at[0], at[1]));
+      if (d <= tolerance)
       {
-        ++this->Tally.Values;
-        ++this->Tally.Conditioned;
+        this->Tally.Compare(d, tolerance);
+        continue;
       }
-      else if (!this->Tally.Compare(d, allowed))
-      {
-        worst.Take(x, y, d, allowed, a, b);
-      }
+      sensitive.push_back(this->Condition.FindRange(x, y, d - tolerance));
+    }
+  }
+  this->Condition.Extend(sensitive);
+  WorstPixel worst;
+  for (const Conditioning::PixelRange& pixel : sensitive)
+  {
+    const std::array<int, 2> at = map(pixel.X, pixel.Y);
+    const float* a = before.GetPixel(pixel.X, pixel.Y);
+    const float* b = changed.GetPixel(at[0], at[1]);
+    const double d = Difference(a, b);
+    const double allowed = tolerance + pixel.GetSpread();
+    if (d <= allowed)
+    {
+      ++this->Tally.Values;
+      ++this->Tally.Conditioned;
+    }
+    else
+    {
+      this->Tally.Compare(d, allowed);
+      worst.Take(pixel.X, pixel.Y, d, allowed, a, b);
     }
   }
   if (worst.Count > 0)
