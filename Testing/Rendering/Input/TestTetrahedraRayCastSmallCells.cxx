@@ -134,14 +134,14 @@ struct Limits
 Limits LimitsOf(const CornerScene& corner, int mode)
 {
   Limits limits;
-  // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of
-  // 3.4e-4 (shaders) or 1.2e-4 (native).
-  limits.Wrong = mode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ? 1 : 0;
-  if (mode == vtkVolumeMapper::COMPOSITE_BLEND && !corner.IsAfar &&
-    corner.Scene.GetRayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
+  if (corner.Scene.GetRayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
   {
-    limits.Tolerance = 2e-5;
+    limits.Tolerance = mode == vtkVolumeMapper::COMPOSITE_BLEND && !corner.IsAfar ? 2e-5 : 4e-5;
+    return limits;
   }
+  // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of
+  // 3.4e-4.
+  limits.Wrong = mode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ? 1 : 0;
   return limits;
 }
 

@@ -59,7 +59,7 @@ public:
   {
     const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
     // Scalars before and behind a cell without one are not connected.
-    this->Enter(Simd::AndNot(lanes, valid));
+    this->Enter(Simd::AndNot(lanes & (length > Simd::Splat(0.0f)), valid));
     const auto beyond = [this](Float scalar)
     { return (scalar < this->Lower) | Simd::Not(scalar < this->Upper); };
     const unsigned int crossing = Simd::Bits(valid & (beyond(from) | beyond(to)));

@@ -43,7 +43,7 @@ public:
   {
     const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
     // Scalars before and behind a cell without one are not connected.
-    this->Enter(Simd::AndNot(lanes, valid));
+    this->Enter(Simd::AndNot(lanes & (length > Simd::Splat(0.0f)), valid));
     const unsigned int bits = Simd::Bits(valid) & this->OnBits;
     if (bits != 0)
     {
