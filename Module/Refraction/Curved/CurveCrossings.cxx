@@ -110,7 +110,7 @@ PatchPoint SubCellSide::Evaluate(double s) const
 
 //------------------------------------------------------------------------------
 RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
-  const RefractedPoint& a, const RefractedPoint& b)
+  const RefractedPoint& a, const RefractedPoint& b, double& place)
 {
   const RefractedPoint& start = side.IsTurned() ? b : a;
   const RefractedPoint& end = side.IsTurned() ? a : b;
@@ -124,6 +124,7 @@ RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const Objec
       return std::fabs(value) <=
         4.0 * Epsilon * length * glm::length(from.At.Position - line.Origin);
     });
+  place = side.IsTurned() ? 1.0 - zero : zero;
   return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
 }
 

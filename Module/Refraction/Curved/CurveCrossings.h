@@ -103,10 +103,10 @@ private:
 /**
  * Point of the side, with the ends `a` and `b`, whose ray meets the line. The rays of the two ends
  * must pass the line on different sides; otherwise the result is the end whose ray passes it more
- * closely.
+ * closely. `place` becomes the point's parameter, from 0 at `a` to 1 at `b`.
  */
 RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
-  const RefractedPoint& a, const RefractedPoint& b);
+  const RefractedPoint& a, const RefractedPoint& b, double& place);
 
 /**
  * Point where the side meets the plane through `point` with `normal`. The two ends must lie on

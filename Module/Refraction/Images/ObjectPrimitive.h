@@ -264,6 +264,10 @@ struct ObjectPrimitive
     return on;
   }
 
+  /** Place between two corners where the constraint `k` vanishes. */
+  template <typename Corner>
+  static Corner Cross(const Corner& a, const Corner& b, int k);
+
   /**
    * Part of a sub-cell, whose corners are `whole`, that shows the primitive. Clipping by Sutherland
    * and Hodgman in homogeneous coordinates: rays that point away from the plane count as the other
@@ -275,24 +279,28 @@ struct ObjectPrimitive
 
 //------------------------------------------------------------------------------
 template <typename Corner>
+Corner ObjectPrimitive::Cross(const Corner& a, const Corner& b, int k)
+{
+  constexpr int count = sizeof(Corner::Value) / sizeof(double);
+  Corner corner;
+  const double part = a.Value[k] / (a.Value[k] - b.Value[k]);
+  corner.B = a.B + part * (b.B - a.B);
+  for (int m = 0; m < count; ++m)
+  {
+    corner.Value[m] = a.Value[m] + part * (b.Value[m] - a.Value[m]);
+  }
+  corner.Value[k] = 0.0;
+  corner.Edges = a.Edges & b.Edges;
+  corner.Limits = (a.Limits & b.Limits) | 1u << k;
+  return corner;
+}
+
+//------------------------------------------------------------------------------
+template <typename Corner>
 void ObjectPrimitive::Clip(
   const std::vector<Corner>& whole, double sign, std::vector<Corner>& polygon) const
 {
   constexpr int count = sizeof(Corner::Value) / sizeof(double);
-  const auto cross = [](const Corner& a, const Corner& b, int k)
-  {
-    Corner corner;
-    const double part = a.Value[k] / (a.Value[k] - b.Value[k]);
-    corner.B = a.B + part * (b.B - a.B);
-    for (int m = 0; m < count; ++m)
-    {
-      corner.Value[m] = a.Value[m] + part * (b.Value[m] - a.Value[m]);
-    }
-    corner.Value[k] = 0.0;
-    corner.Edges = a.Edges & b.Edges;
-    corner.Limits = (a.Limits & b.Limits) | 1u << k;
-    return corner;
-  };
   polygon = whole;
   std::vector<Corner> next;
   for (int turn = 0; turn < count && !polygon.empty(); ++turn)
@@ -315,7 +323,7 @@ void ObjectPrimitive::Clip(
       {
         // The intersection is computed from the inside to the outside, whatever the winding of
         // the polygon.
-        next.push_back(inA ? cross(a, b, k) : cross(b, a, k));
+        next.push_back(inA ? Cross(a, b, k) : Cross(b, a, k));
       }
     }
     polygon.swap(next);

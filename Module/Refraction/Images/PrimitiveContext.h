@@ -27,6 +27,7 @@ struct PrimitiveMapper::Context : ObjectPrimitive
   std::int32_t Facet = CurvedPatches::NoFacet;
   std::vector<char>* IsOnMembrane = nullptr; ///< marks points of `Images` on the membrane; null if
                                              ///< not needed
+  PrimitiveMapper::Meetings* Meetings = nullptr; ///< those that are known in the sub-cell
   bool* IsPartInFront = nullptr; ///< becomes true if a part of the primitive is in front of the
                                  ///< membrane by more than the tolerance; null if not needed
 

@@ -14,6 +14,25 @@
 
 namespace meniscus
 {
+namespace
+{
+
+// Twice the signed area of a polygon.
+template <typename GetPlace>
+double GetArea(std::size_t count, const GetPlace& getPlace)
+{
+  double sum = 0.0;
+  for (std::size_t i = 2; i < count; ++i)
+  {
+    const glm::dvec2 u = getPlace(i - 1) - getPlace(0);
+    const glm::dvec2 v = getPlace(i) - getPlace(0);
+    sum += u.x * v.y - u.y * v.x;
+  }
+  return sum;
+}
+
+}
+
 //------------------------------------------------------------------------------
 PrimitiveMapper::PrimitiveMapper(
   const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
@@ -132,12 +151,14 @@ void PrimitiveMapper::Map(const Context& context) const
     context.Middle, context.Padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
   const double inFront = this->GetLengthInFront(context);
+  Meetings meetings;
   for (const std::int32_t facet : facets)
   {
     const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
     Context inPatch = context;
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
+    inPatch.Meetings = &meetings;
     this->Division.Visit(
       patch,
       [&inPatch, inFront](const SubCell& nodes) {
@@ -163,6 +184,19 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
       whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
+  const bool isFacing = !IsBeyond(context, whole, 1.0);
+  const bool isTurned = !IsBeyond(context, whole, -1.0);
+  if (!isFacing && !isTurned)
+  {
+    return;
+  }
+  for (Meeting& meeting : *context.Meetings)
+  {
+    meeting.IsKnown = false;
+  }
+  EdgeOn edgeOn;
+  edgeOn.IsThere = !context.IsLine && this->FindEdgeOn(context, nodes, whole, edgeOn);
+  const bool isOrdered = !context.IsLine && this->OrderCrossings(context, nodes, whole);
   if (context.IsOnMembrane && !this->ResolveTie(context, nodes, whole))
   {
     return;
@@ -170,7 +204,16 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
-    context.Clip(whole, sign, polygon);
+    if (!(sign > 0.0 ? isFacing : isTurned))
+    {
+      continue;
+    }
+    const bool isCut = !context.IsLine && context.IsOnMembrane &&
+      this->CutAtMembrane(context, nodes, whole, sign, edgeOn, polygon);
+    if (!isCut)
+    {
+      context.Clip(whole, sign, polygon);
+    }
     if (!context.IsOnMembrane)
     {
       this->KeepAsBehind(context, nodes, whole, sign, polygon);
@@ -179,37 +222,46 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
     {
       this->EmitLine(context, nodes, polygon);
     }
-    else if (!context.IsLine && polygon.size() > 2)
+    else if (!context.IsLine)
     {
-      this->Emit(context, nodes, polygon, sign);
+      const bool isEnded = !isCut && edgeOn.IsThere && EndEdgeOn(edgeOn, whole, polygon);
+      this->Emit(context, nodes, polygon, sign, !isOrdered && !isCut && !isEnded);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void PrimitiveMapper::Emit(
-  const Context& context, const SubCell& nodes, Polygon polygon, double sign) const
+// True if all rays pass the primitive beyond one of its sides. Where `sign` is positive, the rays
+// have a positive component along the plane's normal.
+bool PrimitiveMapper::IsBeyond(const Context& context, const Polygon& whole, double sign)
 {
-  // Twice the signed area in the primitive's second and third barycentric coordinates.
-  const auto getArea = [&polygon](const auto& getPlace)
+  bool isBeyond = false;
+  for (int k = 1; k < (context.IsLine ? 3 : PrimitiveConstraints); ++k)
   {
-    double sum = 0.0;
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-    {
-      const glm::dvec2 u = getPlace(i - 1) - getPlace(0);
-      const glm::dvec2 v = getPlace(i) - getPlace(0);
-      sum += u.x * v.y - u.y * v.x;
-    }
-    return sum;
-  };
-  double area = getArea(
-    [&polygon](std::size_t i)
-    {
-      const Corner& corner = polygon[i];
-      const double sum = corner.Value[1] + corner.Value[2] + corner.Value[3];
-      return glm::dvec2(corner.Value[2] / sum, corner.Value[3] / sum);
-    });
-  if (!(std::fabs(area) > 0.0))
+    isBeyond = isBeyond ||
+      std::all_of(whole.begin(), whole.end(),
+        [k, sign](const Corner& corner) { return sign * corner.Value[k] < 0.0; });
+  }
+  return isBeyond;
+}
+
+//------------------------------------------------------------------------------
+// With `isLinear`, the values of the corners are linear in the sub-cell, and have the sign `sign`.
+void PrimitiveMapper::Emit(
+  const Context& context, const SubCell& nodes, Polygon polygon, double sign, bool isLinear) const
+{
+  double area = 1.0;
+  if (isLinear)
+  {
+    area = GetArea(polygon.size(),
+      [&polygon](std::size_t i)
+      {
+        const Corner& corner = polygon[i];
+        const double sum = corner.Value[1] + corner.Value[2] + corner.Value[3];
+        return glm::dvec2(corner.Value[2] / sum, corner.Value[3] / sum);
+      });
+  }
+  if (polygon.size() < 3 || !(std::fabs(area) > 0.0))
   {
     return;
   }
@@ -224,24 +276,19 @@ void PrimitiveMapper::Emit(
     }
     corner = isInFront ? polygon.erase(corner) : corner + 1;
   }
-  if (points.size() < 3)
+  if (points.size() < 3 || !IsSeen(points))
   {
     return;
   }
-  if (!IsSeen(points))
+  if (!isLinear)
   {
-    if (!this->EndEdgeOn(context, nodes, polygon, points))
-    {
-      return;
-    }
-    // Interpolation has misjudged places and rays.
-    area = getArea(
+    area = GetArea(points.size(),
       [&context, &points](std::size_t i)
       {
         const glm::dvec3 weight = context.GetWeight(points[i].Point);
         return glm::dvec2(weight.y, weight.z);
       });
-    sign = context.GetSlope(points.front().Point, this->Geometry.GetMembrane().GetOrigin());
+    sign = this->GetSlope(context, points);
   }
   // Where `sign` is positive, the rays have a positive component along the plane's normal; they
   // always point against the facet's normal, which faces the eye. An upright image keeps the sense
@@ -270,6 +317,21 @@ void PrimitiveMapper::Emit(
 }
 
 //------------------------------------------------------------------------------
+// Component along the plane's normal of the ray to the point where it is largest; only its sign
+// matters. It vanishes where the primitive is seen edge-on.
+double PrimitiveMapper::GetSlope(
+  const Context& context, const std::vector<MappedPoint>& points) const
+{
+  double largest = 0.0;
+  for (const MappedPoint& point : points)
+  {
+    const double slope = context.GetSlope(point.Point, this->Geometry.GetMembrane().GetOrigin());
+    largest = std::fabs(slope) > std::fabs(largest) ? slope : largest;
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
 // False if interpolation has found the primitive in a sub-cell that does not show it, which happens
 // where rays are nearly parallel to the primitive, or at a caustic. Then a side does not meet the
 // membrane there, the images of an end are elsewhere, or all corners are ends without an image.
@@ -281,78 +343,6 @@ bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
       [finding](const MappedPoint& point) { return point.Outcome == finding; }));
   };
   return count(Finding::Elsewhere) == 0 && count(Finding::EndWithoutImage) < points.size();
-}
-
-//------------------------------------------------------------------------------
-// Ends a piece at the ray that lies in the primitive's plane. There the primitive is seen edge-on:
-// all of its places on that ray have their image at one sight point, beyond which its other side is
-// seen. The four values of a corner vanish together at this point, but their interpolants do not,
-// and may lead to ends of the primitive that are seen elsewhere. Returns false, and changes
-// nothing, if the unseen corners are not ends between two sides, or if there is no such ray in the
-// sub-cell.
-bool PrimitiveMapper::EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
-  std::vector<MappedPoint>& points) const
-{
-  const std::size_t count = points.size();
-  const auto isUnseen = [&context, &polygon, &points, count](std::size_t i)
-  {
-    return points[i % count].Outcome != Finding::Found &&
-      context.FindBoundary(polygon[i % count]).End >= 0;
-  };
-  std::size_t first = 0; // the first corner after those that are not seen
-  while (first < count && !(isUnseen(first + count - 1) && !isUnseen(first)))
-  {
-    ++first;
-  }
-  std::size_t kept = 0;
-  while (kept < count && !isUnseen(first + kept))
-  {
-    ++kept;
-  }
-  Polygon seen;
-  std::vector<MappedPoint> seenPoints;
-  glm::dvec2 b(0.0);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::size_t at = (first + i) % count;
-    const bool isKept = i < kept;
-    if (isKept != (points[at].Outcome == Finding::Found) || isKept == isUnseen(at))
-    {
-      return false;
-    }
-    b += isKept ? glm::dvec2(0.0) : polygon[at].B / static_cast<double>(count - kept);
-    if (isKept)
-    {
-      seen.push_back(polygon[at]);
-      seenPoints.push_back(points[at]);
-    }
-  }
-  RefractedPoint from;
-  if (kept < 2 || kept == count ||
-    !MeetPlaneLengthwise(
-      *context.Patch, this->Geometry.GetMedia(), context.Corners[0], context.Normal, b, from) ||
-    !IsInside(nodes, b))
-  {
-    return false;
-  }
-  for (const Corner& neighbour : { seen.back(), seen.front() })
-  {
-    const ClippedBoundary on = context.FindBoundary(neighbour);
-    const auto side = static_cast<std::size_t>(std::max(on.Side, 1));
-    const double l = GetParameter(context.Sides[side].Line, from);
-    if (on.Side < 0 || on.End >= 0 || !(l > 0.0 && l < 1.0))
-    {
-      return false;
-    }
-    seenPoints.push_back(this->MakeOnSide(context, nodes, side, from, b));
-    Corner corner = neighbour;
-    corner.B = b;
-    corner.Limits = 1u << side;
-    seen.push_back(corner);
-  }
-  polygon.swap(seen);
-  points.swap(seenPoints);
-  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -392,26 +382,17 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   if (on.Node >= 0 && on.Side < 0)
   {
     // All coordinates have the same sign here.
-    const glm::dvec3 value(corner.Value[1], corner.Value[2], corner.Value[3]);
+    double exact[PrimitiveConstraints];
+    context.Measure(nodes[static_cast<std::size_t>(on.Node)].From, exact);
+    const glm::dvec3 value(exact[1], exact[2], exact[3]);
     const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
     return { this->Finish(context, nodes[static_cast<std::size_t>(on.Node)].From.At,
                context.GetPoint(weight), weight),
       Finding::Found };
   }
-  const auto side = static_cast<std::size_t>(on.Side);
-  if (on.Node >= 0)
-  {
-    return this->MakeOnSide(
-      context, nodes, side, nodes[static_cast<std::size_t>(on.Node)].From, corner.B);
-  }
-  const SubCellNode& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
-  const SubCellNode& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
-  return this->MakeOnSide(context, nodes, side,
-    MeetLine(SubCellSide(*context.Patch, a.B, b.B), this->Geometry.GetMedia(),
-      context.Sides[side].Line, a.From, b.From),
-    corner.B);
+  return this->MakeOnSide(context, nodes, static_cast<std::size_t>(on.Side),
+    this->FindRay(context, nodes, corner, on), corner.B);
 }
-
 //------------------------------------------------------------------------------
 // Image of the point in which a ray meets a side of the primitive. Beyond the end of the side, the
 // result is the image of that end.
@@ -449,6 +430,24 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 }
 
 //------------------------------------------------------------------------------
+// Sight point of an end of the primitive in the sub-cell or next to it. Returns false if there is
+// none; `at` is then the guess.
+bool PrimitiveMapper::SolveEnd(
+  const Context& context, const SubCell& nodes, std::size_t end, PatchPoint& at) const
+{
+  constexpr int steps = 10;
+  constexpr double reach = 0.5;
+  const glm::dvec2 guess = GuessSight(nodes, context.Corners[end]);
+  at = context.Patch->Evaluate(guess);
+  const SightRoot root =
+    this->Geometry.MakeEquation(context.Corners[end]).Solve(*context.Patch, guess, steps, reach);
+  const bool isFound = root.End == SightRoot::End::Converged &&
+    glm::length(root.At.Position - at.Position) <= GetSize(nodes);
+  at = isFound ? root.At : at;
+  return isFound;
+}
+
+//------------------------------------------------------------------------------
 // Image of an end of the primitive: the known image that is seen in the sub-cell or next to it. If
 // all images of the end are elsewhere, the piece is not seen here: near a silhouette or near total
 // reflection the interpolated rays of the sub-cell meet the primitive and the refracted rays do
@@ -478,15 +477,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
     point.SetSource(context.Primitive.Ids, weight);
     return { point, Finding::Found };
   }
-  constexpr int steps = 10;
-  constexpr double reach = 0.5;
-  const glm::dvec2 guess = GuessSight(nodes, context.Corners[index]);
-  PatchPoint at = context.Patch->Evaluate(guess);
-  const SightRoot root =
-    this->Geometry.MakeEquation(context.Corners[index]).Solve(*context.Patch, guess, steps, reach);
-  const bool isFound =
-    root.End == SightRoot::End::Converged && glm::length(root.At.Position - at.Position) <= size;
-  at = isFound ? root.At : at;
+  PatchPoint at;
+  const bool isFound = this->SolveEnd(context, nodes, index, at);
   if (isFound && context.IsOnMembrane && !context.IsLine &&
     this->IsInFront(nodes, RefractAt(at, this->Geometry.GetMedia()), context.Corners[index]))
   {
@@ -515,6 +507,12 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& contex
     : glm::dvec3(corner.Value[1], corner.Value[2], corner.Value[3]);
   weight /= weight.x + weight.y + weight.z;
   int side = on.Side;
+  if (on.Edge < 0 && side < 0)
+  {
+    const PatchPoint at = context.Patch->Evaluate(corner.B); // the ray is in the primitive's plane
+    weight = glm::max(context.GetWeight(at.Position), glm::dvec3(0.0));
+    return { this->Finish(context, at, at.Position, weight), Finding::Found };
+  }
   if (on.Edge >= 0 && side < 0)
   {
     const SubCellNode& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];

@@ -13,9 +13,11 @@
  * it passes a side of the primitive, where a node sees the primitive's plane, and where an end of
  * the primitive is seen, the corner is computed from the two features that meet there alone
  * (CurveCrossings). A corner whose exact place would lie beyond an end of the primitive becomes
- * that end's image. The sub-cell that holds an end is determined by linear interpolation, which two
- * triangles with this end in common may evaluate differently: SeamClosure closes the gaps that
- * remain along their common side.
+ * that end's image. Where a side of a sub-cell passes several sides of the primitive, exact places
+ * determine their order, and each corner next to the membrane determines its own side of it. In
+ * other sub-cells linear interpolation determines whether they hold an end, which two triangles
+ * with this end in common may evaluate differently: SeamClosure closes the gaps that remain along
+ * their common side.
  */
 #ifndef meniscus_Refraction_Images_PrimitiveMapper_h
 #define meniscus_Refraction_Images_PrimitiveMapper_h
@@ -87,6 +89,24 @@ private:
     Finding Outcome;
   };
 
+  /** Ray from a side of a sub-cell that meets a side of the primitive. */
+  struct Meeting
+  {
+    RefractedPoint From;
+    double Place; ///< on the side of the sub-cell, from 0 to 1
+    bool IsKnown = false;
+  };
+  /** By side of the sub-cell and side of the primitive. */
+  using Meetings = std::array<Meeting, 9>;
+  /** Place of a ray in the primitive's plane, and the constraints between which it meets it. */
+  struct EdgeOn
+  {
+    glm::dvec2 B;
+    std::array<unsigned, 2> Limits;
+    bool IsThere = false;
+    bool IsMet = false; ///< the ray meets the primitive behind the membrane
+  };
+
   void MapSides(Context& context, bool mayCross, ImageMesh& images) const;
   bool MapAsBehind(Context& context, ImageMesh& images) const;
   void Map(const Context& context) const;
@@ -99,7 +119,21 @@ private:
   void KeepAsBehind(const Context& context, const SubCell& nodes, const Polygon& whole, double sign,
     Polygon& polygon) const;
   bool ResolveTie(const Context& context, const SubCell& nodes, Polygon& whole) const;
-  void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign) const;
+  static bool IsBeyond(const Context& context, const Polygon& whole, double sign);
+  bool OrderCrossings(const Context& context, const SubCell& nodes, Polygon& whole) const;
+  void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign,
+    bool isLinear) const;
+  double GetSlope(const Context& context, const std::vector<MappedPoint>& points) const;
+  bool CutAtMembrane(const Context& context, const SubCell& nodes, const Polygon& whole,
+    double sign, const EdgeOn& edgeOn, Polygon& polygon) const;
+  void Locate(const Context& context, const SubCell& nodes, Corner& corner) const;
+  double GetDistance(const Context& context, const SubCell& nodes, std::size_t end) const;
+  const Meeting& FindMeeting(
+    const Context& context, const SubCell& nodes, int edge, int side) const;
+  RefractedPoint FindRay(const Context& context, const SubCell& nodes, const Corner& corner,
+    const ClippedBoundary& on) const;
+  bool SolveEnd(
+    const Context& context, const SubCell& nodes, std::size_t end, PatchPoint& at) const;
   void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
   MappedPoint MakeEnd(const Context& context, const SubCell& nodes, glm::length_t end,
@@ -113,8 +147,10 @@ private:
   bool StaysAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
     glm::dvec2& b) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
-  bool EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
-    std::vector<MappedPoint>& points) const;
+  bool FindEdgeOn(
+    const Context& context, const SubCell& nodes, const Polygon& whole, EdgeOn& edgeOn) const;
+  static bool MeetInside(const Polygon& whole, unsigned first, unsigned second);
+  static bool EndEdgeOn(const EdgeOn& edgeOn, const Polygon& whole, Polygon& polygon);
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
     const glm::dvec3& weight) const;
 
