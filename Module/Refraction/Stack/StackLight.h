@@ -16,7 +16,7 @@
 #ifndef meniscus_Refraction_Stack_StackLight_h
 #define meniscus_Refraction_Stack_StackLight_h
 
-#include "Refraction/Stack/BoxTree.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Stack/RefractionStack.h"
 
 #include <array>

@@ -11,8 +11,10 @@
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Simd/InstructionSets.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace meniscus
@@ -77,6 +79,30 @@ struct FacetPlane
   /** Gradients of the second and the third barycentric coordinate. */
   glm::dvec3 ByX;
   glm::dvec3 ByY;
+
+  /** Intersection with a ray. */
+  struct Meeting
+  {
+    /** Component of the direction along the normal. */
+    double Along;
+    double Depth;
+    /** Barycentric coordinates, and the smallest of the three. */
+    double X;
+    double Y;
+    double Least;
+  };
+  Meeting Meet(const glm::dvec3& start, const glm::dvec3& direction) const
+  {
+    Meeting meeting;
+    const glm::dvec3 toCorner = this->Corner - start;
+    meeting.Along = glm::dot(this->Normal, direction);
+    meeting.Depth = glm::dot(this->Normal, toCorner) / meeting.Along;
+    const glm::dvec3 inPlane = meeting.Depth * direction - toCorner;
+    meeting.X = glm::dot(inPlane, this->ByX);
+    meeting.Y = glm::dot(inPlane, this->ByY);
+    meeting.Least = std::min(std::min(meeting.X, meeting.Y), 1.0 - meeting.X - meeting.Y);
+    return meeting;
+  }
 };
 
 /** Arrays of the data of each ray. */
@@ -131,16 +157,15 @@ struct FreeRayBatch : PatchIntersectionBatch
 };
 
 /**
- * Computes Depth, X, Y, Least and Slant. Rays is SightRays or FreeRays.
+ * Computes Depth, X, Y, Least and Slant.
  * @pre GetInstructionSets() has the set
  */
-template <class Rays>
-void MeetPlane(
-  const FacetPlane& plane, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
+  PatchIntersectionBatch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
- * the patch; also computes Move and Normal.
+ * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
  * @param scale a depth of about the size of the facet.
  */
 template <class Rays>
