@@ -131,8 +131,7 @@ private:
 
 //------------------------------------------------------------------------------
 template <typename Test, typename Visitor>
-void BoxTree::Visit(
-  const TubeBounds& tube, double most, const Test& mayMeet, Visitor&& visit) const
+void BoxTree::Visit(const TubeBounds& tube, double most, const Test& mayMeet, Visitor&& visit) const
 {
   if (this->Nodes.empty())
   {

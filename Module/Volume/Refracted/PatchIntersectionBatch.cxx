@@ -147,8 +147,8 @@ void FreeRayBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
-void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
-  PatchIntersectionBatch& lanes)
+void MeetPlane(
+  const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
 {
   RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
 }

@@ -207,6 +207,11 @@ PatchReach PatchIntersector::GetReach() const
   reach.Spread = std::sqrt(spread) + NormalMargin;
   // The component of a unit normal along the plane is at most its difference from the plane's.
   reach.Overhang = std::min(reach.Spread, 1.0) * this->Overhang + Border;
+  if (this->IsFlat)
+  {
+    reach.Low = reach.High = 0.0;
+    return reach;
+  }
   const BulgeBounds bulges = BoundBulges(this->Patch);
   const double margin = Margin * this->Size;
   reach.Low = (reach.Front > 0.0 ? bulges.Below : -bulges.Above) - margin;

@@ -109,8 +109,8 @@ public:
    * @param visit called with the index of each ray that meets the patch, and the hit.
    */
   template <typename Visit>
-  void Meet(const SightRays& rays, bool matters, PatchIntersectionBatch& lanes,
-    const Visit& visit) const;
+  void Meet(
+    const SightRays& rays, bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
   /**
    * Intersects the rays of a block with the patch; overwrites the block's results. Intersections
    * that are outside of First and Last, or do not agree with Facing, may be left out.
