@@ -101,15 +101,6 @@ struct RefractKernel
 }
 
 //------------------------------------------------------------------------------
-void PatchIntersectionBatch::Add(std::int32_t index, double column, double row)
-{
-  this->Index[this->Count] = index;
-  this->Column[this->Count] = column;
-  this->Row[this->Count] = row;
-  ++this->Count;
-}
-
-//------------------------------------------------------------------------------
 void PatchIntersectionBatch::Keep(int to, int from)
 {
   if (to == from)
@@ -122,17 +113,6 @@ void PatchIntersectionBatch::Keep(int to, int from)
   {
     of[to] = of[from];
   }
-}
-
-//------------------------------------------------------------------------------
-void FreeRayBatch::Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Start[axis][this->Count] = start[axis];
-    this->Direction[axis][this->Count] = direction[axis];
-  }
-  this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
 }
 
 //------------------------------------------------------------------------------

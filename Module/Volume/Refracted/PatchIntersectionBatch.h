@@ -140,7 +140,13 @@ struct PatchIntersectionBatch
   /** 0 if the ray is totally reflected, otherwise 1 against the normal and -1 along it. */
   double Refracted[Size];
 
-  void Add(std::int32_t index, double column, double row);
+  void Add(std::int32_t index, double column, double row)
+  {
+    this->Index[this->Count] = index;
+    this->Column[this->Count] = column;
+    this->Row[this->Count] = row;
+    ++this->Count;
+  }
   /** Copies lane `from` to lane `to`, except for Move and the members after it. */
   void Keep(int to, int from);
 };
@@ -151,7 +157,15 @@ struct FreeRayBatch : PatchIntersectionBatch
   double Start[3][Size];
   double Direction[3][Size];
 
-  void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction);
+  void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Start[axis][this->Count] = start[axis];
+      this->Direction[axis][this->Count] = direction[axis];
+    }
+    this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
+  }
   /** As for the base, with the ray. */
   void Keep(int to, int from);
 };

@@ -21,9 +21,24 @@ namespace
  */
 constexpr double Rounding = 2.0 * std::numeric_limits<double>::epsilon();
 
-/** Number of rays that are tested with a box at once: two registers of the widest set. */
-constexpr int GroupSize = 16;
+/** Number of rays that are tested with a box at once: a register of the widest set. */
+constexpr int GroupSize = 8;
 static_assert(RayBlock::Size % GroupSize == 0, "groups fill the block");
+
+struct DirectionKernel
+{
+  void operator()(RayBlock& rays, int i) const
+  {
+    constexpr double smallest = 1e-300;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double component = rays.Direction[axis][i];
+      rays.Inverse[axis][i] =
+        1.0 / (std::fabs(component) < smallest ? std::copysign(smallest, component) : component);
+    }
+    rays.Length[i] = glm::length(rays.GetDirection(i));
+  }
+};
 
 /** Some of the rays of a block. */
 struct RayGroup
@@ -93,32 +108,46 @@ struct ReachKernel
 }
 
 //------------------------------------------------------------------------------
-void RayBlock::Add(
-  const glm::dvec3& start, const glm::dvec3& direction, double first, double facing)
-{
-  constexpr double smallest = 1e-300;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double component = direction[axis];
-    this->Start[axis][this->Count] = start[axis];
-    this->Direction[axis][this->Count] = component;
-    this->Inverse[axis][this->Count] =
-      1.0 / (std::fabs(component) < smallest ? std::copysign(smallest, component) : component);
-  }
-  this->Length[this->Count] = glm::length(direction);
-  this->First[this->Count] = first;
-  this->Last[this->Count] = std::numeric_limits<double>::infinity();
-  this->Facing[this->Count] = facing;
-  ++this->Count;
-}
-
-//------------------------------------------------------------------------------
+// The extremes of every eighth number first: these loops run on several lanes at a time.
 TubeBounds RayBlock::GetTube(double first) const
 {
+  constexpr int width = 8;
   TubeBounds tube;
-  for (int i = 0; i < this->Count; ++i)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    tube.Add(this->GetStart(i) + first * this->GetDirection(i), this->GetDirection(i));
+    double low[2][width];
+    double high[2][width];
+    for (int lane = 0; lane < width; ++lane)
+    {
+      const double direction = this->Direction[axis][0];
+      low[0][lane] = high[0][lane] = this->Start[axis][0] + first * direction;
+      low[1][lane] = high[1][lane] = direction;
+    }
+    const auto add = [&](int ray, int lane)
+    {
+      const double direction = this->Direction[axis][ray];
+      const double start = this->Start[axis][ray] + first * direction;
+      low[0][lane] = std::min(low[0][lane], start);
+      high[0][lane] = std::max(high[0][lane], start);
+      low[1][lane] = std::min(low[1][lane], direction);
+      high[1][lane] = std::max(high[1][lane], direction);
+    };
+    int ray = 0;
+    for (; ray + width <= this->Count; ray += width)
+    {
+      for (int lane = 0; lane < width; ++lane)
+      {
+        add(ray + lane, lane);
+      }
+    }
+    for (; ray < this->Count; ++ray)
+    {
+      add(ray, 0);
+    }
+    tube.StartLow[axis] = *std::min_element(low[0], low[0] + width);
+    tube.StartHigh[axis] = *std::max_element(high[0], high[0] + width);
+    tube.DirectionLow[axis] = *std::min_element(low[1], low[1] + width);
+    tube.DirectionHigh[axis] = *std::max_element(high[1], high[1] + width);
   }
   return tube;
 }
@@ -127,6 +156,12 @@ TubeBounds RayBlock::GetTube(double first) const
 double RayBlock::GetFarthest() const
 {
   return this->Count > 0 ? *std::max_element(this->Last, this->Last + this->Count) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+void CompleteRays(InstructionSet set, RayBlock& rays)
+{
+  RunLanes(DirectionKernel(), set, rays);
 }
 
 //------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace meniscus
 {
@@ -44,8 +45,19 @@ struct RayBlock
   double Y[Size];
   double Slant[Size];
 
-  /** Adds a ray from `first` on, without an end. */
-  void Add(const glm::dvec3& start, const glm::dvec3& direction, double first, double facing);
+  /** Adds a ray from `first` on, without an end. CompleteRays() has to follow. */
+  void Add(const glm::dvec3& start, const glm::dvec3& direction, double first, double facing)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Start[axis][this->Count] = start[axis];
+      this->Direction[axis][this->Count] = direction[axis];
+    }
+    this->First[this->Count] = first;
+    this->Last[this->Count] = std::numeric_limits<double>::infinity();
+    this->Facing[this->Count] = facing;
+    ++this->Count;
+  }
   glm::dvec3 GetStart(int i) const
   {
     return { this->Start[0][i], this->Start[1][i], this->Start[2][i] };
@@ -59,6 +71,12 @@ struct RayBlock
   /** The largest of Last. */
   double GetFarthest() const;
 };
+
+/**
+ * Computes Inverse and Length.
+ * @pre GetInstructionSets() has the set
+ */
+void CompleteRays(InstructionSet set, RayBlock& rays);
 
 /**
  * True if any ray may meet the box; no ray that meets it is missed. Overwrites Meets. Rays are

@@ -245,6 +245,7 @@ void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums)
       lanes.Add(leg.Place + toSurface, leg.Step, isFirst ? this->Of.EyeDepth : 0.0, FacingOf(side));
     }
   }
+  CompleteRays(this->Set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -354,8 +355,9 @@ bool RefractedRayStack::MeetsMesh(const glm::dvec3& place, const glm::dvec3& ste
       last = std::fabs(offset) <= half ? last : -1.0;
       continue;
     }
-    const double a = (offset - half) / step[axis];
-    const double b = (offset + half) / step[axis];
+    const double inverse = 1.0 / step[axis];
+    const double a = (offset - half) * inverse;
+    const double b = (offset + half) * inverse;
     first = std::max(first, std::min(a, b));
     last = std::min(last, std::max(a, b));
   }

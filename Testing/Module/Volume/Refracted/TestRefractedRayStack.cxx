@@ -534,6 +534,7 @@ TEST(RefractedRayStack, NoRayMissesItsBox)
       rays.Add(start, target - start, 0.0, 0.0);
       for (const InstructionSet set : GetInstructionSets())
       {
+        CompleteRays(set, rays);
         meets += MeetsBox(box, set, rays) ? 1 : 0;
         EXPECT_FALSE(MeetsBox(away, set, rays));
       }
@@ -587,6 +588,7 @@ TEST(RefractedRayStack, NoRayMissesThePatchThatItMeets)
         rays.Last[ray] = depths[ray] + 1e-3;
       }
     }
+    CompleteRays(BestInstructionSet(), rays);
     bool found[RayBlock::Size] = {};
     tracer.Meet(rays,
       [&](std::int32_t ray, const MembraneHit& hit)
@@ -627,6 +629,7 @@ TEST(RefractedRayStack, PatchesThatDoNotCountAreLeftOut)
   }
   rays.Last[3] = 0.9;
   rays.First[4] = 1.1;
+  CompleteRays(BestInstructionSet(), rays);
   int hits = 0;
   tracer.Meet(rays, [&hits](std::int32_t, const MembraneHit&) { ++hits; });
   EXPECT_EQ(hits, 2);
@@ -662,6 +665,7 @@ TEST(RefractedRayStack, InstructionSetsSeeTheSame)
   const auto run = [&](InstructionSet set)
   {
     RayBlock block = rays;
+    CompleteRays(set, block);
     MeetPatchReach(reach, set, block);
     FreeRayBatch result = lanes;
     for (int i = 0; i < result.Count; ++i)
