@@ -31,6 +31,16 @@ constexpr double Largest(const std::array<double, 3>& values)
   return std::max({ values[0], values[1], values[2] });
 }
 
+// A map is injective if its derivatives along two sides differ from vectors u and v by less than
+// these as matrices. Let U and V bound the differences. By Cramer's rule, in coordinates along u
+// and v, the first difference is at most U |v| and U |u|, divided by |u x v|, and the second one is
+// at most V |v| and V |u|. With the coordinates multiplied by U and V, both differences are at most
+// U |v| + V |u|, as sums of absolute values: that over |u x v| bounds the norm of the matrix.
+double Deflect(double u, double v, double byU, double byV)
+{
+  return byU * v + byV * u;
+}
+
 /**
  * Bounds of the magnitude of a function and of its first and second derivatives along the edges.
  */
@@ -244,7 +254,7 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
   int divisions = 0;
   parts[waiting++] = { { this->MakeCorner({ 0.0, 0.0 }), this->MakeCorner({ 1.0, 0.0 }),
                          this->MakeCorner({ 0.0, 1.0 }) },
-    1.0, Bend(), Bend() };
+    1.0, Bend::Unknown(), Bend::Unknown() };
   while (waiting > 0)
   {
     Part part = parts[--waiting];
@@ -281,11 +291,16 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
 //------------------------------------------------------------------------------
 // As in IsInjective, for the whole patch: projected along the line, the facet's sides are no longer
 // than before, and its area is divided by the slant.
-double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, double bend)
+// The two sides are chosen that give the best bound.
+double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, const BySide& bend)
 {
-  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
-  return LargestSlope * glm::length(glm::cross(u, v)) / ((glm::length(u) + glm::length(v)) * bend);
+  const glm::dvec3 edge[3] = { patch.Corner[2] - patch.Corner[1], patch.Corner[0] - patch.Corner[2],
+    patch.Corner[1] - patch.Corner[0] };
+  const double length[3] = { glm::length(edge[0]), glm::length(edge[1]), glm::length(edge[2]) };
+  const double deflection = std::min({ Deflect(length[0], length[1], bend[0], bend[1]),
+    Deflect(length[1], length[2], bend[1], bend[2]),
+    Deflect(length[2], length[0], bend[2], bend[0]) });
+  return LargestSlope * glm::length(glm::cross(edge[0], edge[1])) / deflection;
 }
 
 //------------------------------------------------------------------------------
@@ -293,38 +308,57 @@ double PatchCrossings::GetLargestSlant()
 {
   Part whole{ { Corner{ { 0.0, 0.0 }, {}, 0.0 }, Corner{ { 1.0, 0.0 }, {}, 0.0 },
                 Corner{ { 0.0, 1.0 }, {}, 0.0 } },
-    1.0, Bend(), Bend() };
+    1.0, Bend::Unknown(), Bend::Unknown() };
   this->BoundDeflection(whole);
-  return GetLargestSlant(this->Patch, whole.Along.First + 2.0 * this->Rounding);
+  for (double& bend : whole.Along.First)
+  {
+    bend += 2.0 * this->Rounding;
+  }
+  return GetLargestSlant(this->Patch, whole.Along.First);
 }
 
 //------------------------------------------------------------------------------
 // The rule for products, with bounds of sums: within Reach of the triangle barycentric coordinates
 // are in [-0.1, 1.2] and differ by 1.3 at most, the products of two are in [-0.12, 0.3], and the
-// sum of their absolute values is 1.4.
+// sum of their absolute values is 1.4. Along side k, from corner i to corner j, b_j grows and b_i
+// falls by 1: the derivative of q is
+//
+//   s_k (b_i - b_j) + d_k ((b_i - b_j)^2 - 2 b_i b_j) + b_k (s_i - s_j)
+//     + d_i b_k (b_j - b_k + b_j) + d_j b_k (b_i - b_k + b_i)
+//
+// and that of n is N_j - N_i + m_k (b_i - b_j) + b_k (m_i - m_j), with 4 m for m.
 double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
 {
-  double s = 0.0;
-  double d = 0.0;
+  const double* s = patch.Symmetric;
+  const double* d = patch.Asymmetric;
+  const double q = 0.3 * (std::fabs(s[0]) + std::fabs(s[1]) + std::fabs(s[2])) +
+    0.3 * 1.3 * (std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]));
+  const auto sum = [](const glm::dvec3& v)
+  { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); };
   double bends = 0.0;
-  double turn = 0.0; // squared
-  for (int k = 0; k < 3; ++k)
+  BySide turn;
+  BySide qBy;
+  BySide nBy;
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    s += std::fabs(patch.Symmetric[k]);
-    d += std::fabs(patch.Asymmetric[k]);
-    bends += std::fabs(patch.Bend[k].x) + std::fabs(patch.Bend[k].y) + std::fabs(patch.Bend[k].z);
-    const glm::dvec3 difference = patch.Normal[(k + 1) % 3] - patch.Normal[k];
-    turn = std::max(turn, glm::dot(difference, difference));
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    qBy[k] = 1.3 * std::fabs(s[k]) + (1.3 * 1.3 + 2.0 * 0.3) * std::fabs(d[k]) +
+      1.2 * std::fabs(s[i] - s[j]) + (1.2 * 1.3 + 0.3) * (std::fabs(d[i]) + std::fabs(d[j]));
+    turn[k] = glm::length(patch.Normal[j] - patch.Normal[i]);
+    nBy[k] = turn[k] + 1.3 * sum(patch.Bend[k]) + 1.2 * sum(patch.Bend[i] - patch.Bend[j]);
+    bends += sum(patch.Bend[k]);
   }
-  turn = std::sqrt(turn);
-  const double q = 0.3 * s + 0.3 * 1.3 * d;
-  const double qBy = 1.3 * s + (1.3 * 1.3 + 0.3 * 2.0) * d;
   const double n = 1.4 + 0.3 * bends;
-  const double nBy = turn + 1.3 * bends;
-  const double l = std::max(1.0 - 1.4 * turn - 0.3 * bends, CurvedPatch::ShortestNormal);
+  const double l = std::max(1.0 - 1.4 * Largest(turn) - 0.3 * bends, CurvedPatch::ShortestNormal);
   const double factor = 2.0 / (l * (1.0 + l));
-  const double factorBy = 0.5 * (1.0 + 2.0 * l) * factor * factor * nBy;
-  return GetLargestSlant(patch, factor * (qBy * n + q * nBy) + factorBy * q * n);
+  const double factorBy = 0.5 * (1.0 + 2.0 * l) * factor * factor;
+  BySide bend;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    bend[k] = factor * (qBy[k] * n + q * nBy[k]) + factorBy * nBy[k] * q * n;
+  }
+  return GetLargestSlant(patch, bend);
 }
 
 //------------------------------------------------------------------------------
@@ -343,7 +377,14 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 // ShortestNormal and second derivatives jump. An affine map makes any triangle equilateral.
 double PatchCrossings::Bend::GetDeviation(double size) const
 {
-  return std::min(5.0 / 18.0 * size * size * this->Second, size * this->First);
+  return std::min(5.0 / 18.0 * size * size * this->Second, size * Largest(this->First));
+}
+
+//------------------------------------------------------------------------------
+PatchCrossings::Bend PatchCrossings::Bend::Unknown()
+{
+  constexpr double any = std::numeric_limits<double>::infinity();
+  return { { any, any, any }, any };
 }
 
 //------------------------------------------------------------------------------
@@ -352,7 +393,7 @@ void PatchCrossings::BoundDeflection(Part& part) const
 {
   if (this->IsFlat)
   {
-    part.Across = part.Along = { 0.0, 0.0 };
+    part.Across = part.Along = { { 0.0, 0.0, 0.0 }, 0.0 };
     return;
   }
   constexpr double widened = 1.0 + 3.0 * Reach;
@@ -379,10 +420,8 @@ void PatchCrossings::BoundDeflection(Part& part) const
     });
   const Bounds shift = Multiply(BoundForm(this->Patch, around, size),
     BoundFactor(normal, std::max(shortest, CurvedPatch::ShortestNormal)));
-  const auto bend = [isSmooth](const Bounds& h)
-  {
-    return Bend{ Largest(h.First),
-      isSmooth ? Largest(h.Second) : std::numeric_limits<double>::infinity() };
+  const auto bend = [isSmooth](const Bounds& h) {
+    return Bend{ h.First, isSmooth ? Largest(h.Second) : std::numeric_limits<double>::infinity() };
   };
   part.Across = bend(Multiply(shift, across));
   part.Along = bend(Multiply(shift, normal));
@@ -452,8 +491,7 @@ PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double hi
 
 //------------------------------------------------------------------------------
 // True if the derivatives differ from those of the facet, or from those in the middle of the part,
-// by less than these as matrices: by Cramer's rule, the inverse of two vectors maps a vector to one
-// that is no longer than this bound times it, measured by the sum of absolute values.
+// by less than these as matrices.
 //
 // A derivative along a side differs from the one in the middle by at most 2 H, and by at most M
 // times the size: mixed derivatives along two sides are at most 3 M / 2, by the derivative along
@@ -463,24 +501,27 @@ bool PatchCrossings::IsInjective(const Part& part) const
 {
   // The comparisons are written so that a NaN fails.
   const double rounding = 2.0 * this->Rounding / part.Size; // of differences
-  const auto dominates = [this, rounding](
-                           const glm::dvec3& first, const glm::dvec3& second, double by)
+  const auto dominates = [this, rounding](const glm::dvec3& first, const glm::dvec3& second,
+                           double byFirst, double bySecond)
   {
     const glm::dvec2 u = this->Frame.Project(first);
     const glm::dvec2 v = this->Frame.Project(second);
-    return (glm::length(u) + glm::length(v)) * (by + rounding) <=
+    return Deflect(glm::length(u), glm::length(v), byFirst + rounding, bySecond + rounding) <=
       LargestSlope * std::fabs(Cross(u, v));
   };
+  // From corner 0, along sides 2 and 1.
+  const BySide& bend = part.Across.First;
   if (dominates(this->Patch.Corner[1] - this->Patch.Corner[0],
-        this->Patch.Corner[2] - this->Patch.Corner[0], part.Across.First))
+        this->Patch.Corner[2] - this->Patch.Corner[0], bend[2], bend[1]))
   {
     return true;
   }
   PatchJet middle;
   this->Patch.Evaluate((part.Corners[0].B + part.Corners[1].B + part.Corners[2].B) / 3.0, middle);
   constexpr double widened = 1.0 + 3.0 * Reach;
-  return dominates(middle.PositionBy[0], middle.PositionBy[1],
-    std::min(widened * part.Size * part.Across.Second, 2.0 * part.Across.First));
+  const double change = widened * part.Size * part.Across.Second;
+  return dominates(middle.PositionBy[0], middle.PositionBy[1], std::min(change, 2.0 * bend[2]),
+    std::min(change, 2.0 * bend[1]));
 }
 
 //------------------------------------------------------------------------------

@@ -91,15 +91,19 @@ private:
     glm::dvec2 X;
     double Height;
   };
+  /** Bounds of derivatives along the three sides, each opposite its corner. */
+  using BySide = std::array<double, 3>;
   /**
    * Bounds of the derivatives, along sides, of the patch's deviation from its facet: first
    * derivatives, and second ones, which are infinite where they jump.
    */
   struct Bend
   {
-    double First = std::numeric_limits<double>::infinity();
-    double Second = std::numeric_limits<double>::infinity();
+    BySide First;
+    double Second;
 
+    /** Bounds of any function. */
+    static Bend Unknown();
     /** Largest distance from the linear interpolant of a part's corners. */
     double GetDeviation(double size) const;
   };
@@ -118,7 +122,7 @@ private:
   };
 
   Corner MakeCorner(const glm::dvec2& b) const;
-  static double GetLargestSlant(const CurvedPatch& patch, double bend);
+  static double GetLargestSlant(const CurvedPatch& patch, const BySide& bend);
   void BoundDeflection(Part& part) const;
   static bool IsSeparated(const Part& part, double reach);
   bool IsPassed(const Part& part, double low, double high) const;

@@ -16,8 +16,8 @@
 #ifndef meniscus_Refraction_Stack_StackLight_h
 #define meniscus_Refraction_Stack_StackLight_h
 
-#include "Refraction/Stack/BoxTree.h"
 #include "Refraction/Stack/RefractionStack.h"
+#include "Refraction/Tubes/BoxTree.h"
 
 #include <array>
 #include <cstddef>

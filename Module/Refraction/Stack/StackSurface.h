@@ -8,7 +8,7 @@
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Membrane/Membrane.h"
-#include "Refraction/Stack/BoxTree.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <atomic>

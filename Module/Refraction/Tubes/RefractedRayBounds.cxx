@@ -17,16 +17,31 @@ namespace
 // Maximum of |b_i b_j (b_i - b_j)|, 1 / (6 sqrt 3); the maximum of b_i b_j is 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
 
-// Control points of the normal, which is a Bezier triangle of second degree.
-std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
+// Bound of the part of |q| with the differences b_i - b_j.
+double BoundAsymmetric(const CurvedPatch& patch)
 {
-  std::array<glm::dvec3, 6> control;
-  for (std::size_t k = 0; k < 3; ++k)
+  const double* d = patch.Asymmetric;
+  return LargestAsymmetric * (std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]));
+}
+
+// Largest sum of b_i b_j times these factors, which are not negative. The sum of all b_i b_j is at
+// most 1 / 3.
+double BoundSymmetric(double a, double b, double c)
+{
+  return std::min(0.25 * (a + b + c), std::max({ a, b, c }) / 3.0);
+}
+
+// Bound of 2 / (1 + |n|): |n| is no less than the least projection of its control points on one
+// direction.
+double ComputeBulgeFactor(const CurvedPatch& patch)
+{
+  const glm::dvec3 along = glm::normalize(patch.Normal[0] + patch.Normal[1] + patch.Normal[2]);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& control : ComputeNormalControls(patch))
   {
-    control[k] = patch.Normal[k];
-    control[k + 3] = 0.5 * (patch.Normal[(k + 1) % 3] + patch.Normal[(k + 2) % 3] + patch.Bend[k]);
+    shortest = std::min(shortest, glm::dot(control, along));
   }
-  return control;
+  return 2.0 / (1.0 + std::max(CurvedPatch::ShortestNormal, shortest));
 }
 
 // Tube around rays along ratio D + g N, with g between two ends.
@@ -55,27 +70,37 @@ DirectionBox BoundSights(const CurvedPatch& patch, const glm::dvec3& eye, double
 }
 
 //------------------------------------------------------------------------------
-// Bound of 2 |q| / (1 + |n|). The sum of b_i b_j is at most 1 / 3, and |n| is no less than the
-// least projection of its control points on one direction.
+std::array<glm::dvec3, 6> ComputeNormalControls(const CurvedPatch& patch)
+{
+  std::array<glm::dvec3, 6> control;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    control[k] = patch.Normal[k];
+    control[k + 3] = 0.5 * (patch.Normal[(k + 1) % 3] + patch.Normal[(k + 2) % 3] + patch.Bend[k]);
+  }
+  return control;
+}
+
+//------------------------------------------------------------------------------
 double BoundBulge(const CurvedPatch& patch)
 {
-  double sum = 0.0;
-  double largest = 0.0;
-  double q = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    sum += std::fabs(patch.Symmetric[k]);
-    largest = std::max(largest, std::fabs(patch.Symmetric[k]));
-    q += LargestAsymmetric * std::fabs(patch.Asymmetric[k]);
-  }
-  q += std::min(0.25 * sum, largest / 3.0);
-  const glm::dvec3 along = glm::normalize(patch.Normal[0] + patch.Normal[1] + patch.Normal[2]);
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& control : NormalControls(patch))
-  {
-    shortest = std::min(shortest, glm::dot(control, along));
-  }
-  return 2.0 * q / (1.0 + std::max(CurvedPatch::ShortestNormal, shortest));
+  const double* s = patch.Symmetric;
+  return ComputeBulgeFactor(patch) *
+    (BoundAsymmetric(patch) + BoundSymmetric(std::fabs(s[0]), std::fabs(s[1]), std::fabs(s[2])));
+}
+
+//------------------------------------------------------------------------------
+BulgeBounds BoundBulges(const CurvedPatch& patch)
+{
+  const double* s = patch.Symmetric;
+  const double factor = ComputeBulgeFactor(patch);
+  const double asymmetric = BoundAsymmetric(patch);
+  return { -factor *
+      (asymmetric +
+        BoundSymmetric(std::max(-s[0], 0.0), std::max(-s[1], 0.0), std::max(-s[2], 0.0))),
+    factor *
+      (asymmetric +
+        BoundSymmetric(std::max(s[0], 0.0), std::max(s[1], 0.0), std::max(s[2], 0.0))) };
 }
 
 //------------------------------------------------------------------------------
@@ -106,7 +131,7 @@ DirectionBox BoundDirections(
 // The normals are inside the hull of their control points.
 DirectionBox BoundNormals(const CurvedPatch& patch)
 {
-  const std::array<glm::dvec3, 6> control = NormalControls(patch);
+  const std::array<glm::dvec3, 6> control = ComputeNormalControls(patch);
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& c : control)

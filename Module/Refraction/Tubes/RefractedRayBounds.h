@@ -6,11 +6,29 @@
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
+#include <glm/vec3.hpp>
+
+#include <array>
+
 namespace meniscus
 {
 
+/** Control points of a patch's normal, which is a Bezier triangle of second degree. */
+std::array<glm::dvec3, 6> ComputeNormalControls(const CurvedPatch& patch);
+
 /** Bound of the distance between the points of a patch and those of its facet. */
 double BoundBulge(const CurvedPatch& patch);
+
+/**
+ * Bounds of the position of a patch's points along their normals, from the points of the facet;
+ * Below is not positive, and Above not negative.
+ */
+struct BulgeBounds
+{
+  double Below;
+  double Above;
+};
+BulgeBounds BoundBulges(const CurvedPatch& patch);
 
 /**
  * Unit vectors within `half` of `middle`, component by component. The default holds all unit

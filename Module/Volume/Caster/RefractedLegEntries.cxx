@@ -59,6 +59,11 @@ RefractedLegEntries::RefractedLegEntries(const RefractedScene& scene, const Tetr
   const glm::dmat3& edges = this->Box.HalfEdges;
   this->BallRadius =
     BoxMargin * glm::length(glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Areas[k] = glm::cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
+    this->Extents[k] = BoxMargin * std::fabs(glm::dot(this->Areas[k], edges[k]));
+  }
   this->Entries.reserve(RefractionFrames::Number);
   for (int index = 0; index < RefractionFrames::Number; ++index)
   {
@@ -91,15 +96,14 @@ bool RefractedLegEntries::MayMeetMesh(const RayLeg& line) const
   }
   const glm::dmat3& edges = this->Box.HalfEdges;
   const glm::dvec3 across = glm::cross(toCenter, step);
-  const glm::dvec3 areas[3] = { glm::cross(edges[1], edges[2]), glm::cross(edges[2], edges[0]),
-    glm::cross(edges[0], edges[1]) };
+  const double areas[3] = { std::fabs(glm::dot(step, this->Areas[0])),
+    std::fabs(glm::dot(step, this->Areas[1])), std::fabs(glm::dot(step, this->Areas[2])) };
   for (int k = 0; k < 3; ++k)
   {
     // Along the cross product of step and edge k: the distance of the centre, and the extents of
     // the other two edges.
     const double distance = std::fabs(glm::dot(across, edges[k]));
-    const double reach =
-      std::fabs(glm::dot(step, areas[(k + 1) % 3])) + std::fabs(glm::dot(step, areas[(k + 2) % 3]));
+    const double reach = areas[(k + 1) % 3] + areas[(k + 2) % 3];
     if (distance > reach * BoxMargin)
     {
       return false;
@@ -112,12 +116,11 @@ bool RefractedLegEntries::MayMeetMesh(const RayLeg& line) const
 /** True if both ends of a leg lie beyond one side of the box about the mesh. */
 bool RefractedLegEntries::IsBesideMesh(const RayLeg& line) const
 {
-  const glm::dmat3& edges = this->Box.HalfEdges;
   const glm::dvec3 toCenter = this->Box.Center - line.Begin;
   for (int k = 0; k < 3 && line.End < Infinity; ++k)
   {
-    const glm::dvec3 normal = glm::cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
-    const double extent = BoxMargin * std::fabs(glm::dot(normal, edges[k]));
+    const glm::dvec3& normal = this->Areas[k];
+    const double extent = this->Extents[k];
     const double begin = -glm::dot(normal, toCenter);
     const double end = begin + (line.End - line.Depth) * glm::dot(normal, line.Step);
     if (std::min(begin, end) > extent || std::max(begin, end) < -extent)

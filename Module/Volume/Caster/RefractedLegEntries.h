@@ -127,6 +127,9 @@ private:
   /** Bounding box and bounding sphere of the mesh's boundary, in the frame of the view. */
   BoundsInFrame Box;
   double BallRadius = 0.0;
+  /** Normals of the box's sides, cross products of two edges, and their products with the third. */
+  glm::dvec3 Areas[3];
+  double Extents[3];
   const FixedPointRays& Rays;
   const std::vector<RayClippingPlane>& ClippingPlanes;
   const RayLegs& Legs;

@@ -17,27 +17,21 @@ namespace
 {
 
 /** Loop bodies, for one lane each. */
-template <class RayType>
 struct PlaneKernel
 {
   FacetPlane Plane;
-  RayType Rays;
+  SightRays Rays;
   double NormalLength;
 
-  void operator()(typename RayType::Batch& lanes, int i) const
+  void operator()(PatchIntersectionBatch& lanes, int i) const
   {
     const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
-    const glm::dvec3 toCorner = this->Plane.Corner - this->Rays.StartOf(lanes, i);
-    const double along = glm::dot(this->Plane.Normal, direction);
-    const double depth = glm::dot(this->Plane.Normal, toCorner) / along;
-    const glm::dvec3 inPlane = depth * direction - toCorner;
-    lanes.Depth[i] = depth;
-    const double x = glm::dot(inPlane, this->Plane.ByX);
-    const double y = glm::dot(inPlane, this->Plane.ByY);
-    lanes.X[i] = x;
-    lanes.Y[i] = y;
-    lanes.Least[i] = std::min(std::min(x, y), 1.0 - x - y);
-    lanes.Slant[i] = this->NormalLength * glm::length(direction) / std::fabs(along);
+    const FacetPlane::Meeting meeting = this->Plane.Meet(this->Rays.StartOf(lanes, i), direction);
+    lanes.Depth[i] = meeting.Depth;
+    lanes.X[i] = meeting.X;
+    lanes.Y[i] = meeting.Y;
+    lanes.Least[i] = meeting.Least;
+    lanes.Slant[i] = this->NormalLength * glm::length(direction) / std::fabs(meeting.Along);
   }
 };
 
@@ -107,15 +101,6 @@ struct RefractKernel
 }
 
 //------------------------------------------------------------------------------
-void PatchIntersectionBatch::Add(std::int32_t index, double column, double row)
-{
-  this->Index[this->Count] = index;
-  this->Column[this->Count] = column;
-  this->Row[this->Count] = row;
-  ++this->Count;
-}
-
-//------------------------------------------------------------------------------
 void PatchIntersectionBatch::Keep(int to, int from)
 {
   if (to == from)
@@ -131,17 +116,6 @@ void PatchIntersectionBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
-void FreeRayBatch::Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Start[axis][this->Count] = start[axis];
-    this->Direction[axis][this->Count] = direction[axis];
-  }
-  this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
-}
-
-//------------------------------------------------------------------------------
 void FreeRayBatch::Keep(int to, int from)
 {
   this->PatchIntersectionBatch::Keep(to, from);
@@ -153,11 +127,10 @@ void FreeRayBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
-template <class Rays>
 void MeetPlane(
-  const FacetPlane& plane, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
+  const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
 {
-  RunLanes(PlaneKernel<Rays>{ plane, rays, glm::length(plane.Normal) }, set, lanes);
+  RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -175,9 +148,6 @@ void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::
   RunLanes(RefractKernel<Rays>{ rays, ratio }, set, lanes);
 }
 
-template void MeetPlane(
-  const FacetPlane&, const SightRays&, InstructionSet, PatchIntersectionBatch&);
-template void MeetPlane(const FacetPlane&, const FreeRays&, InstructionSet, FreeRayBatch&);
 template void StepToPatch(
   const CurvedPatch&, const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
 template void StepToPatch(

@@ -11,8 +11,10 @@
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Simd/InstructionSets.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace meniscus
@@ -77,6 +79,30 @@ struct FacetPlane
   /** Gradients of the second and the third barycentric coordinate. */
   glm::dvec3 ByX;
   glm::dvec3 ByY;
+
+  /** Intersection with a ray. */
+  struct Meeting
+  {
+    /** Component of the direction along the normal. */
+    double Along;
+    double Depth;
+    /** Barycentric coordinates, and the smallest of the three. */
+    double X;
+    double Y;
+    double Least;
+  };
+  Meeting Meet(const glm::dvec3& start, const glm::dvec3& direction) const
+  {
+    Meeting meeting;
+    const glm::dvec3 toCorner = this->Corner - start;
+    meeting.Along = glm::dot(this->Normal, direction);
+    meeting.Depth = glm::dot(this->Normal, toCorner) / meeting.Along;
+    const glm::dvec3 inPlane = meeting.Depth * direction - toCorner;
+    meeting.X = glm::dot(inPlane, this->ByX);
+    meeting.Y = glm::dot(inPlane, this->ByY);
+    meeting.Least = std::min(std::min(meeting.X, meeting.Y), 1.0 - meeting.X - meeting.Y);
+    return meeting;
+  }
 };
 
 /** Arrays of the data of each ray. */
@@ -114,7 +140,13 @@ struct PatchIntersectionBatch
   /** 0 if the ray is totally reflected, otherwise 1 against the normal and -1 along it. */
   double Refracted[Size];
 
-  void Add(std::int32_t index, double column, double row);
+  void Add(std::int32_t index, double column, double row)
+  {
+    this->Index[this->Count] = index;
+    this->Column[this->Count] = column;
+    this->Row[this->Count] = row;
+    ++this->Count;
+  }
   /** Copies lane `from` to lane `to`, except for Move and the members after it. */
   void Keep(int to, int from);
 };
@@ -125,22 +157,29 @@ struct FreeRayBatch : PatchIntersectionBatch
   double Start[3][Size];
   double Direction[3][Size];
 
-  void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction);
+  void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Start[axis][this->Count] = start[axis];
+      this->Direction[axis][this->Count] = direction[axis];
+    }
+    this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
+  }
   /** As for the base, with the ray. */
   void Keep(int to, int from);
 };
 
 /**
- * Computes Depth, X, Y, Least and Slant. Rays is SightRays or FreeRays.
+ * Computes Depth, X, Y, Least and Slant.
  * @pre GetInstructionSets() has the set
  */
-template <class Rays>
-void MeetPlane(
-  const FacetPlane& plane, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
+  PatchIntersectionBatch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
- * the patch; also computes Move and Normal.
+ * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
  * @param scale a depth of about the size of the facet.
  */
 template <class Rays>

@@ -17,6 +17,15 @@ namespace
 /** A patch whose distance from its facet is within the rounding of its corners is flat. */
 constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 
+/**
+ * Distance by which the normal at an intersection may be outside of the hull of the patch's control
+ * points. Both causes are proportional to its derivatives: the intersection is outside of the facet
+ * by up to 1e-8, and the normal is linear along Newton's last step of up to 1e-4, to an accuracy of
+ * its square. The factor 50 is larger than the first and the second derivatives of normals, which
+ * are sums of a few vectors of length 2.
+ */
+constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
+
 }
 
 //------------------------------------------------------------------------------
@@ -72,14 +81,13 @@ PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, I
   this->NormalLength = std::sqrt(squared);
   this->Plane = { patch.Corner[0], normal, glm::cross(v, normal) / squared,
     glm::cross(normal, u) / squared };
-  const double size =
-    std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
-  this->Scale = size / rayLength;
+  this->Size = std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
+  this->Scale = this->Size / rayLength;
   // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
   this->Bulge = BoundBulge(patch);
-  this->IsFlat = this->Bulge <= FlatBulge * size;
+  this->IsFlat = this->Bulge <= FlatBulge * this->Size;
   this->Overhang = this->IsFlat ? 0.0 : this->Bulge * steepest;
   this->LargestSlant = this->IsFlat ? std::numeric_limits<double>::infinity()
                                     : PatchCrossings::BoundLargestSlant(patch);
@@ -163,6 +171,73 @@ DirectionBox PatchIntersector::BoundNormalsOver(const glm::dvec2 (&b)[4], double
   }
   return BoundDirections(
     0.25 * (control[0] + control[1] + control[2] + control[3]), control, 9, slope * margin);
+}
+
+//------------------------------------------------------------------------------
+/** Keeps only rays that may meet the patch, including those within the facet's plane (0 / 0). */
+void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
+{
+  const int count = lanes.Count;
+  lanes.Count = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    if (!(lanes.Least[i] < -this->MarginOf(lanes.Slant[i])))
+    {
+      lanes.Keep(lanes.Count++, i);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+PatchReach PatchIntersector::GetReach() const
+{
+  PatchReach reach;
+  reach.Plane = this->Plane;
+  reach.NormalLength = this->NormalLength;
+  const glm::dvec3& winding = this->Plane.Normal;
+  const glm::dvec3* normals = this->Patch.Normal;
+  reach.Front = glm::dot(winding, normals[0] + normals[1] + normals[2]) < 0.0 ? -1.0 : 1.0;
+  const glm::dvec3 middle = reach.Front / this->NormalLength * winding;
+  double spread = 0.0; // squared
+  for (const glm::dvec3& control : ComputeNormalControls(this->Patch))
+  {
+    const glm::dvec3 difference = control - middle;
+    spread = std::max(spread, glm::dot(difference, difference));
+  }
+  reach.Spread = std::sqrt(spread) + NormalMargin;
+  // The component of a unit normal along the plane is at most its difference from the plane's.
+  reach.Overhang = std::min(reach.Spread, 1.0) * this->Overhang + Border;
+  if (this->IsFlat)
+  {
+    reach.Low = reach.High = 0.0;
+    return reach;
+  }
+  const BulgeBounds bulges = BoundBulges(this->Patch);
+  const double margin = Margin * this->Size;
+  reach.Low = (reach.Front > 0.0 ? bulges.Below : -bulges.Above) - margin;
+  reach.High = (reach.Front > 0.0 ? bulges.Above : -bulges.Below) + margin;
+  return reach;
+}
+
+//------------------------------------------------------------------------------
+/** Rays of the block that may meet the patch, with their intersections with the plane. */
+FreeRayBatch PatchIntersector::SiftNear(RayBlock& rays) const
+{
+  MeetPatchReach(this->GetReach(), this->Set, rays);
+  FreeRayBatch lanes;
+  for (int i = 0; i < rays.Count; ++i)
+  {
+    if (rays.Meets[i] != 0)
+    {
+      const int lane = lanes.Count;
+      lanes.Add(i, rays.GetStart(i), rays.GetDirection(i));
+      lanes.Depth[lane] = rays.Depth[i];
+      lanes.X[lane] = rays.X[i];
+      lanes.Y[lane] = rays.Y[i];
+      lanes.Slant[lane] = rays.Slant[i];
+    }
+  }
+  return lanes;
 }
 
 //------------------------------------------------------------------------------

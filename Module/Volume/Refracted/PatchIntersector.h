@@ -9,6 +9,7 @@
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/PatchIntersectionBatch.h"
+#include "Volume/Refracted/RayBlock.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -103,20 +104,39 @@ public:
 
   /**
    * Intersects rays with the patch; overwrites the lanes.
-   * @param rays SightRays or FreeRays.
    * @param matters false: these rays show no part of the mesh, so hits get no normal, and the depth
    *   of the facet's plane unless they are near its edges.
    * @param visit called with the index of each ray that meets the patch, and the hit.
    */
-  template <class Rays, typename Visit>
-  void Meet(const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
+  template <typename Visit>
+  void Meet(
+    const SightRays& rays, bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
+  /**
+   * Intersects the rays of a block with the patch; overwrites the block's results. Intersections
+   * that are outside of First and Last, or do not agree with Facing, may be left out.
+   * @param visit called with the number of each ray that meets the patch, and the hit.
+   */
+  template <typename Visit>
+  void Meet(RayBlock& rays, const Visit& visit) const;
   /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
   std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
+  /**
+   * Distance, in units of a facet's longest edge, by which boxes and other bounds of a patch are
+   * widened. An intersection lies outside of its facet by up to Border in barycentric coordinates,
+   * which is 3e-8 edges at most; the rest exceeds the rounding of coordinates up to 1e8 edges from
+   * the origin.
+   */
+  static constexpr double Margin = 1e-7;
+
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
-  template <class Lanes>
-  void SiftNear(Lanes& lanes) const;
+  void SiftNear(PatchIntersectionBatch& lanes) const;
+  PatchReach GetReach() const;
+  FreeRayBatch SiftNear(RayBlock& rays) const;
+  template <class Rays, typename Visit>
+  void MeetNear(
+    const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
   /**
    * Bound of the distance, in barycentric coordinates, between a ray's intersection with the plane
    * and its intersection with the patch. A point of the patch lies within the bulge of a point of
@@ -152,6 +172,7 @@ private:
   InstructionSet Set;
   FacetPlane Plane;
   double NormalLength;
+  double Size;
   /** Depth along a ray of about the size of the facet. */
   double Scale;
   double Bulge;
@@ -167,12 +188,29 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <class Rays, typename Visit>
+template <typename Visit>
 void PatchIntersector::Meet(
-  const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
+  const SightRays& rays, bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const
 {
   meniscus::MeetPlane(this->Plane, rays, this->Set, lanes);
   this->SiftNear(lanes);
+  this->MeetNear(rays, matters, lanes, visit);
+}
+
+//------------------------------------------------------------------------------
+template <typename Visit>
+void PatchIntersector::Meet(RayBlock& rays, const Visit& visit) const
+{
+  FreeRayBatch lanes = this->SiftNear(rays);
+  this->MeetNear(FreeRays(), true, lanes, visit);
+}
+
+//------------------------------------------------------------------------------
+/** Intersects rays, of which the intersections with the plane are known, with the patch. */
+template <class Rays, typename Visit>
+void PatchIntersector::MeetNear(
+  const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
+{
   const int count = lanes.Count;
   lanes.Count = 0;
   for (int i = 0; i < count; ++i)
@@ -243,22 +281,6 @@ void PatchIntersector::MeetCurved(
     this->MeetExactly(rays, matters, lanes, i, visit);
   }
   lanes.Count = 0;
-}
-
-//------------------------------------------------------------------------------
-/** Keeps only rays that may meet the patch, including those within the facet's plane (0 / 0). */
-template <class Lanes>
-void PatchIntersector::SiftNear(Lanes& lanes) const
-{
-  const int count = lanes.Count;
-  lanes.Count = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    if (!(lanes.Least[i] < -this->MarginOf(lanes.Slant[i])))
-    {
-      lanes.Keep(lanes.Count++, i);
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include "Volume/Refracted/RefractedRayStack.h"
 
 #include "Volume/Refracted/PatchIntersectionBatch.h"
-#include "Volume/Refracted/RayBoxBatch.h"
+#include "Volume/Refracted/RayBlock.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -23,8 +23,7 @@ constexpr int TileSize = RefractedRayTiles::TileSize;
 /** Side length, in pixels, of a block of rays that descend a tree together. */
 constexpr int BlockSize = 8;
 constexpr int RaysOfBlock = BlockSize * BlockSize;
-static_assert(RaysOfBlock == RayBoxBatch::Size && RaysOfBlock == PatchIntersectionBatch::Size,
-  "the rays of a block fill the lanes");
+static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes");
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -59,12 +58,16 @@ Side SideOf(const StackedInterface& interface, double medium)
   return medium == interface.Interior ? Side::Interior : Side::Neither;
 }
 
-/** True if a ray arrives from that side; `facing` is the product of its direction and the normal.
- */
-bool ArrivesFrom(Side side, double facing)
+/** The sign of the product of a ray's direction and the normal, for rays from that side. */
+double FacingOf(Side side)
 {
-  return side == Side::Either || (side == Side::Exterior && facing < 0.0) ||
-    (side == Side::Interior && facing > 0.0);
+  return side == Side::Either ? 0.0 : (side == Side::Exterior ? -1.0 : 1.0);
+}
+
+/** True if a product of a ray's direction and the normal has the sign, or if that is 0. */
+bool HasSign(double product, double sign)
+{
+  return sign == 0.0 || sign * product > 0.0;
 }
 
 }
@@ -84,10 +87,9 @@ struct RefractedRayStack::Block
   /** Index of refraction of the medium that the ray is in, from leg 1 on. */
   std::array<double, RaysOfBlock> Media;
 
-  /** Rays that may meet the present interface: their numbers, sides and nearest intersections. */
-  RayBoxBatch Lanes;
+  /** Rays that may meet the present interface: their numbers and nearest intersections. */
+  RayBlock Lanes;
   std::array<int, RaysOfBlock> Numbers;
-  std::array<Side, RaysOfBlock> Sides;
   std::array<MembraneHit, RaysOfBlock> Hits;
 };
 
@@ -216,73 +218,83 @@ void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
 }
 
 //------------------------------------------------------------------------------
-/** Intersects leg `number` of the rays with interface `number`, and ends legs that miss it. */
-void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& sums) const
+/** Adds the rays of a block that may meet interface `number`, and ends those that cannot. */
+void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums) const
 {
   const StackedInterface& interface = this->Interfaces[number];
   const bool isFirst = number == 0;
   const glm::dvec3 toSurface = this->Of.Center - interface.Surface->GetOrigin();
-  RayBoxBatch& lanes = block.Lanes;
+  RayBlock& lanes = block.Lanes;
   lanes.Count = 0;
   for (int ray = 0; ray < block.Count; ++ray)
   {
     const auto r = static_cast<std::size_t>(ray);
-    const WorldLeg& leg = block.Legs[number][r];
+    WorldLeg& leg = block.Legs[number][r];
+    const Side side = isFirst ? Side::Either : SideOf(interface, block.Media[r]);
+    if (leg.GoesOn() && side == Side::Neither)
+    {
+      leg.Step = glm::dvec3(0.0);
+      ++sums.Missing;
+      ++sums.Mismatched;
+    }
     if (leg.GoesOn())
     {
       const auto lane = static_cast<std::size_t>(lanes.Count);
       block.Numbers[lane] = ray;
-      block.Sides[lane] = isFirst ? Side::Either : SideOf(interface, block.Media[r]);
       block.Hits[lane] = MembraneHit();
-      lanes.Add(leg.Place + toSurface, leg.Step, isFirst ? this->Of.EyeDepth : 0.0);
+      lanes.Add(leg.Place + toSurface, leg.Step, isFirst ? this->Of.EyeDepth : 0.0, FacingOf(side));
     }
   }
+  CompleteRays(this->Set, lanes);
+}
+
+//------------------------------------------------------------------------------
+/** Intersects leg `number` of the rays with interface `number`, and ends legs that miss it. */
+void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& sums) const
+{
+  this->AddLanes(number, block, sums);
+  RayBlock& lanes = block.Lanes;
   if (lanes.Count == 0)
   {
     return;
   }
-  const double rayLength = glm::length(lanes.GetDirection(0));
+  const StackedInterface& interface = this->Interfaces[number];
+  const double rayLength = lanes.Length[0];
+  const double first = lanes.First[0];
+  bool isNearer = false;
   const auto keepNearest = [&](std::int32_t index, const MembraneHit& hit)
   {
     const auto lane = static_cast<std::size_t>(index);
     const double facing = glm::dot(lanes.GetDirection(index), hit.Normal);
-    if (ArrivesFrom(block.Sides[lane], facing) && hit.Depth > lanes.First[lane] &&
+    if (HasSign(facing, lanes.Facing[lane]) && hit.Depth > lanes.First[lane] &&
       hit.Depth < lanes.Last[lane])
     {
       block.Hits[lane] = hit;
       lanes.Last[lane] = hit.Depth;
+      isNearer = true;
     }
   };
-  const std::vector<PatchTree::Node>& nodes = interface.Tree->GetNodes();
-  for (std::size_t n = 0; n < nodes.size();)
-  {
-    const PatchTree::Node& node = nodes[n];
-    const bool meets = MeetBox(node.Low, node.High, this->Set, lanes);
-    n = meets ? n + 1 : static_cast<std::size_t>(node.Skip);
-    if (!meets || node.Facet < 0)
+  double farthest = Infinity;
+  interface.Tree->GetBoxes().Visit(
+    lanes.GetTube(first), farthest,
+    [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
+    [&](std::int32_t facet, const TubeRange&)
     {
-      continue;
-    }
-    const PatchIntersector tracer(interface.Patches->GetPatch(node.Facet), rayLength, this->Set);
-    FreeRayBatch batch;
-    for (int lane = 0; lane < lanes.Count; ++lane)
-    {
-      if (lanes.Meets[lane] != 0)
-      {
-        batch.Add(lane, lanes.GetStart(lane), lanes.GetDirection(lane));
-      }
-    }
-    tracer.Meet(FreeRays(), true, batch, keepNearest);
-    sums.Undecided += tracer.GetNumberOfUndecidedRays();
-  }
-  for (int lane = 0; lane < lanes.Count && !isFirst; ++lane)
+      const PatchIntersector tracer(interface.Patches->GetPatch(facet), rayLength, this->Set);
+      isNearer = false;
+      tracer.Meet(lanes, keepNearest);
+      sums.Undecided += tracer.GetNumberOfUndecidedRays();
+      // Parameters of the tube count from its beginning.
+      farthest = isNearer ? lanes.GetFarthest() - first : farthest;
+      return farthest;
+    });
+  for (int lane = 0; lane < lanes.Count && number > 0; ++lane)
   {
     if (lanes.Last[lane] == Infinity)
     {
       const auto ray = static_cast<std::size_t>(block.Numbers[static_cast<std::size_t>(lane)]);
       block.Legs[number][ray].Step = glm::dvec3(0.0);
       ++sums.Missing;
-      sums.Mismatched += block.Sides[static_cast<std::size_t>(lane)] == Side::Neither ? 1 : 0;
     }
   }
 }
@@ -292,7 +304,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
 void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& sums) const
 {
   const StackedInterface& interface = this->Interfaces[number];
-  const RayBoxBatch& lanes = block.Lanes;
+  const RayBlock& lanes = block.Lanes;
   FreeRayBatch batch;
   for (int lane = 0; lane < lanes.Count; ++lane)
   {
@@ -343,8 +355,9 @@ bool RefractedRayStack::MeetsMesh(const glm::dvec3& place, const glm::dvec3& ste
       last = std::fabs(offset) <= half ? last : -1.0;
       continue;
     }
-    const double a = (offset - half) / step[axis];
-    const double b = (offset + half) / step[axis];
+    const double inverse = 1.0 / step[axis];
+    const double a = (offset - half) * inverse;
+    const double b = (offset + half) * inverse;
     first = std::max(first, std::min(a, b));
     last = std::min(last, std::max(a, b));
   }

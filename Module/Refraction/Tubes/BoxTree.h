@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_BoxTree_h
-#define meniscus_Refraction_Stack_BoxTree_h
+#ifndef meniscus_Refraction_Tubes_BoxTree_h
+#define meniscus_Refraction_Tubes_BoxTree_h
 
 #include "Refraction/Tubes/RayTubeTree.h"
 
@@ -95,7 +95,22 @@ public:
    * then on.
    */
   template <typename Visitor>
-  void Visit(const TubeBounds& tube, double most, Visitor&& visit) const;
+  void Visit(const TubeBounds& tube, double most, Visitor&& visit) const
+  {
+    this->Visit(
+      tube, most, [](const AxisBox&) { return true; }, visit);
+  }
+  /**
+   * The same; leaves out what is inside of a box, of several items, for which `mayMeet(box)` is
+   * false.
+   */
+  template <typename Test, typename Visitor>
+  void Visit(const TubeBounds& tube, double most, const Test& mayMeet, Visitor&& visit) const;
+
+  std::int64_t GetBytes() const
+  {
+    return static_cast<std::int64_t>(this->Nodes.capacity() * sizeof(Node));
+  }
 
 private:
   struct Node
@@ -115,8 +130,8 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <typename Visitor>
-void BoxTree::Visit(const TubeBounds& tube, double most, Visitor&& visit) const
+template <typename Test, typename Visitor>
+void BoxTree::Visit(const TubeBounds& tube, double most, const Test& mayMeet, Visitor&& visit) const
 {
   if (this->Nodes.empty())
   {
@@ -146,6 +161,10 @@ void BoxTree::Visit(const TubeBounds& tube, double most, Visitor&& visit) const
     if (node.Item != NoItem)
     {
       most = visit(node.Item, entry.Range);
+      continue;
+    }
+    if (!mayMeet(node.Box))
+    {
       continue;
     }
     const auto second = static_cast<std::size_t>(node.Right);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Stack/BoxTree.h"
+#include "Refraction/Tubes/BoxTree.h"
 
 namespace meniscus
 {

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/RayBlock.h"
+
+#include "Simd/LaneLoop.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * Relative error of a depth at which a side of the box is met: a difference, a reciprocal and a
+ * product, each rounded by half an epsilon.
+ */
+constexpr double Rounding = 2.0 * std::numeric_limits<double>::epsilon();
+
+/** Number of rays that are tested with a box at once: a register of the widest set. */
+constexpr int GroupSize = 8;
+static_assert(RayBlock::Size % GroupSize == 0, "groups fill the block");
+
+struct DirectionKernel
+{
+  void operator()(RayBlock& rays, int i) const
+  {
+    constexpr double smallest = 1e-300;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double component = rays.Direction[axis][i];
+      rays.Inverse[axis][i] =
+        1.0 / (std::fabs(component) < smallest ? std::copysign(smallest, component) : component);
+    }
+    rays.Length[i] = glm::length(rays.GetDirection(i));
+  }
+};
+
+/** Some of the rays of a block. */
+struct RayGroup
+{
+  RayBlock& Rays;
+  int First;
+  int Count;
+};
+
+struct BoxKernel
+{
+  AxisBox Box;
+
+  void operator()(RayGroup& group, int i) const
+  {
+    RayBlock& rays = group.Rays;
+    const int ray = group.First + i;
+    double near = rays.First[ray];
+    double far = rays.Last[ray];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double start = rays.Start[axis][ray];
+      const double inverse = rays.Inverse[axis][ray];
+      const double a = (this->Box.Low[axis] - start) * inverse;
+      const double b = (this->Box.High[axis] - start) * inverse;
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    const double nearest = near - Rounding * std::fabs(near);
+    const double farthest = far + Rounding * std::fabs(far);
+    rays.Meets[ray] = nearest <= farthest ? 1 : 0;
+  }
+};
+
+struct ReachKernel
+{
+  PatchReach Patch;
+
+  void operator()(RayBlock& rays, int i) const
+  {
+    const PatchReach& patch = this->Patch;
+    const FacetPlane::Meeting meeting = patch.Plane.Meet(rays.GetStart(i), rays.GetDirection(i));
+    const double perHeight = patch.NormalLength / meeting.Along;
+    rays.Depth[i] = meeting.Depth;
+    rays.X[i] = meeting.X;
+    rays.Y[i] = meeting.Y;
+    rays.Slant[i] = rays.Length[i] * std::fabs(perHeight);
+    // Depths behind the plane between which the ray is at the heights of the patch.
+    const double low = patch.Low * perHeight;
+    const double high = patch.High * perHeight;
+    const double begin = std::max(std::min(low, high), rays.First[i] - meeting.Depth);
+    const double end = std::min(std::max(low, high), rays.Last[i] - meeting.Depth);
+    const double byX = glm::dot(patch.Plane.ByX, rays.GetDirection(i));
+    const double byY = glm::dot(patch.Plane.ByY, rays.GetDirection(i));
+    const double x = meeting.X + std::max(begin * byX, end * byX);
+    const double y = meeting.Y + std::max(begin * byY, end * byY);
+    const double rest =
+      1.0 - meeting.X - meeting.Y - std::min(begin * (byX + byY), end * (byX + byY));
+    const double facing = rays.Facing[i] * patch.Front * meeting.Along;
+    // The comparisons are written so that a NaN counts as a meeting: the ray is within the plane.
+    const bool passes = (x < -patch.Overhang) | (y < -patch.Overhang) | (rest < -patch.Overhang);
+    const bool isAverted = facing < -patch.Spread * patch.NormalLength * rays.Length[i];
+    rays.Meets[i] = (passes | isAverted | (begin > end)) ? 0 : 1;
+  }
+};
+
+}
+
+//------------------------------------------------------------------------------
+// The extremes of every eighth number first: these loops run on several lanes at a time.
+TubeBounds RayBlock::GetTube(double first) const
+{
+  constexpr int width = 8;
+  TubeBounds tube;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double low[2][width];
+    double high[2][width];
+    for (int lane = 0; lane < width; ++lane)
+    {
+      const double direction = this->Direction[axis][0];
+      low[0][lane] = high[0][lane] = this->Start[axis][0] + first * direction;
+      low[1][lane] = high[1][lane] = direction;
+    }
+    const auto add = [&](int ray, int lane)
+    {
+      const double direction = this->Direction[axis][ray];
+      const double start = this->Start[axis][ray] + first * direction;
+      low[0][lane] = std::min(low[0][lane], start);
+      high[0][lane] = std::max(high[0][lane], start);
+      low[1][lane] = std::min(low[1][lane], direction);
+      high[1][lane] = std::max(high[1][lane], direction);
+    };
+    int ray = 0;
+    for (; ray + width <= this->Count; ray += width)
+    {
+      for (int lane = 0; lane < width; ++lane)
+      {
+        add(ray + lane, lane);
+      }
+    }
+    for (; ray < this->Count; ++ray)
+    {
+      add(ray, 0);
+    }
+    tube.StartLow[axis] = *std::min_element(low[0], low[0] + width);
+    tube.StartHigh[axis] = *std::max_element(high[0], high[0] + width);
+    tube.DirectionLow[axis] = *std::min_element(low[1], low[1] + width);
+    tube.DirectionHigh[axis] = *std::max_element(high[1], high[1] + width);
+  }
+  return tube;
+}
+
+//------------------------------------------------------------------------------
+double RayBlock::GetFarthest() const
+{
+  return this->Count > 0 ? *std::max_element(this->Last, this->Last + this->Count) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+void CompleteRays(InstructionSet set, RayBlock& rays)
+{
+  RunLanes(DirectionKernel(), set, rays);
+}
+
+//------------------------------------------------------------------------------
+bool MeetsBox(const AxisBox& box, InstructionSet set, RayBlock& rays)
+{
+  const BoxKernel kernel{ box };
+  for (int first = 0; first < rays.Count; first += GroupSize)
+  {
+    RayGroup group{ rays, first, std::min(GroupSize, rays.Count - first) };
+    RunLanes(kernel, set, group);
+    const std::int64_t* meets = rays.Meets + first;
+    if (std::any_of(meets, meets + group.Count, [](std::int64_t ray) { return ray != 0; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void MeetPatchReach(const PatchReach& patch, InstructionSet set, RayBlock& rays)
+{
+  RunLanes(ReachKernel{ patch }, set, rays);
+}
+
+}
