@@ -260,73 +260,6 @@ void SeamClosure::CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const
 }
 
 //------------------------------------------------------------------------------
-// Walks along parts that are not used yet. A point that the way has passed before ends a loop,
-// which leaves the way; so no loop passes a point twice. A part that leads nowhere leaves it, too:
-// it ends at a border of the membrane or of a region of total reflection, or at another seam.
-template <typename Finish, typename Leave>
-void SeamClosure::VisitLoops(const Parts& parts, const Finish& finish, const Leave& leave)
-{
-  using Key = decltype(GetKey(std::declval<ImagePoint>()));
-  std::vector<std::pair<Key, std::size_t>> ends;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-  {
-    ends.emplace_back(GetKey(parts[i]->From), i);
-    ends.emplace_back(GetKey(parts[i]->To), i);
-  }
-  std::sort(ends.begin(), ends.end());
-  std::vector<char> isUsed(parts.size(), 0);
-  const auto findNext = [&ends, &isUsed](const ImagePoint& point)
-  {
-    const Key key = GetKey(point);
-    auto next = std::lower_bound(ends.begin(), ends.end(), std::make_pair(key, std::size_t(0)));
-    while (next != ends.end() && next->first == key && isUsed[next->second])
-    {
-      ++next;
-    }
-    return next != ends.end() && next->first == key ? next->second : isUsed.size();
-  };
-  for (std::size_t i = 0; i < parts.size(); ++i)
-  {
-    Loop way = { &parts[i]->To };
-    Parts used;
-    std::size_t next = isUsed[i] ? parts.size() : i;
-    while (next < parts.size() || !used.empty())
-    {
-      if (next == parts.size())
-      {
-        leave(used.back());
-        used.pop_back();
-        way.pop_back();
-      }
-      else
-      {
-        isUsed[next] = 1;
-        used.push_back(parts[next]);
-        const Part& part = *parts[next];
-        const ImagePoint& end = AreSame(part.From, *way.back()) ? part.To : part.From;
-        const auto before = std::find_if(
-          way.begin(), way.end(), [&end](const ImagePoint* point) { return AreSame(*point, end); });
-        const auto at = before - way.begin();
-        if (before == way.end())
-        {
-          way.push_back(&end);
-        }
-        else
-        {
-          if (way.end() - before > 2)
-          {
-            finish(Loop(before, way.end()), Parts(used.begin() + at, used.end()));
-          }
-          way.erase(before + 1, way.end());
-          used.erase(used.begin() + at, used.end());
-        }
-      }
-      next = findNext(*way.back());
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 void SeamClosure::CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const
 {
   const auto getKeys = [](const Part* part)
@@ -349,15 +282,38 @@ void SeamClosure::CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const
       left.push_back(part);
     }
   }
-  VisitLoops(
-    left,
-    [this, &mesh](const Loop& loop, const Parts& used)
+  // A loop starts with any part, reversed, and continues with any part that begins where the last
+  // one ended, until it returns to its start.
+  while (!left.empty())
+  {
+    const Part& first = *left.back();
+    left.pop_back();
+    Loop loop = { &first.To, &first.From };
+    Parts used = { &first };
+    bool hasWhole = first.IsWhole;
+    while (!AreSame(*loop.back(), *loop.front()))
     {
-      const bool hasWhole =
-        std::any_of(used.begin(), used.end(), [](const Part* part) { return part->IsWhole; });
-      this->Fill(loop, *used.front(), hasWhole, mesh);
-    },
-    [&open](const Part* part) { open.push_back(part); });
+      const ImagePoint& last = *loop.back();
+      const auto next = std::find_if(left.begin(), left.end(),
+        [&last](const Part* part) { return AreSame(part->From, last) || AreSame(part->To, last); });
+      if (next == left.end())
+      {
+        // The chain ends at a border of the membrane or of a region of total reflection, or at
+        // another seam.
+        open.insert(open.end(), used.begin(), used.end());
+        break;
+      }
+      used.push_back(*next);
+      loop.push_back(AreSame((*next)->From, last) ? &(*next)->To : &(*next)->From);
+      hasWhole = hasWhole || (*next)->IsWhole;
+      left.erase(next);
+    }
+    if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
+    {
+      loop.pop_back();
+      this->Fill(loop, first, hasWhole, mesh);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -417,18 +373,51 @@ std::vector<SeamClosure::Part> SeamClosure::FindFreeSides(
 }
 
 //------------------------------------------------------------------------------
+// Walks along parts that are not used yet, at each end to the first one in the order of `open`.
 void SeamClosure::CloseAcrossSeams(const Parts& open, ImageMesh& mesh) const
 {
-  VisitLoops(
-    open,
-    [this, &mesh](const Loop& loop, const Parts& used)
+  using Key = decltype(GetKey(std::declval<ImagePoint>()));
+  std::vector<std::pair<Key, std::size_t>> ends;
+  for (std::size_t i = 0; i < open.size(); ++i)
+  {
+    ends.emplace_back(GetKey(open[i]->From), i);
+    ends.emplace_back(GetKey(open[i]->To), i);
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<char> isUsed(open.size(), 0);
+  for (std::size_t i = 0; i < open.size(); ++i)
+  {
+    if (isUsed[i])
     {
+      continue;
+    }
+    isUsed[i] = 1;
+    Loop loop = { &open[i]->To, &open[i]->From };
+    while (!AreSame(*loop.back(), *loop.front()))
+    {
+      const auto key = GetKey(*loop.back());
+      auto next = std::lower_bound(ends.begin(), ends.end(), std::make_pair(key, std::size_t(0)));
+      while (next != ends.end() && next->first == key && isUsed[next->second])
+      {
+        ++next;
+      }
+      if (next == ends.end() || next->first != key)
+      {
+        break; // a border
+      }
+      isUsed[next->second] = 1;
+      const Part& part = *open[next->second];
+      loop.push_back(AreSame(part.From, *loop.back()) ? &part.To : &part.From);
+    }
+    if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
+    {
+      loop.pop_back();
       if (this->IsThin(loop))
       {
-        AddCell(loop, *used.front(), mesh);
+        AddCell(loop, *open[i], mesh);
       }
-    },
-    [](const Part*) {}); // a border
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -12,7 +12,7 @@
  * A polygon that is seen nearly edge-on may lack a stretch from one of its sides to another, where
  * linear interpolation turns its rays to the wrong side of its plane. Its neighbours draw the sides
  * of the stretch. These parts of several seams, and the sides that the polygon's own pieces end
- * with, form a closed loop, too, which is filled if it is as thin. No loop passes a point twice.
+ * with, form a closed loop, too, which is filled if it is as thin.
  */
 #ifndef meniscus_Refraction_Images_SeamClosure_h
 #define meniscus_Refraction_Images_SeamClosure_h
@@ -146,12 +146,6 @@ private:
 
   void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b,
     bool isWhole);
-  /**
-   * Calls `finish(loop, parts)` for loops of three or more parts, and `leave(part)` for parts that
-   * belong to no loop.
-   */
-  template <typename Finish, typename Leave>
-  static void VisitLoops(const Parts& parts, const Finish& finish, const Leave& leave);
   void CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const;
   /** Closes the loops of one seam. Adds the parts that belong to no loop to `open`. */
   void CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const;
