@@ -393,6 +393,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   return this->MakeOnSide(context, nodes, static_cast<std::size_t>(on.Side),
     this->FindRay(context, nodes, corner, on), corner.B);
 }
+
 //------------------------------------------------------------------------------
 // Image of the point in which a ray meets a side of the primitive. Beyond the end of the side, the
 // result is the image of that end.

@@ -101,8 +101,8 @@ public:
       tube, most, [](const AxisBox&) { return true; }, visit);
   }
   /**
-   * The same; leaves out what is inside of a box, of several items, for which `mayMeet(box)` is
-   * false.
+   * Visits the same boxes, except those within a larger box for which `mayMeet(box)` is false. The
+   * test is made once for each node that holds several boxes.
    */
   template <typename Test, typename Visitor>
   void Visit(const TubeBounds& tube, double most, const Test& mayMeet, Visitor&& visit) const;

@@ -4,6 +4,7 @@
 #define meniscus_Testing_Reference_Volume_ReferenceMesh_h
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,16 @@ namespace reference
 {
 
 using Vector3 = std::array<double, 3>;
+
+inline double Dot(const Vector3& a, const Vector3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline double MakeLength(const Vector3& a)
+{
+  return std::sqrt(Dot(a, a));
+}
 
 /** The four half-spaces of one tetrahedron: barycentric weights as affine functions of position. */
 struct CellPlanes

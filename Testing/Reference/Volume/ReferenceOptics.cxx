@@ -13,16 +13,6 @@ namespace reference
 namespace
 {
 
-double Dot(const Vector3& a, const Vector3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double MakeLength(const Vector3& a)
-{
-  return std::sqrt(Dot(a, a));
-}
-
 // a + factor * b
 Vector3 Add(const Vector3& a, double factor, const Vector3& b)
 {

@@ -20,29 +20,19 @@
 #ifndef meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
 #define meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
 
+#include "RayCrossings.h"
 #include "ReferenceCellTree.h"
 #include "ReferenceMesh.h"
 #include "ReferenceTransferFunction.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace meniscus
 {
 namespace reference
 {
-
-/** Part of a ray inside one cell; the scalar is linear between its ends. */
-struct RaySegment
-{
-  double Begin;
-  double End;
-  double ScalarBegin;
-  double ScalarEnd;
-  std::int64_t Cell;
-};
 
 /** Part of a ray inside the mesh without a gap. */
 struct CoveredSpan
@@ -78,7 +68,6 @@ public:
   /** Segments in order along the ray, without overlap. The vector is reused by the caller. */
   RayReport FindSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
-  using CellTest = std::function<bool(std::int64_t cell)>;
   /** As above, without the cells that cannot be seen, wherever cells overlap. */
   RayReport FindVisibleSegments(
     const Ray& ray, const CellTest& canBeSeen, std::vector<RaySegment>& segments) const;

@@ -13,11 +13,6 @@ namespace reference
 namespace
 {
 
-double Dot(const Vector3& a, const Vector3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 Vector3 MakeSum(const Vector3& a, double factor, const Vector3& b)
 {
   return { a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2] };

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Blocks of rays against boxes and patches: no ray that meets one is left out.
+#include "KernelSurfaces.h"
+#include "RefractionTestRandom.h"
+
+#include "Simd/InstructionSets.h"
+#include "Volume/Refracted/PatchIntersectionBatch.h"
+#include "Volume/Refracted/PatchIntersector.h"
+#include "Volume/Refracted/RayBlock.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace meniscus;
+using namespace meniscus::test;
+using meniscus::testing::Random;
+
+namespace
+{
+
+double Cap(double x, double y)
+{
+  return std::sqrt(4.0 - x * x - y * y) - 1.7;
+}
+
+double Waves(double x, double y)
+{
+  return 0.05 * std::sin(5.0 * x + 1.0) * std::sin(4.0 * y);
+}
+
+}
+
+TEST(RayBlock, NoRayMissesItsBox)
+{
+  Random random(29);
+  int meets = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const glm::dvec3 low = random.Point(glm::dvec3(-1.0), glm::dvec3(0.0));
+    const AxisBox box{ low, low + random.Point(glm::dvec3(0.0), glm::dvec3(1.0)) };
+    const AxisBox away{ box.Low + glm::dvec3(2e4), box.High + glm::dvec3(2e4) };
+    for (int ray = 0; ray < RayBlock::Size; ++ray)
+    {
+      // To a place of the box, or along its sides, where a component of the direction is 0.
+      glm::dvec3 target = random.Point(box.Low, box.High);
+      glm::dvec3 start = random.Point(glm::dvec3(-1e3), glm::dvec3(1e3));
+      target[ray % 3] = ray % 2 == 0 ? box.Low[ray % 3] : target[ray % 3];
+      start[ray % 3] = ray % 4 == 0 ? box.Low[ray % 3] : start[ray % 3];
+      // The only ray of the block that meets the box; the others go away from it.
+      RayBlock rays;
+      for (int before = 0; before < ray; ++before)
+      {
+        rays.Add(start, start - target, 0.0, 0.0);
+      }
+      rays.Add(start, target - start, 0.0, 0.0);
+      for (const InstructionSet set : GetInstructionSets())
+      {
+        CompleteRays(set, rays);
+        meets += MeetsBox(box, set, rays) ? 1 : 0;
+        EXPECT_FALSE(MeetsBox(away, set, rays));
+      }
+    }
+  }
+  EXPECT_EQ(meets, 200 * RayBlock::Size * static_cast<int>(GetInstructionSets().size()));
+}
+
+/**
+ * The bounds of a patch about its facet's plane leave out no ray that meets the patch, at any
+ * slant, on the side and between the depths that count, and few others.
+ */
+TEST(RayBlock, NoRayMissesThePatchThatItMeets)
+{
+  Random random(41);
+  Membrane sphere;
+  CurvedPatches ofSphere;
+  ASSERT_TRUE(BuildSphere(12, sphere, ofSphere));
+  const Sheet sheet(Waves, 5);
+  int missed = 0;
+  int met = 0;
+  int passing = 0;
+  int taken = 0;
+  const auto test = [&](const CurvedPatch& patch, double unit)
+  {
+    const PatchIntersector tracer(patch, 1.0, BestInstructionSet());
+    RayBlock rays;
+    double depths[RayBlock::Size];
+    bool meets[RayBlock::Size];
+    for (int ray = 0; ray < RayBlock::Size; ++ray)
+    {
+      // A place on the patch or, near by, on what continues it, and a ray through it.
+      meets[ray] = ray % 2 == 0;
+      double x = random(0.0, 1.0);
+      double y = random(0.0, 1.0);
+      if (x + y > 1.0)
+      {
+        x = 1.0 - x;
+        y = 1.0 - y;
+      }
+      const PatchPoint place = patch.Evaluate({ meets[ray] ? x : -x - 0.5, y });
+      glm::dvec3 direction = random.Point(glm::dvec3(-1.0), glm::dvec3(1.0));
+      // Also rays along the surface.
+      const glm::dvec3 normal = glm::normalize(place.Normal);
+      direction -= (ray % 4 < 2 ? 0.97 : 0.0) * glm::dot(direction, normal) * normal;
+      depths[ray] = random(0.5, 2.0);
+      const double facing = glm::dot(direction, place.Normal) < 0.0 ? -1.0 : 1.0;
+      rays.Add(place.Position - depths[ray] * unit * direction, unit * direction, 0.0,
+        ray % 3 == 0 ? 0.0 : facing);
+      if (ray % 5 == 0)
+      {
+        rays.First[ray] = depths[ray] - 1e-3;
+        rays.Last[ray] = depths[ray] + 1e-3;
+      }
+    }
+    CompleteRays(BestInstructionSet(), rays);
+    bool found[RayBlock::Size] = {};
+    tracer.Meet(rays,
+      [&](std::int32_t ray, const MembraneHit& hit)
+      { found[ray] = found[ray] || std::fabs(hit.Depth - depths[ray]) < 1e-7; });
+    for (int ray = 0; ray < RayBlock::Size; ++ray)
+    {
+      met += meets[ray] ? 1 : 0;
+      missed += meets[ray] && !found[ray] ? 1 : 0;
+      passing += meets[ray] ? 0 : 1;
+      taken += !meets[ray] && rays.Meets[ray] != 0 ? 1 : 0;
+    }
+  };
+  const CurvedPatches* const surfaces[] = { &ofSphere, &sheet.Patches };
+  for (const CurvedPatches* surface : surfaces)
+  {
+    for (std::int32_t facet = 0; facet < 50; ++facet)
+    {
+      test(surface->GetPatch(facet), 1.0);
+      test(surface->GetPatch(facet), 30.0);
+    }
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(met, 100 * RayBlock::Size);
+  EXPECT_LT(taken, passing / 2);
+}
+
+/** Rays that do not meet the patch from the side that counts, or at a depth that counts. */
+TEST(RayBlock, PatchesThatDoNotCountAreLeftOut)
+{
+  const Sheet sheet(Cap, 6);
+  const CurvedPatch patch = sheet.Patches.GetPatch(20);
+  const PatchPoint middle = patch.Evaluate({ 1.0 / 3.0, 1.0 / 3.0 });
+  const PatchIntersector tracer(patch, 1.0, BestInstructionSet());
+  RayBlock rays;
+  const glm::dvec3 direction = -glm::normalize(middle.Normal);
+  for (const double facing : { -1.0, 0.0, 1.0, -1.0, -1.0 })
+  {
+    rays.Add(middle.Position - direction, direction, 0.0, facing);
+  }
+  rays.Last[3] = 0.9;
+  rays.First[4] = 1.1;
+  CompleteRays(BestInstructionSet(), rays);
+  int hits = 0;
+  tracer.Meet(rays, [&hits](std::int32_t, const MembraneHit&) { ++hits; });
+  EXPECT_EQ(hits, 2);
+  const bool expected[] = { true, true, false, false, false };
+  for (int ray = 0; ray < rays.Count; ++ray)
+  {
+    EXPECT_EQ(rays.Meets[ray] != 0, expected[ray]) << ray;
+  }
+}
+
+TEST(RayBlock, InstructionSetsSeeTheSame)
+{
+  const Sheet sheet(Waves, 3);
+  Random random(5);
+  FreeRayBatch lanes;
+  RayBlock rays;
+  for (int i = 0; i < FreeRayBatch::Size - 3; ++i)
+  {
+    const glm::dvec3 start = random.Point(glm::dvec3(-0.4, -0.4, 1.0), glm::dvec3(0.4, 0.4, 2.0));
+    const glm::dvec3 direction =
+      random.Point(glm::dvec3(-0.5, -0.5, -1.2), glm::dvec3(0.5, 0.5, -0.8));
+    lanes.Add(i, start, direction);
+    rays.Add(start, direction, 0.0, -1.0);
+  }
+  const CurvedPatch patch = sheet.Patches.GetPatch(4);
+  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double squared = glm::dot(normal, normal);
+  const PatchReach reach{ { patch.Corner[0], normal, glm::cross(v, normal) / squared,
+                            glm::cross(normal, u) / squared },
+    std::sqrt(squared), -0.02, 0.03, 0.01, 1.0, 0.4 };
+  const auto run = [&](InstructionSet set)
+  {
+    RayBlock block = rays;
+    CompleteRays(set, block);
+    MeetPatchReach(reach, set, block);
+    FreeRayBatch result = lanes;
+    for (int i = 0; i < result.Count; ++i)
+    {
+      result.Least[i] = static_cast<double>(block.Meets[i]);
+      result.Slant[i] = block.Slant[i];
+      result.Depth[i] = block.Depth[i];
+      result.PatchX[i] = block.X[i];
+      result.PatchY[i] = block.Y[i];
+      result.Behind[i] = 0.0;
+    }
+    StepToPatch(patch, FreeRays(), 0.5, set, result);
+    Refract(FreeRays(), 1.5, set, result); // some beyond the critical angle
+    return result;
+  };
+  const FreeRayBatch expected = run(InstructionSet::Portable);
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    const FreeRayBatch result = run(set);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      EXPECT_EQ(result.Least[i], expected.Least[i]) << NameOf(set);
+      EXPECT_EQ(result.Slant[i], expected.Slant[i]);
+      EXPECT_EQ(result.Depth[i], expected.Depth[i]);
+      EXPECT_EQ(result.PatchX[i], expected.PatchX[i]);
+      EXPECT_EQ(result.Behind[i], expected.Behind[i]);
+      EXPECT_EQ(result.Refracted[i], expected.Refracted[i]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(result.Normal[axis][i], expected.Normal[axis][i]);
+      }
+    }
+  }
+}
