@@ -53,6 +53,7 @@ std::string ComputeView(
 {
   input.Center = mesh.GetCenter();
   input.Radius = mesh.GetRadius();
+  input.SmallestCell = mesh.GetSmallestCell();
   input.ImageSize = glm::dvec2(size[0], size[1]);
   view.Center = input.Center;
   switch (ComputeRayFrame(input, view.Rays))

@@ -142,6 +142,7 @@ std::string RayCastPipeline::ComputeFrame(
     ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   input.Center = this->Input.GetMesh().GetCenter();
   input.Radius = this->Input.GetMesh().GetRadius();
+  input.SmallestCell = this->Input.GetMesh().GetSmallestCell();
   input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;

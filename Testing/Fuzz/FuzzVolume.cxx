@@ -317,8 +317,9 @@ void VolumeRun::Measure(InstructionSet set, RayStatistics& sums)
 /** All instruction sets, which have the same rays. */
 void VolumeRun::Cast(const TetrahedralMesh& mesh)
 {
-  const RayFrameInput camera =
+  RayFrameInput camera =
     ReadCamera(this->Reader, mesh.GetCenter(), mesh.GetRadius(), this->Width, this->Height);
+  camera.SmallestCell = mesh.GetSmallestCell();
   RayFrame frame;
   if (ComputeRayFrame(camera, frame) != RayFrameStatus::Ok)
   {

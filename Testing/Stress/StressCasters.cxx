@@ -93,6 +93,7 @@ public:
     RayFrameInput input = FrameInput(view, this->Size);
     input.Center = this->Mesh.GetCenter();
     input.Radius = this->Mesh.GetRadius();
+    input.SmallestCell = this->Mesh.GetSmallestCell();
     RayFrame frame;
     if (this->Mesh.GetNumberOfCells() == 0 || this->Mesh.GetRadius() == 0.0 ||
       ComputeRayFrame(input, frame) != RayFrameStatus::Ok)

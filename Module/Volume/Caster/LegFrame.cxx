@@ -11,6 +11,7 @@ void LegFrame::Set(
 {
   this->GridUnit = grid.GetGridUnit();
   this->Pivot = grid.GetPivot();
+  this->RaysAreFine = grid.AreFine();
   this->Vertices = &vertices;
   this->Lit = optics.Lighting != nullptr;
   this->Lighting = this->Lit ? *optics.Lighting : SurfaceLighting();
@@ -24,6 +25,7 @@ void LegFrame::Describe(PacketJob& job) const
 {
   job.GridUnit = this->GridUnit;
   job.Pivot = this->Pivot;
+  job.RaysAreFine = this->RaysAreFine;
   job.Vertices = this->Vertices->data();
   job.Lighting = this->Lit ? &this->Lighting : nullptr;
   job.GradientToFrame = &this->GradientToFrame;

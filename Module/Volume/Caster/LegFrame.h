@@ -47,6 +47,7 @@ public:
 private:
   double GridUnit = 1.0;
   std::int32_t Pivot = 0;
+  bool RaysAreFine = false;
   const std::vector<PacketVertex>* Vertices = nullptr;
   bool Lit = false;
   SurfaceLighting Lighting;

@@ -139,23 +139,26 @@ double BoundaryRaster::NearestDepth(int tile) const
 void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
 {
   workspace.Offsets.resize(2 * SizeOfRays);
-  const bool hasFractions = this->GetRays().HasFractions();
+  workspace.Slopes.resize(2 * SizeOfRays);
   workspace.Fractions.resize(2 * SizeOfRays);
-  if (!hasFractions)
+  workspace.SlopeRests.resize(2 * SizeOfRays);
+  if (!this->GetRays().AreFine())
   {
     std::fill(workspace.Fractions.begin(), workspace.Fractions.end(), 0.0f);
+    std::fill(workspace.SlopeRests.begin(), workspace.SlopeRests.end(), 0.0f);
   }
-  workspace.Slopes.resize(2 * SizeOfRays);
   for (int row = tile.Bottom; row < tile.Top; ++row)
   {
-    const int first = (row - tile.Bottom) * TileSize;
-    std::int32_t* const offsets = workspace.Offsets.data() + first;
-    float* const fractions = hasFractions ? workspace.Fractions.data() + first : nullptr;
-    float* const slopes = workspace.Slopes.data() + first;
-    this->GetRays().FillRow(tile.Left, row, tile.Right - tile.Left,
-      { { offsets, offsets + SizeOfRays },
-        { fractions, hasFractions ? fractions + SizeOfRays : nullptr },
-        { slopes, slopes + SizeOfRays } });
+    FixedPointRays::RowOfRays rays;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize;
+      rays.Offset[axis] = workspace.Offsets.data() + first;
+      rays.Slope[axis] = workspace.Slopes.data() + first;
+      rays.Fraction[axis] = workspace.Fractions.data() + first;
+      rays.SlopeRest[axis] = workspace.SlopeRests.data() + first;
+    }
+    this->GetRays().FillRow(tile.Left, row, tile.Right - tile.Left, rays);
   }
 }
 
@@ -233,11 +236,12 @@ void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
   for (int axis = 0; axis < 2; ++axis)
   {
     job.Offsets[axis] = workspace.Offsets.data() + axis * SizeOfRays;
-    job.Fractions[axis] =
-      this->GetRays().HasFractions() ? workspace.Fractions.data() + axis * SizeOfRays : nullptr;
     job.Slopes[axis] = workspace.Slopes.data() + axis * SizeOfRays;
+    job.Fractions[axis] = workspace.Fractions.data() + axis * SizeOfRays;
+    job.SlopeRests[axis] = workspace.SlopeRests.data() + axis * SizeOfRays;
   }
   job.Pivot = this->GetRays().GetPivot();
+  job.RaysAreFine = this->GetRays().AreFine();
   job.Hits = workspace.Hits.data();
   FindEntries(job, this->Set);
   workspace.Lists.Set(TileSize * TileSize, job.Hits, static_cast<std::size_t>(job.NumberOfHits),

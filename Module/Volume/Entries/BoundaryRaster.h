@@ -63,18 +63,21 @@ public:
     std::vector<PacketHit> Hits;
     /** Lines of the tile's rays: SizeOfRays numbers each in x, then in y. */
     std::vector<std::int32_t> Offsets;
-    std::vector<float> Fractions;
     std::vector<float> Slopes;
+    /** 0 unless rays are fine. */
+    std::vector<float> Fractions;
+    std::vector<float> SlopeRests;
   };
-  /** Sets offset, fraction and slope of a ray to those of the tile whose entries were collected
-   * last. */
+  /** Sets the line of a ray to that of the tile whose entries were collected last. */
   static void SetLine(const Workspace& workspace, std::size_t pixel, PacketRay& ray)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
-      ray.Offset[axis] = workspace.Offsets[axis * SizeOfRays + pixel];
-      ray.Fraction[axis] = workspace.Fractions[axis * SizeOfRays + pixel];
-      ray.Slope[axis] = workspace.Slopes[axis * SizeOfRays + pixel];
+      const std::size_t at = axis * SizeOfRays + pixel;
+      ray.Offset[axis] = workspace.Offsets[at];
+      ray.Slope[axis] = workspace.Slopes[at];
+      ray.Fraction[axis] = workspace.Fractions[at];
+      ray.SlopeRest[axis] = workspace.SlopeRests[at];
     }
   }
   /** Replaces the lists of the workspace by the entries of a tile's rays. */

@@ -124,6 +124,7 @@ void TetrahedralMesh::ForgetAllButTables()
   this->Center = glm::dvec3(0.0);
   this->HalfSize = glm::dvec3(0.0);
   this->Radius = 0.0;
+  this->SmallestCell = 1.0;
 }
 
 //------------------------------------------------------------------------------
@@ -177,6 +178,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
     return MeshStatus::Aborted;
   }
   this->IsMovable = this->Radius > 0.0 && this->Rejected.PointNotFinite == 0;
+  this->MeasureSmallestCell(control.Loop);
   this->OrientCells(control.Loop);
   this->ActiveCells = this->GetNumberOfCells();
   this->CollectBoundary(control.Loop);

@@ -242,6 +242,11 @@ public:
   const glm::dvec3& GetHalfSize() const { return this->HalfSize; }
   /** Largest distance of a vertex from the centre; 0 if all vertices coincide or there are none. */
   double GetRadius() const { return this->Radius; }
+  /**
+   * Least length, over the cells with a volume, of the longest edge of a cell, in units of
+   * GetRadius(); 1 without such cells.
+   */
+  double GetSmallestCell() const { return this->SmallestCell; }
 
 private:
   class Builder;
@@ -250,6 +255,7 @@ private:
   void ForgetAllButTables();
   bool MeasurePoints(const PointsView& points, const RangeLoop& loop);
   void RoundPositions(const PointsView& points, const RangeLoop& loop);
+  void MeasureSmallestCell(const RangeLoop& loop);
   std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
   std::int32_t ComponentOf(std::size_t cell) const
   {
@@ -289,6 +295,7 @@ private:
   glm::dvec3 Center{ 0.0 };
   glm::dvec3 HalfSize{ 0.0 };
   double Radius = 0.0;
+  double SmallestCell = 1.0;
 };
 
 }

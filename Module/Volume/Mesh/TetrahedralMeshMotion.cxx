@@ -11,13 +11,38 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace meniscus
 {
 namespace
 {
+
+/** In units of positions. */
+float SquareOfLongestEdge(
+  const std::vector<glm::ivec3>& positions, const std::array<std::int32_t, 4>& vertices)
+{
+  glm::vec3 corners[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    corners[i] = glm::vec3(positions[vertices[i]]);
+  }
+  float longest = 0.0f;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = i + 1; j < 4; ++j)
+    {
+      const glm::vec3 edge = corners[j] - corners[i];
+      longest = std::max(longest, glm::dot(edge, edge));
+    }
+  }
+  return longest;
+}
 
 /** Volume of the cells of one component that follow one another in the table. */
 using ComponentRun = std::pair<std::int32_t, ComponentVolume>;
@@ -36,6 +61,7 @@ bool TetrahedralMesh::MovePoints(const PointsView& points, const RangeLoop& loop
     return false;
   }
   this->RoundPositions(points, loop);
+  this->MeasureSmallestCell(loop);
   return this->TurnComponents(loop);
 }
 
@@ -94,6 +120,31 @@ void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& 
         this->Positions[v] = glm::round((points[this->SourcePoints[v]] - this->Center) * scale);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::MeasureSmallestCell(const RangeLoop& loop)
+{
+  std::vector<float> smallest(
+    NumberOfBlocks(this->Cells.size()), std::numeric_limits<float>::infinity());
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      float least = smallest[block];
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const float square = SquareOfLongestEdge(this->Positions, this->Cells[c].Vertices);
+        // Cells without volume are never crossed, so their size does not matter.
+        if (square < least && SignedVolume(this->Positions, this->Cells[c]) != 0.0)
+        {
+          least = square;
+        }
+      }
+      smallest[block] = least;
+    });
+  const auto least = std::min_element(smallest.begin(), smallest.end());
+  this->SmallestCell =
+    least != smallest.end() && std::isfinite(*least) ? PositionUnit * std::sqrt(*least) : 1.0;
 }
 
 //------------------------------------------------------------------------------

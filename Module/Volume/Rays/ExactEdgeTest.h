@@ -17,18 +17,17 @@ namespace meniscus
  * those of the packets. It is a template so that each instruction set gets its own code (see
  * PacketJob.h).
  *
- * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay): one
- * rounding of a fused multiply-add whose arguments are rounded numbers and the ray's slope.
- * Whoever needs them computes the same floats, so that all decisions about a ray are those of one
- * plane drawing, however the numbers were rounded.
+ * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay). Whoever
+ * needs them computes the same floats, so that all decisions about a ray are those of one plane
+ * drawing, however the numbers were rounded.
  *
  * The sign of an edge is that of the determinant p.u q.v - p.v q.u of these floats, which is exact
  * by Kahan's method with fused multiply-adds: its error is at most 2 units in the last place of the
  * result (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of Kahan's algorithm for
  * the accurate computation of 2x2 determinants", 2013), unless a product under- or overflows.
- * Coordinates are below 2^32. Fractions are multiples of 2^-16. Slopes are 0 or at least 2^-40
- * (FixedPointRays), so they are multiples of 2^-63, and so are coordinates; products and their
- * rounding errors are multiples of 2^-126, the smallest normal float.
+ * Coordinates are below 2^32. Fractions are multiples of 2^-16. Slopes and their rests are 0 or at
+ * least 2^-40 (FixedPointRays), so they are multiples of 2^-63, and so are coordinates; products
+ * and their rounding errors are multiples of 2^-126, the smallest normal float.
  */
 template <class User>
 struct ExactEdgeTest
@@ -42,16 +41,31 @@ struct ExactEdgeTest
     std::int32_t Vertex;
   };
 
-  static Corner AboutRay(
-    const PacketVertex& vertex, std::int32_t number, const PacketRay& ray, std::int32_t pivot)
+  /**
+   * @param number number of the vertex.
+   * @param pivot pivot of the rays in grid units of depth.
+   * @param isFine FixedPointRays::AreFine().
+   */
+  static Corner AboutRay(const PacketVertex& vertex, std::int32_t number, const PacketRay& ray,
+    std::int32_t pivot, bool isFine)
   {
     Corner corner;
-    corner.Depth = static_cast<float>(vertex.Place[2] - pivot);
+    const std::int32_t depth = vertex.Place[2] - pivot;
+    corner.Depth = static_cast<float>(depth);
     const auto coordinate = [&](int axis)
     {
-      const float place =
-        static_cast<float>(vertex.Place[axis] - ray.Offset[axis]) - ray.Fraction[axis];
-      return std::fma(-ray.Slope[axis], corner.Depth, place);
+      const std::int32_t across = vertex.Place[axis] - ray.Offset[axis];
+      const auto place = static_cast<float>(across);
+      const float rounded = std::fma(-ray.Slope[axis], corner.Depth, place);
+      if (!isFine)
+      {
+        return rounded;
+      }
+      const auto restOf = [](std::int32_t whole, float asFloat)
+      { return static_cast<float>(whole - static_cast<std::int32_t>(asFloat)); };
+      const float lacking = std::fma(
+        -ray.Slope[axis], restOf(depth, corner.Depth), restOf(across, place) - ray.Fraction[axis]);
+      return rounded + std::fma(-ray.SlopeRest[axis], corner.Depth, lacking);
     };
     corner.U = coordinate(0);
     corner.V = coordinate(1);

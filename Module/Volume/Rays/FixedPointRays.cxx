@@ -42,10 +42,25 @@ constexpr double LargestSlope = 2147483647.0;
 /** Bound of the offset at depth 0 of a line for shaders that may meet the mesh. */
 constexpr double LargestLineOffset = 1073741824.0; // 2^30
 constexpr double FractionsOfRay = 65536.0;         // PacketRay::Fraction
-/** Spacing of rays, in grid units, from which on offsets are whole grid units. */
+/** Spacing of rays, in grid units, below which they are fine. */
 constexpr double FineSpacing = 32768.0; // 2^15
-/** Slopes below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
+/** Size of the smallest cell, in grid units, below which rays are fine. */
+constexpr double FineCell = 262144.0; // 2^18
+/** Slopes and their rests below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
 constexpr double SmallestSlope = 9.094947017729282e-13; // 2^-40
+
+/** PacketRay::Fraction. Truncated: twice as many fractions have the error of rounding. */
+inline float FractionOf(double rest)
+{
+  const auto fraction = static_cast<std::int32_t>(rest * FractionsOfRay);
+  return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
+}
+
+/** PacketRay::SlopeRest. */
+inline float SlopeRestOf(double rest)
+{
+  return std::fabs(rest) >= SmallestSlope ? static_cast<float>(rest) : 0.0f;
+}
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
@@ -109,7 +124,7 @@ FixedPointRays::FixedPointRays(
   }
   const double perUnit = GridRadiusOf(grid) / (1.0 + steepest);
   this->GridUnit = 1.0 / perUnit;
-  this->FractionsPerUnit = spacing * perUnit < FineSpacing ? FractionsOfRay : 0.0;
+  this->Fine = spacing * perUnit < FineSpacing || frame.SmallestCell * perUnit < FineCell;
   this->LargestOffset =
     LargestDifference - perUnit * std::max(glm::length(frame.RowX), glm::length(frame.RowY));
   this->Offset = Scaled(frame.Origin, perUnit);
@@ -183,29 +198,21 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
 }
 
 //------------------------------------------------------------------------------
-/**
- * One axis of a ray. Returns what the offset lacks.
- * @param offset,slope in grid units; the offset is at depth 0.
- */
-inline double FixedPointRays::SetAxis(
-  double offset, double slope, std::int32_t& rayOffset, float& raySlope) const
+/** @param offset,slope in grid units; the offset is at depth 0. */
+inline auto FixedPointRays::MakeAxis(double offset, double slope) const -> AxisOfRay
 {
   const double atPivot = offset + slope * this->Pivot;
   const double limited = std::min(std::max(atPivot, -this->LargestOffset), this->LargestOffset);
   // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
   // axis, and as far away.
   const bool isNear = atPivot == limited;
-  const bool isSteep = std::fabs(slope) >= SmallestSlope;
-  rayOffset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
-  raySlope = isNear && isSteep ? static_cast<float>(slope) : 0.0f;
-  return limited - rayOffset;
-}
-
-/** A fraction of PacketRay. Truncated: twice as many fractions have the error of rounding. */
-inline float FixedPointRays::FractionOf(double rest) const
-{
-  const auto fraction = static_cast<std::int32_t>(rest * this->FractionsPerUnit);
-  return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
+  const double kept = isNear && std::fabs(slope) >= SmallestSlope ? slope : 0.0;
+  AxisOfRay axis;
+  axis.Offset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
+  axis.Fraction = limited - axis.Offset;
+  axis.Slope = static_cast<float>(kept);
+  axis.SlopeRest = kept - static_cast<double>(axis.Slope);
+  return axis;
 }
 
 //------------------------------------------------------------------------------
@@ -213,18 +220,23 @@ void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& ra
 {
   for (int axis = 0; axis < 2; ++axis)
   {
-    std::int32_t* const offsets = rays.Offset[axis];
-    float* const slopes = rays.Slope[axis];
-    float* const fractions = rays.Fraction[axis];
-    for (int i = 0; i < count; ++i)
+    const auto make = [&](int i)
     {
       const glm::dvec2 pixel = this->FromCenter(column + i, row);
-      const double rest = this->SetAxis(this->Offset.At(pixel.x, pixel.y)[axis],
-        this->Slope.At(pixel.x, pixel.y)[axis], offsets[i], slopes[i]);
-      if (fractions)
-      {
-        fractions[i] = this->FractionOf(rest);
-      }
+      return this->MakeAxis(
+        this->Offset.At(pixel.x, pixel.y)[axis], this->Slope.At(pixel.x, pixel.y)[axis]);
+    };
+    for (int i = 0; i < count; ++i)
+    {
+      const AxisOfRay made = make(i);
+      rays.Offset[axis][i] = made.Offset;
+      rays.Slope[axis][i] = made.Slope;
+    }
+    for (int i = 0; this->Fine && i < count; ++i)
+    {
+      const AxisOfRay made = make(i);
+      rays.Fraction[axis][i] = FractionOf(made.Fraction);
+      rays.SlopeRest[axis][i] = SlopeRestOf(made.SlopeRest);
     }
   }
 }
@@ -235,8 +247,12 @@ PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& s
   PacketRay ray;
   for (int axis = 0; axis < 2; ++axis)
   {
-    ray.Fraction[axis] = this->FractionOf(this->SetAxis(origin[axis] / this->GridUnit,
-      slope[axis] / (this->GridUnit * GridPerDepth), ray.Offset[axis], ray.Slope[axis]));
+    const AxisOfRay made =
+      this->MakeAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth));
+    ray.Offset[axis] = made.Offset;
+    ray.Slope[axis] = made.Slope;
+    ray.Fraction[axis] = this->Fine ? FractionOf(made.Fraction) : 0.0f;
+    ray.SlopeRest[axis] = this->Fine ? SlopeRestOf(made.SlopeRest) : 0.0f;
   }
   ray.LengthPerDepth =
     LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);

@@ -67,11 +67,12 @@ public:
       glm::length(frame.Origin.PerRow + depth * frame.Slope.PerRow));
   }
   /**
-   * Whether rays have fractions of grid units, see PacketRay. They do if the rays of neighbouring
-   * pixels are less than 2^15 grid units apart where they begin to be seen: elsewhere a ray without
-   * is displaced by at most 2^-16 of that distance.
+   * True if rays are fine (PacketRay). They are where coordinates about other rays would not be
+   * precise enough: if rays of neighbouring pixels are less than 2^15 grid units apart where they
+   * begin to be seen, since offsets without fractions displace a ray by 1/2, or if the longest edge
+   * of a cell is less than 2^18 grid units, since coordinates are rounded by up to RoundingOfRay.
    */
-  bool HasFractions() const { return this->FractionsPerUnit > 0.0; }
+  bool AreFine() const { return this->Fine; }
 
   /**
    * Vector from the image's centre to the centre of pixel (column, row), in pixels, as RayFrame
@@ -86,9 +87,10 @@ public:
   struct RowOfRays
   {
     std::int32_t* Offset[2];
-    /** Null where rays have no fractions. */
-    float* Fraction[2];
     float* Slope[2];
+    /** Set only if rays are fine. */
+    float* Fraction[2];
+    float* SlopeRest[2];
   };
   /** Sets the rays of consecutive pixels of a row. */
   void FillRow(int column, int row, int count, const RowOfRays& rays) const;
@@ -163,13 +165,13 @@ public:
 
   /**
    * Largest deviation of u or v of a ray that may meet the mesh from the affine function, in grid
-   * units. Offset and fraction are rounded by 2^-17, an offset alone by 1/2. The integer x -
-   * offset, below 2^31, is rounded to float by up to 64, and so are its difference from the
-   * fraction and u, which is below 2^31. The slope is below 1 and depth below 2^31: rounding the
-   * depth to float changes their product by up to 64, and rounding the slope by up to 2^31 * 2^-25
-   * = 64. The sum is 320 + 2^-17.
+   * units. The offset is rounded by 1/2. The integer x - offset, below 2^31, is rounded to float by
+   * up to 64, and so is u, which is below 2^31. The slope is below 1 and depth below 2^31: rounding
+   * the depth to float changes their product by up to 64, and rounding the slope by up to 2^31 *
+   * 2^-25 = 64. The sum is 256.5. The coordinates of fine rays are rounded twice, by up to 64 each,
+   * and by less than 1 in all other places.
    */
-  static constexpr double RoundingOfRay = 321.0;
+  static constexpr double RoundingOfRay = 257.0;
   /**
    * Largest length per grid unit of depth. Depths differ by less than 2^32, so that a sum of
    * lengths stays below 2^127, a finite float; larger scenes look as if they had this size.
@@ -185,15 +187,21 @@ private:
   {
     return static_cast<float>(std::min(length, double{ LargestLengthPerDepth }));
   }
-  double SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
-  float FractionOf(double rest) const;
+  /** Whole and rest of a ray's offset at the pivot and of its slope, along one axis. */
+  struct AxisOfRay
+  {
+    std::int32_t Offset;
+    double Fraction;
+    float Slope;
+    double SlopeRest;
+  };
+  AxisOfRay MakeAxis(double offset, double slope) const;
 
   RayFrame Frame;
   int Width = 0;
   int Height = 0;
   double GridUnit = 1.0;
-  /** 2^16, or 0 if rays have no fractions. */
-  double FractionsPerUnit = 0.0;
+  bool Fine = false;
   /** Bound of the offsets of rays at the pivot. */
   double LargestOffset = 0.0;
   std::int32_t Pivot = 0;

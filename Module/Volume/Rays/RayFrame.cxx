@@ -74,7 +74,7 @@ bool operator==(const RayFrame& a, const RayFrame& b)
   const auto rest = [](const RayFrame& frame)
   {
     return std::tie(frame.RowX, frame.RowY, frame.RowDepth, frame.ViewToWorld, frame.Handedness,
-      frame.NearDepth, frame.DepthNumerator, frame.DepthDenominator);
+      frame.NearDepth, frame.SmallestCell, frame.DepthNumerator, frame.DepthDenominator);
   };
   return mapOf(a.Origin) == mapOf(b.Origin) && mapOf(a.Slope) == mapOf(b.Slope) &&
     rest(a) == rest(b);
@@ -118,6 +118,7 @@ RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
   frame.RowY = row(1) / unit;
   frame.RowDepth = -row(2) / unit;
   frame.Handedness = determinant > 0.0 ? 1 : -1;
+  frame.SmallestCell = input.SmallestCell;
   frame.ViewToWorld = unit * glm::inverse(glm::dmat3(input.WorldToView));
   frame.ViewToWorld[2] = -frame.ViewToWorld[2]; // depth counts along -z
 

@@ -32,6 +32,8 @@ struct RayFrameInput
   glm::dvec3 Center{ 0.0 };
   /** Radius of the mesh about its centre, model coordinates, > 0. */
   double Radius = 1.0;
+  /** Size of the mesh's smallest cell over that radius (TetrahedralMesh::GetSmallestCell()). */
+  double SmallestCell = 1.0;
   /** Number of pixels in the image, which the clip coordinates [-1, 1] span. */
   glm::dvec2 ImageSize{ 1.0 };
 };
@@ -64,6 +66,8 @@ struct RayFrame
   int Handedness = 1;
   /** Depth of the near clipping plane. */
   double NearDepth = 0.0;
+  /** RayFrameInput::SmallestCell. */
+  double SmallestCell = 1.0;
   /**
    * Depth = (d * DepthNumerator.x + .y) / (d * DepthDenominator.x + .y), with the clip depth d in
    * [-1, 1].

@@ -237,6 +237,7 @@ void RayBundleEntries::Collect(const std::vector<Line>& lines,
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(numbers.size());
   job.Pivot = this->Frame.Rays.GetPivot();
+  job.RaysAreFine = this->Frame.Rays.AreFine();
   job.Entered = workspace.Entered.data();
   FindEntered(job, this->Set);
 
@@ -265,7 +266,7 @@ bool RayBundleEntries::Enters(
   {
     const std::int32_t vertex = face.Vertices[k];
     return Test::AboutRay(this->Frame.Vertices[static_cast<std::size_t>(vertex)], vertex, ray,
-      this->Frame.Rays.GetPivot());
+      this->Frame.Rays.GetPivot(), this->Frame.Rays.AreFine());
   };
   const auto found = ExactEntry<RayBundleEntries>::Of(cornerOf(0), cornerOf(1), cornerOf(2));
   entry = { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace, found.Depth };

@@ -47,6 +47,7 @@ RefractionFrame MakeFrame(
   turned.RowDepth = rows[2];
   turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
   turned.Handedness = view.Handedness;
+  turned.SmallestCell = view.SmallestCell;
   frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
   // FixedPointRays reserves range for 1 + the steepest slope; a ray of slope 1 that meets the mesh
   // passes the origin within 2 extents.

@@ -277,7 +277,7 @@ RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrato
     compare(find(ray, shifted));
   }
   const double radius = 0.5 * integrator.MakeMesh().GetDiagonal();
-  const double distance = 3.0e-7 * (1.0 + slope) * radius;
+  const double distance = 2.4e-7 * (1.0 + slope) * radius;
   const Vector3 other = std::abs(ray.Direction[0]) < 0.7 * LengthOf(ray) ? Vector3{ 1.0, 0.0, 0.0 }
                                                                          : Vector3{ 0.0, 1.0, 0.0 };
   const Vector3 across = Cross(ray.Direction, other);

@@ -69,8 +69,8 @@ struct RobustEvents
  * The events of a ray, and of its neighbours: moved sideways in 8 directions by the rounding of a
  * ray in the kernel, and with all scalars shifted up or down by the rounding of normalised scalars.
  *
- * Rounding of a ray, in units of the radius of the mesh: FixedPointRays::RoundingOfRay, 321 grid
- * units of 2^-30 (1 + steepest slope), is a bound of 3.0e-7 (1 + slope); `slope` is the tangent of
+ * Rounding of a ray, in units of the radius of the mesh: FixedPointRays::RoundingOfRay, 257 grid
+ * units of 2^-30 (1 + steepest slope), is a bound of 2.4e-7 (1 + slope); `slope` is the tangent of
  * half the view angle. Rounding of scalars: floats in [-1, 1] are rounded by 2^-25 of half the
  * range, and interpolated with the same error at three corners: 2^-24 of the range, `scalarRange`.
  * An event within `depthRounding` of the neighbour along the ray may as well be in that cell.

@@ -80,6 +80,7 @@ struct PacketJob
   double GridUnit;
   /** Pivot of the rays in grid units of depth. */
   std::int32_t Pivot;
+  bool RaysAreFine;
   /** Transmittance at or below which a ray ends. */
   float TerminationTransmittance;
   const PacketRay* Rays;

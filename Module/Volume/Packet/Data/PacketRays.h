@@ -33,18 +33,25 @@ struct PacketVertex
 
 /**
  * A ray and its frame of reference. Relative to the ray, a vertex has the coordinates u, v =
- * fma(-Slope, float(depth), float(place - Offset) - Fraction), in grid units, for its x and y;
- * depths count from the pivot of the rays (FixedPointRays). Differences of integers are exact; each
- * conversion to float, the difference of floats and fma round once.
+ * fma(-Slope, float(depth), float(place - Offset)), in grid units, for its x and y; depths count
+ * from the pivot of the rays (FixedPointRays). Differences of integers are exact; each conversion
+ * to float and fma round once.
+ *
+ * Rays are fine if they are close to each other (FixedPointRays::AreFine()). Coordinates about them
+ * are the sum of this number and of what it lacks: fma(-SlopeRest, float(depth), fma(-Slope,
+ * r(depth), r(place - Offset) - Fraction)), where r(x) = x - float(x). Their rounding errors are
+ * 2^-24 of the coordinates themselves, not of place and depth.
  */
 struct PacketRay
 {
   /** Such that differences from places of the mesh are within 32 bits. */
   std::int32_t Offset[2];
-  /** Remainder of the exact offset, in grid units: a multiple of 2^-16 within 1/2. */
-  float Fraction[2];
   /** Grid units across per grid unit of depth; 0 or at least 2^-40 in magnitude. */
   float Slope[2];
+  /** Remainder of the exact offset of a fine ray, in grid units: a multiple of 2^-16 within 1/2. */
+  float Fraction[2];
+  /** Difference of a fine ray's exact slope from Slope; 0 or at least 2^-40 in magnitude. */
+  float SlopeRest[2];
   /** World length of a grid unit of depth. */
   float LengthPerDepth;
   /** Depths between which the ray is integrated, in grid units from the pivot. */
@@ -105,6 +112,7 @@ struct PacketFaceJob
   std::int32_t NumberOfRays;
   /** Pivot of the rays in grid units of depth. */
   std::int32_t Pivot;
+  bool RaysAreFine;
   /** One entry per face; bit i is set if ray i enters by it. */
   std::uint64_t* Entered;
 };
@@ -135,11 +143,13 @@ struct PacketSpanJob
   std::int32_t NumberOfSpans;
   /** Lines of all rays as in PacketRay; readable up to 16 entries behind the last. */
   const std::int32_t* Offsets[2];
-  /** Null if all are 0. */
-  const float* Fractions[2];
   const float* Slopes[2];
+  /** Read only if rays are fine. */
+  const float* Fractions[2];
+  const float* SlopeRests[2];
   /** Pivot of the rays in grid units of depth. */
   std::int32_t Pivot;
+  bool RaysAreFine;
   /** In the order of the spans; room for one hit per ray of each span. */
   PacketHit* Hits;
   std::int32_t NumberOfHits;

@@ -20,19 +20,10 @@ public:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
 
-  /** Lines of rays in x and y, as in PacketRay. */
-  struct Rays
-  {
-    Int Offset[2];
-    Float Slope[2];
-    /** False if all fractions are 0; they need not be set then. */
-    bool HasFractions;
-    Float Fraction[2];
-  };
-
-  PacketFaceTest(const PacketVertex* vertices, std::int32_t pivot)
+  PacketFaceTest(const PacketVertex* vertices, std::int32_t pivot, bool raysAreFine)
     : Vertices(vertices)
     , Pivot(pivot)
+    , RaysAreFine(raysAreFine)
   {
   }
 
@@ -43,12 +34,13 @@ public:
     {
       this->Ids[k] = face.Vertices[k];
       this->Seen[k] = this->Vertices + face.Vertices[k];
-      this->Depths[k] = static_cast<float>(this->Seen[k]->Place[2] - this->Pivot);
+      this->GridDepths[k] = this->Seen[k]->Place[2] - this->Pivot;
+      this->Depths[k] = static_cast<float>(this->GridDepths[k]);
     }
   }
 
   /** Lanes whose ray enters by the face. */
-  Mask Test(const Rays& rays);
+  Mask Test(const LaneRays<Simd>& rays);
 
   /**
    * Depths at which the rays of the last test that enter do so, in grid units from the pivot. A
@@ -73,8 +65,11 @@ private:
 
   const PacketVertex* Vertices;
   std::int32_t Pivot;
+  bool RaysAreFine;
   std::int32_t Ids[3] = {};
   const PacketVertex* Seen[3] = {};
+  /** Depths from the pivot, and the same as floats. */
+  std::int32_t GridDepths[3] = {};
   float Depths[3] = {};
   /** Twice the areas that the edges 01, 12, 20 span with the rays. */
   Float Areas[3];
@@ -82,22 +77,24 @@ private:
 
 //------------------------------------------------------------------------------
 template <class Simd>
-inline auto PacketFaceTest<Simd>::Test(const Rays& rays) -> Mask
+inline auto PacketFaceTest<Simd>::Test(const LaneRays<Simd>& rays) -> Mask
 {
   Corner corners[3];
   for (int k = 0; k < 3; ++k)
   {
+    const Int place[2] = { Simd::Splat(this->Seen[k]->Place[0]),
+      Simd::Splat(this->Seen[k]->Place[1]) };
     const Float depth = Simd::Splat(this->Depths[k]);
-    const auto aboutRay = [&](int axis)
+    Float coordinates[2];
+    if (this->RaysAreFine)
     {
-      Float place = Simd::ToFloat(Simd::Splat(this->Seen[k]->Place[axis]) - rays.Offset[axis]);
-      if (rays.HasFractions)
-      {
-        place = place - rays.Fraction[axis];
-      }
-      return Simd::SubtractProduct(place, rays.Slope[axis], depth);
-    };
-    corners[k] = { aboutRay(0), aboutRay(1) };
+      rays.AboutFineRays(place, Simd::Splat(this->GridDepths[k]), depth, coordinates);
+    }
+    else
+    {
+      rays.AboutRays(place, depth, coordinates);
+    }
+    corners[k] = { coordinates[0], coordinates[1] };
   }
   const Float zero = Simd::Splat(0.0f);
   for (int k = 0; k < 3; ++k)
@@ -131,7 +128,7 @@ template <class Simd>
 void FindEnteredWith(const PacketFaceJob& job)
 {
   constexpr int width = Simd::Width;
-  PacketFaceTest<Simd> test(job.Vertices, job.Pivot);
+  PacketFaceTest<Simd> test(job.Vertices, job.Pivot, job.RaysAreFine);
   for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
   {
     job.Entered[face] = 0;
@@ -139,8 +136,9 @@ void FindEnteredWith(const PacketFaceJob& job)
   for (std::int32_t first = 0; first < job.NumberOfRays; first += width)
   {
     std::int32_t offsets[2][width];
-    float fractions[2][width];
     float slopes[2][width];
+    float fractions[2][width];
+    float slopeRests[2][width];
     std::uint64_t valid = 0;
     for (int lane = 0; lane < width; ++lane)
     {
@@ -150,14 +148,19 @@ void FindEnteredWith(const PacketFaceJob& job)
       for (int axis = 0; axis < 2; ++axis)
       {
         offsets[axis][lane] = ray.Offset[axis];
-        fractions[axis][lane] = ray.Fraction[axis];
         slopes[axis][lane] = ray.Slope[axis];
+        fractions[axis][lane] = ray.Fraction[axis];
+        slopeRests[axis][lane] = ray.SlopeRest[axis];
       }
     }
-    const typename PacketFaceTest<Simd>::Rays rays{ { Simd::Load(offsets[0]),
-                                                      Simd::Load(offsets[1]) },
-      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) }, true,
-      { Simd::Load(fractions[0]), Simd::Load(fractions[1]) } };
+    LaneRays<Simd> rays;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      rays.Offset[axis] = Simd::Load(offsets[axis]);
+      rays.Slope[axis] = Simd::Load(slopes[axis]);
+      rays.Fraction[axis] = Simd::Load(fractions[axis]);
+      rays.SlopeRest[axis] = Simd::Load(slopeRests[axis]);
+    }
     for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
     {
       test.Take(job.Faces[face]);
@@ -172,7 +175,7 @@ template <class Simd>
 void FindEntriesWith(PacketSpanJob& job)
 {
   constexpr int width = Simd::Width;
-  PacketFaceTest<Simd> test(job.Vertices, job.Pivot);
+  PacketFaceTest<Simd> test(job.Vertices, job.Pivot, job.RaysAreFine);
   PacketHit* hit = job.Hits;
   std::int32_t taken = -1;
   for (const PacketSpan* span = job.Spans; span != job.Spans + job.NumberOfSpans; ++span)
@@ -184,15 +187,15 @@ void FindEntriesWith(PacketSpanJob& job)
     }
     for (std::int32_t first = span->First; first < span->End; first += width)
     {
-      typename PacketFaceTest<Simd>::Rays rays;
-      rays.HasFractions = job.Fractions[0] != nullptr;
+      LaneRays<Simd> rays;
       for (int axis = 0; axis < 2; ++axis)
       {
         rays.Offset[axis] = Simd::Load(job.Offsets[axis] + first);
         rays.Slope[axis] = Simd::Load(job.Slopes[axis] + first);
-        if (rays.HasFractions)
+        if (job.RaysAreFine)
         {
           rays.Fraction[axis] = Simd::Load(job.Fractions[axis] + first);
+          rays.SlopeRest[axis] = Simd::Load(job.SlopeRests[axis] + first);
         }
       }
       const std::int32_t left = span->End - first;

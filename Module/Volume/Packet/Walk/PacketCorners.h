@@ -8,6 +8,51 @@
 namespace meniscus
 {
 
+/** Lines of the lanes' rays in x and y, as in PacketRay. */
+template <class Simd>
+struct LaneRays
+{
+  using Float = typename Simd::Float;
+  using Int = typename Simd::Int;
+
+  Int Offset[2];
+  Float Slope[2];
+  /** Set for fine rays only. */
+  Float Fraction[2];
+  Float SlopeRest[2];
+
+  /**
+   * Coordinates u and v of a vertex about the rays.
+   * @param place x and y of the vertex in grid units.
+   * @param depth grid units from the pivot, and the same as floats.
+   */
+  void AboutRays(const Int (&place)[2], Float depth, Float (&coordinates)[2]) const
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      coordinates[axis] = Simd::SubtractProduct(
+        Simd::ToFloat(place[axis] - this->Offset[axis]), this->Slope[axis], depth);
+    }
+  }
+  /** The same about fine rays. */
+  void AboutFineRays(
+    const Int (&place)[2], Int depth, Float depthAsFloat, Float (&coordinates)[2]) const
+  {
+    const Float depthRest = Simd::ToFloat(depth - Simd::ToInt(depthAsFloat));
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const Int across = place[axis] - this->Offset[axis];
+      const Float acrossAsFloat = Simd::ToFloat(across);
+      const Float rest = Simd::ToFloat(across - Simd::ToInt(acrossAsFloat)) - this->Fraction[axis];
+      const Float lacking =
+        Simd::SubtractProduct(Simd::SubtractProduct(rest, this->Slope[axis], depthRest),
+          this->SlopeRest[axis], depthAsFloat);
+      coordinates[axis] =
+        Simd::SubtractProduct(acrossAsFloat, this->Slope[axis], depthAsFloat) + lacking;
+    }
+  }
+};
+
 /**
  * Lanes whose ray, which meets the edge from p to q, is displaced to the left of it
  * (ExactEdgeTest::TurnsLeft()).

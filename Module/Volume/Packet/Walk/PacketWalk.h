@@ -149,12 +149,7 @@ private:
   std::int32_t StepLimit;
 
   Model Integral;
-  /** Lines of the rays in x and y, as in PacketRay, and their pivot. */
-  Int Offset[2];
-  Float Fraction[2];
-  Float Slope[2];
-  /** Whether the fraction of any lane is not 0. */
-  bool HasFractions = false;
+  LaneRays<Simd> Rays;
   Int Pivot;
   // Vertices of the face just entered by, counter-clockwise about the ray, and twice the areas that
   // its edges AB, BC, CA span with the ray.
@@ -183,8 +178,9 @@ private:
 
   // By lane, for the scalar code that replaces rays.
   std::int32_t Offsets[2][Width];
-  float Fractions[2][Width];
   float Slopes[2][Width];
+  float Fractions[2][Width];
+  float SlopeRests[2][Width];
   std::int32_t Ray[Width];
   std::int32_t Entry[Width];
   std::int32_t Ids[3][Width];
@@ -231,9 +227,12 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
     this->CellFaces[lane] = this->StepsOf[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
-    this->Offsets[0][lane] = this->Offsets[1][lane] = 0;
-    this->Fractions[0][lane] = this->Fractions[1][lane] = 0.0f;
-    this->Slopes[0][lane] = this->Slopes[1][lane] = 0.0f;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      this->Offsets[axis][lane] = 0;
+      this->Slopes[axis][lane] = 0.0f;
+      this->Fractions[axis][lane] = this->SlopeRests[axis][lane] = 0.0f;
+    }
   }
   this->LoadLanes();
 }
@@ -281,19 +280,19 @@ template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
   corner.Depth = Simd::AsInt(vertex[2]) - this->Pivot;
-  Float place[2];
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    place[axis] = Simd::ToFloat(Simd::AsInt(vertex[axis]) - this->Offset[axis]);
-  }
-  if (this->HasFractions)
-  {
-    place[0] = place[0] - this->Fraction[0];
-    place[1] = place[1] - this->Fraction[1];
-  }
   const Float depth = Simd::ToFloat(corner.Depth);
-  corner.U = Simd::SubtractProduct(place[0], this->Slope[0], depth);
-  corner.V = Simd::SubtractProduct(place[1], this->Slope[1], depth);
+  const Int place[2] = { Simd::AsInt(vertex[0]), Simd::AsInt(vertex[1]) };
+  Float coordinates[2];
+  if (this->Job.RaysAreFine)
+  {
+    this->Rays.AboutFineRays(place, corner.Depth, depth, coordinates);
+  }
+  else
+  {
+    this->Rays.AboutRays(place, depth, coordinates);
+  }
+  corner.U = coordinates[0];
+  corner.V = coordinates[1];
   corner.Scalar = vertex[3];
 }
 
@@ -524,8 +523,9 @@ bool PacketWalk<Simd, Model>::TakeRay(int lane)
     for (int axis = 0; axis < 2; ++axis)
     {
       this->Offsets[axis][lane] = ray.Offset[axis];
-      this->Fractions[axis][lane] = ray.Fraction[axis];
       this->Slopes[axis][lane] = ray.Slope[axis];
+      this->Fractions[axis][lane] = ray.Fraction[axis];
+      this->SlopeRests[axis][lane] = ray.SlopeRest[axis];
     }
     for (int k = 0; k < Model::NumberOfValues; ++k)
     {
@@ -624,13 +624,11 @@ void PacketWalk<Simd, Model>::LoadLanes()
   this->LengthPerDepth = Simd::Load(this->LengthsPerDepth);
   for (int axis = 0; axis < 2; ++axis)
   {
-    this->Offset[axis] = Simd::Load(this->Offsets[axis]);
-    this->Fraction[axis] = Simd::Load(this->Fractions[axis]);
-    this->Slope[axis] = Simd::Load(this->Slopes[axis]);
+    this->Rays.Offset[axis] = Simd::Load(this->Offsets[axis]);
+    this->Rays.Slope[axis] = Simd::Load(this->Slopes[axis]);
+    this->Rays.Fraction[axis] = Simd::Load(this->Fractions[axis]);
+    this->Rays.SlopeRest[axis] = Simd::Load(this->SlopeRests[axis]);
   }
-  const Float zero = Simd::Splat(0.0f);
-  const Float largest = Simd::Max(Simd::Abs(this->Fraction[0]), Simd::Abs(this->Fraction[1]));
-  this->HasFractions = Simd::Bits(largest > zero) != 0;
   if constexpr (Model::UsesLines)
   {
     this->LoadLines();

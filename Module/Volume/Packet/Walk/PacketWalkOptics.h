@@ -47,11 +47,11 @@ void PacketWalk<Simd, Model>::LoadLines()
   const auto slope = static_cast<float>(this->Job.GridUnit * PacketVertex::GridPerDepth);
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  const Float x = this->Slope[0] * Simd::Splat(slope);
-  const Float y = this->Slope[1] * Simd::Splat(slope);
+  const Float x = this->Rays.Slope[0] * Simd::Splat(slope);
+  const Float y = this->Rays.Slope[1] * Simd::Splat(slope);
   const Float perDepth = one / Simd::Sqrt(Simd::Fma(x, x, Simd::Fma(y, y, one)));
-  this->Line = { Simd::ToFloat(this->Offset[0]) * Simd::Splat(unit),
-    Simd::ToFloat(this->Offset[1]) * Simd::Splat(unit),
+  this->Line = { Simd::ToFloat(this->Rays.Offset[0]) * Simd::Splat(unit),
+    Simd::ToFloat(this->Rays.Offset[1]) * Simd::Splat(unit),
     Simd::ToFloat(this->Pivot) * Simd::Splat(PacketVertex::DepthUnit), x, y,
     { zero - x * perDepth, zero - y * perDepth, zero - perDepth } };
 }

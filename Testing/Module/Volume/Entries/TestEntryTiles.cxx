@@ -146,7 +146,8 @@ std::int64_t CountMissedEntries(const TetrahedralMesh& mesh, const FixedPointRay
         const auto corner = [&](int k)
         {
           const std::int32_t vertex = entered.Vertices[k];
-          return Test::AboutRay(faces.GetVertex(vertex), vertex, ray, rays.GetPivot());
+          return Test::AboutRay(
+            faces.GetVertex(vertex), vertex, ray, rays.GetPivot(), rays.AreFine());
         };
         entries += ExactEntry<void>::Of(corner(0), corner(1), corner(2)).Entered;
       }
@@ -266,7 +267,7 @@ TEST(BoundaryRaster, FindsEveryEntryFromAnEyeAtAVertex)
     for (const double spacing : { 0.0, 1.0 })
     {
       const FixedPointRays rays(frame, Pixels, Pixels, frame.NearDepth, spacing);
-      ASSERT_EQ(rays.HasFractions(), spacing == 0.0);
+      ASSERT_EQ(rays.AreFine(), spacing == 0.0);
       EXPECT_EQ(CountMissedEntries(mesh, rays), 0) << i;
     }
   }
