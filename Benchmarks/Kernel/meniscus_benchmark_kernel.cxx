@@ -79,6 +79,8 @@ struct FrameKind
   BlendMode Mode;
   double Attenuation;
   bool IsLit;
+  /** True for rays as in a mesh with small cells. */
+  bool IsFine = false;
 };
 
 /** A frame: places the vertices, finds the entries and casts the rays. Items are cells crossed. */
@@ -93,6 +95,7 @@ void CastFrame(benchmark::State& state, InstructionSet set, const FrameKind& kin
     scene.Scalars.push_back(static_cast<float>(arrays.PointAt(point).z));
   }
   scene.Frame = FrameAlongZ(scene.Mesh, 0.55, Pixels);
+  scene.Frame.SmallestCell = kind.IsFine ? 0.0 : 1.0;
   scene.Optics.Blending = kind.Mode;
   scene.Optics.TerminationTransmittance = 1.0f / 131072.0f; // the mapper's default
   const std::vector<double> scalars(scene.Scalars.begin(), scene.Scalars.end());
@@ -266,6 +269,7 @@ void RegisterFrames()
   {
     const std::string name = std::string("CastFrame/") + NameOf(set);
     for (const FrameKind& kind : { FrameKind{ "/Translucent", BlendMode::Composite, 1.0, false },
+           FrameKind{ "/Fine", BlendMode::Composite, 1.0, false, true },
            FrameKind{ "/Lit", BlendMode::Composite, 1.0, true },
            FrameKind{ "/Opaque", BlendMode::Composite, 1000.0, false },
            FrameKind{ "/Maximum", BlendMode::MaximumIntensity, 1.0, false } })

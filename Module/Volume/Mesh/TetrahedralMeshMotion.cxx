@@ -24,20 +24,16 @@ namespace
 {
 
 /** In units of positions. */
-float SquareOfLongestEdge(
+double SquareOfLongestEdge(
   const std::vector<glm::ivec3>& positions, const std::array<std::int32_t, 4>& vertices)
 {
-  glm::vec3 corners[4];
-  for (int i = 0; i < 4; ++i)
-  {
-    corners[i] = glm::vec3(positions[vertices[i]]);
-  }
-  float longest = 0.0f;
+  double longest = 0.0;
   for (int i = 0; i < 4; ++i)
   {
     for (int j = i + 1; j < 4; ++j)
     {
-      const glm::vec3 edge = corners[j] - corners[i];
+      const glm::dvec3 edge =
+        glm::dvec3(positions[vertices[j]]) - glm::dvec3(positions[vertices[i]]);
       longest = std::max(longest, glm::dot(edge, edge));
     }
   }
@@ -125,15 +121,15 @@ void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& 
 //------------------------------------------------------------------------------
 void TetrahedralMesh::MeasureSmallestCell(const RangeLoop& loop)
 {
-  std::vector<float> smallest(
-    NumberOfBlocks(this->Cells.size()), std::numeric_limits<float>::infinity());
+  std::vector<double> smallest(
+    NumberOfBlocks(this->Cells.size()), std::numeric_limits<double>::infinity());
   ForEachBlock(this->Cells.size(), loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      float least = smallest[block];
+      double least = smallest[block];
       for (std::size_t c = first; c < last; ++c)
       {
-        const float square = SquareOfLongestEdge(this->Positions, this->Cells[c].Vertices);
+        const double square = SquareOfLongestEdge(this->Positions, this->Cells[c].Vertices);
         // Cells without volume are never crossed, so their size does not matter.
         if (square < least && SignedVolume(this->Positions, this->Cells[c]) != 0.0)
         {

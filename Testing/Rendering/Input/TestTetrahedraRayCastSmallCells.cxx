@@ -136,7 +136,7 @@ Limits LimitsOf(const CornerScene& corner, int mode)
   Limits limits;
   if (corner.Scene.GetRayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
   {
-    limits.Tolerance = mode == vtkVolumeMapper::COMPOSITE_BLEND && !corner.IsAfar ? 2e-5 : 4e-5;
+    limits.Tolerance = corner.IsAfar ? 4e-5 : 2e-5;
     return limits;
   }
   // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of

@@ -53,6 +53,7 @@ struct UnorderedMesh
 {
   glm::dvec3 Center;
   double Radius;
+  double SmallestCell;
   std::map<std::int32_t, std::array<std::int32_t, 3>> Positions;
   /** Cell across the face opposite a point of a cell. */
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> Neighbors;
@@ -64,6 +65,7 @@ struct UnorderedMesh
   explicit UnorderedMesh(const TetrahedralMesh& mesh)
     : Center(mesh.GetCenter())
     , Radius(mesh.GetRadius())
+    , SmallestCell(mesh.GetSmallestCell())
     , Active(mesh.GetNumberOfActiveCells())
     , CutLinks(mesh.GetNumberOfCutLinks())
   {
@@ -100,6 +102,7 @@ void ExpectSame(const TetrahedralMesh& moved, const TetrahedralMesh& built)
   const UnorderedMesh b(built);
   EXPECT_EQ(a.Center, b.Center);
   EXPECT_EQ(a.Radius, b.Radius);
+  EXPECT_EQ(a.SmallestCell, b.SmallestCell);
   EXPECT_EQ(a.Positions, b.Positions);
   EXPECT_EQ(a.Neighbors, b.Neighbors);
   EXPECT_EQ(a.Boundary, b.Boundary);

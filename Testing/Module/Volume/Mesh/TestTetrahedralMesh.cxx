@@ -79,6 +79,27 @@ TEST(TetrahedralMesh, LinksAndBoundaryOfAGrid)
   EXPECT_NEAR(EnclosedVolume(mesh) * radius * radius * radius, 1.0, 1e-6);
 }
 
+TEST(TetrahedralMesh, TheSmallestCellIsThatWithTheShortestLongestEdge)
+{
+  // The longest edges of Kuhn's tetrahedra are the diagonals of the cubes, twice the radius over n.
+  const int n = 5;
+  MeshArrays arrays = KuhnGrid(n);
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_NEAR(mesh.GetSmallestCell(), 2.0 / n, 1e-6);
+  // A small tetrahedron outside of all others, whose longest edge is the diagonal of a square, and
+  // a smaller one without volume.
+  const double size = 1e-3;
+  const auto next = static_cast<std::int64_t>(arrays.Points.size() / 3);
+  arrays.Points.insert(arrays.Points.end(),
+    { 0.5, 0.5, 1.01, 0.5 + size, 0.5, 1.01, 0.5, 0.5 + size, 1.01, 0.5, 0.5, 1.01 + size, 0.5, 0.5,
+      1.01 + 0.5 * size, 0.5, 0.5, 1.01 + 0.25 * size });
+  arrays.Cells.insert(
+    arrays.Cells.end(), { next, next + 1, next + 2, next + 3, next, next + 3, next + 4, next + 5 });
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_NEAR(mesh.GetSmallestCell() * mesh.GetRadius() / size, std::sqrt(2.0), 1e-5);
+}
+
 TEST(TetrahedralMesh, OrientationOfTheInputDoesNotMatter)
 {
   MeshArrays arrays = KuhnGrid(3);
