@@ -5,6 +5,10 @@ ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 cd "$ROOT"
 JOBS="${MENISCUS_JOBS:-$(nproc)}"
 export DEBIAN_FRONTEND=noninteractive
+# The compiler cache serves all clones: paths below the root count relative to the build folder, and
+# the folder's own name does not count.
+export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}"
+export CCACHE_NOHASHDIR="${CCACHE_NOHASHDIR:-1}"
 
 # Packages that a fresh Debian 12 lacks, per purpose. The first are those without VTK.
 PACKAGES_KERNEL=(g++ cmake ninja-build python3 libpython3-dev libglm-dev libopenmesh-dev
