@@ -10,6 +10,24 @@ namespace
 {
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
+
+/** Every second bit of a number of ten bits, as one number. */
+constexpr std::int32_t EvenBits(std::int32_t number)
+{
+  std::int32_t bits = 0;
+  for (int i = 0; i < 5; ++i)
+  {
+    bits |= (number >> 2 * i & 1) << i;
+  }
+  return bits;
+}
+
+/** Pixel of the tile with a number along the Morton curve. */
+constexpr std::int32_t PixelAlongCurve(std::int32_t number)
+{
+  return EvenBits(number >> 1) * TileSize + EvenBits(number);
+}
+static_assert(TileSize == 32, "EvenBits() takes ten bits");
 static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 
 }
@@ -77,8 +95,11 @@ void SightLegEntries::TakeRays(
 {
   const EntryLists& entries = workspace.Raster.Lists;
   LegBatch& batch = workspace.Batch;
-  for (std::int32_t pixel = 0; pixel < TileSize * TileSize; ++pixel)
+  for (std::int32_t number = 0; number < TileSize * TileSize; ++number)
   {
+    // Rays that are cast together are those of a square, which cross the same cells for longer than
+    // those of a row.
+    const std::int32_t pixel = PixelAlongCurve(number);
     const auto inTile = static_cast<std::size_t>(pixel);
     if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1))
     {
