@@ -195,8 +195,15 @@ void main()
   int node = nearMesh ? 0 : numberOfNodes;
   while (node < numberOfNodes && count <= TILE_CAPACITY)
   {
-    int leaf;
-    meetsBox(node, reach, reachPerDepth, ivec2(BEFORE_EVERYTHING, end), node, leaf);
+    // The tree is descended to the next leaf in a loop of its own: llvmpipe executes all of a loop
+    // in each turn. The leaf is carried around that loop, see walk().
+    int leaf = -1;
+    do
+    {
+      int found;
+      meetsBox(node, reach, reachPerDepth, ivec2(BEFORE_EVERYTHING, end), node, found);
+      leaf = max(leaf, found);
+    } while (leaf < 0 && node < numberOfNodes);
     if (leaf >= 0 && mayEnter(leaf))
     {
       if (count < TILE_CAPACITY)

@@ -177,30 +177,36 @@ void limitRay(float opaque)
 void castLeg(int lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
-  while (!isRayDone() && depthNow < endDepth)
+  // The condition comes last, as in walk().
+  bool goesOn = !isRayDone() && depthNow < endDepth;
+  do
   {
-    findEntries(lastDepth, lastFace);
-    if (entryFaces.x == -1)
+    if (goesOn)
     {
-      break;
+      findEntries(lastDepth, lastFace);
     }
-    lastFace = entryFaces.x;
-    enterFirst();
-    int entryDepth = faceDepth;
-    startPart(faceScalar);
-    bool ended = walk(steps);
+    goesOn = goesOn && entryFaces.x != -1;
+    if (goesOn)
+    {
+      lastFace = entryFaces.x;
+      int entryDepth = entryDepths.x;
+      enterFirst();
+      startPart(faceScalar);
+      bool ended = walk(steps);
 #if REFRACTED
-    // A walk that returns to its start inside the mesh has integrated nothing twice; the rest
-    // follows from the boundary.
-    bool wasNear = lastFace == NEAR_FACE;
-    entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
-    lastFace = wasNear ? -1 : lastFace;
-    ended = ended || wasNear;
-    cycleStart = -1;
+      // A walk that returns to its start inside the mesh has integrated nothing twice; the rest
+      // follows from the boundary.
+      bool wasNear = lastFace == NEAR_FACE;
+      entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
+      lastFace = wasNear ? -1 : lastFace;
+      ended = ended || wasNear;
+      cycleStart = -1;
 #endif
-    lastDepth = entryDepth;
-    lost += ended ? 0 : 1;
-  }
+      lastDepth = entryDepth;
+      lost += ended ? 0 : 1;
+    }
+    goesOn = goesOn && !isRayDone() && depthNow < endDepth && (entryFaces.x != -1 || moreEntries);
+  } while (goesOn);
 }
 
 #if REFRACTED

@@ -7,9 +7,9 @@
 //
 // Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment.
 // The kernel does the same in double precision; here it is done in 64-bit fixed point. Coefficients
-// have errors of 2^-33 across the view and 2^-32 along it, which moves the mesh by up to 3/8 and
-// 3/4 of a grid unit, and results are rounded by 1/2. All shaders that read the vertices read these
-// integers.
+// are integers and remainders, whose products are added in floats: these are below 3/4 of a grid
+// unit and precise to 2^-22 of it. Results are rounded by 1/2. All shaders that read the vertices
+// read these integers.
 
 in vec2 texCoord;
 
@@ -20,6 +20,7 @@ uniform int firstVertex;              // first vertex of the fragments
 uniform int columns;                  // number of vertices in a row of fragments
 uniform int rows;                     // number of rows of fragments
 uniform int toGrid[9];                // rows for x and y in units of 2^-32, depth of 2^-31
+uniform float toGridRest[9];          // remainders of these, at most 1/2
 
 // a * b = high * 2^32 + low
 void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
@@ -42,17 +43,20 @@ void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
 }
 
 // A row times a position, in whole units: the 64-bit sum of three products over 2^32, or 2^31 with
-// `doubled`, rounded. The last two bits of each product are dropped, so that the sum of the lower
+// `doubled`, rounded. The last three bits of each product are dropped, so that the sum of the lower
 // words fits.
 int along(int row, ivec3 position, int doubled)
 {
   ivec3 high;
   uvec3 low;
   multiply(ivec3(toGrid[row], toGrid[row + 1], toGrid[row + 2]), position, high, low);
-  low >>= 2u;
-  uint one = 30u - uint(doubled);
-  uint sum = low.x + low.y + low.z + (1u << (one - 1u));
-  return ((high.x + high.y + high.z) << doubled) + int(sum >> one);
+  low >>= 3u;
+  uint one = 29u - uint(doubled);
+  vec3 rests = vec3(toGridRest[row], toGridRest[row + 1], toGridRest[row + 2]);
+  int more = int(0.125 * dot(rests, vec3(position)));
+  // 1/2 to round, and 1 because `more` may be negative.
+  uint sum = low.x + low.y + low.z + uint(more + (3 << (one - 1u)));
+  return ((high.x + high.y + high.z) << doubled) + int(sum >> one) - 1;
 }
 
 void main()

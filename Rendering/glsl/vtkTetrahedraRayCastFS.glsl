@@ -27,6 +27,9 @@ void main()
 {
   int steps;
   int lost;
-  gl_FragData[0] = castRay(gl_FragCoord.xy, texture(opaqueDepth, texCoord).r, steps, lost);
+  // Fetched, not sampled, which takes llvmpipe much longer.
+  ivec2 place = ivec2(texCoord * vec2(textureSize(opaqueDepth, 0)));
+  gl_FragData[0] =
+    castRay(gl_FragCoord.xy, texelFetch(opaqueDepth, place, 0).r, steps, lost);
   gl_FragData[1] = vec4(float(steps), float(lost), 0.0, 0.0);
 }

@@ -10,7 +10,7 @@
 #define CELL_SIZE 5
 #define FIRST_LINK 1
 #else
-// Per cell: 4 vertices, 4 links.
+// Per cell: 4 vertices, 4 links, a texel each.
 #define CELL_SIZE 8
 #define FIRST_LINK 4
 #endif
@@ -88,7 +88,8 @@ int apex;            // vertex of the cell opposite the face entered by
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
-int faceDepth;       // depth at which the ray meets that face
+int faceDepth;       // depth at which the ray meets that face: an integer
+float faceRest;      // and the remainder, at most 1/2
 float faceScalar;    // for scalars of cells: that of the last integrated cell
 int depthNow;        // the largest depth reached
 
@@ -149,18 +150,21 @@ vec4 finishRay();
 
 //--- Walk ----------------------------------------------------------------------------------------
 
-// Advances to the exit of a cell and makes its segment the pending one; returns false if it is
-// empty. The part before the largest depth reached (after rounding, in an inverted cell, or where
-// cells overlap) has been integrated already and is skipped. So is a cell with a vertex without a
-// scalar.
+// Advances to the exit of a cell, `crossing` behind the face entered by, and makes its segment the
+// pending one; returns false if it is empty. The part before the largest depth reached (after
+// rounding, in an inverted cell, or where cells overlap) has been integrated already and is
+// skipped. So is a cell with a vertex without a scalar.
 #if VERTEX_VALUES
-bool advance(int exitDepth, float exitScalar, VertexValues exitValues)
+bool advance(int exitDepth, float crossing, float exitScalar, VertexValues exitValues)
 #else
-bool advance(int exitDepth, float exitScalar)
+bool advance(int exitDepth, float crossing, float exitScalar)
 #endif
 {
   int from = max(depthNow, startDepth);
   int to = min(exitDepth, endDepth);
+  bool late = from > faceDepth;
+  bool early = exitDepth > endDepth;
+  float length = late || early ? float(to - from) : crossing;
 #if CELL_SCALARS
   // One scalar for the whole cell. Isosurfaces also use the jump to it, unless the ray begins
   // behind that.
@@ -171,29 +175,28 @@ bool advance(int exitDepth, float exitScalar)
   segmentStart = segmentEnd;
 #endif
 #else
-  float perDepth = (exitScalar - faceScalar) / float(exitDepth - faceDepth);
-  // Exact if nothing is cut off: `from` is not before the face entered by, `to` not behind the
-  // exit.
-  segmentStart = faceScalar + float(from - faceDepth) * perDepth;
-  segmentEnd = exitScalar + float(to - exitDepth) * perDepth;
+  float perDepth = (exitScalar - faceScalar) / crossing;
+  segmentStart = late ? faceScalar + float(from - faceDepth) * perDepth : faceScalar;
+  segmentEnd = early ? faceScalar + float(to - faceDepth) * perDepth : exitScalar;
 #endif
   segmentScalar = segmentStart;
   segmentDone = 0.0;
-  segmentLength = float(to - from) * rayLengthPerDepth;
+  segmentLength = length * rayLengthPerDepth;
 #if NEEDS_POSITION
   segmentStartDepth = frameDepthOf(from);
   segmentEndDepth = frameDepthOf(to);
 #endif
 #if VERTEX_VALUES
-  VertexValues valuesPerDepth = (exitValues - faceValues) / float(exitDepth - faceDepth);
-  segmentValuesStart = faceValues + float(from - faceDepth) * valuesPerDepth;
-  segmentValuesEnd = exitValues + float(to - exitDepth) * valuesPerDepth;
+  VertexValues valuesPerDepth = (exitValues - faceValues) / crossing;
+  segmentValuesStart =
+    late ? faceValues + float(from - faceDepth) * valuesPerDepth : faceValues;
+  segmentValuesEnd = early ? faceValues + float(to - faceDepth) * valuesPerDepth : exitValues;
   segmentIsNew = true;
   faceValues = exitValues;
 #endif
   faceDepth = exitDepth;
   depthNow = max(depthNow, exitDepth);
-  bool counts = to > from && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
+  bool counts = length > 0.0 && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
 #if !SEES_JUMPS
@@ -207,7 +210,7 @@ bool advance(int exitDepth, float exitScalar)
   faceScalar = exitScalar;
 #if SEES_JUMPS
   // Scalars before and behind a cell without one are not connected.
-  if (to > from && !counts)
+  if (length > 0.0 && !counts)
   {
     startPart(exitScalar);
   }
@@ -216,46 +219,81 @@ bool advance(int exitDepth, float exitScalar)
   return counts;
 }
 
-// Interpolates depth and scalar at the intersection of the ray with the face pqr, from the areas
-// that its edges pq, qr, rp span with the ray, relative to p: small faces are therefore as precise
-// as large ones. Differences of depths fit, since depths are below 2^30 in magnitude. A face
-// without projected area keeps the given values. Returns 1 / total area, or 0 for such a face.
-float meetFace(
-  RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
+// Moves a point of the ray, given by an integer depth and the remainder, to that in which it meets
+// the face abc, and interpolates the scalar. Returns the difference of the depths, and 1 / total
+// area in `inverse`. Depths of corners are relative to the integer, which is exact: differences
+// fit, since depths are below 2^30 in magnitude. The rounding error is therefore that of the mean
+// distance of the corners from the point, weighted by the areas that edges span with the ray: small
+// cells are as precise as large ones. A face without projected area keeps the given values and
+// returns 0.
+float moveToFace(inout int depth, inout float rest, inout float scalar, out float inverse)
 {
-  float total = areas.x + areas.y + areas.z;
+  float total = edges.x + edges.y + edges.z;
   bool real = total > 0.0;
-  float inverse = 1.0 / total;
-  vec2 weights = areas.zx * inverse;
-  float ahead = dot(weights, vec2(q.z - p.z, r.z - p.z));
-  depth = real ? p.z + int(roundEven(ahead)) : depth;
+  inverse = 1.0 / total;
+  vec3 ahead = vec3(ivec3(a.z, b.z, c.z) - ivec3(depth));
+  float moved = dot(edges.yzx, ahead) * inverse;
+  float whole = roundEven(moved);
 #if SEES_JUMPS
   // Relative to the corner with the largest weight: where the corners with weight have one scalar,
   // as along an edge in an isosurface, the result is exactly that scalar.
-  vec3 scalars = vec3(vertexScalar(p), vertexScalar(q), vertexScalar(r));
-  float weight = areas.y * inverse;
-  float first = weight >= max(weights.x, weights.y)
+  vec3 weights = edges.yzx * inverse;
+  vec3 scalars = vec3(vertexScalar(a), vertexScalar(b), vertexScalar(c));
+  float first = weights.x >= max(weights.y, weights.z)
     ? scalars.x
-    : (weights.x >= weights.y ? scalars.y : scalars.z);
-  float met = first + dot(vec3(weight, weights), scalars - vec3(first));
+    : (weights.y >= weights.z ? scalars.y : scalars.z);
+  float met = first + dot(weights, scalars - vec3(first));
 #else
-  float first = vertexScalar(p);
-  float met = first + dot(weights, vec2(vertexScalar(q), vertexScalar(r)) - vec2(first));
+  float first = vertexScalar(a);
+  float met = first +
+    (edges.z * (vertexScalar(b) - first) + edges.x * (vertexScalar(c) - first)) * inverse;
 #endif
   scalar = real ? met : scalar;
-  return real ? inverse : 0.0;
+  float crossing = real ? moved - rest : 0.0;
+  rest = real ? moved - whole : rest;
+  depth += real ? int(whole) : 0;
+  inverse = real ? inverse : 0.0;
+  return crossing;
+}
+
+#if VERTEX_VALUES
+// Values at the intersection of the ray with the face abc.
+VertexValues meetValues(float inverse)
+{
+  return (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) * inverse;
+}
+#endif
+
+// A cell to be entered: the vertex opposite the face and the links to its neighbours.
+struct Ahead
+{
+  int number;
+  RayVertex x;
+#if !COMPACT_CELLS
+  ivec4 links;
+#endif
+};
+
+Ahead fetchAhead(int cellFace)
+{
+  Ahead ahead;
+  int index = cellFace >> 2;
+#if COMPACT_CELLS
+  ahead.number = cellValue(CELL_SIZE * index) ^ corners.x ^ corners.y ^ corners.z;
+#else
+  ahead.number = texelFetch(cells, 2 * index)[cellFace & 3];
+  ahead.links = texelFetch(cells, 2 * index + 1);
+#endif
+  ahead.x = fetchVertex(ahead.number);
+  return ahead;
 }
 
 // Crosses `cell` from `face`. Computes the link to follow; returns true if a segment is pending.
-bool stepThroughCell(out int link)
+bool stepThroughCell(Ahead ahead, out int link)
 {
-#if COMPACT_CELLS
-  int number = cellValue(CELL_SIZE * cell) ^ corners.x ^ corners.y ^ corners.z;
-#else
-  int number = cellValue(CELL_SIZE * cell + face);
-#endif
+  int number = ahead.number;
   apex = number;
-  RayVertex x = fetchVertex(number);
+  RayVertex x = ahead.x;
   vec3 areas = vec3(edgeArea(x, a), edgeArea(x, b), edgeArea(x, c));
   bool leftOfA = edgeTurnsLeft(x, a, areas.x, number < corners.x);
   bool leftOfB = edgeTurnsLeft(x, b, areas.y, number < corners.y);
@@ -270,7 +308,11 @@ bool stepThroughCell(out int link)
   int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
   int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
     int(corners.z < dropped);
+#if COMPACT_CELLS
   link = cellValue(CELL_SIZE * cell + FIRST_LINK + rank);
+#else
+  link = ahead.links[rank];
+#endif
 
   // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   edges = vec3(dropC ? edges.x : (dropA ? areas.y : areas.x),
@@ -283,17 +325,17 @@ bool stepThroughCell(out int link)
 
   int exitDepth = faceDepth;
   float exitScalar = faceScalar;
-  float inverse = meetFace(a, b, c, edges, exitDepth, exitScalar);
+  float inverse;
+  float crossing = moveToFace(exitDepth, faceRest, exitScalar, inverse);
 #if VERTEX_VALUES
   VertexValues valuesX = fetchValues(number);
   valuesA = dropA ? valuesX : valuesA;
   valuesB = dropB ? valuesX : valuesB;
   valuesC = dropC ? valuesX : valuesC;
-  return advance(exitDepth, exitScalar,
-    inverse > 0.0 ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) * inverse
-                  : faceValues);
+  return advance(
+    exitDepth, crossing, exitScalar, inverse > 0.0 ? meetValues(inverse) : faceValues);
 #else
-  return advance(exitDepth, exitScalar);
+  return advance(exitDepth, crossing, exitScalar);
 #endif
 }
 
@@ -304,39 +346,48 @@ bool walk(inout int steps)
 {
   // A ray crosses a cell at most once through each of its 4 faces, in 2 orientations.
   int limit = steps + 8 * numberOfCells;
-  int link = 0;
+  int link = 4 * cell + face;
   bool pending = false;
   bool ended = false;
 #if REFRACTED
+  int before = steps;
   bool closedCycle = false;
 #else
   const bool closedCycle = false;
 #endif
+  // The cell ahead is fetched before the segment behind is integrated, which hides the latency. With
+  // long lists most walks are one cell long: the segment is integrated in the same turn.
+  //
   // Values that are read after the loop are carried around it: Mesa's llvmpipe (22.3) lets finished
   // rays continue to compute values that are only used behind a loop, and those come out wrong
   // (test of lost rays). With llvmpipe a loop also takes one superfluous turn if its condition
   // comes first; in meshes whose cells share no points that is every second turn.
   do
   {
-    if (!pending)
-    {
-      pending = stepThroughCell(link);
-      ++steps;
-    }
-    if (pending)
-    {
-      pending = !integratePiece();
-    }
-    ended = ended || isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
-    if (!pending)
+    Ahead ahead = fetchAhead(max(link, 0));
+#if !LONG_LISTS
+    pending = pending && !integratePiece();
+    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+#endif
+    bool goesOn = !pending && !ended;
+#if REFRACTED
+    closedCycle = goesOn && steps > before && link == cycleStart;
+    goesOn = goesOn && !closedCycle;
+#endif
+    if (goesOn)
     {
       cell = link >> 2;
       face = link & 3;
-#if REFRACTED
-      closedCycle = !ended && link == cycleStart;
-#endif
+      pending = stepThroughCell(ahead, link);
+      ++steps;
     }
+#if LONG_LISTS
+    pending = pending && !integratePiece();
+    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+#endif
   } while (!ended && !closedCycle && steps < limit);
+  cell = link >> 2;
+  face = link & 3;
   return ended;
 }
 
@@ -351,7 +402,6 @@ struct ProjectedFace
   ivec3 numbers;
   vec3 areas;
   int depth;    // depth of the intersection with the ray
-  float scalar; // scalar at the intersection
   bool left;    // pqr is counter-clockwise if entered
   bool entered;
   int cellFace;
@@ -372,9 +422,9 @@ ProjectedFace seeTriangle(ivec3 numbers, bool left)
     edgeTurnsLeft(f.r, f.p, f.areas.z, numbers.z < numbers.x) == left;
   f.areas = abs(f.areas);
   // A face without projected area is met at its first vertex.
-  f.depth = f.p.z;
-  f.scalar = vertexScalar(f.p);
-  meetFace(f.p, f.q, f.r, f.areas, f.depth, f.scalar);
+  float total = f.areas.x + f.areas.y + f.areas.z;
+  float ahead = dot(f.areas.zx, vec2(f.q.z - f.p.z, f.r.z - f.p.z)) / total;
+  f.depth = f.p.z + (total > 0.0 ? int(roundEven(ahead)) : 0);
   return f;
 }
 
@@ -409,20 +459,19 @@ void enter(ProjectedFace f)
   cell = f.cellFace >> 2;
   face = f.cellFace & 3;
   faceDepth = f.depth;
+  faceRest = 0.0;
+  faceScalar = vertexScalar(f.p);
+  float inverse;
+  moveToFace(faceDepth, faceRest, faceScalar, inverse);
 #if CELL_SCALARS
   faceScalar = texelFetch(cellScalars, cell).r;
-#else
-  faceScalar = f.scalar;
 #endif
   depthNow = max(depthNow, faceDepth);
 #if VERTEX_VALUES
   valuesA = fetchValues(corners.x);
   valuesB = fetchValues(corners.y);
   valuesC = fetchValues(corners.z);
-  float total = edges.x + edges.y + edges.z;
-  faceValues = total > 0.0
-    ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) / total
-    : valuesA;
+  faceValues = inverse > 0.0 ? meetValues(inverse) : valuesA;
 #endif
 }
 

@@ -157,16 +157,18 @@ bool FixedPointRays::SeesAs(const FixedPointRays& other) const
 }
 
 //------------------------------------------------------------------------------
-std::array<std::int32_t, 9> FixedPointRays::GetFixedPointRows() const
+FixedPointRays::FixedPointRows FixedPointRays::GetFixedPointRows() const
 {
   // Coefficients of x and y are below 1/2, those of depth below 1.
-  std::array<std::int32_t, 9> rows{};
+  FixedPointRows rows{};
   for (int i = 0; i < 9; ++i)
   {
     const double scaled =
       this->ToGrid[i % 3][i / 3] * (i < 6 ? FractionOfGrid : 0.5 * FractionOfGrid);
-    rows[static_cast<std::size_t>(i)] =
-      static_cast<std::int32_t>(std::clamp(std::rint(scaled), -LargestSlope, LargestSlope));
+    const double whole = std::clamp(std::rint(scaled), -LargestSlope, LargestSlope);
+    rows.Whole[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(whole);
+    rows.Rests[static_cast<std::size_t>(i)] =
+      static_cast<float>(std::clamp(scaled - whole, -0.5, 0.5));
   }
   return rows;
 }

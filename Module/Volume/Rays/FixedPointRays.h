@@ -127,11 +127,21 @@ public:
    */
   const AffinePixelMap& GetOffset() const { return this->Offset; }
   const AffinePixelMap& GetSlope() const { return this->Slope; }
+  /** Coefficients of a matrix as integers, and the remainders, at most 1/2. */
+  struct FixedPointRows
+  {
+    std::array<std::int32_t, 9> Whole;
+    std::array<float, 9> Rests;
+    bool operator==(const FixedPointRows& other) const
+    {
+      return this->Whole == other.Whole && this->Rests == other.Rests;
+    }
+  };
   /**
    * Rows of the matrix from fixed-point positions to the grid of shaders. Those of x and y are in
    * units of 2^-32, that of depth in units of 2^-31.
    */
-  std::array<std::int32_t, 9> GetFixedPointRows() const;
+  FixedPointRows GetFixedPointRows() const;
 
   /**
    * An affine function of the pixel for shaders, as integers: three times (x, y, fractions of x and

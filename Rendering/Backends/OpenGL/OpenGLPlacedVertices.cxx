@@ -83,7 +83,8 @@ std::string OpenGLPlacedVertices::Prepare(vtkOpenGLRenderWindow* window, std::in
 void OpenGLPlacedVertices::Place(OpenGLTable& vertices, const FrameRows& frame, std::int64_t first)
 {
   vtkShaderProgram* program = this->Quad->Program;
-  program->SetUniform1iv("toGrid", static_cast<int>(frame.size()), frame.data());
+  program->SetUniform1iv("toGrid", static_cast<int>(frame.Whole.size()), frame.Whole.data());
+  program->SetUniform1fv("toGridRest", static_cast<int>(frame.Rests.size()), frame.Rests.data());
   program->SetUniformi("columns", Columns);
   const std::int64_t number = vertices.GetNumberOfRows();
   constexpr std::int64_t most = std::int64_t{ Columns } * MostRows;

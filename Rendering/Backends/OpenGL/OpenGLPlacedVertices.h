@@ -5,9 +5,10 @@
 
 #include "Common/TableVersion.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
+#include "Volume/Rays/FixedPointRays.h"
+
 #include "vtkSmartPointer.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -35,8 +36,7 @@ public:
   OpenGLPlacedVertices(const OpenGLPlacedVertices&) = delete;
   void operator=(const OpenGLPlacedVertices&) = delete;
 
-  /** FixedPointRays::GetFixedPointRows() of a frame. */
-  using FrameRows = std::array<std::int32_t, 9>;
+  using FrameRows = FixedPointRays::FixedPointRows;
 
   /**
    * Places the vertices unless they are placed in this way already; those of frame i begin at i

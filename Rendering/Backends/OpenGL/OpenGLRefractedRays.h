@@ -3,13 +3,13 @@
 #ifndef meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
 #define meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
 
+#include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -51,7 +51,7 @@ public:
   /**
    * Rows of the frames with lines, in the order in which their vertices follow those of the view.
    */
-  const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const
+  const std::vector<FixedPointRays::FixedPointRows>& GetFixedPointRows() const
   {
     return this->FixedRows;
   }
@@ -74,7 +74,7 @@ private:
   /** Grid units of x and y per unit of each frame; index of its rows in FixedRows, from 1. */
   std::vector<float> GridPerUnit;
   std::vector<int> Places;
-  std::vector<std::array<std::int32_t, 9>> FixedRows;
+  std::vector<FixedPointRays::FixedPointRows> FixedRows;
 };
 
 }

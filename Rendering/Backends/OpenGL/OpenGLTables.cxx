@@ -206,7 +206,7 @@ std::string OpenGLTables::DescribeExcess(
 //------------------------------------------------------------------------------
 bool OpenGLTables::NeedsWideCells(const TetrahedralMesh& mesh, bool compact, std::int64_t limit)
 {
-  return SizeOfCells(mesh, compact) > LimitOfDevice(limit);
+  return !compact || SizeOfCells(mesh, true) > LimitOfDevice(limit);
 }
 
 //------------------------------------------------------------------------------

@@ -61,7 +61,10 @@ public:
    */
   static std::string DescribeExcess(
     const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit);
-  /** True if the table of cells is within the same limits only with four numbers per texel. */
+  /**
+   * True if the table of cells has four numbers per texel: always for full cells, which are two
+   * texels each, and for compact cells if the table exceeds these limits otherwise.
+   */
   static bool NeedsWideCells(const TetrahedralMesh& mesh, bool compact, std::int64_t limit);
 
   /**

@@ -165,11 +165,8 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
 TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend)
 {
   this->Mapper->SetScalarModeToUsePointData();
-  this->Mapper->SetMaximumTableSize(8 * this->GetCells());
-  ExpectMatchesReference(this->Scene, "one number per texel");
-  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   this->Mapper->SetMaximumTableSize(2 * this->GetCells());
-  ExpectMatchesReference(this->Scene, "four numbers per texel");
+  ExpectMatchesReference(this->Scene, "two texels per cell");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   this->Mapper->SetMaximumTableSize(2 * this->GetCells() - 1);
   ExpectMatchesReference(this->Scene, "beyond the limit");
@@ -181,6 +178,9 @@ TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend
     this->Observer->Warnings[0].find(std::to_string(2 * this->GetCells() - 1)), std::string::npos);
   this->Mapper->CompactTablesOn();
   ExpectMatchesReference(this->Scene, "compact, four numbers per texel");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+  this->Mapper->SetMaximumTableSize(5 * this->GetCells());
+  ExpectMatchesReference(this->Scene, "compact, one number per texel");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   EXPECT_TRUE(this->Observer->Errors.empty());
 }

@@ -24,19 +24,8 @@ class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
 {
 };
 
-// Fraction of pixels at which a sharp function may show rounding of the vertices.
-constexpr double LargestRoundingShare = 1e-3;
-
-// For a function so sharp that the exact result changes by more than the tolerance when float
-// rounding moves a vertex, no pixel may have an error of more than that.
-void ExpectMatchesUpToRounding(const Comparison& comparison, const std::string& what)
-{
-  SCOPED_TRACE(what + ": " + comparison.GetText());
-  EXPECT_EQ(comparison.BeyondRounding, 0u);
-  EXPECT_EQ(comparison.CoverageMismatches, 0u);
-  EXPECT_LE(static_cast<double>(comparison.Wrong),
-    LargestRoundingShare * static_cast<double>(comparison.Covered));
-}
+// Largest error of a pixel in float.
+constexpr double Tolerance = 1e-5;
 
 // One view with all functions: the reference locates the cells of a ray once.
 void ExpectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
@@ -64,20 +53,14 @@ void ExpectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& n
   {
     const std::string what = name + ", view " + std::to_string(view) + ", " + names[f];
     scene.SetProperty(properties[f]);
-    const Comparison floats = CompareToReference(scene.RenderFloat(), truth[f], *integrator, rayOf);
+    const Comparison floats =
+      CompareToReference(scene.RenderFloat(), truth[f], *integrator, rayOf, Tolerance);
     EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
     const Comparison bytes =
       CompareToReference(scene.RenderBytes(), truth[f], *integrator, rayOf, { 0.0, 0.0, 0.0 });
     std::cout << what << ", float: " << floats.GetText() << '\n'
               << what << ", 8 bits: " << bytes.GetText() << std::endl;
-    if (f == 2)
-    {
-      ExpectMatchesUpToRounding(floats, what + " (float)");
-    }
-    else
-    {
-      ExpectMatch(floats, what + " (float)");
-    }
+    ExpectMatch(floats, what + " (float)");
     ExpectMatch(bytes, what + " (8 bits)");
   }
 }

@@ -123,32 +123,24 @@ struct CornerScene
 using TraceSegments =
   std::function<std::array<double, 4>(const Ray&, const std::vector<RaySegment>&)>;
 
-// Limits for the pixels of a picture.
-struct Limits
+// Largest error of a pixel.
+double ToleranceOf(const CornerScene& corner, int mode)
 {
-  double Tolerance = FloatTolerance;
-  // Pixels that may exceed it.
-  std::size_t Wrong = 0;
-};
-
-Limits LimitsOf(const CornerScene& corner, int mode)
-{
-  Limits limits;
   if (corner.Scene.GetRayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
   {
-    limits.Tolerance = corner.IsAfar ? 4e-5 : 2e-5;
-    return limits;
+    return corner.IsAfar ? 4e-5 : 2e-5;
   }
-  // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of
-  // 3.4e-4.
-  limits.Wrong = mode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ? 1 : 0;
-  return limits;
+  if (mode != vtkVolumeMapper::COMPOSITE_BLEND)
+  {
+    return 4e-5;
+  }
+  return corner.IsAfar ? FloatTolerance : 8e-5;
 }
 
 // Renders and compares all pixels.
 void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrator& integrator,
   const RefractingSurface* membrane, const TraceSegments& show, const std::string& what,
-  const Limits& limits)
+  double tolerance)
 {
   const TraceRay trace = [&](const Ray& ray)
   {
@@ -163,10 +155,10 @@ void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
   };
   const FloatImage image = scene.RenderFloat();
   const TracedComparison comparison = CompareToTrace(
-    image, PixelRays(scene.GetRenderer()), trace, limits.Tolerance, RoundingOf(part));
+    image, PixelRays(scene.GetRenderer()), trace, tolerance, RoundingOf(part));
   SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Visible, static_cast<std::size_t>(Size * Size / 4));
-  EXPECT_LE(comparison.Wrong, limits.Wrong);
+  EXPECT_EQ(comparison.Wrong, 0u);
   EXPECT_LE(comparison.Excused, 1u);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
   testing::Test::RecordProperty(what, comparison.GetText());
@@ -205,7 +197,7 @@ void ExpectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
           return Project(ray, segments, Projection::Additive, function, range);
       }
     },
-    what + ", mode " + std::to_string(mode), LimitsOf(corner, mode));
+    what + ", mode " + std::to_string(mode), ToleranceOf(corner, mode));
 }
 
 } // anonymous namespace

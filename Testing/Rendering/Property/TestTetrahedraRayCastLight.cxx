@@ -101,10 +101,7 @@ TracedComparison CompareLit(vtkUnstructuredGrid* grid, int view, double density)
     1e-4, RoundingDistance * DiagonalOf(grid->GetBounds()));
 }
 
-double LargestError()
-{
-  return BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
-}
+constexpr double LargestError = 2e-5;
 
 void ExpectLit(vtkUnstructuredGrid* grid, const std::string& name)
 {
@@ -117,7 +114,7 @@ void ExpectLit(vtkUnstructuredGrid* grid, const std::string& name)
       text << name << ", density " << density << ", view " << view << ": " << comparison.GetText();
       std::cout << text.str() << std::endl;
       EXPECT_GT(comparison.Visible, 1000u) << text.str();
-      EXPECT_LE(comparison.Largest, LargestError()) << text.str();
+      EXPECT_LE(comparison.Largest, LargestError) << text.str();
       EXPECT_LE(static_cast<double>(comparison.Excused),
         LargestSilhouetteShare * static_cast<double>(comparison.Visible))
         << text.str();

@@ -193,11 +193,12 @@ std::vector<RayCastOptics> ListVariants()
       variants.push_back(model);
     }
   }
-  Vary(variants, std::vector<int>{ 0, 1, 2, 3 },
+  // Full cells always have four numbers per texel.
+  Vary(variants, std::vector<int>{ 0, 1, 2 },
     [](RayCastOptics& optics, int layout)
     {
-      optics.CompactCells = layout % 2 == 1;
-      optics.WideCells = layout / 2 == 1;
+      optics.CompactCells = layout > 0;
+      optics.WideCells = layout != 1;
     });
   // One leg with short and with long lists, two and three legs, through a clear or a dense medium.
   Vary(variants, std::vector<int>{ 0, 1, 2, 3, 4 },
@@ -211,7 +212,7 @@ std::vector<RayCastOptics> ListVariants()
   std::vector<RayCastOptics> clipped;
   for (const RayCastOptics& optics : variants)
   {
-    if (!optics.CompactCells && !optics.WideCells)
+    if (!optics.CompactCells)
     {
       clipped.push_back(optics);
       clipped.back().ClippingPlanes.resize(2);
