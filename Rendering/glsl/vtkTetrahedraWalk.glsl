@@ -355,8 +355,8 @@ bool walk(inout int steps)
 #else
   const bool closedCycle = false;
 #endif
-  // The cell ahead is fetched before the segment behind is integrated, which hides the latency. With
-  // long lists most walks are one cell long: the segment is integrated in the same turn.
+  // The cell ahead is fetched before the segment behind is integrated, which hides the latency.
+  // With long lists most walks are one cell long: the segment is integrated in the same turn.
   //
   // Values that are read after the loop are carried around it: Mesa's llvmpipe (22.3) lets finished
   // rays continue to compute values that are only used behind a loop, and those come out wrong
@@ -367,7 +367,7 @@ bool walk(inout int steps)
     Ahead ahead = fetchAhead(max(link, 0));
 #if !LONG_LISTS
     pending = pending && !integratePiece();
-    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+    ended = ended || isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
 #endif
     bool goesOn = !pending && !ended;
 #if REFRACTED
@@ -383,7 +383,7 @@ bool walk(inout int steps)
     }
 #if LONG_LISTS
     pending = pending && !integratePiece();
-    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+    ended = ended || isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
 #endif
   } while (!ended && !closedCycle && steps < limit);
   cell = link >> 2;

@@ -154,8 +154,8 @@ void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
     return show(ray, segments);
   };
   const FloatImage image = scene.RenderFloat();
-  const TracedComparison comparison = CompareToTrace(
-    image, PixelRays(scene.GetRenderer()), trace, tolerance, RoundingOf(part));
+  const TracedComparison comparison =
+    CompareToTrace(image, PixelRays(scene.GetRenderer()), trace, tolerance, RoundingOf(part));
   SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Visible, static_cast<std::size_t>(Size * Size / 4));
   EXPECT_EQ(comparison.Wrong, 0u);
