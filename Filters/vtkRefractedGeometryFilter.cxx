@@ -32,9 +32,9 @@ namespace
 constexpr vtkIdType Grain = 128;
 
 // Number of times that progress is reported and abort checked while points are solved. A step has
-// enough points to keep all threads of a large machine busy.
+// enough grains to keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
-constexpr vtkIdType SmallestStep = 256 * Grain;
+constexpr vtkIdType SmallestStep = 256;
 static_assert(
   Grain % meniscus::CurvedMembraneSolver::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
@@ -63,7 +63,9 @@ meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPol
 bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* self, double from,
   double to, vtkIdType count, vtkIdType grain, const meniscus::RangeBody& body)
 {
-  const vtkIdType smallest = SmallestStep / Grain * grain;
+  // Smaller grains are of chunks or parts, each of which is as much work as a grain of points.
+  const vtkIdType smallest =
+    grain < Grain ? (SmallestStep + grain - 1) / grain * grain : SmallestStep * grain;
   const vtkIdType step = std::max((count / ProgressSteps / grain + 1) * grain, smallest);
   for (vtkIdType first = 0; first < count; first += step)
   {
@@ -197,13 +199,22 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   const auto solve = [this](const double* points, std::size_t begin, std::size_t end,
                        meniscus::VirtualVertex* vertices)
   { this->Scene.Solve(points, begin, end, vertices); };
-  const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), 1,
+  // Chunks are solved side by side, as long as there are enough for all threads.
+  const auto grain = std::clamp<vtkIdType>(
+    static_cast<vtkIdType>(open.size()) / vtkSMPTools::GetEstimatedNumberOfThreads(), 1,
+    meniscus::CurvedMembraneSolver::ChainsAtOnce);
+  const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), grain,
     [&solve, &block, &open, count](std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin, next = begin; i < end; i = next)
       {
-        meniscus::SolveInOrder<chunkSize>(block.Points.data(), block.Order, open[i] * chunkSize,
-          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data(), solve);
+        while (next < end && open[next] - open[i] == next - i)
+        {
+          ++next;
+        }
+        meniscus::SolveInOrder<chunkSize * meniscus::CurvedMembraneSolver::ChainsAtOnce>(
+          block.Points.data(), block.Order, open[i] * chunkSize,
+          std::min((open[next - 1] + 1) * chunkSize, count), block.Vertices.data(), solve);
       }
     });
   if (!done)

@@ -82,7 +82,7 @@ double MicrosecondsPerVertex(const Geometry& geometry, const std::vector<double>
     TimeMedian(
       [&]
       {
-        SolveInOrder<CurvedMembraneSolver::Chain>(
+        SolveInOrder<CurvedMembraneSolver::Chain * CurvedMembraneSolver::ChainsAtOnce>(
           points.data(), order, 0, count, vertices.data(), solve);
       })
       .Cpu;

@@ -17,9 +17,10 @@ namespace meniscus
   template <class Kernel, class Lanes>                                                             \
   target __attribute__((flatten)) void RunLanes##name(const Kernel& kernel, Lanes& lanes)          \
   {                                                                                                \
+    const Kernel own = kernel; /* stores to lanes cannot change a copy */                          \
     for (int i = 0; i < lanes.Count; ++i)                                                          \
     {                                                                                              \
-      kernel(lanes, i);                                                                            \
+      own(lanes, i);                                                                               \
     }                                                                                              \
   }
 MENISCUS_INSTRUCTION_SETS(MENISCUS_LANE_LOOP)

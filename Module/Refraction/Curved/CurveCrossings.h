@@ -49,6 +49,23 @@ struct Media
     return this->Reflects ? ComputeReflectionRay(sight, normal)
                           : ComputeRefractionRay(sight, normal, this->Exterior / this->Interior);
   }
+  /**
+   * The media of Snell's law that leads to the point: two equal ones for a reflection, which does
+   * not change the medium.
+   */
+  Media GetLaw() const
+  {
+    return { this->Eye, this->Reflects ? 1.0 : this->Exterior,
+      this->Reflects ? 1.0 : this->Interior, this->Reflects };
+  }
+  /** True if rays pass straight through the surface. */
+  bool IsIdentity() const { return !this->Reflects && this->Exterior == this->Interior; }
+  /** Equation of the sight points of a point in the coordinates of the eye. */
+  SightEquation MakeEquation(const glm::dvec3& point) const
+  {
+    const Media law = this->GetLaw();
+    return { law.Eye, point, law.Exterior, law.Interior, law.Reflects };
+  }
 };
 
 /** A point of the membrane and the unit direction of its refracted or reflected ray. */

@@ -8,6 +8,7 @@
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -20,13 +21,9 @@ namespace
 // A root on an edge is found in both of its facets, within the accuracy of Newton's method.
 constexpr double Border = PatchCrossings::Border;
 
-// Limits while the previous answers are followed: Newton steps in one patch, how far a step may
-// leave the patch before the next patch takes over, and the number of such changes.
-constexpr int FollowSteps = 8;
-constexpr double FollowReach = 0.3;
+// Limits while a line is followed across patches: the number of patches, and of facets to cross on
+// the way from one to the next.
 constexpr int LongestChase = 8;
-
-// Facets to cross on the way from the previous answer. For longer ways the tree is faster.
 constexpr int LongestWalk = 64;
 
 // Points are taken to move on as before, and their sight points with them, if the step differs from
@@ -365,71 +362,169 @@ bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
 void CurvedMembraneSolver::Solve(
   const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
 {
-  Memory memory;
-  for (std::size_t i = begin; i < end; ++i)
+  for (std::size_t first = begin; first < end;)
   {
-    if (i % Chain == 0)
+    const std::size_t last = std::min((first / Chain + ChainsAtOnce) * Chain, end);
+    this->SolveChains(points, first, last, vertices);
+    first = last;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Solves the first points of up to ChainsAtOnce chains together, then the second ones and so on.
+void CurvedMembraneSolver::SolveChains(
+  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+{
+  const SightFollower follower = this->GetFollower();
+  std::array<Memory, ChainsAtOnce> memories;
+  std::array<SightTrail, ChainsAtOnce> trails;
+  std::vector<SightTrail*> open;
+  for (std::size_t step = 0; step < Chain; ++step)
+  {
+    open.clear();
+    const auto visit = [&](const auto& work)
     {
-      memory = Memory();
-    }
-    const double* p = points + 3 * i;
-    vertices[i] = this->SolvePoint(glm::dvec3(p[0], p[1], p[2]), memory);
+      for (std::size_t chain = 0; chain < ChainsAtOnce; ++chain)
+      {
+        const std::size_t i = (begin / Chain + chain) * Chain + step;
+        if (i >= begin && i < end)
+        {
+          work(i, memories[chain], trails[chain]);
+        }
+      }
+    };
+    visit(
+      [&](std::size_t i, Memory& memory, SightTrail& trail)
+      {
+        const double* p = points + 3 * i;
+        if (this->Begin(glm::dvec3(p[0], p[1], p[2]), memory, trail))
+        {
+          open.push_back(&trail);
+        }
+      });
+    follower.FollowAll(open);
+    visit(
+      [&](std::size_t i, Memory& memory, SightTrail& trail)
+      {
+        const double* p = points + 3 * i;
+        this->Finish(glm::dvec3(p[0], p[1], p[2]), trail, memory);
+        vertices[i] = trail.Vertex;
+      });
   }
 }
 
 //------------------------------------------------------------------------------
 VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& memory) const
 {
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
-  VirtualVertex vertex;
-  vertex.Position = point;
-  if (!this->IsInReach(local))
+  SightTrail trail;
+  if (this->Begin(point, memory, trail))
   {
-    vertex.State = ImageState::NotFinite;
-    return vertex;
+    this->GetFollower().Follow(trail);
   }
-  if (this->Optics.Reflects && this->FindOnMirror(local, vertex))
+  this->Finish(point, trail, memory);
+  return trail.Vertex;
+}
+
+//------------------------------------------------------------------------------
+// Prepares the search for a point where the answers for the previous points predict the sight
+// point. Returns false if there is nothing to follow.
+bool CurvedMembraneSolver::Begin(
+  const glm::dvec3& point, const Memory& memory, SightTrail& trail) const
+{
+  trail.Point = point - this->Surface.GetOrigin();
+  trail.Hint = CurvedPatches::NoFacet;
+  trail.End = SightTrail::State::Open;
+  trail.Patches = 0;
+  if (!this->IsInReach(trail.Point))
   {
-    return vertex;
+    trail.Vertex = VirtualVertex();
+    trail.Vertex.Position = point;
+    trail.Vertex.State = ImageState::NotFinite;
+    trail.End = SightTrail::State::Answered;
+    return false;
   }
-  const SightEquation equation = this->MakeEquation(local);
-  SightPlace place;
-  const bool first = memory.Place.Facet == CurvedPatches::NoFacet;
-  const glm::dvec3 way = local - memory.Point;
-  const double step = glm::dot(way, way);
-  const bool follows = !first && step <= LongestFailed * memory.FailedStep;
-  if (!follows || !this->Follow(equation, local, memory, place))
+  if (this->Optics.Reflects)
   {
-    memory.FailedStep = follows ? std::min(memory.FailedStep, step) : memory.FailedStep;
-    if (!this->FindFirst(equation, local, place))
+    trail.Vertex = VirtualVertex();
+    trail.Vertex.Position = point;
+    if (this->FindOnMirror(trail.Point, trail.Vertex))
     {
-      return vertex;
+      trail.End = SightTrail::State::Answered;
+      return false;
     }
   }
-  memory.PointStep = first ? glm::dvec3(0.0) : local - memory.Point;
-  memory.SightStep =
-    first ? glm::dvec3(0.0) : place.Root.At.Position - memory.Place.Root.At.Position;
-  memory.Point = local;
-  memory.Place = place;
-  return this->MakeVertex(local, this->Patches.GetPatch(place.Facet), place);
+  const glm::dvec3 way = trail.Point - memory.Point;
+  if (memory.Place.Facet == CurvedPatches::NoFacet ||
+    !(glm::dot(way, way) <= LongestFailed * memory.FailedStep))
+  {
+    trail.End = SightTrail::State::Lost;
+    return false;
+  }
+  trail.Place = memory.Place;
+  trail.Target = memory.Place.Root.At.Position;
+  const glm::dvec3 turn = way - memory.PointStep;
+  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.PointStep, memory.PointStep))
+  {
+    trail.Target += memory.IsTurning ? memory.SightStep + memory.SightTurn : memory.SightStep;
+    // Regular meshes number the facets along a straight way regularly.
+    trail.Hint = this->GetFollower().Expect(memory.Place.Facet, memory.FacetStep);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Searches all patches for a point that could not be followed, and records the answer.
+void CurvedMembraneSolver::Finish(const glm::dvec3& point, SightTrail& trail, Memory& memory) const
+{
+  if (trail.End == SightTrail::State::Answered)
+  {
+    return;
+  }
+  const bool first = memory.Place.Facet == CurvedPatches::NoFacet;
+  const glm::dvec3 way = trail.Point - memory.Point;
+  if (trail.End != SightTrail::State::Found)
+  {
+    memory.FailedStep =
+      trail.Patches > 0 ? std::min(memory.FailedStep, glm::dot(way, way)) : memory.FailedStep;
+    if (!this->FindFirst(this->MakeEquation(trail.Point), trail.Point, trail.Place))
+    {
+      trail.Vertex = VirtualVertex();
+      trail.Vertex.Position = point;
+      return;
+    }
+    trail.Vertex =
+      this->MakeVertex(trail.Point, this->Patches.GetPatch(trail.Place.Facet), trail.Place);
+  }
+  if (!first)
+  {
+    const glm::dvec3 step = trail.Place.Root.At.Position - memory.Place.Root.At.Position;
+    const glm::dvec3 turn = step - memory.SightStep;
+    const glm::dvec3 change = turn - memory.SightTurn;
+    memory.IsTurning = glm::dot(change, change) < glm::dot(turn, turn);
+    memory.SightTurn = turn;
+    memory.SightStep = step;
+    memory.PointStep = way;
+    memory.FacetStep = trail.Place.Facet - memory.Place.Facet;
+  }
+  memory.Point = trail.Point;
+  memory.Place = trail.Place;
 }
 
 //------------------------------------------------------------------------------
 VirtualVertex CurvedMembraneSolver::SolveBetween(
   const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const
 {
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
-  Memory memory;
-  memory.Place.Facet = first.Facet;
-  memory.Place.Root.At.Position =
-    0.5 * (first.SightPoint + second.SightPoint) - this->Surface.GetOrigin();
-  memory.Place.Root.At.Normal = this->Optics.Eye - memory.Place.Root.At.Position;
-  memory.Point = local;
-  SightPlace place;
-  VirtualVertex vertex;
-  return this->IsInReach(local) && this->Follow(this->MakeEquation(local), local, memory, place)
-    ? this->MakeVertex(local, this->Patches.GetPatch(place.Facet), place)
-    : vertex;
+  SightTrail trail;
+  trail.Point = point - this->Surface.GetOrigin();
+  trail.Place.Facet = first.Facet;
+  trail.Target = 0.5 * (first.SightPoint + second.SightPoint) - this->Surface.GetOrigin();
+  trail.Place.Root.At.Normal = this->Optics.Eye - trail.Target;
+  if (first.Facet == CurvedPatches::NoFacet || !this->IsInReach(trail.Point))
+  {
+    return {};
+  }
+  this->GetFollower().Follow(trail);
+  return trail.Vertex;
 }
 
 //------------------------------------------------------------------------------
@@ -479,46 +574,6 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
     }
     facet = next;
     b = this->Patches.GetPatch(facet).ProjectToFacet(target);
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
-// Newton's method across patches, starting where the answers for the previous points predict the
-// sight point.
-bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec3& local,
-  const Memory& memory, SightPlace& place) const
-{
-  place = memory.Place;
-  if (place.Facet == CurvedPatches::NoFacet)
-  {
-    return false;
-  }
-  glm::dvec3 target = place.Root.At.Position;
-  const glm::dvec3 turn = local - memory.Point - memory.PointStep;
-  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.PointStep, memory.PointStep))
-  {
-    target += memory.SightStep;
-  }
-  for (int i = 0; i < LongestChase; ++i)
-  {
-    place.Facet = this->Patches.Walk(place.Facet, target, place.Root.At.Normal, LongestWalk);
-    const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
-    const glm::dvec2 start = patch.ProjectToFacet(target);
-    if (FindOutside(start).Least < -FollowReach)
-    {
-      return false;
-    }
-    place.Root = equation.Solve(patch, start, FollowSteps, FollowReach);
-    if (place.Root.End == SightRoot::End::Failed)
-    {
-      return false;
-    }
-    if (place.Root.End == SightRoot::End::Converged && FindOutside(place.Root.B).Least >= -Border)
-    {
-      return equation.IsImage(place.Root.At);
-    }
-    target = patch.GetFlatPoint(place.Root.B);
   }
   return false;
 }
@@ -624,32 +679,6 @@ ImageState CurvedMembraneSolver::FindImages(
     }
   }
   return images.empty() ? ImageState::NoImage : ImageState::Found;
-}
-
-//------------------------------------------------------------------------------
-VirtualVertex CurvedMembraneSolver::MakeVertex(
-  const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
-{
-  const PatchPoint& at = place.Root.At;
-  const glm::dvec3 sight = glm::normalize(at.Position - this->Optics.Eye);
-  VirtualVertex vertex;
-  vertex.Depth = glm::length(local - at.Position);
-  vertex.SightPoint = at.Position + this->Surface.GetOrigin();
-  // Eq. 2.4; the identity if the indices are equal. The medium does not change at a mirror.
-  const bool reflects = this->Optics.Reflects;
-  const double exterior = reflects ? 1.0 : this->Optics.Exterior;
-  const double interior = reflects ? 1.0 : this->Optics.Interior;
-  const glm::dvec3 virtualPoint = !reflects && exterior == interior
-    ? local
-    : at.Position + sight * (vertex.Depth * exterior / interior);
-  vertex.Position = virtualPoint + this->Surface.GetOrigin();
-  vertex.Cosine = -glm::dot(sight, at.Normal) / glm::length(at.Normal);
-  vertex.Reflectance =
-    FresnelReflectance(vertex.Cosine, this->Optics.Exterior, this->Optics.Interior);
-  vertex.Facet = place.Facet;
-  vertex.State = ImageState::Found;
-  vertex.Orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.Root));
-  return vertex;
 }
 
 //------------------------------------------------------------------------------

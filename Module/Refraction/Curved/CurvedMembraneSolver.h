@@ -14,6 +14,7 @@
 #include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Curved/MembraneSides.h"
 #include "Refraction/Curved/SightEquation.h"
+#include "Refraction/Curved/SightFollower.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -29,13 +30,6 @@
 namespace meniscus
 {
 
-/** A sight point and the facet whose patch it lies in. */
-struct SightPlace
-{
-  std::int32_t Facet = CurvedPatches::NoFacet;
-  SightRoot Root{};
-};
-
 class CurvedMembraneSolver
 {
 public:
@@ -48,6 +42,9 @@ public:
    * it give the same result whichever thread solves them.
    */
   static constexpr std::size_t Chain = 128;
+
+  /** Number of chains that are solved side by side, if a range has so many. */
+  static constexpr std::size_t ChainsAtOnce = 16;
 
   /**
    * Sets the shape. If only points and normals differ from the last one, patches are refitted and
@@ -100,6 +97,11 @@ public:
     glm::dvec3 Point{ 0.0 };
     glm::dvec3 PointStep{ 0.0 };
     glm::dvec3 SightStep{ 0.0 };
+    /** Change of SightStep from the one before, and whether that predicts the next change. */
+    glm::dvec3 SightTurn{ 0.0 };
+    bool IsTurning = false;
+    /** Difference of the facets' numbers. */
+    std::int32_t FacetStep = 0;
     /** Square of the shortest step so far that could not be continued. */
     double FailedStep = std::numeric_limits<double>::infinity();
   };
@@ -158,9 +160,7 @@ public:
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const
   {
-    const bool reflects = this->Optics.Reflects;
-    return { this->Optics.Eye, local, reflects ? 1.0 : this->Optics.Exterior,
-      reflects ? 1.0 : this->Optics.Interior, reflects };
+    return this->Optics.MakeEquation(local);
   }
   bool IsInReach(const glm::dvec3& local) const;
 
@@ -184,7 +184,10 @@ public:
 
   /** The virtual vertex of a local point with the sight point `place`. */
   VirtualVertex MakeVertex(
-    const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
+    const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
+  {
+    return this->GetFollower().MakeVertex(local, patch, place);
+  }
 
   /**
    * Virtual vertex of a local point that is its own image: on the eye's side of a membrane that
@@ -255,8 +258,14 @@ private:
   bool FindOnMirror(const glm::dvec3& local, VirtualVertex& vertex) const;
   void BuildTree(RayTubeTree& tree) const;
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
-  bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
-    SightPlace& place) const;
+  SightFollower GetFollower() const
+  {
+    return { this->Patches, this->Optics, this->Surface.GetOrigin() };
+  }
+  void SolveChains(
+    const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
+  bool Begin(const glm::dvec3& point, const Memory& memory, SightTrail& trail) const;
+  void Finish(const glm::dvec3& point, SightTrail& trail, Memory& memory) const;
   bool FindFirst(const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const;
   void FindPlaces(
     const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const;

@@ -35,7 +35,8 @@ struct SightRoot
   {
     Converged, ///< converged, anywhere in the plane of barycentric coordinates
     Left,      ///< left the facet by more than the allowed distance
-    Failed     ///< the Jacobian is singular, or the limit of steps is reached
+    Failed,    ///< the Jacobian is singular, or the limit of steps is reached
+    Open       ///< more steps are needed
   };
   End End;
   glm::dvec2 B;
@@ -47,11 +48,14 @@ struct SightRoot
 class SightEquation
 {
 public:
-  /** With `reflects` and equal indices, the equation of a reflection. */
+  /**
+   * With `reflects` and equal indices, the equation of a reflection. Vectors are copied by
+   * component, for loops over lanes.
+   */
   SightEquation(const glm::dvec3& eye, const glm::dvec3& point, double exterior, double interior,
     bool reflects = false)
-    : Eye(eye)
-    , Point(point)
+    : Eye(eye.x, eye.y, eye.z)
+    , Point(point.x, point.y, point.z)
     , Exterior(exterior)
     , Interior(interior)
     , Reflects(reflects)
@@ -77,6 +81,39 @@ public:
    */
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
+  /** A step of Newton's method. */
+  struct Iterate
+  {
+    PatchJet Jet; ///< the patch before the step
+    glm::dvec2 Move;
+    glm::dvec2 B; ///< after the step
+    double Determinant;
+    bool IsFinite;
+    bool IsLast;
+    bool HasLeft; ///< the facet, by more than the allowed distance
+
+    enum SightRoot::End GetEnd() const
+    {
+      using End = enum SightRoot::End;
+      return !this->IsFinite
+        ? End::Failed
+        : (this->IsLast ? End::Converged : (this->HasLeft ? End::Left : End::Open));
+    }
+    /**
+     * Place of the patch after the last step, which is so short that the patch is linear within
+     * rounding; before any other step.
+     */
+    PatchPoint GetPlace() const
+    {
+      const double x = this->IsLast ? this->Move.x : 0.0;
+      const double y = this->IsLast ? this->Move.y : 0.0;
+      return { this->Jet.Position + x * this->Jet.PositionBy[0] + y * this->Jet.PositionBy[1],
+        this->Jet.Normal + x * this->Jet.NormalBy[0] + y * this->Jet.NormalBy[1] };
+    }
+  };
+  /** The step from `b`; an iterate may leave the facet by `reach` at most. */
+  Iterate Advance(const CurvedPatch& patch, const glm::dvec2& b, double reach) const;
+
   /**
    * True if a root is an image: the eye is in front of the surface, the point behind it, or in
    * front for a reflection.
@@ -91,8 +128,11 @@ public:
     return std::min(glm::dot(a, a), glm::dot(p, p));
   }
 
-  /** Orientation of the image of a facet: +1, or -1 where it is mirrored. */
-  static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
+  /**
+   * Orientation of the image of a facet at a root with this normal and determinant: +1, or -1 where
+   * it is mirrored.
+   */
+  static int GetOrientation(const CurvedPatch& patch, const glm::dvec3& normal, double determinant);
 
 private:
   struct Step
@@ -163,8 +203,8 @@ inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
   const double inner = this->Interior * lengthA;
   const glm::dvec3 h = outer * a - inner * p;
   const double eta = glm::dot(h, jet.Normal) / glm::dot(jet.Normal, jet.Normal);
-  const glm::dvec3 alongP = lengthP > 0.0 ? (this->Exterior / lengthP) * p : glm::dvec3(0.0);
-  const glm::dvec3 alongA = lengthA > 0.0 ? (this->Interior / lengthA) * a : glm::dvec3(0.0);
+  const glm::dvec3 alongP = (lengthP > 0.0 ? this->Exterior / lengthP : 0.0) * p;
+  const glm::dvec3 alongA = (lengthA > 0.0 ? this->Interior / lengthA : 0.0) * a;
   glm::dvec3 by[2];
   for (int k = 0; k < 2; ++k)
   {
@@ -181,47 +221,49 @@ inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
 }
 
 //------------------------------------------------------------------------------
-inline SightRoot SightEquation::Solve(
-  const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
+// Written without branches, for SightLanes.
+inline SightEquation::Iterate SightEquation::Advance(
+  const CurvedPatch& patch, const glm::dvec2& b, double reach) const
 {
-  // Where the eye or the point is closer to the surface than a facet is wide, that distance takes
-  // the place of the facet's size.
   // The error after a step is of the order of the step's square, in units of the facet: below 1e-10
   // of a facet, except near a caustic. For a reflection it is below 1e-14, so that plane mirrors
   // are exact within rounding.
   const double lastStep = this->Reflects ? 1e-7 : 1e-5;
-  const auto isLast = [lastStep](const Step& step, const PatchJet& at, double size)
-  {
-    const double width = std::max(
-      glm::dot(at.PositionBy[0], at.PositionBy[0]), glm::dot(at.PositionBy[1], at.PositionBy[1]));
-    const double longest = lastStep * step.Nearest;
-    return size < lastStep && size * size * width <= longest * longest;
-  };
-  PatchJet jet;
+  Iterate iterate;
+  patch.Evaluate(b, iterate.Jet);
+  const PatchJet& jet = iterate.Jet;
+  const Step step = this->GetStep(jet);
+  iterate.Move = step.Move;
+  iterate.B = b + step.Move;
+  iterate.Determinant = step.Determinant;
+  const double size = std::max(std::fabs(step.Move.x), std::fabs(step.Move.y));
+  // Where the eye or the point is closer to the surface than a facet is wide, that distance takes
+  // the place of the facet's size.
+  const double width = std::max(
+    glm::dot(jet.PositionBy[0], jet.PositionBy[0]), glm::dot(jet.PositionBy[1], jet.PositionBy[1]));
+  const double longest = lastStep * step.Nearest;
+  iterate.IsFinite = size <= std::numeric_limits<double>::max();
+  iterate.IsLast = (size < lastStep) & (size * size * width <= longest * longest);
+  iterate.HasLeft =
+    std::min(std::min(1.0 - iterate.B.x - iterate.B.y, iterate.B.x), iterate.B.y) < -reach;
+  return iterate;
+}
+
+//------------------------------------------------------------------------------
+inline SightRoot SightEquation::Solve(
+  const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
+{
   for (int i = 0; i < steps; ++i)
   {
-    patch.Evaluate(b, jet);
-    const Step step = this->GetStep(jet);
-    const double size = std::max(std::fabs(step.Move.x), std::fabs(step.Move.y));
-    if (!(size <= std::numeric_limits<double>::max()))
+    const Iterate iterate = this->Advance(patch, b, reach);
+    b = iterate.B;
+    const auto end = iterate.GetEnd();
+    if (end != SightRoot::End::Open)
     {
-      break;
-    }
-    b += step.Move;
-    if (isLast(step, jet, size))
-    {
-      // The step is so short that the patch is linear within rounding.
-      const PatchPoint at{ jet.Position + step.Move.x * jet.PositionBy[0] +
-          step.Move.y * jet.PositionBy[1],
-        jet.Normal + step.Move.x * jet.NormalBy[0] + step.Move.y * jet.NormalBy[1] };
-      return { SightRoot::End::Converged, b, at, step.Determinant };
-    }
-    if (FindOutside(b).Least < -reach)
-    {
-      return { SightRoot::End::Left, b, jet, step.Determinant };
+      return { end, b, iterate.GetPlace(), iterate.Determinant };
     }
   }
-  return { SightRoot::End::Failed, b, jet, 0.0 };
+  return { SightRoot::End::Failed, b, {}, 0.0 };
 }
 
 //------------------------------------------------------------------------------
@@ -235,11 +277,12 @@ inline bool SightEquation::IsImage(const PatchPoint& at) const
 }
 
 //------------------------------------------------------------------------------
-inline int SightEquation::GetOrientation(const CurvedPatch& patch, const SightRoot& root)
+inline int SightEquation::GetOrientation(
+  const CurvedPatch& patch, const glm::dvec3& normal, double determinant)
 {
   const glm::dvec3 facet =
     glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
-  return (root.Determinant < 0.0) == (glm::dot(facet, root.At.Normal) < 0.0) ? 1 : -1;
+  return (determinant < 0.0) == (glm::dot(facet, normal) < 0.0) ? 1 : -1;
 }
 
 }

@@ -534,33 +534,6 @@ void CurvedPatches::FitFacet(Patch& patch) const
 }
 
 //------------------------------------------------------------------------------
-std::int32_t CurvedPatches::Walk(
-  std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const
-{
-  for (int i = 0; i < steps; ++i)
-  {
-    const Patch& patch = this->Patches[static_cast<std::size_t>(facet)];
-    glm::dvec3 away[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      away[k] = this->Surface->GetPositions()[static_cast<std::size_t>(patch.Vertex[k])] - target;
-    }
-    const glm::dvec3 turned = glm::cross(normal, away[0]);
-    const double area[3] = { glm::dot(normal, glm::cross(away[1], away[2])),
-      -glm::dot(turned, away[2]), glm::dot(turned, away[1]) };
-    const double sign = area[0] + area[1] + area[2] < 0.0 ? -1.0 : 1.0;
-    const int corner = sign * area[0] < sign * area[1] ? (sign * area[0] < sign * area[2] ? 0 : 2)
-                                                       : (sign * area[1] < sign * area[2] ? 1 : 2);
-    if (sign * area[corner] >= 0.0 || patch.Neighbour[corner] == NoFacet)
-    {
-      return facet;
-    }
-    facet = patch.Neighbour[corner];
-  }
-  return facet;
-}
-
-//------------------------------------------------------------------------------
 std::size_t CurvedPatches::GetNumberOfStraightEdges() const
 {
   std::size_t count = 0;

@@ -18,8 +18,10 @@
 #ifndef meniscus_Refraction_Membrane_CurvedPatches_h
 #define meniscus_Refraction_Membrane_CurvedPatches_h
 
+#include "Common/Prefetch.h"
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/CurvedPatch.h"
+#include "Refraction/Membrane/FacetWalk.h"
 #include "Refraction/Membrane/Membrane.h"
 
 #include <array>
@@ -45,12 +47,35 @@ public:
 
   CurvedPatch GetPatch(std::int32_t facet) const;
 
+  std::size_t GetSize() const { return this->Patches.size(); }
+  /** The first corner of a patch. */
+  PatchPoint GetCorner(std::int32_t facet) const
+  {
+    const auto vertex =
+      static_cast<std::size_t>(this->Patches[static_cast<std::size_t>(facet)].Vertex[0]);
+    return { this->Surface->GetPositions()[vertex], this->Surface->GetNormals()[vertex] };
+  }
+  void PrefetchPatch(std::int32_t facet) const
+  {
+    Prefetch(&this->Patches[static_cast<std::size_t>(facet)]);
+  }
+
+  /**
+   * Writes corners, normals and bends of a patch to a lane of arrays with these names, and to
+   * IsCubic 0 for straight edges and 1 for others.
+   */
+  template <class Lanes>
+  void LoadPatch(std::int32_t facet, int lane, Lanes& lanes) const;
+
   /**
    * Facet in or near which the straight way from `facet` to `target`, projected along `normal`,
    * ends after at most `steps` facets. The way also ends at a border.
    */
   std::int32_t Walk(
-    std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const;
+    std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const
+  {
+    return FacetWalk(*this, facet, target, normal, steps).Finish();
+  }
 
   /**
    * Facet across the edge opposite `corner`; NoFacet at a border, or where more or fewer than two
@@ -65,6 +90,8 @@ public:
   std::size_t GetNumberOfStraightEdges() const;
 
 private:
+  friend class FacetWalk;
+
   /** Stored patch; fills one cache line. */
   struct alignas(64) Patch
   {
@@ -118,6 +145,26 @@ inline CurvedPatch CurvedPatches::GetPatch(std::int32_t facet) const
     }
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+template <class Lanes>
+void CurvedPatches::LoadPatch(std::int32_t facet, int lane, Lanes& lanes) const
+{
+  const Patch& patch = this->Patches[static_cast<std::size_t>(facet)];
+  for (int k = 0; k < 3; ++k)
+  {
+    const auto vertex = static_cast<std::size_t>(patch.Vertex[k]);
+    const glm::dvec3& corner = this->Surface->GetPositions()[vertex];
+    const glm::dvec3& normal = this->Surface->GetNormals()[vertex];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Corner[k][axis][lane] = corner[axis];
+      lanes.Normal[k][axis][lane] = normal[axis];
+      lanes.Bend[k][axis][lane] = patch.Bend[k][axis];
+    }
+    lanes.IsCubic[k][lane] = patch.Straight >> k & 1u ? 0.0 : 1.0;
+  }
 }
 
 }

@@ -83,21 +83,16 @@ inline RefractionRay ComputeReflectionRay(const glm::dvec3& sight, const glm::dv
  */
 inline double FresnelReflectance(double cosine, double exterior, double interior)
 {
-  if (exterior == interior)
-  {
-    return 0.0;
-  }
-  const double c = std::clamp(cosine, 0.0, 1.0);
+  // Without branches, for loops over lanes.
+  const double c = std::min(std::max(cosine, 0.0), 1.0);
   const double n = interior / exterior;
   const double squared = n * n + c * c - 1.0;
-  if (squared <= 0.0)
-  {
-    return 1.0;
-  }
-  const double g = std::sqrt(squared);
+  const double g = std::sqrt(std::max(squared, 0.0));
   const double first = (g - c) / (g + c);
   const double second = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
-  return std::clamp(0.5 * first * first * (1.0 + second * second), 0.0, 1.0);
+  const double refracted = 0.5 * first * first * (1.0 + second * second);
+  const double reflectance = squared <= 0.0 ? 1.0 : std::min(std::max(refracted, 0.0), 1.0);
+  return exterior == interior ? 0.0 : reflectance;
 }
 
 /**

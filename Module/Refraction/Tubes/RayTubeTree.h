@@ -15,6 +15,7 @@
 #ifndef meniscus_Refraction_Tubes_RayTubeTree_h
 #define meniscus_Refraction_Tubes_RayTubeTree_h
 
+#include "Common/Prefetch.h"
 #include "Common/RangeLoop.h"
 
 #include <glm/vec3.hpp>
@@ -120,28 +121,11 @@ private:
   void StoreBounds(Node& node, int child, const TubeBounds& bounds) const;
   static void MergeChild(Node& node, int child, const Node& from);
   static void ClearBounds(Node& node, int child);
-  void Prefetch(std::int32_t node) const;
   static unsigned Overlaps(const Node& node, const Query& query);
 
   double Scale = 1.0;
   std::vector<Node> Nodes;
 };
-
-//------------------------------------------------------------------------------
-// Children are far apart in memory: those that wait on the stack are prefetched.
-inline void RayTubeTree::Prefetch(std::int32_t node) const
-{
-#if defined(__GNUC__)
-  constexpr std::size_t line = 64;
-  const auto* first = reinterpret_cast<const char*>(&this->Nodes[static_cast<std::size_t>(node)]);
-  for (std::size_t offset = 0; offset < sizeof(Node); offset += line)
-  {
-    __builtin_prefetch(first + offset);
-  }
-#else
-  static_cast<void>(node);
-#endif
-}
 
 //------------------------------------------------------------------------------
 inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
@@ -230,7 +214,8 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
       }
       else
       {
-        this->Prefetch(node.Link[child]);
+        // Children are far apart in memory: those that wait on the stack are prefetched.
+        Prefetch(&this->Nodes[static_cast<std::size_t>(node.Link[child])], sizeof(Node));
         stack[depth++] = { node.Link[child], node.FirstFacet[child] };
       }
     }
