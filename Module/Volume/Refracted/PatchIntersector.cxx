@@ -220,6 +220,16 @@ PatchReach PatchIntersector::GetReach() const
 }
 
 //------------------------------------------------------------------------------
+bool PatchIntersector::Passes(
+  const SightRays& rays, const PatchIntersectionBatch& lanes, int lane) const
+{
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const glm::dvec3 direction = rays.DirectionOf(lanes, lane);
+  return !this->GetReach().MayMeet(
+    this->Plane.Meet(rays.StartOf(lanes, lane), direction), direction, -anywhere, anywhere);
+}
+
+//------------------------------------------------------------------------------
 /** Rays of the block that may meet the patch, with their intersections with the plane. */
 FreeRayBatch PatchIntersector::SiftNear(RayBlock& rays) const
 {

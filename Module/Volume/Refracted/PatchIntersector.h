@@ -143,6 +143,9 @@ private:
    * the facet; the ray through it meets the plane within bulge (1 + slant) of that.
    */
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
+  /** True if a ray is certain to pass the patch. Rays of a block were tested before. */
+  bool Passes(const SightRays& rays, const PatchIntersectionBatch& lanes, int lane) const;
+  bool Passes(const FreeRays&, const FreeRayBatch&, int) const { return false; }
   template <class Rays, typename Visit>
   void MeetCurved(
     const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
@@ -262,6 +265,11 @@ void PatchIntersector::MeetCurved(
           visit(lanes.Index[i],
             MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
+      }
+      // A root of the ray outside of the patch does not exclude another one inside.
+      else if (lanes.Move[i] < LastStep && this->Passes(rays, lanes, i))
+      {
+        continue;
       }
       // A ray that moves by more than a facet has diverged, and so has a ray that ends far from the
       // patch.

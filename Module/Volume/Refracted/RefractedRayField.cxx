@@ -254,7 +254,6 @@ RefractedRayField::SeenFacet RefractedRayField::See(
     seen.Radius *= SightMargin;
     return seen;
   }
-  seen.Matters = this->MayShowMesh(patch, bulge);
   const auto clamped = [](double value, int size)
   { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
   const glm::dvec2 center(0.5 * this->Of.Width, 0.5 * this->Of.Height);
@@ -263,6 +262,10 @@ RefractedRayField::SeenFacet RefractedRayField::See(
     clamped(upper.x + center.x + 1.5, this->Of.Width),
     clamped(lower.y + center.y - 1.5, this->Of.Height),
     clamped(upper.y + center.y + 1.5, this->Of.Height) };
+  if (!seen.Pixels.IsEmpty())
+  {
+    seen.Matters = this->MayShowMesh(patch, bulge);
+  }
   return seen;
 }
 
@@ -271,7 +274,7 @@ void RefractedRayField::SortFacets(const std::vector<SeenFacet>& facets)
 {
   const auto forTilesOf = [this](const Box& box, const auto& body)
   {
-    if (box.Left >= box.Right || box.Bottom >= box.Top)
+    if (box.IsEmpty())
     {
       return;
     }
@@ -390,7 +393,10 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
       {
         hits.resize(RaysOfTile);
         MembraneHit& nearest = hits[static_cast<std::size_t>(index)];
-        nearest = hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth ? hit : nearest;
+        if (hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth)
+        {
+          nearest = hit;
+        }
       });
     lanes.Count = 0;
   };

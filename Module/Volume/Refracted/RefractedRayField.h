@@ -97,6 +97,8 @@ private:
     int Right; // exclusive
     int Bottom;
     int Top; // exclusive
+
+    bool IsEmpty() const { return this->Left >= this->Right || this->Bottom >= this->Top; }
   };
   /** Data of a facet's patch before it is intersected with rays. */
   struct SeenFacet
