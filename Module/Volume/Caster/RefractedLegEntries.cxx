@@ -128,7 +128,11 @@ void RefractedLegEntries::SiftLegs(
     if (this->SetPart(leg, legs, i, workspace.Origins[kept]))
     {
       workspace.Ends[kept] = end;
-      legs.Keep(legs.Count++, legs, i);
+      if (legs.Count != i)
+      {
+        legs.Copy(legs.Count, legs, i);
+      }
+      ++legs.Count;
     }
     else
     {
@@ -177,27 +181,32 @@ void RefractedLegEntries::GroupLegs(Workspace& workspace) const
       (known ? Workspace::Known : Workspace::Unknown);
     groups |= 1u << workspace.Groups[ray];
   }
+  const bool isOneGroup = (groups & (groups - 1)) == 0;
   for (unsigned int number = 0; groups >> number != 0; ++number)
   {
     if ((groups >> number & 1u) != 0)
     {
-      this->AddToGroup(number, workspace);
+      this->AddToGroup(number, isOneGroup ? legs : workspace.Chosen, workspace);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-/** @param number frame and group, as in Workspace::Groups. */
-void RefractedLegEntries::AddToGroup(unsigned int number, Workspace& workspace) const
+/**
+ * @param number frame and group, as in Workspace::Groups.
+ * @param chosen the legs of the square, if all are in the group; otherwise gets those that are.
+ */
+void RefractedLegEntries::AddToGroup(
+  unsigned int number, LegBlock& chosen, Workspace& workspace) const
 {
   const auto frame = static_cast<std::size_t>(number / Workspace::NumberOfGroups);
   const unsigned int kind = number % Workspace::NumberOfGroups;
   Workspace::Group& group = workspace.Frames[frame][kind];
   const auto firstLine = static_cast<std::int32_t>(LineBlock::Size * group.NumberOfBlocks);
   LineBlock& lines = group.AddBlock();
-  LegBlock& chosen = workspace.Chosen;
+  const int count = workspace.Legs.Count;
   chosen.Count = 0;
-  for (int i = 0; i < workspace.Legs.Count; ++i)
+  for (int i = 0; i < count; ++i)
   {
     const auto ray = static_cast<std::size_t>(i);
     if (workspace.Groups[ray] == number)
@@ -208,7 +217,11 @@ void RefractedLegEntries::AddToGroup(unsigned int number, Workspace& workspace) 
         group.EntriesInside.push_back({ line, workspace.EntriesInside[ray] });
       }
       group.Origins[static_cast<std::size_t>(line)] = workspace.Origins[ray];
-      chosen.Keep(chosen.Count++, workspace.Legs, i);
+      if (&chosen != &workspace.Legs)
+      {
+        chosen.Copy(chosen.Count, workspace.Legs, i);
+      }
+      ++chosen.Count;
     }
   }
   SetLines(this->Scene.Frames->Get(static_cast<int>(frame)), chosen, kind == Workspace::Known,
@@ -251,14 +264,10 @@ void RefractedLegEntries::FindEntries(
     group.Blocks.data(), group.NumberOfBlocks, found);
   for (const Workspace::Group::Inside& inside : group.EntriesInside)
   {
-    const PacketEntry& entry = inside.Entry;
-    found.Hits.push_back(
-      { inside.Line, static_cast<std::int32_t>(found.Faces.size()), entry.Depth });
-    found.Faces.push_back(
-      { { entry.Vertices[0], entry.Vertices[1], entry.Vertices[2] }, entry.CellFace });
+    found.Add(inside.Line, inside.Entry);
   }
   workspace.Entries.Set(LineBlock::Size * group.NumberOfBlocks, found.Hits.data(),
-    found.Hits.size(), found.Faces.data());
+    found.NumberOfHits, found.Faces.data());
 }
 
 //------------------------------------------------------------------------------

@@ -158,7 +158,7 @@ private:
   bool FindEntryInside(
     const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
   void GroupLegs(Workspace& workspace) const;
-  void AddToGroup(unsigned int number, Workspace& workspace) const;
+  void AddToGroup(unsigned int number, LegBlock& chosen, Workspace& workspace) const;
   void FindEntries(int frame, const Workspace::Group& group, Workspace& workspace) const;
   void SetBatch(int frame, const Workspace::Group& group, Workspace& workspace) const;
 

@@ -137,12 +137,8 @@ void Copy(const RefractedRay* rays, const LegBlock& block, RefractionBlock& copy
 }
 
 //------------------------------------------------------------------------------
-void LegBlock::Keep(int to, const LegBlock& block, int from)
+void LegBlock::Copy(int to, const LegBlock& block, int from)
 {
-  if (&block == this && to == from)
-  {
-    return;
-  }
   this->Pixel[to] = block.Pixel[from];
   for (int axis = 0; axis < 3; ++axis)
   {

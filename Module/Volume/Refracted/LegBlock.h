@@ -62,7 +62,7 @@ struct LegBlock
     this->End[i] = leg.End;
   }
   /** Copies pixel, leg, drawn part and frame of ray `from` of another block, or of this one. */
-  void Keep(int to, const LegBlock& block, int from);
+  void Copy(int to, const LegBlock& block, int from);
 };
 
 /**

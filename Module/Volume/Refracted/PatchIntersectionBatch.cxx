@@ -101,12 +101,8 @@ struct RefractKernel
 }
 
 //------------------------------------------------------------------------------
-void PatchIntersectionBatch::Keep(int to, int from)
+void PatchIntersectionBatch::Copy(int to, int from)
 {
-  if (to == from)
-  {
-    return;
-  }
   this->Index[to] = this->Index[from];
   for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Least,
          this->Slant, this->PatchX, this->PatchY, this->Behind })
@@ -116,9 +112,8 @@ void PatchIntersectionBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
-void FreeRayBatch::Keep(int to, int from)
+void FreeRayBatch::CopyRay(int to, int from)
 {
-  this->PatchIntersectionBatch::Keep(to, from);
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Start[axis][to] = this->Start[axis][from];

@@ -148,7 +148,16 @@ struct PatchIntersectionBatch
     ++this->Count;
   }
   /** Copies lane `from` to lane `to`, except for Move and the members after it. */
-  void Keep(int to, int from);
+  void Keep(int to, int from)
+  {
+    if (to != from)
+    {
+      this->Copy(to, from);
+    }
+  }
+
+protected:
+  void Copy(int to, int from);
 };
 
 /** Lanes of rays in any directions; a direction is per unit of depth. */
@@ -167,7 +176,17 @@ struct FreeRayBatch : PatchIntersectionBatch
     this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
   }
   /** As for the base, with the ray. */
-  void Keep(int to, int from);
+  void Keep(int to, int from)
+  {
+    if (to != from)
+    {
+      this->Copy(to, from);
+      this->CopyRay(to, from);
+    }
+  }
+
+private:
+  void CopyRay(int to, int from);
 };
 
 /**

@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -214,11 +215,12 @@ template <class Rays, typename Visit>
 void PatchIntersector::MeetNear(
   const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
+  const bool allCurved = matters && !this->IsFlat;
   const int count = lanes.Count;
-  lanes.Count = 0;
-  for (int i = 0; i < count; ++i)
+  lanes.Count = allCurved ? count : 0;
+  for (int i = 0; i < count && !allCurved; ++i)
   {
-    if (!this->IsFlat && (matters || !(lanes.Least[i] > this->MarginOf(lanes.Slant[i]))))
+    if (!this->IsFlat && !(lanes.Least[i] > this->MarginOf(lanes.Slant[i])))
     {
       lanes.Keep(lanes.Count++, i);
       continue;
@@ -244,11 +246,11 @@ void PatchIntersector::MeetCurved(
       this->MeetExactly(rays, matters, lanes, i, visit);
       continue;
     }
-    lanes.PatchX[i] = lanes.X[i];
-    lanes.PatchY[i] = lanes.Y[i];
-    lanes.Behind[i] = 0.0;
     lanes.Keep(lanes.Count++, i);
   }
+  std::copy_n(lanes.X, lanes.Count, lanes.PatchX);
+  std::copy_n(lanes.Y, lanes.Count, lanes.PatchY);
+  std::fill_n(lanes.Behind, lanes.Count, 0.0);
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
     StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);

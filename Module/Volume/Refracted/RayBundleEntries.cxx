@@ -95,13 +95,10 @@ struct RayBundleEntries::Bundle
   glm::dvec2 LeastSlope;
   glm::dvec2 MostSlope;
 
-  glm::dvec2 LowerAt(double depth) const { return Between(this->Lower, this->ShareAt(depth)); }
-  glm::dvec2 UpperAt(double depth) const { return Between(this->Upper, this->ShareAt(depth)); }
-  /** A depth as a share of those of the bundle. */
-  double ShareAt(double depth) const
-  {
-    return this->Last > this->First ? (depth - this->First) / (this->Last - this->First) : 0.0;
-  }
+  /** Shares of the bundle's depths per unit of depth; 0 if they are equal. */
+  double PerDepth;
+
+  double ShareAt(double depth) const { return (depth - this->First) * this->PerDepth; }
   static glm::dvec2 Between(const glm::dvec2 (&ends)[2], double share)
   {
     return ends[0] + share * (ends[1] - ends[0]);
@@ -174,6 +171,10 @@ bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) con
   const glm::dvec2 mean = 0.5 * (bundle.LeastSlope + bundle.MostSlope);
   const double area = normal.z + glm::dot(across, mean);
   const double spread = 0.5 * glm::dot(glm::abs(across), bundle.MostSlope - bundle.LeastSlope);
+  if (area + spread > 0.0)
+  {
+    return true;
+  }
   // Both ends of an edge have an error of GridMargin, in all sqrt(2) times 2 of it. About a line
   // with slopes within 1, an edge is at most sqrt(3) times as long.
   constexpr double offset = 2.83 * GridMargin;
@@ -191,6 +192,7 @@ RayBundleEntries::Bundle RayBundleEntries::Bound(
   Bundle bundle;
   bundle.First = first;
   bundle.Last = last;
+  bundle.PerDepth = last > first ? 1.0 / (last - first) : 0.0;
   for (int axis = 0; axis < 2; ++axis)
   {
     double low[3][width];
@@ -252,8 +254,12 @@ void RayBundleEntries::FindFaces(const Bundle& bundle, Workspace& workspace) con
     bool meets = first <= last;
     if (meets)
     {
-      const glm::dvec2 lower = glm::min(bundle.LowerAt(first), bundle.LowerAt(last));
-      const glm::dvec2 upper = glm::max(bundle.UpperAt(first), bundle.UpperAt(last));
+      const double near = bundle.ShareAt(first);
+      const double far = bundle.ShareAt(last);
+      const glm::dvec2 lower =
+        glm::min(Bundle::Between(bundle.Lower, near), Bundle::Between(bundle.Lower, far));
+      const glm::dvec2 upper =
+        glm::max(Bundle::Between(bundle.Upper, near), Bundle::Between(bundle.Upper, far));
       meets = center.x + half.x >= lower.x && center.x - half.x <= upper.x &&
         center.y + half.y >= lower.y && center.y - half.y <= upper.y;
     }
@@ -330,9 +336,9 @@ void RayBundleEntries::AddSpans(const Bundle& bundle, int lines, Workspace& work
 void RayBundleEntries::AddHits(
   const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const
 {
-  const std::size_t before = workspace.Hits.size();
-  workspace.Hits.resize(
-    before + workspace.Spans.size() * static_cast<std::size_t>(lines.Count));
+  const std::size_t before = workspace.NumberOfHits;
+  workspace.Hits.resize(std::max(workspace.Hits.size(),
+    before + workspace.Spans.size() * static_cast<std::size_t>(lines.Count)));
   PacketSpanJob job;
   job.Vertices = this->Frame.Vertices.data();
   job.Faces = workspace.Faces.data();
@@ -359,7 +365,17 @@ void RayBundleEntries::AddHits(
       workspace.Hits[kept++] = { firstRay + hit.Ray, hit.Face, hit.Depth };
     }
   }
-  workspace.Hits.resize(kept);
+  workspace.NumberOfHits = kept;
+}
+
+//------------------------------------------------------------------------------
+void RayBundleEntries::Workspace::Add(std::int32_t ray, const PacketEntry& entry)
+{
+  this->Hits.resize(std::max(this->Hits.size(), this->NumberOfHits + 1));
+  this->Hits[this->NumberOfHits++] = { ray, static_cast<std::int32_t>(this->Faces.size()),
+    entry.Depth };
+  this->Faces.push_back(
+    { { entry.Vertices[0], entry.Vertices[1], entry.Vertices[2] }, entry.CellFace });
 }
 
 //------------------------------------------------------------------------------
@@ -375,7 +391,7 @@ void RayBundleEntries::Collect(
       first = std::min(first, std::max(lines->From[i], -last));
     }
   }
-  workspace.Hits.clear();
+  workspace.NumberOfHits = 0;
   const Bundle all = this->Bound(blocks, count, first, last);
   this->FindFaces(all, workspace);
   this->SortFaces(all, workspace);

@@ -65,8 +65,14 @@ public:
     /** Faces by which the lines of the bundle may enter, from near to far, and their bounds. */
     std::vector<PacketFace> Faces;
     std::vector<FaceBlock> Blocks;
-    /** Entries of the bundle's lines. Line i of block number b is ray LineBlock::Size * b + i. */
+    /**
+     * The first NumberOfHits are the entries of the bundle's lines. Line i of block number b is ray
+     * LineBlock::Size * b + i.
+     */
     std::vector<PacketHit> Hits;
+    std::size_t NumberOfHits = 0;
+    /** Adds an entry, with its face. */
+    void Add(std::int32_t ray, const PacketEntry& entry);
 
     struct FoundFace
     {
