@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace meniscus
 {
@@ -174,6 +175,17 @@ struct FreeRayBatch : PatchIntersectionBatch
       this->Direction[axis][this->Count] = direction[axis];
     }
     this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
+  }
+  /** Sets lanes 0 to `count` - 1 to rays of the same numbers. */
+  void Take(int count, const double (&starts)[3][Size], const double (&directions)[3][Size])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::copy_n(starts[axis], count, this->Start[axis]);
+      std::copy_n(directions[axis], count, this->Direction[axis]);
+    }
+    std::iota(this->Index, this->Index + count, 0);
+    this->Count = count;
   }
   /** As for the base, with the ray. */
   void Keep(int to, int from)

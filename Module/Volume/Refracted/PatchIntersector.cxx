@@ -235,6 +235,15 @@ FreeRayBatch PatchIntersector::SiftNear(RayBlock& rays) const
 {
   MeetPatchReach(this->GetReach(), this->Set, rays);
   FreeRayBatch lanes;
+  if (std::all_of(rays.Meets, rays.Meets + rays.Count, [](std::int64_t ray) { return ray != 0; }))
+  {
+    lanes.Take(rays.Count, rays.Start, rays.Direction);
+    std::copy_n(rays.Depth, rays.Count, lanes.Depth);
+    std::copy_n(rays.X, rays.Count, lanes.X);
+    std::copy_n(rays.Y, rays.Count, lanes.Y);
+    std::copy_n(rays.Slant, rays.Count, lanes.Slant);
+    return lanes;
+  }
   for (int i = 0; i < rays.Count; ++i)
   {
     if (rays.Meets[i] != 0)
