@@ -465,6 +465,10 @@ void RefractedRayStack::EndRaysBesideMesh(Block& block) const
     EndedLegs rays{ block.Count, block.Legs[k],
       k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr, stays };
     RunLanes(kernel, this->Set, rays);
+    if (std::all_of(stays, stays + block.Count, [](std::int64_t ray) { return ray != 0; }))
+    {
+      return;
+    }
   }
 }
 
