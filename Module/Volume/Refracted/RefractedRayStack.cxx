@@ -144,6 +144,46 @@ struct EndKernel
   }
 };
 
+/** True if the ray of a lane meets the interface. */
+bool IsHit(const RayBlock& lanes, int lane)
+{
+  return (lanes.Last[lane] < Infinity) & (lanes.Last[lane] > -Infinity);
+}
+
+/** Rays that are refracted at an interface, and their legs in front of it and behind it. */
+struct NextLegs
+{
+  int Count;
+  const RayBlock& Lanes;
+  const FreeRayBatch& Refracted;
+  const WorldLegs& Before;
+  WorldLegs& Behind;
+  double (&Media)[RaysOfBlock];
+};
+
+/** Begins the legs behind an interface. */
+struct NextKernel
+{
+  double Exterior;
+  double Interior;
+
+  void operator()(NextLegs& rays, int i) const
+  {
+    const bool isHit = IsHit(rays.Lanes, i);
+    const double depth = isHit ? rays.Lanes.Last[i] : 0.0;
+    const double refracted = rays.Refracted.Refracted[i];
+    const bool goesOn = isHit & (refracted != 0.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Behind.Place[axis][i] = rays.Before.Place[axis][i] + depth * rays.Before.Step[axis][i];
+      rays.Behind.Step[axis][i] = goesOn ? rays.Refracted.Normal[axis][i] : 0.0;
+    }
+    rays.Behind.Depth[i] = isHit ? rays.Before.Depth[i] + depth : Infinity;
+    const double medium = refracted > 0.0 ? this->Interior : this->Exterior;
+    rays.Media[i] = goesOn ? medium : rays.Media[i];
+  }
+};
+
 /** Side of a surface from which a ray can meet it. */
 enum class Side : signed char
 {
@@ -190,12 +230,15 @@ struct RefractedRayStack::Block
   std::array<int, RaysOfBlock> Pixels;
   std::vector<WorldLegs> Legs;
   /** Index of refraction of the medium that the ray is in, from leg 1 on. */
-  std::array<double, RaysOfBlock> Media;
+  double Media[RaysOfBlock] = {};
 
-  /** Rays that may meet the present interface: their numbers and nearest intersections. */
+  /**
+   * The rays on their way to the present interface, each up to its nearest intersection. Rays that
+   * do not go there are replaced by one that does, and end in front of everything.
+   */
   RayBlock Lanes;
-  std::array<int, RaysOfBlock> Numbers;
-  std::array<MembraneHit, RaysOfBlock> Hits;
+  /** Normals at these intersections. */
+  double Normals[3][RaysOfBlock] = {};
 };
 
 //------------------------------------------------------------------------------
@@ -324,36 +367,51 @@ void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
 }
 
 //------------------------------------------------------------------------------
-/** Adds the rays of a block that may meet interface `number`, and ends those that cannot. */
-void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums) const
+/**
+ * Sets the lanes to the rays of a block that may meet interface `number`, and ends those that
+ * cannot. Leaves no lanes if there is no such ray.
+ */
+void RefractedRayStack::SetLanes(std::size_t number, Block& block, Counts& sums) const
 {
   const StackedInterface& interface = this->Interfaces[number];
   const bool isFirst = number == 0;
   const glm::dvec3 toSurface = this->Of.Center - interface.Surface->GetOrigin();
   WorldLegs& legs = block.Legs[number];
   RayBlock& lanes = block.Lanes;
-  lanes.Count = 0;
+  lanes.Count = block.Count;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int ray = 0; ray < block.Count; ++ray)
+    {
+      lanes.Start[axis][ray] = legs.Place[axis][ray] + toSurface[axis];
+      lanes.Direction[axis][ray] = legs.Step[axis][ray];
+    }
+  }
+  int instead = -1;
   for (int ray = 0; ray < block.Count; ++ray)
   {
     const auto r = static_cast<std::size_t>(ray);
-    if (!legs.GoesOn(r))
-    {
-      continue;
-    }
     const Side side = isFirst ? Side::Either : SideOf(interface, block.Media[r]);
-    if (side == Side::Neither)
+    const bool goesOn = legs.GoesOn(r);
+    const bool meets = goesOn && side != Side::Neither;
+    lanes.First[ray] = isFirst ? this->Of.EyeDepth : 0.0;
+    lanes.Last[ray] = meets ? Infinity : -Infinity;
+    lanes.Facing[ray] = FacingOf(side);
+    instead = meets && instead < 0 ? ray : instead;
+    if (goesOn && !meets)
     {
       legs.SetStep(r, glm::dvec3(0.0));
       ++sums.Missing;
       ++sums.Mismatched;
     }
-    else
+  }
+  lanes.Count = instead < 0 ? 0 : lanes.Count;
+  for (int ray = 0; ray < lanes.Count; ++ray)
+  {
+    for (int axis = 0; axis < 3 && lanes.Last[ray] < 0.0; ++axis)
     {
-      const auto lane = static_cast<std::size_t>(lanes.Count);
-      block.Numbers[lane] = ray;
-      block.Hits[lane] = MembraneHit();
-      lanes.Add(legs.GetPlace(r) + toSurface, legs.GetStep(r), isFirst ? this->Of.EyeDepth : 0.0,
-        FacingOf(side));
+      lanes.Start[axis][ray] = lanes.Start[axis][instead];
+      lanes.Direction[axis][ray] = lanes.Direction[axis][instead];
     }
   }
   CompleteRays(this->Set, lanes);
@@ -363,7 +421,7 @@ void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums)
 /** Intersects leg `number` of the rays with interface `number`, and ends legs that miss it. */
 void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& sums) const
 {
-  this->AddLanes(number, block, sums);
+  this->SetLanes(number, block, sums);
   RayBlock& lanes = block.Lanes;
   if (lanes.Count == 0)
   {
@@ -380,7 +438,10 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
     if (HasSign(facing, lanes.Facing[lane]) && hit.Depth > lanes.First[lane] &&
       hit.Depth < lanes.Last[lane])
     {
-      block.Hits[lane] = hit;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        block.Normals[axis][lane] = hit.Normal[axis];
+      }
       lanes.Last[lane] = hit.Depth;
       isNearer = true;
     }
@@ -403,8 +464,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
   {
     if (lanes.Last[lane] == Infinity)
     {
-      const auto ray = static_cast<std::size_t>(block.Numbers[static_cast<std::size_t>(lane)]);
-      block.Legs[number].SetStep(ray, glm::dvec3(0.0));
+      block.Legs[number].SetStep(static_cast<std::size_t>(lane), glm::dvec3(0.0));
       ++sums.Missing;
     }
   }
@@ -417,40 +477,18 @@ void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& s
   const StackedInterface& interface = this->Interfaces[number];
   const RayBlock& lanes = block.Lanes;
   FreeRayBatch batch;
-  for (int lane = 0; lane < lanes.Count; ++lane)
+  batch.Take(lanes.Count, lanes.Start, lanes.Direction);
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const MembraneHit& hit = block.Hits[static_cast<std::size_t>(lane)];
-    if (hit.Depth < Infinity)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        batch.Normal[axis][batch.Count] = hit.Normal[axis];
-      }
-      batch.Add(lane, lanes.GetStart(lane), lanes.GetDirection(lane));
-    }
+    std::copy_n(block.Normals[axis], lanes.Count, batch.Normal[axis]);
   }
   Refract(FreeRays(), interface.Exterior / interface.Interior, this->Set, batch);
-  const WorldLegs& before = block.Legs[number];
-  WorldLegs& legs = block.Legs[number + 1];
-  for (int i = 0; i < batch.Count; ++i)
+  NextLegs next{ lanes.Count, lanes, batch, block.Legs[number], block.Legs[number + 1],
+    block.Media };
+  RunLanes(NextKernel{ interface.Exterior, interface.Interior }, this->Set, next);
+  for (int ray = 0; ray < lanes.Count && number > 0; ++ray)
   {
-    const auto lane = static_cast<std::size_t>(batch.Index[i]);
-    const auto ray = static_cast<std::size_t>(block.Numbers[lane]);
-    const double depth = block.Hits[lane].Depth;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      legs.Place[axis][ray] = before.Place[axis][ray] + depth * before.Step[axis][ray];
-    }
-    legs.Depth[ray] = before.Depth[ray] + depth;
-    if (batch.Refracted[i] != 0.0)
-    {
-      legs.SetStep(ray, { batch.Normal[0][i], batch.Normal[1][i], batch.Normal[2][i] });
-      block.Media[ray] = batch.Refracted[i] > 0.0 ? interface.Interior : interface.Exterior;
-    }
-    else
-    {
-      sums.Reflected += number > 0 ? 1 : 0;
-    }
+    sums.Reflected += IsHit(lanes, ray) && batch.Refracted[ray] == 0.0 ? 1 : 0;
   }
 }
 

@@ -94,7 +94,7 @@ private:
 
   TileSum TraceTile(int tile);
   void StartBlock(int left, int bottom, Block& block) const;
-  void AddLanes(std::size_t number, Block& block, Counts& sums) const;
+  void SetLanes(std::size_t number, Block& block, Counts& sums) const;
   void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
   void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
   void EndRaysBesideMesh(Block& block) const;
