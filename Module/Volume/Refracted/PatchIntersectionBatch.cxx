@@ -35,6 +35,20 @@ struct PlaneKernel
   }
 };
 
+struct NormalKernel
+{
+  CurvedPatch Patch;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const glm::dvec3 normal = this->Patch.GetNormal(glm::dvec2(lanes.X[i], lanes.Y[i]));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Normal[axis][i] = normal[axis];
+    }
+  }
+};
+
 template <class RayType>
 struct PatchKernel
 {
@@ -126,6 +140,12 @@ void MeetPlane(
   const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
 {
   RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
+void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes)
+{
+  RunLanes(NormalKernel{ patch }, set, lanes);
 }
 
 //------------------------------------------------------------------------------

@@ -208,6 +208,9 @@ private:
 void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
   PatchIntersectionBatch& lanes);
 
+/** Sets Normal to the patch's normal at X and Y. */
+void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
+
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
  * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.

@@ -215,19 +215,28 @@ template <class Rays, typename Visit>
 void PatchIntersector::MeetNear(
   const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
-  const bool allCurved = matters && !this->IsFlat;
+  if (matters && this->IsFlat)
+  {
+    SetNormals(this->Patch, this->Set, lanes);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      visit(lanes.Index[i],
+        MembraneHit{
+          lanes.Depth[i], { lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i] } });
+    }
+    lanes.Count = 0;
+    return;
+  }
   const int count = lanes.Count;
-  lanes.Count = allCurved ? count : 0;
-  for (int i = 0; i < count && !allCurved; ++i)
+  lanes.Count = matters ? count : 0;
+  for (int i = 0; i < count && !matters; ++i)
   {
     if (!this->IsFlat && !(lanes.Least[i] > this->MarginOf(lanes.Slant[i])))
     {
       lanes.Keep(lanes.Count++, i);
       continue;
     }
-    const glm::dvec2 b(lanes.X[i], lanes.Y[i]);
-    visit(lanes.Index[i],
-      MembraneHit{ lanes.Depth[i], matters ? this->Patch.GetNormal(b) : glm::dvec3(0.0) });
+    visit(lanes.Index[i], MembraneHit{ lanes.Depth[i], glm::dvec3(0.0) });
   }
   this->MeetCurved(rays, matters, lanes, visit);
 }

@@ -184,30 +184,46 @@ struct NextKernel
   }
 };
 
-/** Side of a surface from which a ray can meet it. */
-enum class Side : signed char
+/** Rays on their way to an interface. */
+struct ArrivingLegs
 {
-  Exterior, // against the normals
-  Interior,
-  Either,
-  Neither
+  int Count;
+  RayBlock& Lanes;
+  const WorldLegs& Legs;
+  const double (&Media)[RaysOfBlock];
+  /** Not 0 for rays in a medium that the interface does not have. */
+  std::int64_t (&Mismatched)[RaysOfBlock];
 };
 
-/** Side of an interface on which its medium is that of a ray. */
-Side SideOf(const StackedInterface& interface, double medium)
+/** Sets the lanes of rays, for the side of the interface on which its medium is that of the ray. */
+struct LaneKernel
 {
-  if (medium == interface.Exterior)
-  {
-    return Side::Exterior;
-  }
-  return medium == interface.Interior ? Side::Interior : Side::Neither;
-}
+  glm::dvec3 ToSurface;
+  /** True if rays may come from either side, in any medium. */
+  bool FromEitherSide;
+  double FirstDepth;
+  double Exterior;
+  double Interior;
 
-/** The sign of the product of a ray's direction and the normal, for rays from that side. */
-double FacingOf(Side side)
-{
-  return side == Side::Either ? 0.0 : (side == Side::Exterior ? -1.0 : 1.0);
-}
+  void operator()(ArrivingLegs& rays, int i) const
+  {
+    const auto ray = static_cast<std::size_t>(i);
+    const double medium = rays.Media[i];
+    const bool isOutside = medium == this->Exterior;
+    const bool fits = this->FromEitherSide | isOutside | (medium == this->Interior);
+    const bool goesOn = rays.Legs.GoesOn(ray);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Lanes.Start[axis][i] = rays.Legs.Place[axis][i] + this->ToSurface[axis];
+      rays.Lanes.Direction[axis][i] = rays.Legs.Step[axis][i];
+    }
+    rays.Lanes.First[i] = this->FirstDepth;
+    rays.Lanes.Last[i] = goesOn & fits ? Infinity : -Infinity;
+    const double facing = isOutside ? -1.0 : 1.0;
+    rays.Lanes.Facing[i] = this->FromEitherSide ? 0.0 : facing;
+    rays.Mismatched[i] = goesOn & !fits ? 1 : 0;
+  }
+};
 
 /** True if a product of a ray's direction and the normal has the sign, or if that is 0. */
 bool HasSign(double product, double sign)
@@ -378,29 +394,19 @@ void RefractedRayStack::SetLanes(std::size_t number, Block& block, Counts& sums)
   const glm::dvec3 toSurface = this->Of.Center - interface.Surface->GetOrigin();
   WorldLegs& legs = block.Legs[number];
   RayBlock& lanes = block.Lanes;
+  std::int64_t mismatched[RaysOfBlock];
+  ArrivingLegs arriving{ block.Count, lanes, legs, block.Media, mismatched };
+  RunLanes(LaneKernel{ toSurface, isFirst, isFirst ? this->Of.EyeDepth : 0.0, interface.Exterior,
+             interface.Interior },
+    this->Set, arriving);
   lanes.Count = block.Count;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    for (int ray = 0; ray < block.Count; ++ray)
-    {
-      lanes.Start[axis][ray] = legs.Place[axis][ray] + toSurface[axis];
-      lanes.Direction[axis][ray] = legs.Step[axis][ray];
-    }
-  }
   int instead = -1;
   for (int ray = 0; ray < block.Count; ++ray)
   {
-    const auto r = static_cast<std::size_t>(ray);
-    const Side side = isFirst ? Side::Either : SideOf(interface, block.Media[r]);
-    const bool goesOn = legs.GoesOn(r);
-    const bool meets = goesOn && side != Side::Neither;
-    lanes.First[ray] = isFirst ? this->Of.EyeDepth : 0.0;
-    lanes.Last[ray] = meets ? Infinity : -Infinity;
-    lanes.Facing[ray] = FacingOf(side);
-    instead = meets && instead < 0 ? ray : instead;
-    if (goesOn && !meets)
+    instead = lanes.Last[ray] > 0.0 && instead < 0 ? ray : instead;
+    if (mismatched[ray] != 0)
     {
-      legs.SetStep(r, glm::dvec3(0.0));
+      legs.SetStep(static_cast<std::size_t>(ray), glm::dvec3(0.0));
       ++sums.Missing;
       ++sums.Mismatched;
     }
