@@ -174,8 +174,7 @@ void RefractedLegEntries::GroupLegs(Workspace& workspace) const
   {
     const auto ray = static_cast<std::size_t>(i);
     const std::int32_t end = workspace.Ends[ray];
-    workspace.IsInside[ray] =
-      this->FindEntryInside(legs, i, end, workspace.EntriesInside[ray]);
+    workspace.IsInside[ray] = this->FindEntryInside(legs, i, end, workspace.EntriesInside[ray]);
     const bool known = workspace.IsInside[ray] || end == PacketResult::Outside;
     workspace.Groups[ray] = static_cast<unsigned int>(legs.Frame[i]) * Workspace::NumberOfGroups +
       (known ? Workspace::Known : Workspace::Unknown);
@@ -243,8 +242,8 @@ void RefractedLegEntries::Collect(
   {
     for (int column = 0; column < TileSize; column += LegBlock::Side)
     {
-      FindLegs(this->Legs, leg.Tile, row * TileSize + column, leg.Number, this->Set,
-        workspace.Legs);
+      FindLegs(
+        this->Legs, leg.Tile, row * TileSize + column, leg.Number, this->Set, workspace.Legs);
       this->SiftLegs(leg, job, joined, workspace);
       if (workspace.Legs.Count > 0)
       {
@@ -332,12 +331,12 @@ bool RefractedLegEntries::TakeBack(int frame, std::size_t ray, Workspace& worksp
   if (enteredInside)
   {
     Workspace::Group& again = groups[Workspace::Again];
-    LineBlock& lines = again.NumberOfBlocks == 0 ||
-        again.Blocks[again.NumberOfBlocks - 1].Count == LineBlock::Size
+    LineBlock& lines =
+      again.NumberOfBlocks == 0 || again.Blocks[again.NumberOfBlocks - 1].Count == LineBlock::Size
       ? again.AddBlock()
       : again.Blocks[again.NumberOfBlocks - 1];
-    const std::size_t added = LineBlock::Size * (again.NumberOfBlocks - 1) +
-      static_cast<std::size_t>(lines.Count);
+    const std::size_t added =
+      LineBlock::Size * (again.NumberOfBlocks - 1) + static_cast<std::size_t>(lines.Count);
     again.Origins[added] = workspace.Batch.Origins[ray];
     lines.Add(group.Blocks[static_cast<std::size_t>(line / LineBlock::Size)],
       line % LineBlock::Size, -this->Scene.Frames->Get(frame).Extent);

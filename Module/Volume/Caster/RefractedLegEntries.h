@@ -102,8 +102,8 @@ public:
       LineBlock& AddBlock();
     };
     /**
-     * Groups of a frame: lines whose start is known to be inside or outside of the mesh, all others,
-     * and lines that began inside and did not reach the boundary.
+     * Groups of a frame: lines whose start is known to be inside or outside of the mesh, all
+     * others, and lines that began inside and did not reach the boundary.
      */
     enum : unsigned int
     {
@@ -155,8 +155,7 @@ private:
   void SiftLegs(
     const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
   bool SetPart(const TileLeg& leg, LegBlock& legs, int ray, LegBatch::Origin& origin) const;
-  bool FindEntryInside(
-    const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
+  bool FindEntryInside(const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
   void GroupLegs(Workspace& workspace) const;
   void AddToGroup(unsigned int number, LegBlock& chosen, Workspace& workspace) const;
   void FindEntries(int frame, const Workspace::Group& group, Workspace& workspace) const;

@@ -70,7 +70,8 @@ public:
 private:
   void Limit(int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const;
   bool EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const;
-  bool ReachDepth(const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;
+  bool ReachDepth(
+    const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;
   void TakeRays(
     const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;
 

@@ -65,8 +65,7 @@ TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   : Input(scene)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)
   , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, scene.Refracted.Tree,
-      this->Input.ClippingPlanes,
-      this->Legs, this->SightOptics(), scene.Set, loop)
+      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop)
 {
   if (scene.PreIntegration)
   {

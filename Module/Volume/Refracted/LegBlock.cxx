@@ -162,10 +162,9 @@ void FindLegs(
     block.Pixel[i] = corner + i / LegBlock::Side * TileSize + i % LegBlock::Side;
   }
   const RayFrame& sight = legs.GetSight();
-  RunLanes(
-    SightKernel{ sight.Origin, sight.Slope,
-      legs.GetLeft(tile) + corner % TileSize + 0.5 - 0.5 * legs.GetWidth(),
-      legs.GetBottom(tile) + corner / TileSize + 0.5 - 0.5 * legs.GetHeight() },
+  RunLanes(SightKernel{ sight.Origin, sight.Slope,
+             legs.GetLeft(tile) + corner % TileSize + 0.5 - 0.5 * legs.GetWidth(),
+             legs.GetBottom(tile) + corner / TileSize + 0.5 - 0.5 * legs.GetHeight() },
     set, block);
   LegKernel kernel;
   for (int k = 1; k <= number; ++k)

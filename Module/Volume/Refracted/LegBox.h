@@ -71,8 +71,8 @@ public:
     {
       const double begin = -glm::dot(this->Areas[k], toCenter);
       const double end = begin + length * glm::dot(this->Areas[k], line.Step);
-      isBeside |= (std::min(begin, end) > this->Extents[k]) |
-        (std::max(begin, end) < -this->Extents[k]);
+      isBeside |=
+        (std::min(begin, end) > this->Extents[k]) | (std::max(begin, end) < -this->Extents[k]);
     }
     return ends & isBeside;
   }

@@ -28,7 +28,8 @@ static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** Legs of the rays of a block along the world's axes, relative to the view's origin; see RayLeg. */
+/** Legs of the rays of a block along the world's axes, relative to the view's origin; see RayLeg.
+ */
 struct WorldLegs
 {
   double Place[3][RaysOfBlock];
@@ -136,8 +137,7 @@ struct EndKernel
     const auto ray = static_cast<std::size_t>(i);
     const glm::dvec3 step = rays.Legs.GetStep(ray);
     const double end = (rays.Next ? rays.Next->Depth[i] : Infinity) - rays.Legs.Depth[i];
-    const bool meets =
-      rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
+    const bool meets = rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
     const bool stays = (rays.Stays[i] != 0) | meets;
     rays.Stays[i] = stays ? 1 : 0;
     rays.Legs.SetStep(ray, stays ? step : glm::dvec3(0.0));
