@@ -224,6 +224,7 @@ TEST(LegBlock, LinesAreThoseOfEachLeg)
         EXPECT_EQ(lines.Slope[axis][i], line.Slope[axis]);
         EXPECT_EQ(same.Offset[axis], ray.Offset[axis]);
         EXPECT_EQ(same.Fraction[axis], ray.Fraction[axis]);
+        EXPECT_EQ(same.SlopeRest[axis], ray.SlopeRest[axis]);
         EXPECT_EQ(same.Slope[axis], ray.Slope[axis]);
       }
       EXPECT_EQ(same.LengthPerDepth, ray.LengthPerDepth);
