@@ -34,8 +34,8 @@ struct SightKernel
 
   void operator()(LegBlock& block, int i) const
   {
-    const double column = this->Left + i % LegBlock::Side;
-    const double row = this->Bottom + i / LegBlock::Side;
+    const double column = this->Left + LegBlock::ColumnOf(i);
+    const double row = this->Bottom + LegBlock::RowOf(i);
     block.Set(i, RayLeg::OfSight(this->Origin, this->Slope, column, row));
     block.Exists[i] = 1;
   }
@@ -159,7 +159,7 @@ void FindLegs(
   block.Count = LegBlock::Size;
   for (int i = 0; i < LegBlock::Size; ++i)
   {
-    block.Pixel[i] = corner + i / LegBlock::Side * TileSize + i % LegBlock::Side;
+    block.Pixel[i] = corner + LegBlock::RowOf(i) * TileSize + LegBlock::ColumnOf(i);
   }
   const RayFrame& sight = legs.GetSight();
   RunLanes(SightKernel{ sight.Origin, sight.Slope,

@@ -17,12 +17,18 @@
 namespace meniscus
 {
 
-/** Legs of the rays of a square of pixels, as arrays; see RayLeg. */
+/**
+ * Legs of the rays of a square of pixels, as arrays; see RayLeg. Pixels are in the order of the
+ * Morton curve, so that rays that are cast together are those of a square.
+ */
 struct LegBlock
 {
   /** Side length of the square. */
   static constexpr int Side = 8;
   static constexpr int Size = Side * Side;
+  /** Column and row of a pixel in the square: every second bit of its number. */
+  static constexpr int ColumnOf(int i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4); }
+  static constexpr int RowOf(int i) { return ColumnOf(i >> 1); }
 
   int Count = 0;
   /** Number of the pixel in its tile. */
