@@ -13,21 +13,29 @@
 namespace meniscus
 {
 
+/** Number of lanes that are computed at once: a register of the widest set. */
+constexpr int LaneGroup = 8;
+
 #define MENISCUS_LANE_LOOP(name, label, isSupported, target)                                       \
   template <class Kernel, class Lanes>                                                             \
   target __attribute__((flatten)) void RunLanes##name(const Kernel& kernel, Lanes& lanes)          \
   {                                                                                                \
     const Kernel own = kernel; /* stores to lanes cannot change a copy */                          \
-    for (int i = 0; i < lanes.Count; ++i)                                                          \
+    for (int first = 0; first < lanes.Count; first += LaneGroup)                                   \
     {                                                                                              \
-      own(lanes, i);                                                                               \
+      for (int i = first; i < first + LaneGroup; ++i)                                              \
+      {                                                                                            \
+        own(lanes, i);                                                                             \
+      }                                                                                            \
     }                                                                                              \
   }
 MENISCUS_INSTRUCTION_SETS(MENISCUS_LANE_LOOP)
 #undef MENISCUS_LANE_LOOP
 
 /**
- * Calls kernel(lanes, i) for i in [0, lanes.Count) with the instructions of `set`.
+ * Calls kernel(lanes, i) for i in [0, lanes.Count) with the instructions of `set`, and for the
+ * lanes behind it up to a multiple of LaneGroup: arrays need room for them, and their results mean
+ * nothing.
  * @pre GetInstructionSets() has the set
  */
 template <class Kernel, class Lanes>

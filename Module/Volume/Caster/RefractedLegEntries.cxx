@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Caster/RefractedLegEntries.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace meniscus
 {
@@ -17,34 +13,34 @@ namespace
 {
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
-
-/** Side length, in pixels, of a block of rays, which forms a bundle. */
-constexpr int BlockSize = 8;
-static_assert(BlockSize * BlockSize <= RayBundleEntries::LargestBundle, "a block is a bundle");
-
-/**
- * Distance, in units of the frame, by which an entry may lie in front of the sight point if the leg
- * before reports that point outside of the mesh. Depths are rounded to 2^-24; along a ray that
- * leaves the boundary at an angle of 2^-12 this is 2^-12. A superfluous entry costs a few steps and
- * does not change the result.
- */
-constexpr double StartMargin = 1.0 / 4096.0;
-
-/** Larger than the relative rounding error of vertices by their grid. */
-constexpr double BoxMargin = 1.0 + 1.0e-6;
+static_assert(LegBlock::Size == LineBlock::Size, "lines of a square fill a block");
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 }
 
-/** Part of a leg that is drawn, in steps behind the sight point. */
-struct RefractedLegEntries::Part
+//------------------------------------------------------------------------------
+void RefractedLegEntries::Workspace::Group::Clear()
 {
-  double Start;
-  double End;
-  /** True if it ends on the next interface. */
-  bool ReachesInterface;
-};
+  this->NumberOfBlocks = 0;
+  this->IsTaken = false;
+  this->Origins.clear();
+  this->EntriesInside.clear();
+}
+
+//------------------------------------------------------------------------------
+/** Appends a block; its lines have to be set. */
+LineBlock& RefractedLegEntries::Workspace::Group::AddBlock()
+{
+  if (this->NumberOfBlocks == this->Blocks.size())
+  {
+    this->Blocks.emplace_back();
+  }
+  LineBlock& block = this->Blocks[this->NumberOfBlocks++];
+  block.Count = 0;
+  this->Origins.resize(LineBlock::Size * this->NumberOfBlocks);
+  return block;
+}
 
 //------------------------------------------------------------------------------
 RefractedLegEntries::RefractedLegEntries(const RefractedScene& scene, const TetrahedralMesh& mesh,
@@ -55,15 +51,8 @@ RefractedLegEntries::RefractedLegEntries(const RefractedScene& scene, const Tetr
   , Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
+  , Set(set)
 {
-  const glm::dmat3& edges = this->Box.HalfEdges;
-  this->BallRadius =
-    BoxMargin * glm::length(glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
-  for (int k = 0; k < 3; ++k)
-  {
-    this->Areas[k] = glm::cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
-    this->Extents[k] = BoxMargin * std::fabs(glm::dot(this->Areas[k], edges[k]));
-  }
   this->Entries.reserve(RefractionFrames::Number);
   for (int index = 0; index < RefractionFrames::Number; ++index)
   {
@@ -79,249 +68,280 @@ RefractedLegEntries::RefractedLegEntries(const RefractedScene& scene, const Tetr
 }
 
 //------------------------------------------------------------------------------
-/**
- * True if the half-line may meet the box about the mesh. Tests the box's bounding sphere first,
- * then three separating axes, each perpendicular to the line and to an edge of the box.
- */
-bool RefractedLegEntries::MayMeetMesh(const RayLeg& line) const
-{
-  const glm::dvec3& step = line.Step;
-  const glm::dvec3 toCenter = this->Box.Center - line.Begin;
-  const double along = glm::dot(toCenter, step);
-  const double squared = glm::dot(step, step);
-  const double excess = glm::dot(toCenter, toCenter) - this->BallRadius * this->BallRadius;
-  if (excess > 0.0 && !(along > 0.0 && along * along >= excess * squared))
-  {
-    return false;
-  }
-  const glm::dmat3& edges = this->Box.HalfEdges;
-  const glm::dvec3 across = glm::cross(toCenter, step);
-  const double areas[3] = { std::fabs(glm::dot(step, this->Areas[0])),
-    std::fabs(glm::dot(step, this->Areas[1])), std::fabs(glm::dot(step, this->Areas[2])) };
-  for (int k = 0; k < 3; ++k)
-  {
-    // Along the cross product of step and edge k: the distance of the centre, and the extents of
-    // the other two edges.
-    const double distance = std::fabs(glm::dot(across, edges[k]));
-    const double reach = areas[(k + 1) % 3] + areas[(k + 2) % 3];
-    if (distance > reach * BoxMargin)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-/** True if both ends of a leg lie beyond one side of the box about the mesh. */
-bool RefractedLegEntries::IsBesideMesh(const RayLeg& line) const
-{
-  const glm::dvec3 toCenter = this->Box.Center - line.Begin;
-  for (int k = 0; k < 3 && line.End < Infinity; ++k)
-  {
-    const glm::dvec3& normal = this->Areas[k];
-    const double extent = this->Extents[k];
-    const double begin = -glm::dot(normal, toCenter);
-    const double end = begin + (line.End - line.Depth) * glm::dot(normal, line.Step);
-    if (std::min(begin, end) > extent || std::max(begin, end) < -extent)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
 /** Computes the drawn part of a leg. Returns false if there is none. */
-bool RefractedLegEntries::FindPart(
-  const TileLeg& leg, std::int32_t pixel, const RayLeg& line, Part& part) const
+bool RefractedLegEntries::SetPart(
+  const TileLeg& leg, LegBlock& legs, int ray, LegBatch::Origin& origin) const
 {
   const RayFrame& frame = this->Rays.GetFrame();
-  part.Start = std::max(0.0, frame.NearDepth - line.Depth);
-  const double whole = line.End - line.Depth;
-  part.End = whole;
+  const double depth = legs.Depth[ray];
+  const double whole = legs.End[ray] - depth;
+  double start = std::max(0.0, frame.NearDepth - depth);
+  double end = whole;
   // A window depth of 1 means that nothing opaque is drawn there. The far plane bounds drawn
   // geometry, not refracted rays, so it is no limit.
-  const int column = leg.Box.Left + pixel % TileSize;
-  const int row = leg.Box.Bottom + pixel / TileSize;
+  const int column = leg.Box.Left + legs.Pixel[ray] % TileSize;
+  const int row = leg.Box.Bottom + legs.Pixel[ray] / TileSize;
   const float window =
     leg.OpaqueDepth ? leg.OpaqueDepth[std::int64_t{ row } * this->Rays.GetWidth() + column] : 1.0f;
   if (window < 1.0f)
   {
-    part.End = std::min(part.End, frame.DepthAt(2.0 * window - 1.0) - line.Depth);
+    end = std::min(end, frame.DepthAt(2.0 * window - 1.0) - depth);
   }
   for (const RayClippingPlane& plane : this->ClippingPlanes)
   {
-    ClipLine(plane, line.Begin, line.Step, part.Start, part.End);
+    const RayLeg line = legs.Get(ray);
+    ClipLine(plane, line.Begin, line.Step, start, end);
   }
-  part.ReachesInterface = whole < Infinity && part.End == whole;
-  return part.Start < part.End;
-}
-
-//------------------------------------------------------------------------------
-/** @param end place where the leg before ended: PacketResult::End. */
-void RefractedLegEntries::AddLine(const RayLeg& leg, const Part& part, std::int32_t pixel,
-  std::int32_t end, Workspace& workspace) const
-{
-  const int index = this->Scene.Frames->IndexOf(leg.Step);
-  const RefractionFrame& frame = this->Scene.Frames->Get(index);
-  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(index)];
-  const glm::dvec3 place = frame.FromView * leg.Begin;
-  const glm::dvec3 step = frame.FromView * leg.Step;
-  const double sight = place.z;
-  const auto number = static_cast<std::int32_t>(work.Lines.size());
-
-  RayBundleEntries::Line line;
-  line.Of = FrameLine::Through(place, step);
-  line.Ray = frame.Rays.RayAlong(line.Of.Origin, line.Of.Slope);
-  line.Ray.StartDepth = frame.Rays.FromPivot(sight + part.Start * step.z);
-  line.Ray.EndDepth = frame.Rays.FromPivot(sight + part.End * step.z);
-  PacketEntry entry;
-  line.EntersInside = end >= 0 && this->Scene.BeginsInside &&
-    this->Entries[static_cast<std::size_t>(index)].FindEntryNear(end, line.Ray, sight, entry);
-  if (line.EntersInside)
-  {
-    work.Hits.push_back({ number, entry });
-  }
-  const bool known = line.EntersInside || end == PacketResult::Outside;
-  line.From = known ? sight - StartMargin : -frame.Extent;
-  work.Lines.push_back(line);
-  work.Origins.push_back({ pixel, part.ReachesInterface });
-  work.Bundles[known ? 0 : 1].push_back(number);
+  legs.DrawnFrom[ray] = start;
+  legs.DrawnTo[ray] = end;
+  origin = { legs.Pixel[ray], whole < Infinity && end == whole };
+  return start < end;
 }
 
 //------------------------------------------------------------------------------
 /**
- * Adds the line of a pixel, if it has one that may be seen. The end of a line that is not cast
- * because it misses the mesh is outside of the mesh; if the line is cut off, nothing is known.
+ * Keeps the legs of a square that may be seen. The end of a leg that is not cast because it misses
+ * the mesh is outside of the mesh; if the leg is cut off, nothing is known.
  */
-void RefractedLegEntries::CollectPixel(const TileLeg& leg, const PacketJob& job, std::int32_t pixel,
-  JoinedRays& joined, Workspace& workspace) const
+void RefractedLegEntries::SiftLegs(
+  const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const
 {
-  RayLeg line;
-  if (joined.IsHidden(pixel, job) || !this->Legs.Find(leg.Tile, pixel, leg.Number, line))
+  LegBlock& legs = workspace.Legs;
+  TestLegs(this->Box, this->Set, legs);
+  const int count = legs.Count;
+  legs.Count = 0;
+  for (int i = 0; i < count; ++i)
   {
-    return;
-  }
-  const std::int32_t end = joined.GetEnd(pixel);
-  joined.SetEnd(pixel, PacketResult::Outside);
-  // A leg whose beginning is not known to be outside is walked from the boundary in front of it.
-  if (!this->MayMeetMesh(line) || (end == PacketResult::Outside && this->IsBesideMesh(line)))
-  {
-    return;
-  }
-  Part part;
-  if (this->FindPart(leg, pixel, line, part))
-  {
-    this->AddLine(line, part, pixel, end, workspace);
-  }
-  else
-  {
-    joined.SetEnd(pixel, PacketResult::Somewhere);
+    const std::int32_t pixel = legs.Pixel[i];
+    if (legs.Exists[i] == 0 || joined.IsHidden(pixel, job))
+    {
+      continue;
+    }
+    const std::int32_t end = joined.GetEnd(pixel);
+    joined.SetEnd(pixel, PacketResult::Outside);
+    // A leg whose beginning is not known to be outside is walked from the boundary in front of it.
+    if (legs.MayMeet[i] == 0 || (end == PacketResult::Outside && legs.IsBeside[i] != 0))
+    {
+      continue;
+    }
+    const auto kept = static_cast<std::size_t>(legs.Count);
+    if (this->SetPart(leg, legs, i, workspace.Origins[kept]))
+    {
+      workspace.Ends[kept] = end;
+      if (legs.Count != i)
+      {
+        legs.Copy(legs.Count, legs, i);
+      }
+      ++legs.Count;
+    }
+    else
+    {
+      joined.SetEnd(pixel, PacketResult::Somewhere);
+    }
   }
 }
 
 //------------------------------------------------------------------------------
-void RefractedLegEntries::CollectBlock(Workspace& workspace) const
+/**
+ * Finds the face by which a leg enters the cell that contains its beginning. Returns false if the
+ * cell is not known.
+ * @param end place where the leg before ended: PacketResult::End.
+ */
+bool RefractedLegEntries::FindEntryInside(
+  const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const
 {
-  for (std::size_t index = 0; index < workspace.Frames.size(); ++index)
+  if (end < 0 || !this->Scene.BeginsInside)
   {
-    Workspace::OfFrame& work = workspace.Frames[index];
-    for (std::vector<std::int32_t>& bundle : work.Bundles)
+    return false;
+  }
+  const auto index = static_cast<std::size_t>(legs.Frame[ray]);
+  const RefractionFrame& frame = this->Scene.Frames->Get(static_cast<int>(index));
+  const RayLeg leg = legs.Get(ray);
+  const glm::dvec3 place = frame.FromView * leg.Begin;
+  const FrameLine line = FrameLine::Through(place, frame.FromView * leg.Step);
+  return this->Entries[index].FindEntryNear(
+    end, frame.Rays.RayAlong(line.Origin, line.Slope), place.z, entry);
+}
+
+//------------------------------------------------------------------------------
+/** Adds the legs of a square to the groups of their lines. */
+void RefractedLegEntries::GroupLegs(Workspace& workspace) const
+{
+  LegBlock& legs = workspace.Legs;
+  FindFrames(*this->Scene.Frames, this->Set, legs);
+  unsigned int groups = 0; // a bit for each that has a leg
+  for (int i = 0; i < legs.Count; ++i)
+  {
+    const auto ray = static_cast<std::size_t>(i);
+    const std::int32_t end = workspace.Ends[ray];
+    workspace.IsInside[ray] = this->FindEntryInside(legs, i, end, workspace.EntriesInside[ray]);
+    const bool known = workspace.IsInside[ray] || end == PacketResult::Outside;
+    workspace.Groups[ray] = static_cast<unsigned int>(legs.Frame[i]) * Workspace::NumberOfGroups +
+      (known ? Workspace::Known : Workspace::Unknown);
+    groups |= 1u << workspace.Groups[ray];
+  }
+  const bool isOneGroup = (groups & (groups - 1)) == 0;
+  for (unsigned int number = 0; groups >> number != 0; ++number)
+  {
+    if ((groups >> number & 1u) != 0)
     {
-      this->Entries[index].Collect(work.Lines, bundle, workspace.Faces, work.Hits);
-      bundle.clear();
+      this->AddToGroup(number, isOneGroup ? legs : workspace.Chosen, workspace);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * @param number frame and group, as in Workspace::Groups.
+ * @param chosen the legs of the square, if all are in the group; otherwise gets those that are.
+ */
+void RefractedLegEntries::AddToGroup(
+  unsigned int number, LegBlock& chosen, Workspace& workspace) const
+{
+  const auto frame = static_cast<std::size_t>(number / Workspace::NumberOfGroups);
+  const unsigned int kind = number % Workspace::NumberOfGroups;
+  Workspace::Group& group = workspace.Frames[frame][kind];
+  const auto firstLine = static_cast<std::int32_t>(LineBlock::Size * group.NumberOfBlocks);
+  LineBlock& lines = group.AddBlock();
+  const int count = workspace.Legs.Count;
+  chosen.Count = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const auto ray = static_cast<std::size_t>(i);
+    if (workspace.Groups[ray] == number)
+    {
+      const std::int32_t line = firstLine + chosen.Count;
+      if (workspace.IsInside[ray])
+      {
+        group.EntriesInside.push_back({ line, workspace.EntriesInside[ray] });
+      }
+      group.Origins[static_cast<std::size_t>(line)] = workspace.Origins[ray];
+      if (&chosen != &workspace.Legs)
+      {
+        chosen.Copy(chosen.Count, workspace.Legs, i);
+      }
+      ++chosen.Count;
+    }
+  }
+  SetLines(this->Scene.Frames->Get(static_cast<int>(frame)), chosen, kind == Workspace::Known,
+    this->Set, lines);
 }
 
 //------------------------------------------------------------------------------
 void RefractedLegEntries::Collect(
   const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const
 {
-  for (Workspace::OfFrame& work : workspace.Frames)
+  for (auto& groups : workspace.Frames)
   {
-    work.Lines.clear();
-    work.Origins.clear();
-    work.Hits.clear();
-    work.RetryLines.clear();
-  }
-  for (int block = 0; block < TileSize * TileSize; block += BlockSize * BlockSize)
-  {
-    const int corner = block / (TileSize * BlockSize) * TileSize * BlockSize +
-      block % (TileSize * BlockSize) / BlockSize;
-    for (int i = 0; i < BlockSize * BlockSize; ++i)
+    for (Workspace::Group& group : groups)
     {
-      this->CollectPixel(
-        leg, job, corner + i / BlockSize * TileSize + i % BlockSize, joined, workspace);
+      group.Clear();
     }
-    this->CollectBlock(workspace);
+  }
+  for (int row = 0; row < TileSize; row += LegBlock::Side)
+  {
+    for (int column = 0; column < TileSize; column += LegBlock::Side)
+    {
+      FindLegs(
+        this->Legs, leg.Tile, row * TileSize + column, leg.Number, this->Set, workspace.Legs);
+      this->SiftLegs(leg, job, joined, workspace);
+      if (workspace.Legs.Count > 0)
+      {
+        this->GroupLegs(workspace);
+      }
+    }
   }
 }
 
 //------------------------------------------------------------------------------
-/** Collects the entries on the boundary of the lines that were taken back. */
-void RefractedLegEntries::CollectAgain(int frame, Workspace& workspace) const
+/** Sets the entries of the workspace to those of a group's lines. */
+void RefractedLegEntries::FindEntries(
+  int frame, const Workspace::Group& group, Workspace& workspace) const
 {
-  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(frame)];
-  for (const std::int32_t number : work.RetryLines)
+  RayBundleEntries::Workspace& found = workspace.Faces;
+  this->Entries[static_cast<std::size_t>(frame)].Collect(
+    group.Blocks.data(), group.NumberOfBlocks, found);
+  for (const Workspace::Group::Inside& inside : group.EntriesInside)
   {
-    RayBundleEntries::Line& line = work.Lines[static_cast<std::size_t>(number)];
-    line.EntersInside = false;
-    line.From = -this->Scene.Frames->Get(frame).Extent;
-    this->Entries[static_cast<std::size_t>(frame)].Collect(
-      work.Lines, { number }, workspace.Faces, work.Hits);
+    found.Add(inside.Line, inside.Entry);
   }
-  work.RetryLines.clear();
+  workspace.Entries.Set(LineBlock::Size * group.NumberOfBlocks, found.Hits.data(),
+    found.NumberOfHits, found.Faces.data());
+}
+
+//------------------------------------------------------------------------------
+/** Sets the batch of the workspace to the lines of a group that have entries. */
+void RefractedLegEntries::SetBatch(
+  int frame, const Workspace::Group& group, Workspace& workspace) const
+{
+  this->FindEntries(frame, group, workspace);
+  LegBatch& batch = workspace.Batch;
+  batch.Clear();
+  workspace.Lines.clear();
+  for (std::size_t block = 0; block < group.NumberOfBlocks; ++block)
+  {
+    const LineBlock& lines = group.Blocks[block];
+    for (int i = 0; i < lines.Count; ++i)
+    {
+      const std::size_t line = LineBlock::Size * block + static_cast<std::size_t>(i);
+      const std::int32_t first = workspace.Entries.GetBegin(line);
+      const std::int32_t end = workspace.Entries.GetBegin(line + 1);
+      if (first < end)
+      {
+        workspace.Lines.push_back(static_cast<std::int32_t>(line));
+        batch.Origins.push_back(group.Origins[line]);
+        batch.Rays.push_back(lines.GetRay(i));
+        batch.Rays.back().FirstEntry = first;
+        batch.Rays.back().EndEntry = end;
+      }
+    }
+  }
+  batch.Entries = workspace.Entries.GetEntries().data();
 }
 
 //------------------------------------------------------------------------------
 const LegBatch* RefractedLegEntries::NextBatch(int frame, Workspace& workspace) const
 {
-  this->CollectAgain(frame, workspace);
-  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(frame)];
-  if (work.Hits.empty())
+  auto& groups = workspace.Frames[static_cast<std::size_t>(frame)];
+  for (unsigned int kind = 0; kind < Workspace::NumberOfGroups; ++kind)
   {
-    return nullptr;
-  }
-  std::sort(work.Hits.begin(), work.Hits.end(),
-    [](const RayBundleEntries::Hit& a, const RayBundleEntries::Hit& b)
+    Workspace::Group& group = groups[kind];
+    if (group.NumberOfBlocks > 0 && !group.IsTaken)
     {
-      return std::tie(a.Line, a.Entry.Depth, a.Entry.CellFace) <
-        std::tie(b.Line, b.Entry.Depth, b.Entry.CellFace);
-    });
-  LegBatch& batch = workspace.Batch;
-  batch.Clear();
-  workspace.Lines.clear();
-  workspace.Entries.clear();
-  for (const RayBundleEntries::Hit& hit : work.Hits)
-  {
-    if (workspace.Lines.empty() || hit.Line != workspace.Lines.back())
-    {
-      workspace.Lines.push_back(hit.Line);
-      batch.Origins.push_back(work.Origins[static_cast<std::size_t>(hit.Line)]);
-      batch.Rays.push_back(work.Lines[static_cast<std::size_t>(hit.Line)].Ray);
-      batch.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+      group.IsTaken = true;
+      this->SetBatch(frame, group, workspace);
+      workspace.BatchKind = kind;
+      if (!workspace.Batch.Rays.empty())
+      {
+        return &workspace.Batch;
+      }
     }
-    workspace.Entries.push_back(hit.Entry);
-    batch.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
   }
-  batch.Entries = workspace.Entries.data();
-  work.Hits.clear();
-  return &batch;
+  return nullptr;
 }
 
 //------------------------------------------------------------------------------
 bool RefractedLegEntries::TakeBack(int frame, std::size_t ray, Workspace& workspace) const
 {
-  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(frame)];
+  auto& groups = workspace.Frames[static_cast<std::size_t>(frame)];
+  const Workspace::Group& group = groups[workspace.BatchKind];
   const std::int32_t line = workspace.Lines[ray];
-  if (!work.Lines[static_cast<std::size_t>(line)].EntersInside)
+  const bool enteredInside = std::any_of(group.EntriesInside.begin(), group.EntriesInside.end(),
+    [line](const Workspace::Group::Inside& inside) { return inside.Line == line; });
+  if (enteredInside)
   {
-    return false;
+    Workspace::Group& again = groups[Workspace::Again];
+    LineBlock& lines =
+      again.NumberOfBlocks == 0 || again.Blocks[again.NumberOfBlocks - 1].Count == LineBlock::Size
+      ? again.AddBlock()
+      : again.Blocks[again.NumberOfBlocks - 1];
+    const std::size_t added =
+      LineBlock::Size * (again.NumberOfBlocks - 1) + static_cast<std::size_t>(lines.Count);
+    again.Origins[added] = workspace.Batch.Origins[ray];
+    lines.Add(group.Blocks[static_cast<std::size_t>(line / LineBlock::Size)],
+      line % LineBlock::Size, -this->Scene.Frames->Get(frame).Extent);
   }
-  work.RetryLines.push_back(line);
-  return true;
+  return enteredInside;
 }
 
 }

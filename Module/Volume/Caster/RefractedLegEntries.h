@@ -7,9 +7,13 @@
 #include "Volume/Caster/JoinedRays.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
+#include "Volume/Entries/EntryLists.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/FixedPointRays.h"
+#include "Volume/Refracted/LegBlock.h"
+#include "Volume/Refracted/LegBox.h"
+#include "Volume/Refracted/LineBlock.h"
 #include "Volume/Refracted/RayBundleEntries.h"
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractionFrames.h"
@@ -40,8 +44,8 @@ struct RefractedScene
 };
 
 /**
- * Refracted legs of the rays of an image, from leg 1 on. They are in the frames of the refraction,
- * and their entries are found by bundles of rays.
+ * Refracted legs of the rays of an image, from leg 1 on. They are in the frames of the refraction.
+ * Legs are set up for squares of pixels at once, and their entries are found by bundles of rays.
  */
 class RefractedLegEntries
 {
@@ -75,25 +79,61 @@ public:
   /** Buffers of one thread. */
   struct Workspace
   {
-    struct OfFrame
+    /** Lines of the tile in one frame that are cast together. */
+    struct Group
     {
-      std::vector<RayBundleEntries::Line> Lines;
-      /** One per line. */
+      /** The first NumberOfBlocks are in use. */
+      std::vector<LineBlock> Blocks;
+      std::size_t NumberOfBlocks = 0;
+      /** True once the group was in a batch. */
+      bool IsTaken = false;
+      /** LineBlock::Size per block. */
       std::vector<LegBatch::Origin> Origins;
-      std::vector<RayBundleEntries::Hit> Hits;
-      /**
-       * Lines of the current block whose start is known to be outside of the mesh, and all others.
-       */
-      std::vector<std::int32_t> Bundles[2];
-      /** Lines that began inside and did not reach the boundary. */
-      std::vector<std::int32_t> RetryLines;
+      /** Lines that enter by a face inside the mesh, which is not among their other entries. */
+      struct Inside
+      {
+        /** LineBlock::Size * block + line. */
+        std::int32_t Line;
+        PacketEntry Entry;
+      };
+      std::vector<Inside> EntriesInside;
+
+      void Clear();
+      LineBlock& AddBlock();
     };
-    std::array<OfFrame, RefractionFrames::Number> Frames;
+    /**
+     * Groups of a frame: lines whose start is known to be inside or outside of the mesh, all
+     * others, and lines that began inside and did not reach the boundary.
+     */
+    enum : unsigned int
+    {
+      Known,
+      Unknown,
+      Again,
+      NumberOfGroups
+    };
+    std::array<std::array<Group, NumberOfGroups>, NumberOfFrames> Frames;
+
+    /** Legs of a square of the tile, and those of them in one group. */
+    LegBlock Legs;
+    LegBlock Chosen;
+    /**
+     * For each leg of the square: the pixel, the place where the leg before ended
+     * (PacketResult::End), the group as NumberOfGroups * frame + kind, and whether the leg enters
+     * by a face inside the mesh.
+     */
+    std::array<LegBatch::Origin, LegBlock::Size> Origins;
+    std::array<std::int32_t, LegBlock::Size> Ends;
+    std::array<unsigned int, LegBlock::Size> Groups;
+    std::array<bool, LegBlock::Size> IsInside;
+    std::array<PacketEntry, LegBlock::Size> EntriesInside;
+
     RayBundleEntries::Workspace Faces;
+    EntryLists Entries;
     LegBatch Batch;
-    /** Index of the line of each ray of the batch. */
+    /** Kind of the batch's group, and the line of each of its rays. */
+    unsigned int BatchKind = 0;
     std::vector<std::int32_t> Lines;
-    std::vector<PacketEntry> Entries;
   };
 
   /**
@@ -112,27 +152,22 @@ public:
   bool TakeBack(int frame, std::size_t ray, Workspace& workspace) const;
 
 private:
-  struct Part;
-  bool FindPart(const TileLeg& leg, std::int32_t pixel, const RayLeg& line, Part& part) const;
-  bool MayMeetMesh(const RayLeg& line) const;
-  bool IsBesideMesh(const RayLeg& line) const;
-  void AddLine(const RayLeg& line, const Part& part, std::int32_t pixel, std::int32_t end,
-    Workspace& workspace) const;
-  void CollectPixel(const TileLeg& leg, const PacketJob& job, std::int32_t pixel,
-    JoinedRays& joined, Workspace& workspace) const;
-  void CollectBlock(Workspace& workspace) const;
-  void CollectAgain(int frame, Workspace& workspace) const;
+  void SiftLegs(
+    const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
+  bool SetPart(const TileLeg& leg, LegBlock& legs, int ray, LegBatch::Origin& origin) const;
+  bool FindEntryInside(const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
+  void GroupLegs(Workspace& workspace) const;
+  void AddToGroup(unsigned int number, LegBlock& chosen, Workspace& workspace) const;
+  void FindEntries(int frame, const Workspace::Group& group, Workspace& workspace) const;
+  void SetBatch(int frame, const Workspace::Group& group, Workspace& workspace) const;
 
   RefractedScene Scene;
-  /** Bounding box and bounding sphere of the mesh's boundary, in the frame of the view. */
-  BoundsInFrame Box;
-  double BallRadius = 0.0;
-  /** Normals of the box's sides, cross products of two edges, and their products with the third. */
-  glm::dvec3 Areas[3];
-  double Extents[3];
+  /** Box about the boundary of the mesh, in the frame of the view. */
+  LegBox Box;
   const FixedPointRays& Rays;
   const std::vector<RayClippingPlane>& ClippingPlanes;
   const RayLegs& Legs;
+  InstructionSet Set;
   std::vector<RayBundleEntries> Entries;
   std::array<LegFrame, RefractionFrames::Number> Cast;
 };

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Caster/SightLegEntries.h"
 
+#include "Volume/Refracted/RayBundleEntries.h"
+
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace meniscus
 {
@@ -35,13 +39,16 @@ static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 //------------------------------------------------------------------------------
 SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
-  const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
-  const FrameOptics& optics, InstructionSet set, const RangeLoop& loop)
+  const BoundaryTree* tree, const std::vector<RayClippingPlane>& clippingPlanes,
+  const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop)
   : Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
 {
-  this->Raster.Build(vertices, boundary, rays, loop, set);
+  static const std::vector<BoundaryFace> none;
+  const bool isHidden =
+    legs.GetNumberOfLegs() > 1 && this->EndBefore(BoxOf(*tree, rays.GetFrame()), loop);
+  this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set);
   this->Frame.Set(rays, vertices, optics);
 }
 
@@ -69,17 +76,47 @@ void SightLegEntries::Limit(
 }
 
 //------------------------------------------------------------------------------
-/** True if a ray of the tile may enter the mesh in front of the interface. */
-bool SightLegEntries::IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const
+/** True if all rays end at the first interface, in front of the mesh. */
+bool SightLegEntries::EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const
 {
-  const float nearest = this->Rays.FromPivot(this->Raster.NearestDepth(leg.Tile));
-  for (int row = 0; row < leg.Box.Top - leg.Box.Bottom; ++row)
+  // Larger than the relative rounding error of vertices by their grid.
+  constexpr double margin = 1.0 + 1.0e-6;
+  const glm::dmat3& edges = mesh.HalfEdges;
+  const double nearest = mesh.Center.z -
+    margin * (std::fabs(edges[0].z) + std::fabs(edges[1].z) + std::fabs(edges[2].z));
+  std::atomic<bool> all{ true };
+  loop(static_cast<std::size_t>(this->Legs.GetNumberOfTiles()),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end && all; ++i)
+      {
+        const auto tile = static_cast<int>(i);
+        const int left = this->Legs.GetLeft(tile);
+        const int bottom = this->Legs.GetBottom(tile);
+        const BoundaryRaster::PixelBox box{ left, std::min(left + TileSize, this->Legs.GetWidth()),
+          bottom, std::min(bottom + TileSize, this->Legs.GetHeight()) };
+        const RefractedRay* next = this->Legs.GetTile(1, tile);
+        if (!next || this->ReachDepth(box, next, nearest))
+        {
+          all = false;
+        }
+      }
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------
+/** True if a ray of a tile reaches the depth before the next interface. */
+bool SightLegEntries::ReachDepth(
+  const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const
+{
+  const float first = this->Rays.FromPivot(depth);
+  for (int row = 0; row < box.Top - box.Bottom; ++row)
   {
-    for (int column = 0; column < leg.Box.Right - leg.Box.Left; ++column)
+    for (int column = 0; column < box.Right - box.Left; ++column)
     {
       // An entry is used if it is before the end, both in single precision.
-      const double depth = next[row * TileSize + column].Depth;
-      if (nearest < this->Rays.FromPivot(depth))
+      if (first < this->Rays.FromPivot(next[row * TileSize + column].Depth))
       {
         return true;
       }
@@ -134,7 +171,8 @@ void SightLegEntries::Collect(
   workspace.IsTaken = false;
   const RefractedRay* next =
     this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
-  if (!this->Raster.IsEmpty(leg.Tile) && (!next || this->IsMeshInFront(leg, next)))
+  if (!this->Raster.IsEmpty(leg.Tile) &&
+    (!next || this->ReachDepth(leg.Box, next, this->Raster.NearestDepth(leg.Tile))))
   {
     this->Raster.CollectEntries(leg.Tile, workspace.Raster);
     this->TakeRays(leg, next, joined, workspace);

@@ -8,9 +8,11 @@
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Entries/BoundaryRaster.h"
+#include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RayLegs.h"
+#include "Volume/Refracted/RefractedRayField.h"
 
 #include <vector>
 
@@ -26,10 +28,14 @@ class SightLegEntries
 public:
   static constexpr int NumberOfFrames = 1;
 
-  /** All objects that the arguments refer to must outlive this object. */
+  /**
+   * All objects that the arguments refer to must outlive this object.
+   * @param tree tree over the boundary; may be null if there are no further legs.
+   */
   SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
-    const std::vector<BoundaryFace>& boundary, const std::vector<RayClippingPlane>& clippingPlanes,
-    const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop);
+    const std::vector<BoundaryFace>& boundary, const BoundaryTree* tree,
+    const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
+    const FrameOptics& optics, InstructionSet set, const RangeLoop& loop);
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }
@@ -63,7 +69,9 @@ public:
 
 private:
   void Limit(int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const;
-  bool IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const;
+  bool EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const;
+  bool ReachDepth(
+    const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;
   void TakeRays(
     const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;
 

@@ -64,8 +64,8 @@ struct TileCaster::TileWork
 TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   : Input(scene)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)
-  , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, this->Input.ClippingPlanes,
-      this->Legs, this->SightOptics(), scene.Set, loop)
+  , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, scene.Refracted.Tree,
+      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop)
 {
   if (scene.PreIntegration)
   {

@@ -41,26 +41,10 @@ constexpr double FractionOfGrid = 4294967296.0; // 2^32, of slopes for shaders
 constexpr double LargestSlope = 2147483647.0;
 /** Bound of the offset at depth 0 of a line for shaders that may meet the mesh. */
 constexpr double LargestLineOffset = 1073741824.0; // 2^30
-constexpr double FractionsOfRay = 65536.0;         // PacketRay::Fraction
 /** Spacing of rays, in grid units, below which they are fine. */
 constexpr double FineSpacing = 32768.0; // 2^15
 /** Size of the smallest cell, in grid units, below which rays are fine. */
 constexpr double FineCell = 262144.0; // 2^18
-/** Slopes and their rests below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
-constexpr double SmallestSlope = 9.094947017729282e-13; // 2^-40
-
-/** PacketRay::Fraction. Truncated: twice as many fractions have the error of rounding. */
-inline float FractionOf(double rest)
-{
-  const auto fraction = static_cast<std::int32_t>(rest * FractionsOfRay);
-  return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
-}
-
-/** PacketRay::SlopeRest. */
-inline float SlopeRestOf(double rest)
-{
-  return std::fabs(rest) >= SmallestSlope ? static_cast<float>(rest) : 0.0f;
-}
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
@@ -200,24 +184,6 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
 }
 
 //------------------------------------------------------------------------------
-/** @param offset,slope in grid units; the offset is at depth 0. */
-inline auto FixedPointRays::MakeAxis(double offset, double slope) const -> AxisOfRay
-{
-  const double atPivot = offset + slope * this->Pivot;
-  const double limited = std::min(std::max(atPivot, -this->LargestOffset), this->LargestOffset);
-  // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
-  // axis, and as far away.
-  const bool isNear = atPivot == limited;
-  const double kept = isNear && std::fabs(slope) >= SmallestSlope ? slope : 0.0;
-  AxisOfRay axis;
-  axis.Offset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
-  axis.Fraction = limited - axis.Offset;
-  axis.Slope = static_cast<float>(kept);
-  axis.SlopeRest = kept - static_cast<double>(axis.Slope);
-  return axis;
-}
-
-//------------------------------------------------------------------------------
 void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
 {
   for (int axis = 0; axis < 2; ++axis)
@@ -241,28 +207,6 @@ void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& ra
       rays.SlopeRest[axis][i] = SlopeRestOf(made.SlopeRest);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const
-{
-  PacketRay ray;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const AxisOfRay made =
-      this->MakeAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth));
-    ray.Offset[axis] = made.Offset;
-    ray.Slope[axis] = made.Slope;
-    ray.Fraction[axis] = this->Fine ? FractionOf(made.Fraction) : 0.0f;
-    ray.SlopeRest[axis] = this->Fine ? SlopeRestOf(made.SlopeRest) : 0.0f;
-  }
-  ray.LengthPerDepth =
-    LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);
-  ray.StartDepth = -1.0e+30f;
-  ray.EndDepth = 1.0e+30f;
-  ray.FirstEntry = 0;
-  ray.EndEntry = 0;
-  return ray;
 }
 
 }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace meniscus
@@ -206,6 +207,13 @@ private:
     double SlopeRest;
   };
   AxisOfRay MakeAxis(double offset, double slope) const;
+  static float FractionOf(double rest);
+  static float SlopeRestOf(double rest);
+
+  /** Units of PacketRay::Fraction in a grid unit. */
+  static constexpr double FractionsOfRay = 65536.0;
+  /** Slopes and their rests below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
+  static constexpr double SmallestSlope = 9.094947017729282e-13; // 2^-40
 
   RayFrame Frame;
   int Width = 0;
@@ -224,6 +232,61 @@ private:
   glm::dvec3 AlongPerColumn{ 0.0 };
   glm::dvec3 AlongPerRow{ 0.0 };
 };
+
+//------------------------------------------------------------------------------
+/** @param offset,slope in grid units; the offset is at depth 0. */
+inline auto FixedPointRays::MakeAxis(double offset, double slope) const -> AxisOfRay
+{
+  const double atPivot = offset + slope * this->Pivot;
+  const double limited = std::min(std::max(atPivot, -this->LargestOffset), this->LargestOffset);
+  // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
+  // axis, and as far away.
+  const bool keepsSlope = (atPivot == limited) & (std::fabs(slope) >= SmallestSlope);
+  const double kept = keepsSlope ? slope : 0.0;
+  AxisOfRay axis;
+  axis.Offset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
+  axis.Fraction = limited - axis.Offset;
+  axis.Slope = static_cast<float>(kept);
+  axis.SlopeRest = kept - static_cast<double>(axis.Slope);
+  return axis;
+}
+
+//------------------------------------------------------------------------------
+/** PacketRay::Fraction. Truncated: twice as many fractions have the error of rounding. */
+inline float FixedPointRays::FractionOf(double rest)
+{
+  const auto fraction = static_cast<std::int32_t>(rest * FractionsOfRay);
+  return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
+}
+
+//------------------------------------------------------------------------------
+/** PacketRay::SlopeRest. */
+inline float FixedPointRays::SlopeRestOf(double rest)
+{
+  return std::fabs(rest) >= SmallestSlope ? static_cast<float>(rest) : 0.0f;
+}
+
+//------------------------------------------------------------------------------
+inline PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const
+{
+  PacketRay ray;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const AxisOfRay made =
+      this->MakeAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth));
+    ray.Offset[axis] = made.Offset;
+    ray.Slope[axis] = made.Slope;
+    ray.Fraction[axis] = this->Fine ? FractionOf(made.Fraction) : 0.0f;
+    ray.SlopeRest[axis] = this->Fine ? SlopeRestOf(made.SlopeRest) : 0.0f;
+  }
+  ray.LengthPerDepth =
+    LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);
+  ray.StartDepth = -1.0e+30f;
+  ray.EndDepth = 1.0e+30f;
+  ray.FirstEntry = 0;
+  ray.EndEntry = 0;
+  return ray;
+}
 
 }
 

@@ -35,6 +35,20 @@ struct PlaneKernel
   }
 };
 
+struct NormalKernel
+{
+  CurvedPatch Patch;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const glm::dvec3 normal = this->Patch.GetNormal(glm::dvec2(lanes.X[i], lanes.Y[i]));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Normal[axis][i] = normal[axis];
+    }
+  }
+};
+
 template <class RayType>
 struct PatchKernel
 {
@@ -101,12 +115,8 @@ struct RefractKernel
 }
 
 //------------------------------------------------------------------------------
-void PatchIntersectionBatch::Keep(int to, int from)
+void PatchIntersectionBatch::Copy(int to, int from)
 {
-  if (to == from)
-  {
-    return;
-  }
   this->Index[to] = this->Index[from];
   for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Least,
          this->Slant, this->PatchX, this->PatchY, this->Behind })
@@ -116,9 +126,8 @@ void PatchIntersectionBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
-void FreeRayBatch::Keep(int to, int from)
+void FreeRayBatch::CopyRay(int to, int from)
 {
-  this->PatchIntersectionBatch::Keep(to, from);
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Start[axis][to] = this->Start[axis][from];
@@ -131,6 +140,12 @@ void MeetPlane(
   const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
 {
   RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
+void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes)
+{
+  RunLanes(NormalKernel{ patch }, set, lanes);
 }
 
 //------------------------------------------------------------------------------

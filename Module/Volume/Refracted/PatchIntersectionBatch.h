@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace meniscus
 {
@@ -148,7 +149,16 @@ struct PatchIntersectionBatch
     ++this->Count;
   }
   /** Copies lane `from` to lane `to`, except for Move and the members after it. */
-  void Keep(int to, int from);
+  void Keep(int to, int from)
+  {
+    if (to != from)
+    {
+      this->Copy(to, from);
+    }
+  }
+
+protected:
+  void Copy(int to, int from);
 };
 
 /** Lanes of rays in any directions; a direction is per unit of depth. */
@@ -166,8 +176,29 @@ struct FreeRayBatch : PatchIntersectionBatch
     }
     this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
   }
+  /** Sets lanes 0 to `count` - 1 to rays of the same numbers. */
+  void Take(int count, const double (&starts)[3][Size], const double (&directions)[3][Size])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::copy_n(starts[axis], count, this->Start[axis]);
+      std::copy_n(directions[axis], count, this->Direction[axis]);
+    }
+    std::iota(this->Index, this->Index + count, 0);
+    this->Count = count;
+  }
   /** As for the base, with the ray. */
-  void Keep(int to, int from);
+  void Keep(int to, int from)
+  {
+    if (to != from)
+    {
+      this->Copy(to, from);
+      this->CopyRay(to, from);
+    }
+  }
+
+private:
+  void CopyRay(int to, int from);
 };
 
 /**
@@ -176,6 +207,9 @@ struct FreeRayBatch : PatchIntersectionBatch
  */
 void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
   PatchIntersectionBatch& lanes);
+
+/** Sets Normal to the patch's normal at X and Y. */
+void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and

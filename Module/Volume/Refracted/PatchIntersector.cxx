@@ -220,11 +220,30 @@ PatchReach PatchIntersector::GetReach() const
 }
 
 //------------------------------------------------------------------------------
+bool PatchIntersector::Passes(
+  const SightRays& rays, const PatchIntersectionBatch& lanes, int lane) const
+{
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const glm::dvec3 direction = rays.DirectionOf(lanes, lane);
+  return !this->GetReach().MayMeet(
+    this->Plane.Meet(rays.StartOf(lanes, lane), direction), direction, -anywhere, anywhere);
+}
+
+//------------------------------------------------------------------------------
 /** Rays of the block that may meet the patch, with their intersections with the plane. */
 FreeRayBatch PatchIntersector::SiftNear(RayBlock& rays) const
 {
   MeetPatchReach(this->GetReach(), this->Set, rays);
   FreeRayBatch lanes;
+  if (std::all_of(rays.Meets, rays.Meets + rays.Count, [](std::int64_t ray) { return ray != 0; }))
+  {
+    lanes.Take(rays.Count, rays.Start, rays.Direction);
+    std::copy_n(rays.Depth, rays.Count, lanes.Depth);
+    std::copy_n(rays.X, rays.Count, lanes.X);
+    std::copy_n(rays.Y, rays.Count, lanes.Y);
+    std::copy_n(rays.Slant, rays.Count, lanes.Slant);
+    return lanes;
+  }
   for (int i = 0; i < rays.Count; ++i)
   {
     if (rays.Meets[i] != 0)

@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -143,6 +144,9 @@ private:
    * the facet; the ray through it meets the plane within bulge (1 + slant) of that.
    */
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
+  /** True if a ray is certain to pass the patch. Rays of a block were tested before. */
+  bool Passes(const SightRays& rays, const PatchIntersectionBatch& lanes, int lane) const;
+  bool Passes(const FreeRays&, const FreeRayBatch&, int) const { return false; }
   template <class Rays, typename Visit>
   void MeetCurved(
     const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
@@ -211,18 +215,28 @@ template <class Rays, typename Visit>
 void PatchIntersector::MeetNear(
   const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
-  const int count = lanes.Count;
-  lanes.Count = 0;
-  for (int i = 0; i < count; ++i)
+  if (matters && this->IsFlat)
   {
-    if (!this->IsFlat && (matters || !(lanes.Least[i] > this->MarginOf(lanes.Slant[i]))))
+    SetNormals(this->Patch, this->Set, lanes);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      visit(lanes.Index[i],
+        MembraneHit{
+          lanes.Depth[i], { lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i] } });
+    }
+    lanes.Count = 0;
+    return;
+  }
+  const int count = lanes.Count;
+  lanes.Count = matters ? count : 0;
+  for (int i = 0; i < count && !matters; ++i)
+  {
+    if (!this->IsFlat && !(lanes.Least[i] > this->MarginOf(lanes.Slant[i])))
     {
       lanes.Keep(lanes.Count++, i);
       continue;
     }
-    const glm::dvec2 b(lanes.X[i], lanes.Y[i]);
-    visit(lanes.Index[i],
-      MembraneHit{ lanes.Depth[i], matters ? this->Patch.GetNormal(b) : glm::dvec3(0.0) });
+    visit(lanes.Index[i], MembraneHit{ lanes.Depth[i], glm::dvec3(0.0) });
   }
   this->MeetCurved(rays, matters, lanes, visit);
 }
@@ -241,11 +255,11 @@ void PatchIntersector::MeetCurved(
       this->MeetExactly(rays, matters, lanes, i, visit);
       continue;
     }
-    lanes.PatchX[i] = lanes.X[i];
-    lanes.PatchY[i] = lanes.Y[i];
-    lanes.Behind[i] = 0.0;
     lanes.Keep(lanes.Count++, i);
   }
+  std::copy_n(lanes.X, lanes.Count, lanes.PatchX);
+  std::copy_n(lanes.Y, lanes.Count, lanes.PatchY);
+  std::fill_n(lanes.Behind, lanes.Count, 0.0);
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
     StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);
@@ -262,6 +276,11 @@ void PatchIntersector::MeetCurved(
           visit(lanes.Index[i],
             MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
+      }
+      // A root of the ray outside of the patch does not exclude another one inside.
+      else if (lanes.Move[i] < LastStep && this->Passes(rays, lanes, i))
+      {
+        continue;
       }
       // A ray that moves by more than a facet has diverged, and so has a ray that ends far from the
       // patch.

@@ -81,27 +81,15 @@ struct ReachKernel
   {
     const PatchReach& patch = this->Patch;
     const FacetPlane::Meeting meeting = patch.Plane.Meet(rays.GetStart(i), rays.GetDirection(i));
-    const double perHeight = patch.NormalLength / meeting.Along;
     rays.Depth[i] = meeting.Depth;
     rays.X[i] = meeting.X;
     rays.Y[i] = meeting.Y;
-    rays.Slant[i] = rays.Length[i] * std::fabs(perHeight);
-    // Depths behind the plane between which the ray is at the heights of the patch.
-    const double low = patch.Low * perHeight;
-    const double high = patch.High * perHeight;
-    const double begin = std::max(std::min(low, high), rays.First[i] - meeting.Depth);
-    const double end = std::min(std::max(low, high), rays.Last[i] - meeting.Depth);
-    const double byX = glm::dot(patch.Plane.ByX, rays.GetDirection(i));
-    const double byY = glm::dot(patch.Plane.ByY, rays.GetDirection(i));
-    const double x = meeting.X + std::max(begin * byX, end * byX);
-    const double y = meeting.Y + std::max(begin * byY, end * byY);
-    const double rest =
-      1.0 - meeting.X - meeting.Y - std::min(begin * (byX + byY), end * (byX + byY));
+    rays.Slant[i] = rays.Length[i] * std::fabs(patch.NormalLength / meeting.Along);
     const double facing = rays.Facing[i] * patch.Front * meeting.Along;
-    // The comparisons are written so that a NaN counts as a meeting: the ray is within the plane.
-    const bool passes = (x < -patch.Overhang) | (y < -patch.Overhang) | (rest < -patch.Overhang);
     const bool isAverted = facing < -patch.Spread * patch.NormalLength * rays.Length[i];
-    rays.Meets[i] = (passes | isAverted | (begin > end)) ? 0 : 1;
+    const bool meets =
+      patch.MayMeet(meeting, rays.GetDirection(i), rays.First[i], rays.Last[i]) & !isAverted;
+    rays.Meets[i] = meets ? 1 : 0;
   }
 };
 

@@ -9,8 +9,10 @@
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/PatchIntersectionBatch.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -101,6 +103,30 @@ struct PatchReach
   /** Bound of the difference between the patch's normals and the plane's unit normal times Front.
    */
   double Spread;
+
+  /**
+   * False if the ray passes the patch, or meets it at depths outside of [first, last] only.
+   * @param meeting its intersection with the plane.
+   */
+  bool MayMeet(const FacetPlane::Meeting& meeting, const glm::dvec3& direction, double first,
+    double last) const
+  {
+    const double perHeight = this->NormalLength / meeting.Along;
+    // Depths behind the plane between which the ray is at the heights of the patch.
+    const double low = this->Low * perHeight;
+    const double high = this->High * perHeight;
+    const double begin = std::max(std::min(low, high), first - meeting.Depth);
+    const double end = std::min(std::max(low, high), last - meeting.Depth);
+    const double byX = glm::dot(this->Plane.ByX, direction);
+    const double byY = glm::dot(this->Plane.ByY, direction);
+    const double x = meeting.X + std::max(begin * byX, end * byX);
+    const double y = meeting.Y + std::max(begin * byY, end * byY);
+    const double rest =
+      1.0 - meeting.X - meeting.Y - std::min(begin * (byX + byY), end * (byX + byY));
+    // The comparisons are written so that a NaN counts as a meeting: the ray is within the plane.
+    const bool passes = (x < -this->Overhang) | (y < -this->Overhang) | (rest < -this->Overhang);
+    return !(passes | (begin > end));
+  }
 };
 
 /**

@@ -4,6 +4,7 @@
 
 #include "Common/BlockLoop.h"
 #include "Simd/InstructionSets.h"
+#include "Simd/LaneLoop.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
 #include "Volume/Rays/ExactEdgeTest.h"
@@ -91,17 +92,33 @@ struct RayBundleEntries::Bundle
   double Last;
   glm::dvec2 Lower[2];
   glm::dvec2 Upper[2];
-  /** Slopes differ from the mean by at most the spread. */
-  glm::dvec2 MeanSlope;
-  glm::dvec2 SlopeSpread;
+  glm::dvec2 LeastSlope;
+  glm::dvec2 MostSlope;
 
-  glm::dvec2 LowerAt(double depth) const { return this->Between(this->Lower, depth); }
-  glm::dvec2 UpperAt(double depth) const { return this->Between(this->Upper, depth); }
-  glm::dvec2 Between(const glm::dvec2 (&ends)[2], double depth) const
+  /** Shares of the bundle's depths per unit of depth; 0 if they are equal. */
+  double PerDepth;
+
+  double ShareAt(double depth) const { return (depth - this->First) * this->PerDepth; }
+  static glm::dvec2 Between(const glm::dvec2 (&ends)[2], double share)
   {
-    const double share =
-      this->Last > this->First ? (depth - this->First) / (this->Last - this->First) : 0.0;
     return ends[0] + share * (ends[1] - ends[0]);
+  }
+  /** Loop body for one face. */
+  void operator()(FaceBlock& faces, int i) const
+  {
+    const double near = faces.Nearest[i];
+    const double far = faces.Farthest[i];
+    bool meets = true;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double low = this->Lower[0][axis];
+      const double lowRate = this->Lower[1][axis] - low;
+      const double high = this->Upper[0][axis];
+      const double highRate = this->Upper[1][axis] - high;
+      meets &= faces.High[axis][i] >= std::min(low + near * lowRate, low + far * lowRate);
+      meets &= faces.Low[axis][i] <= std::max(high + near * highRate, high + far * highRate);
+    }
+    faces.Meets[i] = meets ? 1 : 0;
   }
 };
 
@@ -150,8 +167,14 @@ bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) con
   const glm::dvec3 second = scale * (placeOf(2) - corner);
   const glm::dvec3 normal = glm::cross(first, second);
   const glm::dvec2 across(normal);
-  const double area = normal.z + glm::dot(across, bundle.MeanSlope);
-  const double spread = glm::dot(glm::abs(across), bundle.SlopeSpread);
+  // Slopes differ from the mean by at most the spread.
+  const glm::dvec2 mean = 0.5 * (bundle.LeastSlope + bundle.MostSlope);
+  const double area = normal.z + glm::dot(across, mean);
+  const double spread = 0.5 * glm::dot(glm::abs(across), bundle.MostSlope - bundle.LeastSlope);
+  if (area + spread > 0.0)
+  {
+    return true;
+  }
   // Both ends of an edge have an error of GridMargin, in all sqrt(2) times 2 of it. About a line
   // with slopes within 1, an edge is at most sqrt(3) times as long.
   constexpr double offset = 2.83 * GridMargin;
@@ -160,9 +183,64 @@ bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) con
 }
 
 //------------------------------------------------------------------------------
-void RayBundleEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace>& faces) const
+/** Bounds of the lines of some blocks between two depths. */
+// The extremes of every second number first: these loops run on two lanes at a time in any set.
+RayBundleEntries::Bundle RayBundleEntries::Bound(
+  const LineBlock* blocks, std::size_t count, double first, double last) const
 {
-  faces.clear();
+  constexpr int width = 2;
+  Bundle bundle;
+  bundle.First = first;
+  bundle.Last = last;
+  bundle.PerDepth = last > first ? 1.0 / (last - first) : 0.0;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    double low[3][width];
+    double high[3][width];
+    std::fill_n(low[0], 3 * width, 1e30);
+    std::fill_n(high[0], 3 * width, -1e30);
+    const auto add = [&](const LineBlock& lines, int line, int lane)
+    {
+      const double slope = lines.Slope[axis][line];
+      const double values[3] = { lines.Origin[axis][line] + first * slope,
+        lines.Origin[axis][line] + last * slope, slope };
+      for (int k = 0; k < 3; ++k)
+      {
+        low[k][lane] = std::min(low[k][lane], values[k]);
+        high[k][lane] = std::max(high[k][lane], values[k]);
+      }
+    };
+    for (const LineBlock* lines = blocks; lines != blocks + count; ++lines)
+    {
+      int line = 0;
+      for (; line + width <= lines->Count; line += width)
+      {
+        for (int lane = 0; lane < width; ++lane)
+        {
+          add(*lines, line + lane, lane);
+        }
+      }
+      for (; line < lines->Count; ++line)
+      {
+        add(*lines, line, 0);
+      }
+    }
+    for (int end = 0; end < 2; ++end)
+    {
+      bundle.Lower[end][axis] = std::min(low[end][0], low[end][1]);
+      bundle.Upper[end][axis] = std::max(high[end][0], high[end][1]);
+    }
+    bundle.LeastSlope[axis] = std::min(low[2][0], low[2][1]);
+    bundle.MostSlope[axis] = std::max(high[2][0], high[2][1]);
+  }
+  return bundle;
+}
+
+//------------------------------------------------------------------------------
+/** Faces by which lines of the bundle may enter, in the order of the tree. */
+void RayBundleEntries::FindFaces(const Bundle& bundle, Workspace& workspace) const
+{
+  workspace.Found.clear();
   const double margin = GridMargin * this->Frame.Rays.GetGridUnit();
   const std::vector<BoundaryTree::Node>& nodes = this->Tree.GetNodes();
   std::size_t at = 0;
@@ -176,8 +254,12 @@ void RayBundleEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace
     bool meets = first <= last;
     if (meets)
     {
-      const glm::dvec2 lower = glm::min(bundle.LowerAt(first), bundle.LowerAt(last));
-      const glm::dvec2 upper = glm::max(bundle.UpperAt(first), bundle.UpperAt(last));
+      const double near = bundle.ShareAt(first);
+      const double far = bundle.ShareAt(last);
+      const glm::dvec2 lower =
+        glm::min(Bundle::Between(bundle.Lower, near), Bundle::Between(bundle.Lower, far));
+      const glm::dvec2 upper =
+        glm::max(Bundle::Between(bundle.Upper, near), Bundle::Between(bundle.Upper, far));
       meets = center.x + half.x >= lower.x && center.x - half.x <= upper.x &&
         center.y + half.y >= lower.y && center.y - half.y <= upper.y;
     }
@@ -187,7 +269,7 @@ void RayBundleEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace
         this->SeenBy(this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)]);
       if (this->MayFace(face, bundle))
       {
-        faces.push_back(face);
+        workspace.Found.push_back({ face, center, half });
       }
     }
     at = meets ? at + 1 : static_cast<std::size_t>(node.Skip);
@@ -195,64 +277,130 @@ void RayBundleEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace
 }
 
 //------------------------------------------------------------------------------
-void RayBundleEntries::Collect(const std::vector<Line>& lines,
-  const std::vector<std::int32_t>& numbers, Workspace& workspace, std::vector<Hit>& hits) const
+/**
+ * Sets Faces and Blocks. Where a line enters many times, entries that come from near to far leave
+ * little to sort.
+ */
+void RayBundleEntries::SortFaces(const Bundle& bundle, Workspace& workspace) const
 {
-  if (numbers.empty())
+  workspace.Order.clear();
+  for (const Workspace::FoundFace& found : workspace.Found)
   {
-    return;
+    workspace.Order.emplace_back(static_cast<float>(found.Center.z - found.Half.z),
+      static_cast<std::int32_t>(workspace.Order.size()));
   }
-  const double extent = this->Frame.Extent;
-  Bundle bundle{ extent, extent, { glm::dvec2(1e30), glm::dvec2(1e30) },
-    { glm::dvec2(-1e30), glm::dvec2(-1e30) }, glm::dvec2(0.0), glm::dvec2(0.0) };
-  glm::dvec2 least(1e30);
-  glm::dvec2 most(-1e30);
-  workspace.Rays.clear();
-  for (const std::int32_t number : numbers)
+  std::sort(workspace.Order.begin(), workspace.Order.end());
+  workspace.Faces.clear();
+  workspace.Blocks.clear();
+  for (const auto& next : workspace.Order)
   {
-    const Line& line = lines[static_cast<std::size_t>(number)];
-    bundle.First = std::min(bundle.First, std::max(line.From, -extent));
-    least = glm::min(least, line.Of.Slope);
-    most = glm::max(most, line.Of.Slope);
-    workspace.Rays.push_back(line.Ray);
-  }
-  bundle.MeanSlope = 0.5 * (least + most);
-  bundle.SlopeSpread = 0.5 * (most - least);
-  for (const std::int32_t number : numbers)
-  {
-    const FrameLine& line = lines[static_cast<std::size_t>(number)].Of;
-    for (int end = 0; end < 2; ++end)
+    const Workspace::FoundFace& found = workspace.Found[static_cast<std::size_t>(next.second)];
+    workspace.Faces.push_back(found.Face);
+    if (workspace.Blocks.empty() || workspace.Blocks.back().Count == FaceBlock::Size)
     {
-      const glm::dvec2 at = line.Origin + (end == 0 ? bundle.First : bundle.Last) * line.Slope;
-      bundle.Lower[end] = glm::min(bundle.Lower[end], at);
-      bundle.Upper[end] = glm::max(bundle.Upper[end], at);
+      workspace.Blocks.emplace_back();
     }
-  }
-  this->CollectFaces(bundle, workspace.Faces);
-  workspace.Entered.resize(workspace.Faces.size());
-  PacketFaceJob job;
-  job.Vertices = this->Frame.Vertices.data();
-  job.Faces = workspace.Faces.data();
-  job.NumberOfFaces = static_cast<std::int32_t>(workspace.Faces.size());
-  job.Rays = workspace.Rays.data();
-  job.NumberOfRays = static_cast<std::int32_t>(numbers.size());
-  job.Pivot = this->Frame.Rays.GetPivot();
-  job.RaysAreFine = this->Frame.Rays.AreFine();
-  job.Entered = workspace.Entered.data();
-  FindEntered(job, this->Set);
-
-  for (std::size_t f = 0; f < workspace.Faces.size(); ++f)
-  {
-    const PacketFace& face = workspace.Faces[f];
-    for (std::size_t i = 0; i < numbers.size() && workspace.Entered[f] >> i != 0; ++i)
+    FaceBlock& block = workspace.Blocks.back();
+    const int i = block.Count++;
+    for (int axis = 0; axis < 2; ++axis)
     {
-      PacketEntry entry;
-      if ((workspace.Entered[f] >> i & 1u) != 0 && this->Enters(face, workspace.Rays[i], entry) &&
-        this->Frame.Rays.ToFrame(entry.Depth) >= lines[static_cast<std::size_t>(numbers[i])].From)
+      block.Low[axis][i] = found.Center[axis] - found.Half[axis];
+      block.High[axis][i] = found.Center[axis] + found.Half[axis];
+    }
+    block.Nearest[i] = bundle.ShareAt(std::max(found.Center.z - found.Half.z, bundle.First));
+    block.Farthest[i] = bundle.ShareAt(std::min(found.Center.z + found.Half.z, bundle.Last));
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Adds a span of `lines` lines for each face by which lines of a block may enter. */
+void RayBundleEntries::AddSpans(const Bundle& bundle, int lines, Workspace& workspace) const
+{
+  workspace.Spans.clear();
+  std::int32_t number = 0;
+  for (FaceBlock& faces : workspace.Blocks)
+  {
+    RunLanes(bundle, this->Set, faces);
+    for (int i = 0; i < faces.Count; ++i, ++number)
+    {
+      if (faces.Meets[i] != 0)
       {
-        hits.push_back({ numbers[i], entry });
+        workspace.Spans.push_back({ number, 0, lines });
       }
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Adds the entries of a block's lines by the faces of the spans. */
+void RayBundleEntries::AddHits(
+  const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const
+{
+  const std::size_t before = workspace.NumberOfHits;
+  workspace.Hits.resize(std::max(workspace.Hits.size(),
+    before + workspace.Spans.size() * static_cast<std::size_t>(lines.Count)));
+  PacketSpanJob job;
+  job.Vertices = this->Frame.Vertices.data();
+  job.Faces = workspace.Faces.data();
+  job.Spans = workspace.Spans.data();
+  job.NumberOfSpans = static_cast<std::int32_t>(workspace.Spans.size());
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    job.Offsets[axis] = lines.Offset[axis];
+    job.Slopes[axis] = lines.GridSlope[axis];
+    job.Fractions[axis] = lines.Fraction[axis];
+    job.SlopeRests[axis] = lines.SlopeRest[axis];
+  }
+  job.Pivot = this->Frame.Rays.GetPivot();
+  job.RaysAreFine = this->Frame.Rays.AreFine();
+  job.Hits = workspace.Hits.data() + before;
+  FindEntries(job, this->Set);
+
+  std::size_t kept = before;
+  for (std::int32_t i = 0; i < job.NumberOfHits; ++i)
+  {
+    const PacketHit& hit = job.Hits[i];
+    if (this->Frame.Rays.ToFrame(hit.Depth) >= lines.From[hit.Ray])
+    {
+      workspace.Hits[kept++] = { firstRay + hit.Ray, hit.Face, hit.Depth };
+    }
+  }
+  workspace.NumberOfHits = kept;
+}
+
+//------------------------------------------------------------------------------
+void RayBundleEntries::Workspace::Add(std::int32_t ray, const PacketEntry& entry)
+{
+  this->Hits.resize(std::max(this->Hits.size(), this->NumberOfHits + 1));
+  this->Hits[this->NumberOfHits++] = { ray, static_cast<std::int32_t>(this->Faces.size()),
+    entry.Depth };
+  this->Faces.push_back(
+    { { entry.Vertices[0], entry.Vertices[1], entry.Vertices[2] }, entry.CellFace });
+}
+
+//------------------------------------------------------------------------------
+void RayBundleEntries::Collect(
+  const LineBlock* blocks, std::size_t count, Workspace& workspace) const
+{
+  const double last = this->Frame.Extent;
+  double first = last;
+  for (const LineBlock* lines = blocks; lines != blocks + count; ++lines)
+  {
+    for (int i = 0; i < lines->Count; ++i)
+    {
+      first = std::min(first, std::max(lines->From[i], -last));
+    }
+  }
+  workspace.NumberOfHits = 0;
+  const Bundle all = this->Bound(blocks, count, first, last);
+  this->FindFaces(all, workspace);
+  this->SortFaces(all, workspace);
+  for (std::size_t block = 0; block < count; ++block)
+  {
+    const LineBlock& lines = blocks[block];
+    this->AddSpans(this->Bound(&lines, 1, first, last), lines.Count, workspace);
+    this->AddHits(
+      lines, static_cast<std::int32_t>(block) * std::int32_t{ LineBlock::Size }, workspace);
   }
 }
 

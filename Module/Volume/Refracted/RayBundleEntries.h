@@ -7,10 +7,13 @@
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Refracted/LineBlock.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -28,49 +31,63 @@ bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = Seria
 BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view);
 
 /**
- * Boundary faces by which straight lines of a frame enter the mesh. Lines are taken in bundles: at
- * each depth, all lines of a bundle are in a rectangle that changes linearly with the depth, and
- * the tree of the boundary is searched with these rectangles. The remaining faces are tested with
- * every line by the signs and the tie rule of the walk.
+ * Boundary faces by which straight lines of a frame enter the mesh. At each depth, all lines of a
+ * bundle are in a rectangle that changes linearly with the depth. The tree of the boundary is
+ * searched with the rectangles of all lines of a tile, and the faces that are found are tested with
+ * those of its blocks. The remaining faces are tested with every line of a block by the signs and
+ * the tie rule of the walk.
  */
 class RayBundleEntries
 {
 public:
-  static constexpr int LargestBundle = 64;
-
   /** `mesh`, `tree` and `frame` must outlive this object. */
   RayBundleEntries(const TetrahedralMesh& mesh, const BoundaryTree& tree,
     const RefractionFrame& frame, InstructionSet set);
 
-  struct Line
+  /** Bounds of up to 64 faces in the frame, widened by the rounding of vertices and rays. */
+  struct FaceBlock
   {
-    FrameLine Of{};
-    /** Depth from which on entries are collected. */
-    double From = 0.0;
-    PacketRay Ray{};
-    /** True if one of its entries is a face inside the mesh: see FindEntryNear(). */
-    bool EntersInside = false;
-  };
-  struct Hit
-  {
-    /** Index of the line. */
-    std::int32_t Line;
-    PacketEntry Entry;
+    static constexpr int Size = 64;
+
+    int Count = 0;
+    /** Extents in x and y. */
+    double Low[2][Size];
+    double High[2][Size];
+    /** Shares of the bundle's depths at which the face begins and ends. */
+    double Nearest[Size];
+    double Farthest[Size];
+    /** Not 0 if a line of the latest block may enter by the face. */
+    std::int64_t Meets[Size];
   };
   /** Buffers of one thread. */
   struct Workspace
   {
+    /** Faces by which the lines of the bundle may enter, from near to far, and their bounds. */
     std::vector<PacketFace> Faces;
-    std::vector<std::uint64_t> Entered;
-    std::vector<PacketRay> Rays;
+    std::vector<FaceBlock> Blocks;
+    /**
+     * The first NumberOfHits are the entries of the bundle's lines. Line i of block number b is ray
+     * LineBlock::Size * b + i.
+     */
+    std::vector<PacketHit> Hits;
+    std::size_t NumberOfHits = 0;
+    /** Adds an entry, with its face. */
+    void Add(std::int32_t ray, const PacketEntry& entry);
+
+    struct FoundFace
+    {
+      PacketFace Face;
+      glm::dvec3 Center;
+      glm::dvec3 Half;
+    };
+    std::vector<FoundFace> Found;
+    /** Nearest depth and index of each face that was found. */
+    std::vector<std::pair<float, std::int32_t>> Order;
+    std::vector<PacketSpan> Spans;
   };
 
-  /**
-   * Appends the entries of lines, unsorted.
-   * @param numbers indices of the lines of the bundle; at most LargestBundle.
-   */
-  void Collect(const std::vector<Line>& lines, const std::vector<std::int32_t>& numbers,
-    Workspace& workspace, std::vector<Hit>& hits) const;
+  /** Sets the faces and the hits of the workspace to the entries of the lines of `count` blocks. */
+  void Collect(const LineBlock* blocks, std::size_t count, Workspace& workspace) const;
 
   /**
    * Finds an entry of a line before a given depth into the cell at a face, or into a cell next to
@@ -85,8 +102,12 @@ public:
 
 private:
   struct Bundle;
-  void CollectFaces(const Bundle& bundle, std::vector<PacketFace>& faces) const;
+  Bundle Bound(const LineBlock* blocks, std::size_t count, double first, double last) const;
+  void FindFaces(const Bundle& bundle, Workspace& workspace) const;
+  void SortFaces(const Bundle& bundle, Workspace& workspace) const;
   bool MayFace(const PacketFace& face, const Bundle& bundle) const;
+  void AddSpans(const Bundle& bundle, int lines, Workspace& workspace) const;
+  void AddHits(const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const;
   PacketFace SeenBy(const BoundaryFace& face) const;
   bool Enters(const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const;
   bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;

@@ -50,9 +50,7 @@ bool RayLegs::Find(int tile, int pixel, int number, RayLeg& leg) const
 {
   const double column = this->GetLeft(tile) + pixel % TileSize + 0.5 - 0.5 * this->Width;
   const double row = this->GetBottom(tile) + pixel / TileSize + 0.5 - 0.5 * this->Height;
-  leg.Begin = glm::dvec3(this->Sight.Origin.At(column, row), 0.0);
-  leg.Step = glm::dvec3(this->Sight.Slope.At(column, row), 1.0);
-  leg.Depth = 0.0;
+  leg = RayLeg::OfSight(this->Sight.Origin, this->Sight.Slope, column, row);
   for (int k = 1; k <= number; ++k)
   {
     const RefractedRay* rays = this->GetTile(k, tile);
@@ -60,9 +58,7 @@ bool RayLegs::Find(int tile, int pixel, int number, RayLeg& leg) const
     {
       return false;
     }
-    leg.Begin += (rays[pixel].Depth - leg.Depth) * leg.Step;
-    leg.Step = rays[pixel].Step;
-    leg.Depth = rays[pixel].Depth;
+    leg.Refract(rays[pixel]);
   }
   const RefractedRay* next =
     number + 1 < this->GetNumberOfLegs() ? this->GetTile(number + 1, tile) : nullptr;

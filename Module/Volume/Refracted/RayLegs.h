@@ -50,6 +50,23 @@ struct RayLeg
   double Depth = 0.0;
   /** Drawn depth at which the leg ends on the next interface; infinite if it does not meet one. */
   double End = std::numeric_limits<double>::infinity();
+
+  /** Leg 0 of a pixel's ray; column and row count from the image's centre. */
+  static RayLeg OfSight(
+    const AffinePixelMap& origin, const AffinePixelMap& slope, double column, double row)
+  {
+    RayLeg leg;
+    leg.Begin = glm::dvec3(origin.At(column, row), 0.0);
+    leg.Step = glm::dvec3(slope.At(column, row), 1.0);
+    return leg;
+  }
+  /** Replaces the leg by the next one, but for its end. */
+  void Refract(const RefractedRay& ray)
+  {
+    this->Begin += (ray.Depth - this->Depth) * this->Step;
+    this->Step = ray.Step;
+    this->Depth = ray.Depth;
+  }
 };
 
 /**

@@ -46,21 +46,27 @@ bool RefractedRayField::View::operator==(const View& o) const
     this->Exterior == o.Exterior && this->Interior == o.Interior && this->Mesh == o.Mesh;
 }
 
-/** Rays of a tile, relative to the membrane's origin. */
-class RefractedRayField::TileRays
+/** Rays of a rectangle of pixels, relative to the membrane's origin. */
+class RefractedRayField::PixelRays
 {
 public:
-  TileRays(const RefractedRayField& sight, int tile)
-    : Rays(sight.Rays)
+  /** Rays of a tile. */
+  PixelRays(const RefractedRayField& sight, int tile)
+    : PixelRays(sight,
+        { tile % sight.Columns * TileSize, tile % sight.Columns * TileSize + TileSize,
+          tile / sight.Columns * TileSize, tile / sight.Columns * TileSize + TileSize })
   {
-    this->Left = tile % sight.Columns * TileSize;
-    this->Bottom = tile / sight.Columns * TileSize;
+  }
+  PixelRays(const RefractedRayField& sight, const Box& box)
+    : Left(box.Left)
+    , Bottom(box.Bottom)
+    , Rays(sight.Rays)
+  {
     this->ToCenter = glm::dvec2(0.5 - 0.5 * sight.Of.Width, 0.5 - 0.5 * sight.Of.Height);
-    const CornerRays corners =
-      this->CornersOf(this->Left, this->Bottom, this->Left + TileSize, this->Bottom + TileSize);
+    const CornerRays corners = this->CornersOf(box.Left, box.Bottom, box.Right, box.Top);
     const auto& starts = corners.Starts;
     const auto& along = corners.Directions;
-    // A place inside the tile's frustum.
+    // A place inside the frustum of the rays.
     const glm::dvec3 inside =
       0.5 * (starts[0] + starts[2]) + 0.5 * (sight.Of.EyeDepth + 1.0) * (along[0] + along[2]);
     for (int side = 0; side < 4; ++side)
@@ -98,7 +104,7 @@ public:
     return corners;
   }
 
-  /** True if a ball is on the outer side of one of the tile's sides. */
+  /** True if a ball is on the outer side of one of the rectangle's sides. */
   bool IsBeside(const glm::dvec3& center, double radius) const
   {
     for (const glm::dvec4& side : this->Sides)
@@ -198,20 +204,31 @@ bool RefractedRayField::MayShowMesh(const CurvedPatch& patch, double bulge) cons
 
 //------------------------------------------------------------------------------
 /** Pixels whose rays may meet the facet's patch. */
-RefractedRayField::SeenFacet RefractedRayField::See(
-  const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const
+RefractedRayField::SeenFacet RefractedRayField::See(const Membrane& surface,
+  const CurvedPatches& patches, std::int32_t facet, const PixelRays& image) const
 {
   const CurvedPatch patch = patches.GetPatch(facet);
+  const double bulge = BoundBulge(patch);
+  const glm::dvec3 center = (patch.Corner[0] + patch.Corner[1] + patch.Corner[2]) / 3.0;
+  double radius = 0.0;
+  for (const glm::dvec3& corner : patch.Corner)
+  {
+    radius = std::max(radius, bulge + glm::length(corner - center));
+  }
+  radius *= SightMargin;
+  if (image.IsBeside(center, radius))
+  {
+    return SeenFacet();
+  }
   bool isAtBorder = false;
   for (int corner = 0; corner < 3; ++corner)
   {
     isAtBorder = isAtBorder || patches.GetNeighbour(facet, corner) == CurvedPatches::NoFacet;
   }
-  const double bulge = BoundBulge(patch);
   const double facing = glm::dot(this->SightTo(patch.Corner[0]),
     glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
   SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder,
-    (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, glm::dvec3(0.0), 0.0 };
+    (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, center, radius };
   // Extents, in the frame, of a unit ball in world coordinates.
   glm::dvec3 reach(0.0);
   for (int axis = 0; axis < 3; ++axis)
@@ -246,23 +263,20 @@ RefractedRayField::SeenFacet RefractedRayField::See(
   }
   if (seen.Unbounded)
   {
-    seen.Center = (patch.Corner[0] + patch.Corner[1] + patch.Corner[2]) / 3.0;
-    for (const glm::dvec3& corner : patch.Corner)
-    {
-      seen.Radius = std::max(seen.Radius, bulge + glm::length(corner - seen.Center));
-    }
-    seen.Radius *= SightMargin;
     return seen;
   }
-  seen.Matters = this->MayShowMesh(patch, bulge);
   const auto clamped = [](double value, int size)
   { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
-  const glm::dvec2 center(0.5 * this->Of.Width, 0.5 * this->Of.Height);
+  const glm::dvec2 middle(0.5 * this->Of.Width, 0.5 * this->Of.Height);
   // Pixel p has its centre at p + 0.5; one more pixel on each side covers rounding.
-  seen.Pixels = { clamped(lower.x + center.x - 1.5, this->Of.Width),
-    clamped(upper.x + center.x + 1.5, this->Of.Width),
-    clamped(lower.y + center.y - 1.5, this->Of.Height),
-    clamped(upper.y + center.y + 1.5, this->Of.Height) };
+  seen.Pixels = { clamped(lower.x + middle.x - 1.5, this->Of.Width),
+    clamped(upper.x + middle.x + 1.5, this->Of.Width),
+    clamped(lower.y + middle.y - 1.5, this->Of.Height),
+    clamped(upper.y + middle.y + 1.5, this->Of.Height) };
+  if (!seen.Pixels.IsEmpty())
+  {
+    seen.Matters = this->MayShowMesh(patch, bulge);
+  }
   return seen;
 }
 
@@ -271,7 +285,7 @@ void RefractedRayField::SortFacets(const std::vector<SeenFacet>& facets)
 {
   const auto forTilesOf = [this](const Box& box, const auto& body)
   {
-    if (box.Left >= box.Right || box.Bottom >= box.Top)
+    if (box.IsEmpty())
     {
       return;
     }
@@ -312,12 +326,13 @@ void RefractedRayField::Build(
   this->Rows = (view.Height + TileSize - 1) / TileSize;
   this->PrepareRays(surface);
   std::vector<SeenFacet> facets(surface.GetFacets().size());
+  const PixelRays image(*this, Box{ 0, this->Columns * TileSize, 0, this->Rows * TileSize });
   loop(facets.size(),
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
       {
-        facets[f] = this->See(surface, patches, static_cast<std::int32_t>(f));
+        facets[f] = this->See(surface, patches, static_cast<std::int32_t>(f), image);
       }
     });
   this->SortFacets(facets);
@@ -352,7 +367,7 @@ void RefractedRayField::Build(
  * of undecided rays.
  */
 std::int64_t RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
-  const TileRays& rays, std::vector<MembraneHit>& hits) const
+  const PixelRays& rays, std::vector<MembraneHit>& hits) const
 {
   const Box box{ std::max(rays.Left, seen.Pixels.Left),
     std::min(rays.Left + TileSize, seen.Pixels.Right), std::max(rays.Bottom, seen.Pixels.Bottom),
@@ -380,7 +395,7 @@ std::int64_t RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenF
 
 //------------------------------------------------------------------------------
 void RefractedRayField::TraceBox(const PatchIntersector& tracer,
-  const PatchIntersector::FlatHits& flat, const Box& box, bool matters, const TileRays& rays,
+  const PatchIntersector::FlatHits& flat, const Box& box, bool matters, const PixelRays& rays,
   std::vector<MembraneHit>& hits) const
 {
   const auto meet = [&](PatchIntersectionBatch& lanes)
@@ -390,7 +405,10 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
       {
         hits.resize(RaysOfTile);
         MembraneHit& nearest = hits[static_cast<std::size_t>(index)];
-        nearest = hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth ? hit : nearest;
+        if (hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth)
+        {
+          nearest = hit;
+        }
       });
     lanes.Count = 0;
   };
@@ -419,7 +437,7 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
  * it.
  */
 bool RefractedRayField::HidesTile(const CurvedPatches& patches,
-  const std::vector<SeenFacet>& facets, int tile, const TileRays& rays) const
+  const std::vector<SeenFacet>& facets, int tile, const PixelRays& rays) const
 {
   const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
   const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
@@ -447,7 +465,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
   const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile)
 {
   TileSum sum;
-  const TileRays tileRays(*this, tile);
+  const PixelRays tileRays(*this, tile);
   if (this->HidesTile(patches, facets, tile, tileRays))
   {
     this->Refracted.ChangeTile(tile).assign(
@@ -475,7 +493,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
  * @param directions sum to which the steps along the refracted rays are added, in world
  *   coordinates.
  */
-void RefractedRayField::RefractTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
+void RefractedRayField::RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
   std::vector<RefractedRay>& rays, glm::dvec3& directions) const
 {
   const auto bend = [&](PatchIntersectionBatch& lanes)

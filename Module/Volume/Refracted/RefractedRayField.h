@@ -97,33 +97,36 @@ private:
     int Right; // exclusive
     int Bottom;
     int Top; // exclusive
+
+    bool IsEmpty() const { return this->Left >= this->Right || this->Bottom >= this->Top; }
   };
   /** Data of a facet's patch before it is intersected with rays. */
   struct SeenFacet
   {
-    Box Pixels;
+    Box Pixels{ 0, 0, 0, 0 };
     /** True if rays that meet the patch may reach the mesh. */
-    bool Matters;
+    bool Matters = false;
     /** True if the facet is at the border of the membrane. */
-    bool IsAtBorder;
+    bool IsAtBorder = false;
     /** Side of the facet that is seen: 1 or -1; 0 if it is edge-on. */
-    int Side;
-    /** True if the projection has no bounds but the image; Center and Radius are set in that case.
-     */
-    bool Unbounded;
-    glm::dvec3 Center;
-    double Radius;
+    int Side = 0;
+    /** True if the projection has no bounds but the image. */
+    bool Unbounded = false;
+    /** Ball around the patch. */
+    glm::dvec3 Center{ 0.0 };
+    double Radius = 0.0;
   };
-  class TileRays;
+  class PixelRays;
 
   void PrepareRays(const Membrane& surface);
-  SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet,
+    const PixelRays& image) const;
   glm::dvec3 SightTo(const glm::dvec3& place) const;
   bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
   bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
   void SortFacets(const std::vector<SeenFacet>& facets);
   bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
-    const TileRays& rays) const;
+    const PixelRays& rays) const;
   /** Sum of the steps of a tile's refracted rays in world coordinates, and its undecided rays. */
   struct TileSum
   {
@@ -131,11 +134,11 @@ private:
     std::int64_t Undecided = 0;
   };
   TileSum TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile);
-  std::int64_t TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
+  std::int64_t TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const PixelRays& rays,
     std::vector<MembraneHit>& hits) const;
   void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
-    const Box& box, bool matters, const TileRays& rays, std::vector<MembraneHit>& hits) const;
-  void RefractTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
+    const Box& box, bool matters, const PixelRays& rays, std::vector<MembraneHit>& hits) const;
+  void RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
     std::vector<RefractedRay>& rays, glm::dvec3& directions) const;
 
   View Of;

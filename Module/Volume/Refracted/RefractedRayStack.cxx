@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/RefractedRayStack.h"
 
+#include "Simd/LaneLoop.h"
 #include "Volume/Refracted/PatchIntersectionBatch.h"
 #include "Volume/Refracted/RayBlock.h"
 
@@ -27,42 +28,202 @@ static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** A leg of a ray along the world's axes, relative to the view's origin; see RayLeg. */
-struct WorldLeg
+/** Legs of the rays of a block along the world's axes, relative to the view's origin; see RayLeg.
+ */
+struct WorldLegs
 {
-  glm::dvec3 Place{ 0.0 };
+  double Place[3][RaysOfBlock];
   /** 0 if the ray does not go on. */
-  glm::dvec3 Step{ 0.0 };
+  double Step[3][RaysOfBlock];
   /** Drawn depth of Place; infinite if the ray does not come to the interface of the leg. */
-  double Depth = Infinity;
+  double Depth[RaysOfBlock];
 
-  bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
-};
-
-/** Side of a surface from which a ray can meet it. */
-enum class Side : signed char
-{
-  Exterior, // against the normals
-  Interior,
-  Either,
-  Neither
-};
-
-/** Side of an interface on which its medium is that of a ray. */
-Side SideOf(const StackedInterface& interface, double medium)
-{
-  if (medium == interface.Exterior)
+  void Clear()
   {
-    return Side::Exterior;
+    std::fill_n(this->Step[0], 3 * RaysOfBlock, 0.0);
+    std::fill_n(this->Depth, RaysOfBlock, Infinity);
   }
-  return medium == interface.Interior ? Side::Interior : Side::Neither;
+  glm::dvec3 GetPlace(std::size_t ray) const
+  {
+    return { this->Place[0][ray], this->Place[1][ray], this->Place[2][ray] };
+  }
+  glm::dvec3 GetStep(std::size_t ray) const
+  {
+    return { this->Step[0][ray], this->Step[1][ray], this->Step[2][ray] };
+  }
+  void SetStep(std::size_t ray, const glm::dvec3& step)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Step[axis][ray] = step[axis];
+    }
+  }
+  bool GoesOn(std::size_t ray) const
+  {
+    return (this->Step[0][ray] != 0.0) | (this->Step[1][ray] != 0.0) | (this->Step[2][ray] != 0.0);
+  }
+};
+
+/** Sight rays of pixels. */
+struct SightLegs
+{
+  int Count;
+  /** From the image's centre. */
+  double Column[RaysOfBlock];
+  double Row[RaysOfBlock];
+  WorldLegs& Legs;
+};
+
+/** Loop bodies, for one ray each. */
+struct SightKernel
+{
+  AffinePixelMap Origin;
+  AffinePixelMap Slope;
+  glm::dmat3 ViewToWorld;
+
+  void operator()(SightLegs& sight, int i) const
+  {
+    const double column = sight.Column[i];
+    const double row = sight.Row[i];
+    const glm::dvec3 place = this->ViewToWorld * glm::dvec3(this->Origin.At(column, row), 0.0);
+    const glm::dvec3 step = this->ViewToWorld * glm::dvec3(this->Slope.At(column, row), 1.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sight.Legs.Place[axis][i] = place[axis];
+      sight.Legs.Step[axis][i] = step[axis];
+    }
+    sight.Legs.Depth[i] = 0.0;
+  }
+};
+
+/** Legs behind one interface, and those behind the next, if there is one. */
+struct EndedLegs
+{
+  int Count;
+  WorldLegs& Legs;
+  const WorldLegs* Next;
+  /** Not 0 if a further leg of the ray may meet the mesh. */
+  std::int64_t (&Stays)[RaysOfBlock];
+};
+
+/** Ends rays behind which there is nothing of the mesh. */
+struct EndKernel
+{
+  glm::dvec3 MeshCenter;
+  glm::dvec3 MeshHalf;
+
+  /** True if the line from `place` to `place` + `end` * `step` may meet the mesh. */
+  bool MeetsMesh(const glm::dvec3& place, const glm::dvec3& step, double end) const
+  {
+    double first = 0.0;
+    double last = end;
+    bool isBeside = false;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double offset = this->MeshCenter[axis] - place[axis];
+      const double half = this->MeshHalf[axis];
+      const bool isAlong = step[axis] != 0.0;
+      const double inverse = 1.0 / step[axis];
+      const double a = (offset - half) * inverse;
+      const double b = (offset + half) * inverse;
+      first = isAlong ? std::max(first, std::min(a, b)) : first;
+      last = isAlong ? std::min(last, std::max(a, b)) : last;
+      isBeside |= !isAlong & !(std::fabs(offset) <= half);
+    }
+    return !isBeside & (first <= last);
+  }
+  void operator()(EndedLegs& rays, int i) const
+  {
+    const auto ray = static_cast<std::size_t>(i);
+    const glm::dvec3 step = rays.Legs.GetStep(ray);
+    const double end = (rays.Next ? rays.Next->Depth[i] : Infinity) - rays.Legs.Depth[i];
+    const bool meets = rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
+    const bool stays = (rays.Stays[i] != 0) | meets;
+    rays.Stays[i] = stays ? 1 : 0;
+    rays.Legs.SetStep(ray, stays ? step : glm::dvec3(0.0));
+  }
+};
+
+/** True if the ray of a lane meets the interface. */
+bool IsHit(const RayBlock& lanes, int lane)
+{
+  return (lanes.Last[lane] < Infinity) & (lanes.Last[lane] > -Infinity);
 }
 
-/** The sign of the product of a ray's direction and the normal, for rays from that side. */
-double FacingOf(Side side)
+/** Rays that are refracted at an interface, and their legs in front of it and behind it. */
+struct NextLegs
 {
-  return side == Side::Either ? 0.0 : (side == Side::Exterior ? -1.0 : 1.0);
-}
+  int Count;
+  const RayBlock& Lanes;
+  const FreeRayBatch& Refracted;
+  const WorldLegs& Before;
+  WorldLegs& Behind;
+  double (&Media)[RaysOfBlock];
+};
+
+/** Begins the legs behind an interface. */
+struct NextKernel
+{
+  double Exterior;
+  double Interior;
+
+  void operator()(NextLegs& rays, int i) const
+  {
+    const bool isHit = IsHit(rays.Lanes, i);
+    const double depth = isHit ? rays.Lanes.Last[i] : 0.0;
+    const double refracted = rays.Refracted.Refracted[i];
+    const bool goesOn = isHit & (refracted != 0.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Behind.Place[axis][i] = rays.Before.Place[axis][i] + depth * rays.Before.Step[axis][i];
+      rays.Behind.Step[axis][i] = goesOn ? rays.Refracted.Normal[axis][i] : 0.0;
+    }
+    rays.Behind.Depth[i] = isHit ? rays.Before.Depth[i] + depth : Infinity;
+    const double medium = refracted > 0.0 ? this->Interior : this->Exterior;
+    rays.Media[i] = goesOn ? medium : rays.Media[i];
+  }
+};
+
+/** Rays on their way to an interface. */
+struct ArrivingLegs
+{
+  int Count;
+  RayBlock& Lanes;
+  const WorldLegs& Legs;
+  const double (&Media)[RaysOfBlock];
+  /** Not 0 for rays in a medium that the interface does not have. */
+  std::int64_t (&Mismatched)[RaysOfBlock];
+};
+
+/** Sets the lanes of rays, for the side of the interface on which its medium is that of the ray. */
+struct LaneKernel
+{
+  glm::dvec3 ToSurface;
+  /** True if rays may come from either side, in any medium. */
+  bool FromEitherSide;
+  double FirstDepth;
+  double Exterior;
+  double Interior;
+
+  void operator()(ArrivingLegs& rays, int i) const
+  {
+    const auto ray = static_cast<std::size_t>(i);
+    const double medium = rays.Media[i];
+    const bool isOutside = medium == this->Exterior;
+    const bool fits = this->FromEitherSide | isOutside | (medium == this->Interior);
+    const bool goesOn = rays.Legs.GoesOn(ray);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Lanes.Start[axis][i] = rays.Legs.Place[axis][i] + this->ToSurface[axis];
+      rays.Lanes.Direction[axis][i] = rays.Legs.Step[axis][i];
+    }
+    rays.Lanes.First[i] = this->FirstDepth;
+    rays.Lanes.Last[i] = goesOn & fits ? Infinity : -Infinity;
+    const double facing = isOutside ? -1.0 : 1.0;
+    rays.Lanes.Facing[i] = this->FromEitherSide ? 0.0 : facing;
+    rays.Mismatched[i] = goesOn & !fits ? 1 : 0;
+  }
+};
 
 /** True if a product of a ray's direction and the normal has the sign, or if that is 0. */
 bool HasSign(double product, double sign)
@@ -83,14 +244,17 @@ struct RefractedRayStack::Block
   int Count = 0;
   /** Number of each ray's pixel in the tile. */
   std::array<int, RaysOfBlock> Pixels;
-  std::vector<std::array<WorldLeg, RaysOfBlock>> Legs;
+  std::vector<WorldLegs> Legs;
   /** Index of refraction of the medium that the ray is in, from leg 1 on. */
-  std::array<double, RaysOfBlock> Media;
+  double Media[RaysOfBlock] = {};
 
-  /** Rays that may meet the present interface: their numbers and nearest intersections. */
+  /**
+   * The rays on their way to the present interface, each up to its nearest intersection. Rays that
+   * do not go there are replaced by one that does, and end in front of everything.
+   */
   RayBlock Lanes;
-  std::array<int, RaysOfBlock> Numbers;
-  std::array<MembraneHit, RaysOfBlock> Hits;
+  /** Normals at these intersections. */
+  double Normals[3][RaysOfBlock] = {};
 };
 
 //------------------------------------------------------------------------------
@@ -197,52 +361,63 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
 /** Sets leg 0 of the rays of a block; left and bottom are its first pixel. */
 void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
 {
-  const RayFrame& frame = this->Of.Frame;
-  for (auto& legs : block.Legs)
+  for (WorldLegs& legs : block.Legs)
   {
-    legs.fill(WorldLeg());
+    legs.Clear();
   }
   block.Count = 0;
+  SightLegs sight{ 0, {}, {}, block.Legs[0] };
   for (int row = bottom; row < std::min(bottom + BlockSize, this->Of.Height); ++row)
   {
     for (int column = left; column < std::min(left + BlockSize, this->Of.Width); ++column)
     {
-      const double i = column + 0.5 - 0.5 * this->Of.Width;
-      const double j = row + 0.5 - 0.5 * this->Of.Height;
       const auto ray = static_cast<std::size_t>(block.Count++);
       block.Pixels[ray] = row % TileSize * TileSize + column % TileSize;
-      block.Legs[0][ray] = { frame.ViewToWorld * glm::dvec3(frame.Origin.At(i, j), 0.0),
-        frame.ViewToWorld * glm::dvec3(frame.Slope.At(i, j), 1.0), 0.0 };
+      sight.Column[ray] = column + 0.5 - 0.5 * this->Of.Width;
+      sight.Row[ray] = row + 0.5 - 0.5 * this->Of.Height;
     }
   }
+  sight.Count = block.Count;
+  const RayFrame& frame = this->Of.Frame;
+  RunLanes(SightKernel{ frame.Origin, frame.Slope, frame.ViewToWorld }, this->Set, sight);
 }
 
 //------------------------------------------------------------------------------
-/** Adds the rays of a block that may meet interface `number`, and ends those that cannot. */
-void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums) const
+/**
+ * Sets the lanes to the rays of a block that may meet interface `number`, and ends those that
+ * cannot. Leaves no lanes if there is no such ray.
+ */
+void RefractedRayStack::SetLanes(std::size_t number, Block& block, Counts& sums) const
 {
   const StackedInterface& interface = this->Interfaces[number];
   const bool isFirst = number == 0;
   const glm::dvec3 toSurface = this->Of.Center - interface.Surface->GetOrigin();
+  WorldLegs& legs = block.Legs[number];
   RayBlock& lanes = block.Lanes;
-  lanes.Count = 0;
+  std::int64_t mismatched[RaysOfBlock];
+  ArrivingLegs arriving{ block.Count, lanes, legs, block.Media, mismatched };
+  RunLanes(LaneKernel{ toSurface, isFirst, isFirst ? this->Of.EyeDepth : 0.0, interface.Exterior,
+             interface.Interior },
+    this->Set, arriving);
+  lanes.Count = block.Count;
+  int instead = -1;
   for (int ray = 0; ray < block.Count; ++ray)
   {
-    const auto r = static_cast<std::size_t>(ray);
-    WorldLeg& leg = block.Legs[number][r];
-    const Side side = isFirst ? Side::Either : SideOf(interface, block.Media[r]);
-    if (leg.GoesOn() && side == Side::Neither)
+    instead = lanes.Last[ray] > 0.0 && instead < 0 ? ray : instead;
+    if (mismatched[ray] != 0)
     {
-      leg.Step = glm::dvec3(0.0);
+      legs.SetStep(static_cast<std::size_t>(ray), glm::dvec3(0.0));
       ++sums.Missing;
       ++sums.Mismatched;
     }
-    if (leg.GoesOn())
+  }
+  lanes.Count = instead < 0 ? 0 : lanes.Count;
+  for (int ray = 0; ray < lanes.Count; ++ray)
+  {
+    for (int axis = 0; axis < 3 && lanes.Last[ray] < 0.0; ++axis)
     {
-      const auto lane = static_cast<std::size_t>(lanes.Count);
-      block.Numbers[lane] = ray;
-      block.Hits[lane] = MembraneHit();
-      lanes.Add(leg.Place + toSurface, leg.Step, isFirst ? this->Of.EyeDepth : 0.0, FacingOf(side));
+      lanes.Start[axis][ray] = lanes.Start[axis][instead];
+      lanes.Direction[axis][ray] = lanes.Direction[axis][instead];
     }
   }
   CompleteRays(this->Set, lanes);
@@ -252,7 +427,7 @@ void RefractedRayStack::AddLanes(std::size_t number, Block& block, Counts& sums)
 /** Intersects leg `number` of the rays with interface `number`, and ends legs that miss it. */
 void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& sums) const
 {
-  this->AddLanes(number, block, sums);
+  this->SetLanes(number, block, sums);
   RayBlock& lanes = block.Lanes;
   if (lanes.Count == 0)
   {
@@ -269,7 +444,10 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
     if (HasSign(facing, lanes.Facing[lane]) && hit.Depth > lanes.First[lane] &&
       hit.Depth < lanes.Last[lane])
     {
-      block.Hits[lane] = hit;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        block.Normals[axis][lane] = hit.Normal[axis];
+      }
       lanes.Last[lane] = hit.Depth;
       isNearer = true;
     }
@@ -292,8 +470,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
   {
     if (lanes.Last[lane] == Infinity)
     {
-      const auto ray = static_cast<std::size_t>(block.Numbers[static_cast<std::size_t>(lane)]);
-      block.Legs[number][ray].Step = glm::dvec3(0.0);
+      block.Legs[number].SetStep(static_cast<std::size_t>(lane), glm::dvec3(0.0));
       ++sums.Missing;
     }
   }
@@ -306,79 +483,35 @@ void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& s
   const StackedInterface& interface = this->Interfaces[number];
   const RayBlock& lanes = block.Lanes;
   FreeRayBatch batch;
-  for (int lane = 0; lane < lanes.Count; ++lane)
-  {
-    const MembraneHit& hit = block.Hits[static_cast<std::size_t>(lane)];
-    if (hit.Depth < Infinity)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        batch.Normal[axis][batch.Count] = hit.Normal[axis];
-      }
-      batch.Add(lane, lanes.GetStart(lane), lanes.GetDirection(lane));
-    }
-  }
-  Refract(FreeRays(), interface.Exterior / interface.Interior, this->Set, batch);
-  for (int i = 0; i < batch.Count; ++i)
-  {
-    const auto lane = static_cast<std::size_t>(batch.Index[i]);
-    const auto ray = static_cast<std::size_t>(block.Numbers[lane]);
-    const WorldLeg& before = block.Legs[number][ray];
-    WorldLeg& leg = block.Legs[number + 1][ray];
-    const double depth = block.Hits[lane].Depth;
-    leg.Place = before.Place + depth * before.Step;
-    leg.Depth = before.Depth + depth;
-    if (batch.Refracted[i] != 0.0)
-    {
-      leg.Step = { batch.Normal[0][i], batch.Normal[1][i], batch.Normal[2][i] };
-      block.Media[ray] = batch.Refracted[i] > 0.0 ? interface.Interior : interface.Exterior;
-    }
-    else
-    {
-      sums.Reflected += number > 0 ? 1 : 0;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/** True if the line from `place` to `place` + `end` * `step` may meet the mesh. */
-bool RefractedRayStack::MeetsMesh(const glm::dvec3& place, const glm::dvec3& step, double end) const
-{
-  double first = 0.0;
-  double last = end;
+  batch.Take(lanes.Count, lanes.Start, lanes.Direction);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double offset = this->MeshCenter[axis] - place[axis];
-    const double half = this->MeshHalf[axis];
-    if (step[axis] == 0.0)
-    {
-      last = std::fabs(offset) <= half ? last : -1.0;
-      continue;
-    }
-    const double inverse = 1.0 / step[axis];
-    const double a = (offset - half) * inverse;
-    const double b = (offset + half) * inverse;
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
+    std::copy_n(block.Normals[axis], lanes.Count, batch.Normal[axis]);
   }
-  return first <= last;
+  Refract(FreeRays(), interface.Exterior / interface.Interior, this->Set, batch);
+  NextLegs next{ lanes.Count, lanes, batch, block.Legs[number], block.Legs[number + 1],
+    block.Media };
+  RunLanes(NextKernel{ interface.Exterior, interface.Interior }, this->Set, next);
+  for (int ray = 0; ray < lanes.Count && number > 0; ++ray)
+  {
+    sums.Reflected += IsHit(lanes, ray) && batch.Refracted[ray] == 0.0 ? 1 : 0;
+  }
 }
 
 //------------------------------------------------------------------------------
 /** Ends rays at the last interface behind which they may meet the mesh. */
 void RefractedRayStack::EndRaysBesideMesh(Block& block) const
 {
-  for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
+  std::int64_t stays[RaysOfBlock] = {};
+  const EndKernel kernel{ this->MeshCenter, this->MeshHalf };
+  for (std::size_t k = block.Legs.size() - 1; k > 0; --k)
   {
-    for (std::size_t k = block.Legs.size() - 1; k > 0; --k)
+    EndedLegs rays{ block.Count, block.Legs[k],
+      k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr, stays };
+    RunLanes(kernel, this->Set, rays);
+    if (std::all_of(stays, stays + block.Count, [](std::int64_t ray) { return ray != 0; }))
     {
-      WorldLeg& leg = block.Legs[k][ray];
-      const double end = k + 1 < block.Legs.size() ? block.Legs[k + 1][ray].Depth : Infinity;
-      if (leg.GoesOn() && this->MeetsMesh(leg.Place, leg.Step, end - leg.Depth))
-      {
-        break;
-      }
-      leg.Step = glm::dvec3(0.0);
+      return;
     }
   }
 }
@@ -392,11 +525,11 @@ void RefractedRayStack::StoreBlock(const Block& block, int tile, glm::dvec3& dir
     std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
     for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
     {
-      if (block.Legs[k][ray].GoesOn())
+      if (block.Legs[k].GoesOn(ray))
       {
-        const WorldLeg& leg = block.Legs[k + 1][ray];
-        const glm::dvec3 step = this->WorldToFrame * leg.Step;
-        rays[static_cast<std::size_t>(block.Pixels[ray])] = { leg.Depth, step };
+        const WorldLegs& legs = block.Legs[k + 1];
+        const glm::dvec3 step = this->WorldToFrame * legs.GetStep(ray);
+        rays[static_cast<std::size_t>(block.Pixels[ray])] = { legs.Depth[ray], step };
         directions += step;
       }
     }

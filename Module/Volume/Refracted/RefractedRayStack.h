@@ -94,12 +94,11 @@ private:
 
   TileSum TraceTile(int tile);
   void StartBlock(int left, int bottom, Block& block) const;
-  void AddLanes(std::size_t number, Block& block, Counts& sums) const;
+  void SetLanes(std::size_t number, Block& block, Counts& sums) const;
   void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
   void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
   void EndRaysBesideMesh(Block& block) const;
   void StoreBlock(const Block& block, int tile, glm::dvec3& directions);
-  bool MeetsMesh(const glm::dvec3& place, const glm::dvec3& step, double end) const;
 
   std::vector<StackedInterface> Interfaces;
   View Of;

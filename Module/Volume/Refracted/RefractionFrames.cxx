@@ -98,16 +98,6 @@ SurfaceLighting RefractionFrame::Turn(const SurfaceLighting& lighting) const
 }
 
 //------------------------------------------------------------------------------
-int RefractionFrames::IndexOf(const glm::dvec3& step) const
-{
-  const glm::dvec3 along = step * this->Axes;
-  const glm::dvec3 size = glm::abs(along);
-  // In the order of the frames' axes, so that the axis of the mean direction is preferred.
-  const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
-  return (axis + 1) % 3 * 2 + (along[axis] < 0.0 ? 1 : 0);
-}
-
-//------------------------------------------------------------------------------
 /** Returns a bit per frame that a ray of the tile needs. */
 unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
 {

@@ -10,6 +10,10 @@
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RayLegs.h"
 
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -71,7 +75,16 @@ public:
   void Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop);
 
   /** Index of the frame for a ray of that direction. */
-  int IndexOf(const glm::dvec3& step) const;
+  int IndexOf(const glm::dvec3& step) const
+  {
+    const glm::dvec3 along = step * this->Axes;
+    const glm::dvec3 size = glm::abs(along);
+    // In the order of the frames' axes, so that the axis of the mean direction is preferred.
+    const bool isZ = (size.z >= size.x) & (size.z >= size.y);
+    const bool isX = size.x >= size.y;
+    const double component = isZ ? along.z : (isX ? along.x : along.y);
+    return (isZ ? 0 : (isX ? 2 : 4)) + (component < 0.0 ? 1 : 0);
+  }
   const RefractionFrame& Get(int index) const
   {
     return this->Frames[static_cast<std::size_t>(index)];

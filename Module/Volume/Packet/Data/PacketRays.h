@@ -102,21 +102,6 @@ struct PacketFace
   std::int32_t CellFace;
 };
 
-/** Faces by which up to 64 rays enter. */
-struct PacketFaceJob
-{
-  const PacketVertex* Vertices;
-  const PacketFace* Faces;
-  std::int32_t NumberOfFaces;
-  const PacketRay* Rays;
-  std::int32_t NumberOfRays;
-  /** Pivot of the rays in grid units of depth. */
-  std::int32_t Pivot;
-  bool RaysAreFine;
-  /** One entry per face; bit i is set if ray i enters by it. */
-  std::uint64_t* Entered;
-};
-
 /** Consecutive rays [First, End) that may enter by a face. */
 struct PacketSpan
 {

@@ -123,53 +123,6 @@ inline auto PacketFaceTest<Simd>::Test(const LaneRays<Simd>& rays) -> Mask
 }
 
 //------------------------------------------------------------------------------
-/** Tests which rays enter by which faces. */
-template <class Simd>
-void FindEnteredWith(const PacketFaceJob& job)
-{
-  constexpr int width = Simd::Width;
-  PacketFaceTest<Simd> test(job.Vertices, job.Pivot, job.RaysAreFine);
-  for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
-  {
-    job.Entered[face] = 0;
-  }
-  for (std::int32_t first = 0; first < job.NumberOfRays; first += width)
-  {
-    std::int32_t offsets[2][width];
-    float slopes[2][width];
-    float fractions[2][width];
-    float slopeRests[2][width];
-    std::uint64_t valid = 0;
-    for (int lane = 0; lane < width; ++lane)
-    {
-      const bool isRay = first + lane < job.NumberOfRays;
-      valid |= isRay ? 1u << lane : 0u;
-      const PacketRay& ray = job.Rays[isRay ? first + lane : first];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        offsets[axis][lane] = ray.Offset[axis];
-        slopes[axis][lane] = ray.Slope[axis];
-        fractions[axis][lane] = ray.Fraction[axis];
-        slopeRests[axis][lane] = ray.SlopeRest[axis];
-      }
-    }
-    LaneRays<Simd> rays;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      rays.Offset[axis] = Simd::Load(offsets[axis]);
-      rays.Slope[axis] = Simd::Load(slopes[axis]);
-      rays.Fraction[axis] = Simd::Load(fractions[axis]);
-      rays.SlopeRest[axis] = Simd::Load(slopeRests[axis]);
-    }
-    for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
-    {
-      test.Take(job.Faces[face]);
-      job.Entered[face] |= (Simd::Bits(test.Test(rays)) & valid) << first;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 /** Finds the entries of a tile's rays. */
 template <class Simd>
 void FindEntriesWith(PacketSpanJob& job)

@@ -9,7 +9,6 @@ namespace meniscus
 #define MENISCUS_DECLARE_KERNELS(name, label, isSupported, target)                                 \
   void CastPackets##name(const PacketJob& job);                                                    \
   void CastFadedPackets##name(const PacketJob& job);                                               \
-  void FindEntered##name(const PacketFaceJob& job);                                                \
   void FindEntries##name(PacketSpanJob& job);
 MENISCUS_INSTRUCTION_SETS(MENISCUS_DECLARE_KERNELS)
 #undef MENISCUS_DECLARE_KERNELS
@@ -25,16 +24,6 @@ void CastPackets(const PacketJob& job, InstructionSet set)
 #undef MENISCUS_KERNEL
   const bool fades = job.Fading && GetBlendModel(job.Blending).IsMedium();
   (fades ? faded : kernels)[static_cast<int>(set)](job);
-}
-
-//------------------------------------------------------------------------------
-void FindEntered(const PacketFaceJob& job, InstructionSet set)
-{
-#define MENISCUS_KERNEL(name, label, isSupported, target) FindEntered##name,
-  constexpr void (*kernels[])(
-    const PacketFaceJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
-#undef MENISCUS_KERNEL
-  kernels[static_cast<int>(set)](job);
 }
 
 //------------------------------------------------------------------------------

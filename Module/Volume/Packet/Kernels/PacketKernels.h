@@ -17,12 +17,6 @@ namespace meniscus
 void CastPackets(const PacketJob& job, InstructionSet set);
 
 /**
- * Tests all faces with all rays.
- * @pre GetInstructionSets() has the set
- */
-void FindEntered(const PacketFaceJob& job, InstructionSet set);
-
-/**
  * Tests all spans of faces and sets the hits of the job.
  * @pre GetInstructionSets() has the set
  */
