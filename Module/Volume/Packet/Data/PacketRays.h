@@ -37,10 +37,11 @@ struct PacketVertex
  * from the pivot of the rays (FixedPointRays). Differences of integers are exact; each conversion
  * to float and fma round once.
  *
- * Rays are fine if they are close to each other (FixedPointRays::AreFine()). Coordinates about them
- * are the sum of this number and of what it lacks: fma(-SlopeRest, float(depth), fma(-Slope,
- * r(depth), r(place - Offset) - Fraction)), where r(x) = x - float(x). Their rounding errors are
- * 2^-24 of the coordinates themselves, not of place and depth.
+ * Rays are fine if they are close to each other, or cells are small (FixedPointRays::AreFine()).
+ * Coordinates about them are the sum of this number and a correction for its rounding:
+ * fma(-SlopeRest, float(depth), fma(-Slope, r(depth), r(place - Offset) - Fraction)), where r(x) =
+ * x - float(x). Their rounding errors are 2^-24 of the coordinates themselves, not of place and
+ * depth.
  */
 struct PacketRay
 {
