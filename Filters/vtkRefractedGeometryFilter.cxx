@@ -528,6 +528,7 @@ int vtkRefractedGeometryFilter::RequestData(
         surface, options, output)
     : meniscus::BuildVirtualPolyData(
         input, block.Vertices, block.Selection, surface, options, output);
+  block.Kept.Reuse(output);
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);

@@ -88,6 +88,7 @@ int vtkRefractedGeometryFilter::RequestStack(
   {
     meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
   }
+  block.Kept.Reuse(output);
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
   this->ReportPoints(internals.FailedInRun, output->GetNumberOfPoints() > 0, input);
   this->ReportCells(report, input);

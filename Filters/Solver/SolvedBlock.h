@@ -5,6 +5,7 @@
 
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/ImagePolyData.h"
+#include "Filters/Output/KeptOutput.h"
 #include "Filters/Output/StackArrays.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "Refraction/StackImages/StackImages.h"
@@ -72,6 +73,8 @@ struct SolvedBlock
   vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved
   StackDetails Stack;
   std::unique_ptr<StackImages> ImagesOfStack; ///< null with one image per point
+
+  KeptOutput Kept;
 };
 
 }

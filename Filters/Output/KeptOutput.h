@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Output_KeptOutput_h
+#define meniscus_Filters_Output_KeptOutput_h
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+namespace meniscus
+{
+
+/**
+ * The last output of a filter. Parts of the next output that have the same values are replaced by
+ * the parts of the last one: mappers recognise data by object and modification time, and upload
+ * only what is new to them.
+ */
+class KeptOutput
+{
+public:
+  /** Replaces points, cells and arrays of `output`, and keeps the result. */
+  void Reuse(vtkPolyData* output);
+
+private:
+  vtkNew<vtkPolyData> Last;
+};
+
+}
+
+#endif

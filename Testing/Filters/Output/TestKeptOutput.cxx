@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Outputs of which a part has not changed: its objects and their modification times stay, so that
+// mappers do not upload them again.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRefractingInterfaceCollection.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using Filter = vtkRefractedGeometryFilter;
+
+struct Part
+{
+  vtkSmartPointer<vtkObject> Object;
+  vtkMTimeType Time;
+  bool operator==(const Part& o) const { return this->Object == o.Object && this->Time == o.Time; }
+};
+
+Part MakePart(vtkObject* object)
+{
+  return { object, object ? object->GetMTime() : 0 };
+}
+
+/** Points, polygons and sight points of an output. */
+std::vector<Part> GetGeometry(Filter* filter)
+{
+  vtkPolyData* output = filter->GetOutput();
+  return { MakePart(output->GetPoints()), MakePart(output->GetPolys()),
+    MakePart(output->GetPointData()->GetArray("SightPoint")) };
+}
+
+void SetColors(vtkPolyData* grid, double first)
+{
+  vtkNew<vtkDoubleArray> colors;
+  colors->SetName("Color");
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    colors->InsertNextValue(first + static_cast<double>(i));
+  }
+  grid->GetPointData()->AddArray(colors);
+}
+
+/** Object and filter for one of the ways in which outputs are made. */
+struct KeptOutputs : public ::testing::TestWithParam<const char*>
+{
+  void SetUp() override
+  {
+    const std::string kind = this->GetParam();
+    SetColors(this->Grid, 0.0);
+    this->Refraction->SetMembraneModelToCurved();
+    if (kind != "FirstImage")
+    {
+      this->Refraction->SetImagesToAllImages();
+    }
+    if (kind == "Interfaces")
+    {
+      auto lower = MakeFlatMembrane();
+      vtkNew<vtkPoints> points;
+      points->DeepCopy(lower->GetPoints());
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      {
+        double p[3];
+        points->GetPoint(i, p);
+        points->SetPoint(i, p[0], p[1] - 10.0, p[2]);
+      }
+      lower->SetPoints(points);
+      this->Refraction->AddMembraneData(lower);
+      this->Refraction->GetInterfaces()->AddInterface(1.333, 1.5);
+    }
+    this->Refraction->Update();
+    ASSERT_GT(this->Refraction->GetOutput()->GetNumberOfPolys(), 0);
+  }
+
+  vtkSmartPointer<vtkPolyData> Grid = MakeGrid(9, 80.0, -50.0);
+  vtkSmartPointer<Filter> Refraction = MakeFilter(this->Grid, MakeFlatMembrane());
+};
+
+TEST_P(KeptOutputs, NewColorsKeepTheGeometry)
+{
+  const std::vector<Part> before = GetGeometry(this->Refraction);
+  vtkPolyData* output = this->Refraction->GetOutput();
+  const Part colors = MakePart(output->GetPointData()->GetArray("Color"));
+  SetColors(this->Grid, 1000.0);
+  this->Refraction->Update();
+  EXPECT_EQ(GetGeometry(this->Refraction), before);
+  EXPECT_FALSE(MakePart(output->GetPointData()->GetArray("Color")) == colors);
+  EXPECT_EQ(output->GetPointData()->GetArray("Color")->GetComponent(3, 0), 1003.0);
+}
+
+TEST_P(KeptOutputs, MovedPointsAreNew)
+{
+  const std::vector<Part> before = GetGeometry(this->Refraction);
+  double p[3];
+  this->Grid->GetPoint(40, p);
+  this->Grid->GetPoints()->SetPoint(40, p[0], p[1] - 5.0, p[2]);
+  this->Grid->GetPoints()->Modified();
+  this->Refraction->Update();
+  const std::vector<Part> after = GetGeometry(this->Refraction);
+  EXPECT_FALSE(after[0] == before[0]);
+  EXPECT_FALSE(after[2] == before[2]);
+}
+
+TEST_P(KeptOutputs, ChangesByConsumersAreNotKept)
+{
+  // A consumer that writes to the output in place must not change the next one.
+  vtkPolyData* output = this->Refraction->GetOutput();
+  double expected[3];
+  output->GetPoint(5, expected);
+  output->GetPoints()->SetPoint(5, 1.0, 2.0, 3.0);
+  SetColors(this->Grid, 1000.0);
+  this->Refraction->Update();
+  double found[3];
+  output->GetPoint(5, found);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(found[axis], expected[axis]);
+  }
+}
+
+TEST_P(KeptOutputs, NamesOfComponentsAndKeysAreThoseOfTheInput)
+{
+  vtkDataArray* colors = this->Grid->GetPointData()->GetArray("Color");
+  colors->SetComponentName(0, "Shade");
+  this->Grid->Modified();
+  this->Refraction->Update();
+  vtkDataArray* found = this->Refraction->GetOutput()->GetPointData()->GetArray("Color");
+  ASSERT_NE(found, nullptr);
+  EXPECT_TRUE(found->HasAComponentName());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, KeptOutputs,
+  ::testing::Values("FirstImage", "AllImages", "Interfaces"),
+  [](const auto& kind) { return std::string(kind.param); });
+
+// The object's normals stay the normals of the image.
+TEST(KeptOutput, RolesOfArraysStay)
+{
+  auto grid = MakeGrid(5, 80.0, -50.0);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("N");
+  normals->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    normals->InsertNextTuple3(0.0, 1.0, 0.0);
+  }
+  grid->GetPointData()->SetNormals(normals);
+  auto filter = MakeFilter(grid, MakeFlatMembrane());
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->Update();
+  vtkDataArray* first = filter->GetOutput()->GetPointData()->GetNormals();
+  ASSERT_NE(first, nullptr);
+  const Part before = MakePart(first);
+  SetColors(grid, 1.0);
+  filter->Update();
+  ASSERT_NE(filter->GetOutput()->GetPointData()->GetNormals(), nullptr);
+  EXPECT_EQ(MakePart(filter->GetOutput()->GetPointData()->GetNormals()), before);
+}
+
+} // namespace
