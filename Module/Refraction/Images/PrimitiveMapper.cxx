@@ -351,14 +351,24 @@ void PrimitiveMapper::EmitLine(
 {
   const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
   const bool turned = along(polygon[0]) > along(polygon[1]);
-  for (const Corner& corner : { polygon[turned ? 1 : 0], polygon[turned ? 0 : 1] })
+  const Corner* const corners[2] = { &polygon[turned ? 1 : 0], &polygon[turned ? 0 : 1] };
+  std::vector<MappedPoint> points;
+  for (const Corner* corner : corners)
+  {
+    points.push_back(this->MakePoint(context, nodes, *corner));
+  }
+  if (!IsSeen(points))
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
     context.Images->Connectivity.push_back(
       static_cast<std::int64_t>(context.Images->Points.size()));
-    context.Images->Points.push_back(this->MakePoint(context, nodes, corner).Point);
+    context.Images->Points.push_back(points[i].Point);
     if (context.IsOnMembrane)
     {
-      context.IsOnMembrane->push_back((corner.Limits & 1u) != 0);
+      context.IsOnMembrane->push_back((corners[i]->Limits & 1u) != 0);
     }
   }
   context.Images->EndCell(context.SourceCell, 1);
