@@ -141,8 +141,12 @@ double ScalarNormalization::operator()(double scalar) const
 //------------------------------------------------------------------------------
 ScalarNormalization NormalizeRange(double minimum, double maximum)
 {
-  const double scale = ReciprocalOf(0.5 * maximum - 0.5 * minimum);
-  return { 0.5 * minimum + 0.5 * maximum, scale, 1.0, scale };
+  const double middle = 0.5 * minimum + 0.5 * maximum;
+  // In a range of few floating-point numbers, the rounded middle is not as far from both ends.
+  const double half =
+    std::max(0.5 * maximum - 0.5 * minimum, std::max(maximum - middle, middle - minimum));
+  const double scale = ReciprocalOf(half);
+  return { middle, scale, 1.0, scale };
 }
 
 //------------------------------------------------------------------------------
