@@ -153,6 +153,15 @@ void LegBlock::Copy(int to, const LegBlock& block, int from)
 }
 
 //------------------------------------------------------------------------------
+void LegBlock::FillLanes()
+{
+  for (int i = this->Count; i % LaneGroup != 0; ++i)
+  {
+    this->Copy(i, *this, this->Count - 1);
+  }
+}
+
+//------------------------------------------------------------------------------
 void FindLegs(
   const RayLegs& legs, int tile, int corner, int number, InstructionSet set, LegBlock& block)
 {
@@ -193,10 +202,11 @@ void FindFrames(const RefractionFrames& frames, InstructionSet set, LegBlock& bl
 }
 
 //------------------------------------------------------------------------------
-void SetLines(const RefractionFrame& frame, const LegBlock& legs, bool isOutside,
-  InstructionSet set, LineBlock& lines)
+void SetLines(const RefractionFrame& frame, LegBlock& legs, bool isOutside, InstructionSet set,
+  LineBlock& lines)
 {
   lines.Count = legs.Count;
+  legs.FillLanes();
   LegLines block{ legs.Count, legs, lines };
   RunLanes(LineKernel{ frame.FromView, frame.Rays, isOutside, frame.Extent }, set, block);
 }

@@ -67,6 +67,8 @@ struct LegBlock
     this->Depth[i] = leg.Depth;
     this->End[i] = leg.End;
   }
+  /** Repeats the last ray in the lanes that loops over lanes compute besides (RunLanes()). */
+  void FillLanes();
   /** Copies pixel, leg, drawn part and frame of ray `from` of another block, or of this one. */
   void Copy(int to, const LegBlock& block, int from);
 };
@@ -86,10 +88,11 @@ void FindFrames(const RefractionFrames& frames, InstructionSet set, LegBlock& bl
 
 /**
  * Computes the lines of the legs in a frame.
+ * @param legs at least one.
  * @param isOutside true if the beginnings of the legs are known to be outside of the mesh.
  */
-void SetLines(const RefractionFrame& frame, const LegBlock& legs, bool isOutside,
-  InstructionSet set, LineBlock& lines);
+void SetLines(const RefractionFrame& frame, LegBlock& legs, bool isOutside, InstructionSet set,
+  LineBlock& lines);
 
 }
 

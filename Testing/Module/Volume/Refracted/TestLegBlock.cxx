@@ -205,7 +205,7 @@ TEST(LegBlock, LinesAreThoseOfEachLeg)
   const RefractionFrame& frame = scene.Frames.Get(0);
   for (const InstructionSet set : GetInstructionSets())
   {
-    const LegBlock block = LegsInFrame(scene, 0, set);
+    LegBlock block = LegsInFrame(scene, 0, set);
     const int count = block.Count;
     ASSERT_GT(count, 20);
     LineBlock lines;
@@ -292,7 +292,8 @@ TEST(RayBundleEntries, FindsTheFacesOfEachLine)
       [&](int corner)
       {
         blocks.emplace_back();
-        SetLines(frame, LegsInFrame(scene, corner, set), true, set, blocks.back());
+        LegBlock legs = LegsInFrame(scene, corner, set);
+        SetLines(frame, legs, true, set, blocks.back());
       });
     RayBundleEntries::Workspace workspace;
     const RayBundleEntries entries(scene.Mesh, scene.Tree, frame, set);
