@@ -39,6 +39,13 @@ static_assert(
   Grain % meniscus::CurvedMembraneSolver::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
 
+// Chunks are solved side by side, as long as there are enough for all threads.
+vtkIdType GetGrainOfChunks(vtkIdType chunks)
+{
+  return std::clamp<vtkIdType>(chunks / vtkSMPTools::GetEstimatedNumberOfThreads(), 1,
+    meniscus::CurvedMembraneSolver::ChainsAtOnce);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -199,11 +206,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   const auto solve = [this](const double* points, std::size_t begin, std::size_t end,
                        meniscus::VirtualVertex* vertices)
   { this->Scene.Solve(points, begin, end, vertices); };
-  // Chunks are solved side by side, as long as there are enough for all threads.
-  const auto grain = std::clamp<vtkIdType>(
-    static_cast<vtkIdType>(open.size()) / vtkSMPTools::GetEstimatedNumberOfThreads(), 1,
-    meniscus::CurvedMembraneSolver::ChainsAtOnce);
-  const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), grain,
+  const auto openChunks = static_cast<vtkIdType>(open.size());
+  const bool done = this->Run(self, 0.0, 1.0, openChunks, GetGrainOfChunks(openChunks),
     [&solve, &block, &open, count](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin, next = begin; i < end; i = next)
@@ -299,8 +303,11 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   }
   block.Images->SetWanted(block.Selection.Chunks);
   block.EyeUpdate = -1;
-  if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count), Grain,
-        [&block](std::size_t begin, std::size_t end) { block.Images->SolvePoints(begin, end); }))
+  constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
+  const auto chunks = static_cast<vtkIdType>((count + chunkSize - 1) / chunkSize);
+  if (!this->Run(self, 0.0, 0.5, chunks, GetGrainOfChunks(chunks),
+        [&block, count](std::size_t begin, std::size_t end)
+        { block.Images->SolvePoints(begin * chunkSize, std::min(end * chunkSize, count)); }))
   {
     return false;
   }

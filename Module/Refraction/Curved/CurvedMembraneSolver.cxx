@@ -359,21 +359,21 @@ bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
 }
 
 //------------------------------------------------------------------------------
-void CurvedMembraneSolver::Solve(
-  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+void CurvedMembraneSolver::Solve(const double* points, std::size_t begin, std::size_t end,
+  VirtualVertex* vertices, const unsigned char* isAsked) const
 {
   for (std::size_t first = begin; first < end;)
   {
     const std::size_t last = std::min((first / Chain + ChainsAtOnce) * Chain, end);
-    this->SolveChains(points, first, last, vertices);
+    this->SolveChains(points, first, last, vertices, isAsked);
     first = last;
   }
 }
 
 //------------------------------------------------------------------------------
 // Solves the first points of up to ChainsAtOnce chains together, then the second ones and so on.
-void CurvedMembraneSolver::SolveChains(
-  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+void CurvedMembraneSolver::SolveChains(const double* points, std::size_t begin, std::size_t end,
+  VirtualVertex* vertices, const unsigned char* isAsked) const
 {
   const SightFollower follower = this->GetFollower();
   std::array<Memory, ChainsAtOnce> memories;
@@ -387,7 +387,7 @@ void CurvedMembraneSolver::SolveChains(
       for (std::size_t chain = 0; chain < ChainsAtOnce; ++chain)
       {
         const std::size_t i = (begin / Chain + chain) * Chain + step;
-        if (i >= begin && i < end)
+        if (i >= begin && i < end && (!isAsked || isAsked[i]))
         {
           work(i, memories[chain], trails[chain]);
         }
@@ -397,6 +397,7 @@ void CurvedMembraneSolver::SolveChains(
       [&](std::size_t i, Memory& memory, SightTrail& trail)
       {
         const double* p = points + 3 * i;
+        trail.Vertex = vertices + i;
         if (this->Begin(glm::dvec3(p[0], p[1], p[2]), memory, trail))
         {
           open.push_back(&trail);
@@ -408,7 +409,6 @@ void CurvedMembraneSolver::SolveChains(
       {
         const double* p = points + 3 * i;
         this->Finish(glm::dvec3(p[0], p[1], p[2]), trail, memory);
-        vertices[i] = trail.Vertex;
       });
   }
 }
@@ -416,13 +416,15 @@ void CurvedMembraneSolver::SolveChains(
 //------------------------------------------------------------------------------
 VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& memory) const
 {
+  VirtualVertex vertex;
   SightTrail trail;
+  trail.Vertex = &vertex;
   if (this->Begin(point, memory, trail))
   {
     this->GetFollower().Follow(trail);
   }
   this->Finish(point, trail, memory);
-  return trail.Vertex;
+  return vertex;
 }
 
 //------------------------------------------------------------------------------
@@ -437,17 +439,17 @@ bool CurvedMembraneSolver::Begin(
   trail.Patches = 0;
   if (!this->IsInReach(trail.Point))
   {
-    trail.Vertex = VirtualVertex();
-    trail.Vertex.Position = point;
-    trail.Vertex.State = ImageState::NotFinite;
+    *trail.Vertex = VirtualVertex();
+    trail.Vertex->Position = point;
+    trail.Vertex->State = ImageState::NotFinite;
     trail.End = SightTrail::State::Answered;
     return false;
   }
   if (this->Optics.Reflects)
   {
-    trail.Vertex = VirtualVertex();
-    trail.Vertex.Position = point;
-    if (this->FindOnMirror(trail.Point, trail.Vertex))
+    *trail.Vertex = VirtualVertex();
+    trail.Vertex->Position = point;
+    if (this->FindOnMirror(trail.Point, *trail.Vertex))
     {
       trail.End = SightTrail::State::Answered;
       return false;
@@ -488,11 +490,11 @@ void CurvedMembraneSolver::Finish(const glm::dvec3& point, SightTrail& trail, Me
       trail.Patches > 0 ? std::min(memory.FailedStep, glm::dot(way, way)) : memory.FailedStep;
     if (!this->FindFirst(this->MakeEquation(trail.Point), trail.Point, trail.Place))
     {
-      trail.Vertex = VirtualVertex();
-      trail.Vertex.Position = point;
+      *trail.Vertex = VirtualVertex();
+      trail.Vertex->Position = point;
       return;
     }
-    trail.Vertex =
+    *trail.Vertex =
       this->MakeVertex(trail.Point, this->Patches.GetPatch(trail.Place.Facet), trail.Place);
   }
   if (!first)
@@ -511,20 +513,46 @@ void CurvedMembraneSolver::Finish(const glm::dvec3& point, SightTrail& trail, Me
 }
 
 //------------------------------------------------------------------------------
-VirtualVertex CurvedMembraneSolver::SolveBetween(
-  const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const
+// Prepares the search for a point between two images. Returns false if there is nothing to follow.
+bool CurvedMembraneSolver::BeginBetween(const glm::dvec3& point, const VirtualVertex& first,
+  const VirtualVertex& second, SightTrail& trail) const
 {
-  SightTrail trail;
   trail.Point = point - this->Surface.GetOrigin();
   trail.Place.Facet = first.Facet;
   trail.Target = 0.5 * (first.SightPoint + second.SightPoint) - this->Surface.GetOrigin();
   trail.Place.Root.At.Normal = this->Optics.Eye - trail.Target;
-  if (first.Facet == CurvedPatches::NoFacet || !this->IsInReach(trail.Point))
+  return first.Facet != CurvedPatches::NoFacet && this->IsInReach(trail.Point);
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedMembraneSolver::SolveBetween(
+  const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const
+{
+  VirtualVertex vertex;
+  SightTrail trail;
+  trail.Vertex = &vertex;
+  if (this->BeginBetween(point, first, second, trail))
   {
-    return {};
+    this->GetFollower().Follow(trail);
   }
-  this->GetFollower().Follow(trail);
-  return trail.Vertex;
+  return vertex;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::SolveAllBetween(const PointBetween* points, std::size_t count) const
+{
+  std::array<SightTrail, MostBetween> trails;
+  std::vector<SightTrail*> open;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    *points[i].Image = VirtualVertex();
+    trails[i].Vertex = points[i].Image;
+    if (this->BeginBetween(points[i].Point, *points[i].First, *points[i].Second, trails[i]))
+    {
+      open.push_back(&trails[i]);
+    }
+  }
+  this->GetFollower().FollowAll(open);
 }
 
 //------------------------------------------------------------------------------

@@ -73,10 +73,11 @@ public:
    * places of `vertices`. If a point has several images, the result is the one that continues the
    * image of the previous point; at the start of a chain, and where this continuation ends, it is
    * the first one that the tree yields. A step more than a tenth longer than one at which a
-   * continuation ended, earlier in the chain, is not continued.
+   * continuation ended, earlier in the chain, is not continued. With `isAsked`, which has a value
+   * for each of the points, those with 0 are left out of their chains.
    */
-  void Solve(
-    const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
+  void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
+    const unsigned char* isAsked = nullptr) const;
 
   /**
    * Replaces `images` by all images of a point, in the order of their facets. Returns `Found` if
@@ -132,6 +133,19 @@ public:
   }
   VirtualVertex SolveBetween(
     const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
+
+  /** A point between two images, and where its image is to be written. */
+  struct PointBetween
+  {
+    glm::dvec3 Point;
+    const VirtualVertex* First;
+    const VirtualVertex* Second;
+    VirtualVertex* Image;
+  };
+  /** Number of points that are solved between images at once. */
+  static constexpr std::size_t MostBetween = 2 * SightLanes::Count;
+  /** SolveBetween for at most MostBetween points, side by side and with the same results. */
+  void SolveAllBetween(const PointBetween* points, std::size_t count) const;
 
   /** True if the eye is in front of the surface at any vertex. */
   bool FacesEye() const;
@@ -262,9 +276,11 @@ private:
   {
     return { this->Patches, this->Optics, this->Surface.GetOrigin() };
   }
-  void SolveChains(
-    const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
+  void SolveChains(const double* points, std::size_t begin, std::size_t end,
+    VirtualVertex* vertices, const unsigned char* isAsked) const;
   bool Begin(const glm::dvec3& point, const Memory& memory, SightTrail& trail) const;
+  bool BeginBetween(const glm::dvec3& point, const VirtualVertex& first,
+    const VirtualVertex& second, SightTrail& trail) const;
   void Finish(const glm::dvec3& point, SightTrail& trail, Memory& memory) const;
   bool FindFirst(const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const;
   void FindPlaces(

@@ -119,6 +119,49 @@ float RoundUp(double value)
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::max());
 }
 
+std::array<glm::dvec2, 3> ProjectFacet(
+  const Membrane& membrane, std::size_t facet, const HeightFrame& frame)
+{
+  const Membrane::Facet& f = membrane.GetFacets()[facet];
+  const auto at = [&membrane, &frame, &f](std::size_t k)
+  { return frame.Project(membrane.GetPositions()[static_cast<std::size_t>(f[k])]); };
+  return { at(0), at(1), at(2) };
+}
+
+double Cross(const glm::dvec2& a, const glm::dvec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+// Twice the area, positive if the corners are in counter-clockwise order.
+double FindArea(const std::array<glm::dvec2, 3>& at)
+{
+  return Cross(at[1] - at[0], at[2] - at[0]);
+}
+
+// Rounding error of a coordinate: positions are rounded as local coordinates, and once more by the
+// projection, a sum of three products.
+double FindRounding(const Membrane& membrane)
+{
+  return 8.0 * std::numeric_limits<double>::epsilon() * membrane.GetRadius();
+}
+
+// True if a triangle with this winding covers the place, or might do so within rounding.
+bool Covers(
+  const std::array<glm::dvec2, 3>& at, const glm::dvec2& place, double winding, double rounding)
+{
+  bool covers = true;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2 side = at[(k + 1) % 3] - at[k];
+    const glm::dvec2 way = place - at[k];
+    // The sides of the cross product are off by two roundings each.
+    const double slack = 4.0 * rounding * (glm::length(side) + glm::length(way));
+    covers = covers && winding * Cross(side, way) >= -slack;
+  }
+  return covers;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -204,12 +247,10 @@ void InjectivityGrid::FitGrid(const Membrane& membrane)
 {
   Box bounds{ glm::dvec2(std::numeric_limits<double>::max()),
     glm::dvec2(std::numeric_limits<double>::lowest()) };
-  for (const Membrane::Facet& facet : membrane.GetFacets())
+  for (std::size_t i = 0; i < membrane.GetFacets().size(); ++i)
   {
-    for (const std::int32_t vertex : facet)
+    for (const glm::dvec2& place : ProjectFacet(membrane, i, this->Frame))
     {
-      const glm::dvec2 place =
-        this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)]);
       bounds.Low = glm::min(bounds.Low, place);
       bounds.High = glm::max(bounds.High, place);
     }
@@ -235,18 +276,42 @@ int InjectivityGrid::FindIndex(double place, int axis) const
 }
 
 //------------------------------------------------------------------------------
+template <std::size_t N, typename Visitor>
+void InjectivityGrid::VisitCells(const std::array<glm::dvec2, N>& places, Visitor&& visit)
+{
+  glm::dvec2 low = places[0];
+  glm::dvec2 high = places[0];
+  for (const glm::dvec2& place : places)
+  {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  for (int y = this->FindIndex(low.y, 1); y <= this->FindIndex(high.y, 1); ++y)
+  {
+    for (int x = this->FindIndex(low.x, 0); x <= this->FindIndex(high.x, 0); ++x)
+    {
+      visit(x, y, this->Levels[0][static_cast<std::size_t>(y) * this->Width + x]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patches,
-  const HeightFrame& frame, double bulge, const Media& media, double low, double high,
-  const RangeLoop& loop)
+  const HeightFrame& frame, bool isConvexField, double bulge, const Media& media, double low,
+  double high, const RangeLoop& loop)
 {
   this->Frame = frame;
   this->Bulge = bulge;
   this->LowHeight = low;
   this->SlabHeight = (high - low) / Slabs;
-  const auto& facets = membrane.GetFacets();
+  this->Levels.clear();
   this->FitGrid(membrane);
-  std::vector<Cell> judged(facets.size());
-  loop(facets.size(),
+  if (!(this->Corner.x < this->Far.x && this->Corner.y < this->Far.y))
+  {
+    return; // seen along its surface
+  }
+  std::vector<Cell> judged(membrane.GetFacets().size());
+  loop(judged.size(),
     [this, &patches, &frame, &media, &judged](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -254,22 +319,78 @@ void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patch
         judged[i] = this->Judge(patches.GetPatch(static_cast<std::int32_t>(i)), frame, media);
       }
     });
-  this->Levels.assign(1, Level(static_cast<std::size_t>(this->Width) * this->Width, MakeEmpty()));
-  for (std::size_t i = 0; i < facets.size(); ++i)
+  this->CollectFacets(membrane, judged);
+  if (!isConvexField)
   {
-    const auto place = [this, &membrane, &facets, i](std::size_t k) {
-      return this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(facets[i][k])]);
-    };
-    const glm::dvec2 low2 = glm::min(place(0), glm::min(place(1), place(2)));
-    const glm::dvec2 high2 = glm::max(place(0), glm::max(place(1), place(2)));
-    for (int y = this->FindIndex(low2.y, 1); y <= this->FindIndex(high2.y, 1); ++y)
+    this->RejectBorders(membrane, patches);
+    this->RejectFolds(membrane);
+  }
+  this->BuildCoarserLevels();
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::CollectFacets(const Membrane& membrane, const std::vector<Cell>& judged)
+{
+  this->Levels.assign(1, Level(static_cast<std::size_t>(this->Width) * this->Width, MakeEmpty()));
+  for (std::size_t i = 0; i < judged.size(); ++i)
+  {
+    this->VisitCells(ProjectFacet(membrane, i, this->Frame),
+      [&judged, i](int, int, Cell& cell) { Merge(cell, judged[i]); });
+  }
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::RejectBorders(const Membrane& membrane, const CurvedPatches& patches)
+{
+  for (std::size_t i = 0; i < membrane.GetFacets().size(); ++i)
+  {
+    const std::array<glm::dvec2, 3> at = ProjectFacet(membrane, i, this->Frame);
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      for (int x = this->FindIndex(low2.x, 0); x <= this->FindIndex(high2.x, 0); ++x)
+      if (patches.GetNeighbour(static_cast<std::int32_t>(i), static_cast<int>(k)) ==
+        CurvedPatches::NoFacet)
       {
-        Merge(this->Levels[0][static_cast<std::size_t>(y) * this->Width + x], judged[i]);
+        this->VisitCells(std::array<glm::dvec2, 2>{ at[(k + 1) % 3], at[(k + 2) % 3] },
+          [](int, int, Cell& cell) { cell.Slabs = 0; });
       }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+// Rejects cells with facets of the other winding than most have, and cells in which several facets
+// lie over the same place: one place of each cell is tested.
+void InjectivityGrid::RejectFolds(const Membrane& membrane)
+{
+  double area = 0.0;
+  for (std::size_t i = 0; i < membrane.GetFacets().size(); ++i)
+  {
+    area += FindArea(ProjectFacet(membrane, i, this->Frame));
+  }
+  const double winding = area < 0.0 ? -1.0 : 1.0;
+  const double slack = FindRounding(membrane);
+  // Off the middle, where edges of regular meshes often are.
+  const glm::dvec2 tested(0.382, 0.618);
+  std::vector<bool> isCovered(this->Levels[0].size());
+  for (std::size_t i = 0; i < membrane.GetFacets().size(); ++i)
+  {
+    const std::array<glm::dvec2, 3> at = ProjectFacet(membrane, i, this->Frame);
+    const bool isTurned = !(winding * FindArea(at) > 0.0);
+    this->VisitCells(at,
+      [&](int x, int y, Cell& cell)
+      {
+        const glm::dvec2 place = this->Corner + (glm::dvec2(x, y) + tested) / this->Scale;
+        const bool covers = isTurned || Covers(at, place, winding, slack);
+        const std::size_t index = static_cast<std::size_t>(y) * this->Width + x;
+        cell.Slabs = isTurned || (covers && isCovered[index]) ? 0 : cell.Slabs;
+        isCovered[index] = isCovered[index] || covers;
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::BuildCoarserLevels()
+{
   for (int width = this->Width / 2; width >= 1; width /= 2)
   {
     Level level(static_cast<std::size_t>(width) * width, MakeEmpty());

@@ -3,8 +3,8 @@
 /**
  * Sufficient test that every point of a box has at most one image, without a search for images.
  *
- * On the plane at height z behind a membrane that is a field of heights over a convex polygon, the
- * refracted rays define a map F_z from the polygon to the plane: F_z(u) = S(u) + (h(u) - z) m(u),
+ * On the plane at height z behind a membrane that is a field of heights over a convex region, the
+ * refracted rays define a map F_z from the region to the plane: F_z(u) = S(u) + (h(u) - z) m(u),
  * with the surface's point S and height h over the place u of the flat facets, and the ray's slope
  * m. If the symmetric part of its derivative is positive definite along the straight line from u to
  * v, then (v - u).(F_z(v) - F_z(u)) > 0, so u and v do not see the same point. The condition holds
@@ -12,9 +12,15 @@
  * concave in z: if it holds at two heights, it holds between them.
  *
  * It is tested per patch by a Bezier triangle of second degree from six rays, with a margin for the
- * parts of higher degree. A grid over the polygon collects the patches' answers for slabs of
+ * parts of higher degree. A grid over the membrane collects the patches' answers for slabs of
  * heights, and bounds of the slopes of their rays. The slopes bound the places of all sight points
- * of a box of points, and the patches at these places show whether there can be several.
+ * of a box of points by a rectangle, and the patches over it show whether there can be several.
+ *
+ * A membrane that is no field over a convex polygon as a whole may be one over that rectangle: if
+ * no border crosses it, all facets over it have the same winding, and there is one facet over any
+ * one of its places, then there is exactly one over each of them (facets that join without folds
+ * cover connected places equally often). Cells of the grid that are crossed by a border or have
+ * facets of the other winding or several facets over a place prove nothing.
  */
 #ifndef meniscus_Refraction_Curved_InjectivityGrid_h
 #define meniscus_Refraction_Curved_InjectivityGrid_h
@@ -35,11 +41,12 @@ class InjectivityGrid
 public:
   /**
    * Builds the grid for points between two heights along the frame's axis, which points against the
-   * rays: along the membrane's normals, or against them for reflected rays. The membrane must be a
-   * convex field, and no patch may be farther than `bulge` from its flat facet.
+   * rays: along the membrane's normals, or against them for reflected rays. No patch may be farther
+   * than `bulge` from its flat facet. `isConvexField` tells that IsConvexField() holds.
    */
   void Build(const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame,
-    double bulge, const Media& media, double low, double high, const RangeLoop& loop);
+    bool isConvexField, double bulge, const Media& media, double low, double high,
+    const RangeLoop& loop);
 
   bool IsEmpty() const { return this->Levels.empty(); }
 
@@ -74,6 +81,13 @@ private:
   static void Merge(Cell& cell, const Cell& other);
   Cell Judge(const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const;
   void FitGrid(const Membrane& membrane);
+  void CollectFacets(const Membrane& membrane, const std::vector<Cell>& judged);
+  void RejectBorders(const Membrane& membrane, const CurvedPatches& patches);
+  void RejectFolds(const Membrane& membrane);
+  void BuildCoarserLevels();
+  /** Calls `visit(x, y, cell)` for all cells that the bounding box of places touches. */
+  template <std::size_t N, typename Visitor>
+  void VisitCells(const std::array<glm::dvec2, N>& places, Visitor&& visit);
   int FindIndex(double place, int axis) const;
   Cell Collect(const Box& box) const;
   std::uint8_t FindSlabs(double low, double high) const;

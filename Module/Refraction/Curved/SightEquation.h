@@ -79,7 +79,7 @@ public:
    * Newton's method from `b` with at most `steps` steps; an iterate may leave the facet by `reach`
    * at most.
    */
-  SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
+  SightRoot Solve(const CurvedPatch& patch, const glm::dvec2& b, int steps, double reach) const;
 
   /** A step of Newton's method. */
   struct Iterate
@@ -251,19 +251,23 @@ inline SightEquation::Iterate SightEquation::Advance(
 
 //------------------------------------------------------------------------------
 inline SightRoot SightEquation::Solve(
-  const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
+  const CurvedPatch& patch, const glm::dvec2& b, int steps, double reach) const
 {
+  SightRoot root{ SightRoot::End::Failed, b, {}, 0.0 };
   for (int i = 0; i < steps; ++i)
   {
-    const Iterate iterate = this->Advance(patch, b, reach);
-    b = iterate.B;
+    const Iterate iterate = this->Advance(patch, root.B, reach);
+    root.B = iterate.B;
     const auto end = iterate.GetEnd();
     if (end != SightRoot::End::Open)
     {
-      return { end, b, iterate.GetPlace(), iterate.Determinant };
+      root.End = end;
+      root.At = iterate.GetPlace();
+      root.Determinant = iterate.Determinant;
+      break;
     }
   }
-  return { SightRoot::End::Failed, b, {}, 0.0 };
+  return root;
 }
 
 //------------------------------------------------------------------------------

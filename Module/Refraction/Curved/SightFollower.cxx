@@ -22,7 +22,7 @@ constexpr int MostPatches = 8;
 constexpr int LongestWalk = 64;
 
 // All lanes of a block are computed, at the cost of about two points that are followed alone.
-constexpr std::size_t FewTrails = 3;
+constexpr int FewTrails = 3;
 
 }
 
@@ -75,10 +75,10 @@ FacetWalk SightFollower::WalkToTarget(const SightTrail& trail) const
 
 //------------------------------------------------------------------------------
 // Goes on from the end of Newton's method in a patch.
-void SightFollower::Resume(const SightRoot& root, SightTrail& trail) const
+void SightFollower::Resume(SightTrail& trail) const
 {
   using End = enum SightRoot::End;
-  trail.Place.Root = root;
+  const SightRoot& root = trail.Place.Root;
   if (root.End == End::Converged && FindOutside(root.B).Least >= -PatchCrossings::Border)
   {
     trail.End = this->Optics.MakeEquation(trail.Point).IsImage(root.At) ? SightTrail::State::Found
@@ -90,41 +90,55 @@ void SightFollower::Resume(const SightRoot& root, SightTrail& trail) const
 }
 
 //------------------------------------------------------------------------------
+// Newton's method in the patch that the trail comes to next.
+void SightFollower::FollowInPatch(SightTrail& trail) const
+{
+  trail.Place.Facet = WalkToTarget(trail).Finish();
+  const CurvedPatch patch = this->Patches.GetPatch(trail.Place.Facet);
+  const glm::dvec2 start = patch.ProjectToFacet(trail.Target);
+  SightRoot& root = trail.Place.Root;
+  if (FindOutside(start).Least < -Reach)
+  {
+    root = { SightRoot::End::Failed, start, {}, 0.0 };
+  }
+  else
+  {
+    root = this->Optics.MakeEquation(trail.Point).Solve(patch, start, Steps, Reach);
+  }
+  this->Resume(trail);
+  if (trail.End == SightTrail::State::Found)
+  {
+    *trail.Vertex = this->MakeVertex(trail.Point, patch, trail.Place);
+  }
+  trail.Target = patch.GetFlatPoint(root.B);
+}
+
+//------------------------------------------------------------------------------
 void SightFollower::Follow(SightTrail& trail) const
 {
-  const SightEquation equation = this->Optics.MakeEquation(trail.Point);
   while (MayGoOn(trail))
   {
-    trail.Place.Facet = WalkToTarget(trail).Finish();
-    const CurvedPatch patch = this->Patches.GetPatch(trail.Place.Facet);
-    const glm::dvec2 start = patch.ProjectToFacet(trail.Target);
-    SightRoot root{ SightRoot::End::Failed, start, {}, 0.0 };
-    if (!(FindOutside(start).Least < -Reach))
-    {
-      root = equation.Solve(patch, start, Steps, Reach);
-    }
-    this->Resume(root, trail);
-    if (trail.End == SightTrail::State::Found)
-    {
-      trail.Vertex = this->MakeVertex(trail.Point, patch, trail.Place);
-    }
-    trail.Target = patch.GetFlatPoint(root.B);
+    this->FollowInPatch(trail);
   }
 }
 
 //------------------------------------------------------------------------------
 void SightFollower::FollowAll(const std::vector<SightTrail*>& trails) const
 {
-  if (trails.size() < FewTrails)
-  {
-    for (SightTrail* trail : trails)
-    {
-      this->Follow(*trail);
-    }
-    return;
-  }
   SightLanes lanes;
   SightTrail* block[SightLanes::Count];
+  const auto follow = [this, &lanes, &block](int count)
+  {
+    if (count >= FewTrails)
+    {
+      this->FollowBlock(block, count, lanes);
+      return;
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      this->FollowInPatch(*block[i]);
+    }
+  };
   bool isOpen = true;
   while (isOpen)
   {
@@ -139,15 +153,12 @@ void SightFollower::FollowAll(const std::vector<SightTrail*>& trails) const
       block[count++] = trail;
       if (count == SightLanes::Count)
       {
-        this->FollowBlock(block, count, lanes);
+        follow(count);
         count = 0;
       }
       isOpen = true;
     }
-    if (count > 0)
-    {
-      this->FollowBlock(block, count, lanes);
-    }
+    follow(count);
   }
 }
 
@@ -202,7 +213,8 @@ void SightFollower::FollowBlock(SightTrail* const* trails, int count, SightLanes
   bool isFound = false;
   for (int lane = 0; lane < count; ++lane)
   {
-    this->Resume(roots[lane], *trails[lane]);
+    trails[lane]->Place.Root = roots[lane];
+    this->Resume(*trails[lane]);
     isFound = isFound || trails[lane]->End == SightTrail::State::Found;
   }
   if (isFound)
@@ -216,7 +228,7 @@ void SightFollower::FollowBlock(SightTrail* const* trails, int count, SightLanes
     {
       const VirtualPlace place{ SightLanes::Get(lanes.Position, lane), lanes.Depth[lane],
         lanes.Reflectance[lane], lanes.Cosine[lane] };
-      trail.Vertex =
+      *trail.Vertex =
         this->MakeVertex(trail.Point, trail.Place, place, lanes.Orientation[lane] < 0.0 ? -1 : 1);
     }
     else if (trail.End == SightTrail::State::Open)

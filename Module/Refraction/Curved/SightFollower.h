@@ -41,8 +41,8 @@ struct SightTrail
   SightPlace Place; ///< beforehand: a place from which the way to the target begins
   std::int32_t Hint = CurvedPatches::NoFacet; ///< a facet that may be nearer to the target
   State End = State::Open;
-  int Patches = 0;      ///< number of patches in which Newton's method has run
-  VirtualVertex Vertex; ///< in world coordinates, if found
+  int Patches = 0;                 ///< number of patches in which Newton's method has run
+  VirtualVertex* Vertex = nullptr; ///< receives the vertex, in world coordinates, if it is found
 };
 
 /**
@@ -76,10 +76,11 @@ public:
 
 private:
   static bool MayGoOn(SightTrail& trail);
+  void FollowInPatch(SightTrail& trail) const;
   bool IsNearer(std::int32_t facet, const SightTrail& trail) const;
   FacetWalk WalkToTarget(const SightTrail& trail) const;
   void WalkAll(SightTrail* const* trails, int count) const;
-  void Resume(const SightRoot& root, SightTrail& trail) const;
+  void Resume(SightTrail& trail) const;
   void Load(const SightTrail& trail, int lane, SightLanes& lanes) const;
   void FollowBlock(SightTrail* const* trails, int count, SightLanes& lanes) const;
   VirtualVertex MakeVertex(const glm::dvec3& local, const SightPlace& at, const VirtualPlace& place,

@@ -16,7 +16,7 @@ namespace
 constexpr int DeepestLevel = 14;
 
 // Enough for the edges of a few dozen cells.
-constexpr std::size_t CacheSize = 512;
+constexpr std::size_t CacheSize = 1024;
 
 // The table is doubled when it is half full.
 constexpr std::size_t SmallestEdgeTable = 64;
@@ -53,18 +53,75 @@ EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double to
 //------------------------------------------------------------------------------
 // The middle is solved from the ends in an order that depends on the ends alone, so that both
 // neighbours get the same answer.
+EdgeSubdivision::Ends EdgeSubdivision::GetEnds(const glm::dvec3& a, const VirtualVertex& imageOfA,
+  const glm::dvec3& b, const VirtualVertex& imageOfB)
+{
+  return IsBefore(a, b) ? Ends{ { &a, &b }, { &imageOfA, &imageOfB } }
+                        : Ends{ { &b, &a }, { &imageOfB, &imageOfA } };
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::Middle& EdgeSubdivision::FindEntry(const glm::dvec3& point)
+{
+  return this->Cache[Hash(point) % CacheSize];
+}
+
+//------------------------------------------------------------------------------
 const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
   const glm::dvec3& b, const VirtualVertex& imageOfB)
 {
   const glm::dvec3 point = 0.5 * (a + b);
-  Middle& middle = this->Cache[Hash(point) % CacheSize];
+  Middle& middle = this->FindEntry(point);
   if (middle.Point != point)
   {
+    const Ends ends = GetEnds(a, imageOfA, b, imageOfB);
     middle.Point = point;
-    middle.Vertex = IsBefore(a, b) ? this->Geometry.SolveBetween(point, imageOfA, imageOfB)
-                                   : this->Geometry.SolveBetween(point, imageOfB, imageOfA);
+    middle.Vertex = this->Geometry.SolveBetween(point, *ends.Image[0], *ends.Image[1]);
   }
   return middle.Vertex;
+}
+
+//------------------------------------------------------------------------------
+// Solves the middles that are not stored, side by side. Images of ends must not be stored ones.
+void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
+{
+  std::array<CurvedMembraneSolver::PointBetween, CurvedMembraneSolver::MostBetween> open;
+  std::size_t size = 0;
+  const auto solve = [this, &open, &size]()
+  {
+    this->Geometry.SolveAllBetween(open.data(), size);
+    size = 0;
+  };
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 point = ends[i].GetMiddle();
+    Middle& middle = this->FindEntry(point);
+    if (middle.Point == point)
+    {
+      continue;
+    }
+    const bool isTaken = std::any_of(open.begin(), open.begin() + size,
+      [&middle](const auto& other) { return other.Image == &middle.Vertex; });
+    if (isTaken || size == open.size())
+    {
+      solve();
+    }
+    middle.Point = point;
+    open[size++] = { point, ends[i].Image[0], ends[i].Image[1], &middle.Vertex };
+  }
+  solve();
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides)
+{
+  std::vector<Ends> ends;
+  ends.reserve(sides.size());
+  for (const std::array<ImagedPoint, 2>& side : sides)
+  {
+    ends.push_back(GetEnds(side[0].Point, *side[0].Image, side[1].Point, *side[1].Image));
+  }
+  this->PrepareMiddles(ends.data(), ends.size());
 }
 
 //------------------------------------------------------------------------------
@@ -275,16 +332,49 @@ void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& 
 }
 
 //------------------------------------------------------------------------------
-void EdgeSubdivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth)
+void EdgeSubdivision::PrepareLevel()
 {
-  std::array<std::int32_t, 3> middle; // of the edge opposite each node
+  this->LevelSides.clear();
+  for (const NodeIds& part : this->Level)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Node& a = this->Nodes[static_cast<std::size_t>(part[k])];
+      const Node& b = this->Nodes[static_cast<std::size_t>(part[(k + 1) % 3])];
+      this->LevelSides.push_back(GetEnds(a.Point, a.Vertex, b.Point, b.Vertex));
+    }
+  }
+  this->PrepareMiddles(this->LevelSides.data(), this->LevelSides.size());
+}
+
+//------------------------------------------------------------------------------
+// Divides a triangle level by level, so that the middles of a level are solved side by side.
+void EdgeSubdivision::Divide(const Cell& cell)
+{
+  this->Level.assign(1, { 0, 1, 2 });
+  for (int depth = 0; !this->Level.empty() && !this->Failed; ++depth)
+  {
+    if (depth < DeepestLevel)
+    {
+      this->PrepareLevel();
+    }
+    this->NextLevel.clear();
+    for (const NodeIds& part : this->Level)
+    {
+      this->DividePart(cell, part, depth);
+    }
+    this->Level.swap(this->NextLevel);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Emits a part, or adds its parts to the next level.
+void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes, int depth)
+{
+  NodeIds middle; // of the edge opposite each node
   for (std::size_t k = 0; k < 3; ++k)
   {
     middle[k] = this->Split(nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth);
-  }
-  if (this->Failed)
-  {
-    return;
   }
   const auto splits =
     std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
@@ -299,25 +389,21 @@ void EdgeSubdivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>
   {
     ++k;
   }
-  const std::array<std::int32_t, 3> n = { nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3] };
-  const std::array<std::int32_t, 3> m = { middle[k], middle[(k + 1) % 3], middle[(k + 2) % 3] };
-  const int next = depth + 1;
+  const NodeIds n = { nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3] };
+  const NodeIds m = { middle[k], middle[(k + 1) % 3], middle[(k + 2) % 3] };
+  std::vector<NodeIds>& parts = this->NextLevel;
   if (splits == 1)
   {
-    this->Divide(cell, { n[0], n[1], m[0] }, next);
-    this->Divide(cell, { n[0], m[0], n[2] }, next);
+    parts.insert(parts.end(), { { n[0], n[1], m[0] }, { n[0], m[0], n[2] } });
     return;
   }
-  this->Divide(cell, { m[0], n[2], m[1] }, next);
+  parts.push_back({ m[0], n[2], m[1] });
   if (splits == 2)
   {
-    this->Divide(cell, { n[0], n[1], m[0] }, next);
-    this->Divide(cell, { n[0], m[0], m[1] }, next);
+    parts.insert(parts.end(), { { n[0], n[1], m[0] }, { n[0], m[0], m[1] } });
     return;
   }
-  this->Divide(cell, { n[0], m[2], m[1] }, next);
-  this->Divide(cell, { m[2], n[1], m[0] }, next);
-  this->Divide(cell, { m[2], m[0], m[1] }, next);
+  parts.insert(parts.end(), { { n[0], m[2], m[1] }, { m[2], n[1], m[0] }, { m[2], m[0], m[1] } });
 }
 
 //------------------------------------------------------------------------------
@@ -344,8 +430,7 @@ bool EdgeSubdivision::AddTriangle(
   const ImageMesh::Mark before = images.GetMark();
   this->Start(corners, 3);
   this->Divide({ { corners[0].Id, corners[1].Id, corners[2].Id }, sourceCell,
-                 corners[0].Image->Orientation, &images },
-    { 0, 1, 2 }, 0);
+    corners[0].Image->Orientation, &images });
   if (this->Failed)
   {
     images.ReturnTo(before);

@@ -40,6 +40,12 @@ public:
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
 
   /**
+   * Solves middles of the sides of polygons side by side, which IsStraight would solve one by one.
+   * The answers are the same with and without it.
+   */
+  void PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides);
+
+  /**
    * True if the images of points on the edge lie on the virtual edge within the tolerance. An image
    * of another branch does not.
    */
@@ -93,6 +99,8 @@ private:
     std::int32_t Middle;
     std::uint32_t Round; ///< number of the primitive that the entry belongs to
   };
+  /** Nodes of a part of a triangle. */
+  using NodeIds = std::array<std::int32_t, 3>;
   struct Cell
   {
     std::array<std::int64_t, 3> Ids;
@@ -101,8 +109,21 @@ private:
     ImageMesh* Images;
   };
 
+  /** Two points and their images, in the order that GetEnds gives them. */
+  struct Ends
+  {
+    const glm::dvec3* Point[2];
+    const VirtualVertex* Image[2];
+
+    glm::dvec3 GetMiddle() const { return 0.5 * (*this->Point[0] + *this->Point[1]); }
+  };
+  static Ends GetEnds(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
+    const VirtualVertex& imageOfB);
+  Middle& FindEntry(const glm::dvec3& point);
   const VirtualVertex& FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
     const glm::dvec3& b, const VirtualVertex& imageOfB);
+  void PrepareMiddles(const Ends* ends, std::size_t count);
+  void PrepareLevel();
   enum class Shape
   {
     Straight,
@@ -120,7 +141,8 @@ private:
   Edge& FindEdge(std::uint64_t key);
   void GrowEdges();
   std::int32_t Split(std::int32_t a, std::int32_t b, int depth);
-  void Divide(const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth);
+  void Divide(const Cell& cell);
+  void DividePart(const Cell& cell, const NodeIds& nodes, int depth);
   void DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth);
   template <std::size_t N>
   void Emit(const Cell& cell, const std::array<std::int32_t, N>& nodes);
@@ -130,6 +152,10 @@ private:
   std::vector<Middle> Cache; ///< indexed by a hash of the middle's coordinates, one entry each; a
                              ///< new entry replaces the old one
   std::vector<Node> Nodes;
+  /** Parts of a triangle that are to be divided, and their parts. */
+  std::vector<NodeIds> Level;
+  std::vector<NodeIds> NextLevel;
+  std::vector<Ends> LevelSides;
   std::vector<Edge> Edges; ///< the size is a power of two; at most half of the entries belong to
                            ///< this round
   std::size_t EdgeCount = 0;

@@ -20,6 +20,9 @@ constexpr std::size_t FacetsPerPoint = 3;
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
+// Number of polygons whose sides are prepared together: enough for two blocks of lanes.
+constexpr std::size_t PreparedCells = 8;
+
 }
 
 //------------------------------------------------------------------------------
@@ -35,7 +38,7 @@ void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCr
 void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
 {
   const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
-  if (!this->Geometry.HasConvexField() || FacetsPerPoint * wanted < facets)
+  if (this->Geometry.IsClosed() || FacetsPerPoint * wanted < facets)
   {
     return;
   }
@@ -59,8 +62,8 @@ void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
       (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
         this->Geometry.GetMembrane().GetRadius());
     this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
-      this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(), low - origin - slack,
-      high - origin + slack, loop);
+      this->Geometry.HasConvexField(), this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(),
+      low - origin - slack, high - origin + slack, loop);
   }
 }
 
@@ -87,69 +90,87 @@ bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
 //------------------------------------------------------------------------------
 void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
 {
-  CurvedMembraneSolver::Memory memory;
-  for (std::size_t i = begin; i < end; i += Run)
+  static_assert(Chunk == CurvedMembraneSolver::Chain, "a chunk is a chain");
+  constexpr std::size_t most = Chunk * CurvedMembraneSolver::ChainsAtOnce;
+  for (std::size_t first = begin; first < end; first += most)
   {
-    if (i % Chunk == 0)
-    {
-      memory = CurvedMembraneSolver::Memory(); // a chunk gives the same result whichever thread
-                                               // solves it
-    }
-    this->SolveRun(i, std::min(i + Run, end), memory);
+    this->SolveChunks(first, std::min(first + most, end));
   }
 }
 
 //------------------------------------------------------------------------------
 // In most objects consecutive points are near each other, so one test covers several of them.
-void ObjectImages::SolveRun(
-  std::size_t begin, std::size_t end, CurvedMembraneSolver::Memory& memory)
+void ObjectImages::ChooseWays(std::size_t begin, std::size_t end, Way* ways) const
 {
   if (!this->IsWanted(begin) || this->States[begin] != ImageState::NotAsked)
   {
+    std::fill_n(ways, end - begin, Way::None);
     return;
   }
   std::array<std::int64_t, Run> ids;
   std::iota(ids.begin(), ids.end(), static_cast<std::int64_t>(begin));
   const bool areUnique = this->IsUnique(ids.data(), end - begin);
-  std::vector<VirtualVertex>& chunk = this->Chunks[begin / Chunk];
-  std::vector<VirtualVertex> images;
+  const bool maySeeInFront = this->MayCross && !this->Geometry.GetMedia().Reflects;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
-    const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
-    if (this->MayCross && !this->Geometry.GetMedia().Reflects && this->Geometry.IsInReach(local) &&
-      !this->Geometry.IsBehindAll(local) && this->Geometry.IsInFront(local))
+    const glm::dvec3 local =
+      this->GetPoint(ids[i - begin]) - this->Geometry.GetMembrane().GetOrigin();
+    if (maySeeInFront && this->Geometry.IsInReach(local) && !this->Geometry.IsBehindAll(local) &&
+      this->Geometry.IsInFront(local))
     {
-      images.assign(1, this->Geometry.PassThrough(local));
-      images.front().Position = point;
-      images.front().SightPoint = point;
-      this->States[i] = ImageState::Found;
+      ways[i - begin] = Way::Straight;
     }
     else
     {
       const bool isUnique = areUnique || this->IsUnique(&ids[i - begin], 1);
-      this->States[i] = this->FindImages(point, isUnique, memory, images);
+      ways[i - begin] = isUnique ? Way::Unique : Way::Search;
     }
-    this->Counts[i] = static_cast<std::uint32_t>(images.size());
-    chunk.insert(chunk.end(), images.begin(), images.end());
   }
 }
 
 //------------------------------------------------------------------------------
-ImageState ObjectImages::FindImages(const glm::dvec3& point, bool isUnique,
-  CurvedMembraneSolver::Memory& memory, std::vector<VirtualVertex>& images) const
+// Solves chunks side by side.
+void ObjectImages::SolveChunks(std::size_t begin, std::size_t end)
 {
-  if (!isUnique)
+  const std::size_t count = end - begin;
+  std::vector<Way> ways(count);
+  for (std::size_t i = 0; i < count; i += Run)
   {
-    return this->Geometry.FindImages(point, images);
+    this->ChooseWays(begin + i, std::min(begin + i + Run, end), &ways[i]);
   }
-  images.assign(1, this->Geometry.SolvePoint(point, memory));
-  const ImageState state = images.front().State;
-  if (state != ImageState::Found)
+  std::vector<unsigned char> isUnique(count);
+  std::transform(
+    ways.begin(), ways.end(), isUnique.begin(), [](Way way) { return way == Way::Unique ? 1 : 0; });
+  std::vector<VirtualVertex> unique(count);
+  this->Geometry.Solve(this->Points + 3 * begin, 0, count, unique.data(), isUnique.data());
+  std::vector<VirtualVertex> images;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    images.clear();
+    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(begin + i));
+    ImageState state = ImageState::Found;
+    switch (ways[i])
+    {
+      case Way::None:
+        continue;
+      case Way::Straight:
+        images.assign(
+          1, this->Geometry.PassThrough(point - this->Geometry.GetMembrane().GetOrigin()));
+        images.front().Position = point;
+        images.front().SightPoint = point;
+        break;
+      case Way::Unique:
+        state = unique[i].State;
+        images.assign(state == ImageState::Found ? 1 : 0, unique[i]);
+        break;
+      case Way::Search:
+        state = this->Geometry.FindImages(point, images);
+        break;
+    }
+    std::vector<VirtualVertex>& chunk = this->Chunks[(begin + i) / Chunk];
+    chunk.insert(chunk.end(), images.begin(), images.end());
+    this->States[begin + i] = state;
+    this->Counts[begin + i] = static_cast<std::uint32_t>(images.size());
   }
-  return state;
 }
 
 //------------------------------------------------------------------------------
@@ -247,6 +268,25 @@ bool ObjectImages::IsSimple(
 }
 
 //------------------------------------------------------------------------------
+// Prepares the sides of polygons that may keep their points.
+void ObjectImages::PrepareSides(
+  const ObjectCells& cells, std::size_t begin, std::size_t end, EdgeSubdivision& division) const
+{
+  std::vector<std::array<ImagedPoint, 2>> sides;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const std::size_t open = this->HaveOneRefractedImage(ids, count) ? count : 0;
+    for (std::size_t k = 0; k < open; ++k)
+    {
+      sides.push_back({ this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[(k + 1) % count]) });
+    }
+  }
+  division.PrepareSides(sides);
+}
+
+//------------------------------------------------------------------------------
 CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
@@ -300,6 +340,10 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   std::vector<std::int64_t> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
+    if ((i - begin) % PreparedCells == 0)
+    {
+      this->PrepareSides(cells, i, std::min(i + PreparedCells, end), division);
+    }
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
     const std::int64_t cell = names[i];

@@ -46,8 +46,8 @@ public:
 
   /**
    * Determines where points have at most one image, if the expected saving for `wanted` points
-   * exceeds the cost and the geometry's PrepareField() has found the membrane suitable. The results
-   * are the same with and without it, up to rounding.
+   * exceeds the cost and the membrane is not closed. Call the geometry's PrepareField() before. The
+   * results are the same with and without it, up to rounding.
    */
   void PrepareUnique(std::size_t wanted, const RangeLoop& loop);
 
@@ -88,15 +88,29 @@ private:
   };
 
   bool IsUnique(const std::int64_t* ids, std::size_t count) const;
-  void SolveRun(std::size_t begin, std::size_t end, CurvedMembraneSolver::Memory& memory);
-  ImageState FindImages(const glm::dvec3& point, bool isUnique,
-    CurvedMembraneSolver::Memory& memory, std::vector<VirtualVertex>& images) const;
+  /** How the images of a point are found. */
+  enum class Way : unsigned char
+  {
+    None,     ///< not wanted, or already solved
+    Straight, ///< the point is seen unrefracted
+    Unique,   ///< at most one image
+    Search
+  };
+  void ChooseWays(std::size_t begin, std::size_t end, Way* ways) const;
+  void SolveChunks(std::size_t begin, std::size_t end);
   Side FindSide(const std::int64_t* ids, std::size_t count) const;
   bool MayCrossMembrane(Side side) const
   {
     return side == Side::Both || (this->MayCross && this->Geometry.GetMedia().Reflects);
   }
   bool HaveOneImage(const std::int64_t* ids, std::size_t count) const;
+  bool HaveOneRefractedImage(const std::int64_t* ids, std::size_t count) const
+  {
+    return this->FindSide(ids, count) == Side::Behind && this->HaveOneImage(ids, count) &&
+      this->AreInRange(ids, count);
+  }
+  void PrepareSides(
+    const ObjectCells& cells, std::size_t begin, std::size_t end, EdgeSubdivision& division) const;
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -46,7 +47,8 @@ InjectivityGrid Build(const CurvedMembraneSolver& geometry, double low, double h
 {
   InjectivityGrid unique;
   unique.Build(geometry.GetMembrane(), geometry.GetPatches(), geometry.GetFrame(),
-    geometry.GetLargestBulge(), geometry.GetMedia(), low, high, meniscus::SerialLoop);
+    geometry.HasConvexField(), geometry.GetLargestBulge(), geometry.GetMedia(), low, high,
+    meniscus::SerialLoop);
   return unique;
 }
 
@@ -195,6 +197,91 @@ TEST(RefractionHeightField, OnlyAConvexSheetWithoutHolesIsOne)
   { return i < 3 ? glm::dvec3(i, 0.0, j) : glm::dvec3(5.0 - i, 0.5, j); };
   EXPECT_FALSE(IsConvex(MakeSheet(4, folded, Everywhere)));
 }
+
+//------------------------------------------------------------------------------
+// Membranes that are no fields over a convex polygon, with points below them that are proved to
+// have at most one image, in percent.
+namespace
+{
+
+glm::dvec3 WavyPlace(int i, int j)
+{
+  const double x = 0.25 * i - 5.0;
+  const double z = 0.25 * j - 5.0;
+  return { x + 0.02 * std::sin(3.0 * z), 0.05 * std::sin(3.0 * x) * std::cos(2.0 * z), z };
+}
+
+// The part with x > 0 lies above the other and goes back over it.
+glm::dvec3 OverlappingPlace(int i, int j)
+{
+  const double x = 0.25 * i - 5.0;
+  return { x < 0.0 ? x : x - 2.0, x < 0.0 ? 0.0 : 0.5, 0.25 * j - 5.0 };
+}
+
+// Goes back under itself in between.
+glm::dvec3 FoldedPlace(int i, int j)
+{
+  const double x = 0.25 * i - 5.0;
+  return { x < -1.0 ? x : (x > 1.0 ? x - 3.0 : -0.5 * x - 1.5),
+    x < -1.0 ? 0.0 : std::min(0.5, 0.25 * (x + 1.0)), 0.25 * j - 5.0 };
+}
+
+struct SheetCase
+{
+  const char* Name;
+  glm::dvec3 (*Place)(int, int);
+  bool (*IsThere)(int, int);
+  int LeastUnique;
+  int LeastSeveral; ///< points with several images, of those searched
+};
+
+const SheetCase Sheets[] = {
+  { "WavyBorder", WavyPlace, [](int, int) { return true; }, 60, 0 },
+  { "Hole", WavyPlace, [](int i, int j) { return i < 14 || i > 20 || j < 10 || j > 18; }, 40, 0 },
+  { "TwoPieces", OverlappingPlace, [](int i, int) { return i != 19; }, 20, 5 },
+  // Facets without refracted rays leave the slopes without bounds.
+  { "Folded", FoldedPlace, [](int, int) { return true; }, 0, 5 },
+};
+
+class RefractionUniqueSheet : public testing::TestWithParam<SheetCase>
+{
+};
+
+}
+
+TEST_P(RefractionUniqueSheet, NoPointOfABoxHasSeveral)
+{
+  const SheetCase& test = GetParam();
+  CurvedMembraneSolver geometry;
+  Set(geometry, MakeSheet(40, test.Place, test.IsThere), { 0.5, 9.0, 1.0 });
+  geometry.PrepareField();
+  EXPECT_FALSE(geometry.HasConvexField());
+  const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
+  const InjectivityGrid unique = Build(geometry, -3.0 - origin.y, 0.0 - origin.y);
+  Random random(6);
+  std::vector<VirtualVertex> found;
+  int boxes = 0;
+  int several = 0;
+  constexpr int count = 400;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 middle = random.Point({ -5.0, -2.5, -5.0 }, { 5.0, -0.5, 5.0 });
+    const glm::dvec3 half(random(0.0, 0.2));
+    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
+    boxes += isUnique;
+    for (int k = 0; k < 5; ++k)
+    {
+      geometry.FindImages(random.Point(middle - half, middle + half), found);
+      several += found.size() > 1;
+      ASSERT_TRUE(!isUnique || found.size() <= 1) << "box " << i;
+    }
+  }
+  EXPECT_GE(100 * boxes, test.LeastUnique * count) << boxes;
+  EXPECT_GE(100 * several, test.LeastSeveral * 5 * count) << several;
+}
+
+INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, testing::ValuesIn(Sheets),
+  [](const auto& test) { return test.param.Name; });
 
 //------------------------------------------------------------------------------
 // Triangles of a divided square lie within the tolerance of the true images, have no cracks, and

@@ -384,7 +384,8 @@ TEST(Reflection, RegionsWithOneImageHaveOne)
   // Heights along the frame, which points down.
   meniscus::InjectivityGrid unique;
   unique.Build(geometry.GetMembrane(), geometry.GetPatches(), geometry.GetFrame(),
-    geometry.GetLargestBulge(), geometry.GetMedia(), -800.0, -10.0, meniscus::SerialLoop);
+    geometry.HasConvexField(), geometry.GetLargestBulge(), geometry.GetMedia(), -800.0, -10.0,
+    meniscus::SerialLoop);
   Random random(3);
   std::vector<VirtualVertex> images;
   int proved = 0;
