@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Output/ImagePolyData.h"
 
+#include "Filters/Common/ThreadedLoop.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -22,9 +24,13 @@ namespace meniscus
 namespace
 {
 
-// Number of cells whose results are collected together: enough work for a thread. It is fixed, so
-// that the results do not depend on the threads.
-constexpr std::size_t CellsPerPart = 64;
+// Number of cells whose results are collected together: enough work for a thread. A cell may have
+// thousands of pieces, so a few cells are that many parts. It depends on the number of cells alone,
+// so that the results do not depend on the threads.
+std::size_t GetCellsPerPart(std::size_t count)
+{
+  return std::clamp<std::size_t>(count / 64, 1, 64);
+}
 
 // True if the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
 // same way.
@@ -85,15 +91,22 @@ template <typename MapRange>
 bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, ImageMesh& pieces,
   ImageMesh& whole, vtkIdType& without)
 {
-  std::vector<Part> parts((count + CellsPerPart - 1) / CellsPerPart);
+  const std::size_t size = GetCellsPerPart(count);
+  std::vector<Part> parts((count + size - 1) / size);
   const bool done = loop(parts.size(),
-    [&parts, &map, count](std::size_t begin, std::size_t end)
+    [&parts, &map, count, size](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        map(i * CellsPerPart, std::min((i + 1) * CellsPerPart, count), parts[i]);
+        map(i * size, std::min((i + 1) * size, count), parts[i]);
       }
     });
+  std::size_t points = 0;
+  for (const Part& part : parts)
+  {
+    points += part.Pieces.Points.size();
+  }
+  pieces.Points.reserve(pieces.Points.size() + points);
   for (const Part& part : parts)
   {
     pieces.Append(part.Pieces);
@@ -168,14 +181,21 @@ private:
   // Returns the index of the first one.
   vtkIdType TakePoints(const std::vector<ImagePoint>& points)
   {
-    const auto first = static_cast<vtkIdType>(this->Points.size());
-    for (const ImagePoint& point : points)
-    {
-      this->Points.push_back(&point.Vertex);
-      this->PointSources.push_back(point.GetSource());
-      this->Origins.push_back(&point);
-    }
-    return first;
+    const std::size_t first = this->Points.size();
+    this->Points.resize(first + points.size());
+    this->PointSources.resize(first + points.size());
+    this->Origins.resize(first + points.size());
+    PointLoop(points.size(),
+      [this, &points, first](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Points[first + i] = &points[i].Vertex;
+          this->PointSources[first + i] = points[i].GetSource();
+          this->Origins[first + i] = &points[i];
+        }
+      });
+    return static_cast<vtkIdType>(first);
   }
 
   std::vector<glm::dvec3> FindTruePoints() const

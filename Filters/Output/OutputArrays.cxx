@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Output/OutputArrays.h"
 
+#include "Filters/Common/ThreadedLoop.h"
+
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Membrane/VirtualNormal.h"
 
@@ -49,21 +51,25 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
   const auto reflectance = MakeArray<vtkDoubleArray>("Reflectance", 1, count);
   const auto facet = MakeArray<vtkIdTypeArray>("SightFacet", 1, count);
   const auto source = MakeArray<vtkIdTypeArray>("SourcePointId", 1, count);
-  for (std::size_t k = 0; k < count; ++k)
+  const auto fill = [&](std::size_t begin, std::size_t end)
   {
-    const auto i = static_cast<vtkIdType>(k);
-    const VirtualVertex& vertex = *vertices[k];
-    points->SetPoint(i, vertex.Position.x, vertex.Position.y, vertex.Position.z);
-    sightPoint->SetTypedTuple(i, &vertex.SightPoint.x);
-    depth->SetValue(i, vertex.Depth);
-    reflectance->SetValue(i,
-      options.Schlick && vertex.Facet >= 0
-        ? SchlickReflectance(vertex.Cosine, options.Exterior, options.Interior)
-        : vertex.Reflectance);
-    facet->SetValue(
-      i, vertex.Facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.Facet)));
-    source->SetValue(i, sources[k]);
-  }
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      const auto i = static_cast<vtkIdType>(k);
+      const VirtualVertex& vertex = *vertices[k];
+      points->SetPoint(i, vertex.Position.x, vertex.Position.y, vertex.Position.z);
+      sightPoint->SetTypedTuple(i, &vertex.SightPoint.x);
+      depth->SetValue(i, vertex.Depth);
+      reflectance->SetValue(i,
+        options.Schlick && vertex.Facet >= 0
+          ? SchlickReflectance(vertex.Cosine, options.Exterior, options.Interior)
+          : vertex.Reflectance);
+      facet->SetValue(
+        i, vertex.Facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.Facet)));
+      source->SetValue(i, sources[k]);
+    }
+  };
+  PointLoop(count, fill);
   output->SetPoints(points);
   vtkPointData* data = output->GetPointData();
   data->AddArray(sightPoint);

@@ -3,8 +3,10 @@
 #include "Refraction/Images/EdgeSubdivision.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <tuple>
+#include <utility>
 
 namespace meniscus
 {
@@ -45,9 +47,25 @@ bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
 EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance)
   : Geometry(geometry)
   , Tolerance(tolerance)
-  , Cache(CacheSize)
+  , Cache(std::move(GetSpareCache()))
   , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0 })
 {
+  static std::atomic<std::uint64_t> last{ 0 };
+  this->Number = ++last;
+  this->Cache.resize(CacheSize);
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::~EdgeSubdivision()
+{
+  GetSpareCache() = std::move(this->Cache);
+}
+
+//------------------------------------------------------------------------------
+std::vector<EdgeSubdivision::Middle>& EdgeSubdivision::GetSpareCache()
+{
+  thread_local std::vector<Middle> spare;
+  return spare;
 }
 
 //------------------------------------------------------------------------------
@@ -72,9 +90,10 @@ const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const Virt
 {
   const glm::dvec3 point = 0.5 * (a + b);
   Middle& middle = this->FindEntry(point);
-  if (middle.Point != point)
+  if (!this->IsStored(middle, point))
   {
     const Ends ends = GetEnds(a, imageOfA, b, imageOfB);
+    middle.Owner = this->Number;
     middle.Point = point;
     middle.Vertex = this->Geometry.SolveBetween(point, *ends.Image[0], *ends.Image[1]);
   }
@@ -96,7 +115,7 @@ void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
   {
     const glm::dvec3 point = ends[i].GetMiddle();
     Middle& middle = this->FindEntry(point);
-    if (middle.Point == point)
+    if (this->IsStored(middle, point))
     {
       continue;
     }
@@ -106,6 +125,7 @@ void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
     {
       solve();
     }
+    middle.Owner = this->Number;
     middle.Point = point;
     open[size++] = { point, ends[i].Image[0], ends[i].Image[1], &middle.Vertex };
   }

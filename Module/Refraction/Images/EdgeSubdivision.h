@@ -19,7 +19,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace meniscus
@@ -38,6 +37,9 @@ class EdgeSubdivision
 public:
   /** `tolerance` is an angle in radians at the eye. */
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
+  ~EdgeSubdivision();
+  EdgeSubdivision(const EdgeSubdivision&) = delete;
+  EdgeSubdivision& operator=(const EdgeSubdivision&) = delete;
 
   /**
    * Solves middles of the sides of polygons side by side, which IsStraight would solve one by one.
@@ -86,9 +88,15 @@ private:
   };
   struct Middle
   {
-    glm::dvec3 Point{ std::numeric_limits<double>::quiet_NaN() };
+    std::uint64_t Owner = 0; ///< number of the object that has stored the middle
+    glm::dvec3 Point;
     VirtualVertex Vertex;
   };
+  bool IsStored(const Middle& middle, const glm::dvec3& point) const
+  {
+    return middle.Owner == this->Number && middle.Point == point;
+  }
+  static std::vector<Middle>& GetSpareCache();
   /**
    * An edge between two nodes and the node in its middle: an entry of a hash table with linear
    * probing.
@@ -149,8 +157,12 @@ private:
 
   const CurvedMembraneSolver& Geometry;
   double Tolerance;
-  std::vector<Middle> Cache; ///< indexed by a hash of the middle's coordinates, one entry each; a
-                             ///< new entry replaces the old one
+  std::uint64_t Number; ///< of this object; no other one has it
+  /**
+   * Indexed by a hash of the middle's coordinates, one entry each; a new entry replaces the old
+   * one. The next object of the same thread takes over the memory.
+   */
+  std::vector<Middle> Cache;
   std::vector<Node> Nodes;
   /** Parts of a triangle that are to be divided, and their parts. */
   std::vector<NodeIds> Level;
