@@ -10,9 +10,9 @@ namespace meniscus
 {
 
 /**
- * The last output of a filter. Parts of the next output that have the same values are replaced by
- * the parts of the last one: mappers recognise data by object and modification time, and upload
- * only what is new to them.
+ * The last output of a filter. Points, cells and arrays of the next output that have the same
+ * values are replaced by the objects of the last one. Mappers recognise data by object and
+ * modification time: they upload only objects that are new or modified.
  */
 class KeptOutput
 {
