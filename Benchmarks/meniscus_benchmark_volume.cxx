@@ -37,6 +37,16 @@ void UseThreads(int threads)
 }
 
 //------------------------------------------------------------------------------
+// Before the first native scene is made, here and in the processes of probes.
+void UseInstructions(const std::string& set)
+{
+  if (!set.empty())
+  {
+    setenv("MENISCUS_INSTRUCTION_SET", set.c_str(), 1);
+  }
+}
+
+//------------------------------------------------------------------------------
 // Contestants that survive a test in another process (or all of them, if they are not tested); the
 // reasons for the others are recorded.
 std::vector<Contestant> TrySurvivors(
@@ -184,6 +194,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   UseThreads(options.Threads);
+  UseInstructions(options.Instructions);
   const meniscus::test::DisplayHold hold;
   if (options.Device)
   {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeOptions.h"
 
+#include "Simd/InstructionSets.h"
+
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
@@ -39,6 +41,8 @@ const char* const VolumeUsage =
   "  --set-up N         new meshes whose first frame is timed, per mapper (default 3)\n"
   "  --bandwidth        measure copies on the graphics device, too, to compare with the walk's\n"
   "                     reads\n"
+  "  --instructions SET instruction set of native frames: AVX-512, AVX2, NEON or portable\n"
+  "                     (default: the widest of the processor)\n"
   "  --threads N        threads of vtkSMPTools, of VTK's ray cast mapper and of llvmpipe\n"
   "  --json FILE        write the figures to a file\n"
   "  --plot FILE.png    draw time against error, one point per mapper\n"
@@ -65,6 +69,14 @@ bool ReadNumber(const std::string& text, int& value)
   const long number = std::strtol(text.c_str(), &end, 10);
   value = static_cast<int>(number);
   return end && *end == '\0' && !text.empty() && number >= 0 && number <= 16384;
+}
+
+//------------------------------------------------------------------------------
+bool IsInstructionSet(const std::string& name)
+{
+  const auto& sets = GetInstructionSets();
+  return std::any_of(
+    sets.begin(), sets.end(), [&name](InstructionSet set) { return name == NameOf(set); });
 }
 
 //------------------------------------------------------------------------------
@@ -114,7 +126,8 @@ bool ReadValue(const std::string& key, const std::string& value, VolumeOptions& 
   const std::map<std::string, std::string*> texts{ { "--mesh", &options.Mesh },
     { "--json", &options.Json }, { "--plot", &options.Plot }, { "--function", &options.Function },
     { "--row", &options.Row }, { "--probe", &options.Probe }, { "--picture", &options.Picture },
-    { "--rows", &options.TimeRows }, { "--error-rows", &options.ErrorRows } };
+    { "--rows", &options.TimeRows }, { "--error-rows", &options.ErrorRows },
+    { "--instructions", &options.Instructions } };
   const auto number = numbers.find(key);
   if (number != numbers.end())
   {
@@ -165,6 +178,10 @@ VolumeOptions ParseVolumeOptions(int argc, char* argv[])
   if (!FindFunctionKind(options.Function, kind))
   {
     options.Problem = "no such function: " + options.Function;
+  }
+  if (!options.Instructions.empty() && !IsInstructionSet(options.Instructions))
+  {
+    options.Problem = "no such instruction set here: " + options.Instructions;
   }
   if (options.Width < 1 || options.Height < 1 || options.Views < 1 || options.Repetitions < 1 ||
     options.Cubes < 1)

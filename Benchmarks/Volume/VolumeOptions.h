@@ -32,7 +32,8 @@ struct VolumeOptions
   int Cubes = 32; // per side of the generated block
   int Hollow = 1; // 0: a full block
   int Threads = 0;
-  int ProbeSeconds = 60; // 0: no probes
+  std::string Instructions; // instruction set of native frames; empty: the widest
+  int ProbeSeconds = 60;    // 0: no probes
   int SetUpRepetitions = 3;
   bool Bandwidth = false;
   bool Device = false;  // names of the graphics device instead of a comparison

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simd/InstructionSets.h"
 
+#include <cstdlib>
+#include <string>
+
 namespace meniscus
 {
 
@@ -26,6 +29,14 @@ const std::vector<InstructionSet>& GetInstructionSets()
 //------------------------------------------------------------------------------
 InstructionSet BestInstructionSet()
 {
+  const char* const wanted = std::getenv("MENISCUS_INSTRUCTION_SET");
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    if (wanted && std::string(wanted) == NameOf(set))
+    {
+      return set;
+    }
+  }
   return GetInstructionSets().front();
 }
 

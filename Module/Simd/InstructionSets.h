@@ -28,7 +28,10 @@ enum class InstructionSet
  */
 const std::vector<InstructionSet>& GetInstructionSets();
 
-/** Widest instruction set that this build and this processor support. */
+/**
+ * Widest instruction set that this build and this processor support. The environment variable
+ * MENISCUS_INSTRUCTION_SET chooses another of them by its name, for measurements and tests.
+ */
 InstructionSet BestInstructionSet();
 
 /** Name for messages: "AVX-512", "AVX2", "NEON" or "portable". */

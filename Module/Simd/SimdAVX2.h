@@ -127,6 +127,14 @@ struct SimdAVX2 : SimdRowLoads<SimdAVX2, 8>
     const Mask third{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 27)) };
     return Select(third, part(16), Select(second, part(8), part(0)));
   }
+  /**
+   * Numbers that have just been loaded one by one. Load() would wait for parts of the array to be
+   * stored.
+   */
+  static Int Pack(const std::int32_t (&x)[Width])
+  {
+    return { _mm256_setr_epi32(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]) };
+  }
   /** Loads four floats from each of the rows, by `load`, and transposes them. */
   template <typename LoadRow>
   static void TransposeAs(

@@ -101,6 +101,15 @@ struct SimdAVX512 : SimdRowLoads<SimdAVX512, 16>
     return { _mm512_permutex2var_epi32(
       _mm512_loadu_si512(table), index.V, _mm512_loadu_si512(table + 16)) };
   }
+  /**
+   * Numbers that have just been loaded one by one. Load() would wait for parts of the array to be
+   * stored.
+   */
+  static Int Pack(const std::int32_t (&x)[Width])
+  {
+    return { _mm512_setr_epi32(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10],
+      x[11], x[12], x[13], x[14], x[15]) };
+  }
   /** Loads four floats from each of the rows, by `load`, and transposes them. */
   template <typename LoadRow>
   static void TransposeAs(

@@ -15,7 +15,7 @@ namespace meniscus
  * instructions are slower on some processors and hardly faster on others. See SimdPortable.h for
  * the meaning of the functions.
  *
- * Simd: the set of instructions, which derives from this class and defines TransposeAs(), Load()
+ * Simd: the set of instructions, which derives from this class and defines TransposeAs(), Pack()
  * and Store().
  */
 template <class Simd, int Lanes>
@@ -30,7 +30,7 @@ struct SimdRowLoads
     {
       value = from[static_cast<std::uint32_t>(value)];
     }
-    return Simd::Load(at);
+    return Simd::Pack(at);
   }
 
   template <int Stride, class Int, class Float>

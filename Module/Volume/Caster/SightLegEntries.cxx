@@ -142,7 +142,8 @@ void SightLegEntries::TakeRays(
     {
       continue;
     }
-    PacketRay ray;
+    // Filled where it stays: a copy would wait for each of its numbers to be stored.
+    PacketRay& ray = batch.Rays.emplace_back();
     this->Limit(leg.Box.Left + pixel % TileSize, leg.Box.Bottom + pixel / TileSize, leg.OpaqueDepth,
       next ? next[pixel].Depth : 1.0e+30, ray);
     if (ray.StartDepth < ray.EndDepth)
@@ -150,12 +151,13 @@ void SightLegEntries::TakeRays(
       BoundaryRaster::SetLine(workspace.Raster, inTile, ray);
       ray.FirstEntry = entries.GetBegin(inTile);
       ray.EndEntry = entries.GetBegin(inTile + 1);
-      batch.Rays.push_back(ray);
-      batch.Origins.push_back(
-        { pixel, next && ray.EndDepth == this->Rays.FromPivot(next[pixel].Depth) });
+      LegBatch::Origin& origin = batch.Origins.emplace_back();
+      origin.Pixel = pixel;
+      origin.ReachesInterface = next && ray.EndDepth == this->Rays.FromPivot(next[pixel].Depth);
     }
     else
     {
+      batch.Rays.pop_back();
       // The sight point may be inside the mesh all the same.
       joined.SetEnd(pixel, PacketResult::Somewhere);
     }

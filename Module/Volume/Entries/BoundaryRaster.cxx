@@ -176,7 +176,10 @@ void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspac
     if (span.First < span.Last)
     {
       const int first = (row - tile.Bottom) * TileSize + covered.Left - tile.Left;
-      workspace.Spans.push_back({ number, first + span.First, first + span.Last });
+      PacketSpan& added = workspace.Spans.emplace_back();
+      added.Face = number;
+      added.First = first + span.First;
+      added.End = first + span.Last;
       workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
     }
   };

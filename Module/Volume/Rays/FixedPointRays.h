@@ -244,7 +244,7 @@ inline auto FixedPointRays::MakeAxis(double offset, double slope) const -> AxisO
   const bool keepsSlope = (atPivot == limited) & (std::fabs(slope) >= SmallestSlope);
   const double kept = keepsSlope ? slope : 0.0;
   AxisOfRay axis;
-  axis.Offset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
+  axis.Offset = static_cast<std::int32_t>(limited + std::copysign(0.5, limited));
   axis.Fraction = limited - axis.Offset;
   axis.Slope = static_cast<float>(kept);
   axis.SlopeRest = kept - static_cast<double>(axis.Slope);

@@ -82,7 +82,14 @@ public:
     if (Simd::Bits(upward | downward) != 0)
     {
       this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));
-      this->Fetch();
+      if (this->Size <= Simd::LookupBlock)
+      {
+        this->template Lookup<1>(); // inlined: a call would save and restore the walk's registers
+      }
+      else
+      {
+        this->Fetch();
+      }
     }
   }
 
