@@ -18,7 +18,9 @@ float absorbedOnAverage(float t, float a)
   float p2 = MEAN_ABSORBED_2(t);
   float p3 = MEAN_ABSORBED_3(t);
   float p4 = MEAN_ABSORBED_4(t);
-  return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * MEAN_ABSORBED_5(t)))));
+  // By pairs: a chain of six terms would delay all that follows.
+  float a2 = a * a;
+  return (p0 + a * p1) + a2 * ((p2 + a * p3) + a2 * (p4 + a * MEAN_ABSORBED_5(t)));
 }
 
 #if FADED

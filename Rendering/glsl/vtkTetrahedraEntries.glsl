@@ -193,33 +193,38 @@ void collectEntries(int lastDepth, int lastFace)
   moreEntries = false;
   int at = 0;
   int end = listed ? TILE_CAPACITY : numberOfNodes;
-  while (at < end)
+  do
   {
-    int candidate;
-    if (listed)
-    {
-      candidate = int(fetchTile(tile, at / 4)[at % 4]);
-      at = candidate < 0 ? end : at + 1;
-    }
-    else
+    // The tree is descended outside of the loop over a list: llvmpipe executes all of a loop in
+    // each turn.
+    int candidate = -1;
+    if (!listed)
     {
       meetsBox(at, vec2(0.0), vec2(0.0), range, at, candidate);
     }
-    if (candidate >= 0)
+    do
     {
-      ProjectedFace f = seeFace(candidate);
-      if (f.entered && f.depth < endDepth && f.depth <= range.y &&
-        isBefore(lastDepth, lastFace, f.depth, candidate))
+      if (listed)
       {
-        insertEntry(f.depth, candidate);
+        candidate = int(fetchTile(tile, at / 4)[at % 4]);
+        at = candidate < 0 ? end : at + 1;
       }
-    }
+      if (candidate >= 0)
+      {
+        ProjectedFace f = seeFace(candidate);
+        if (f.entered && f.depth < endDepth && f.depth <= range.y &&
+          isBefore(lastDepth, lastFace, f.depth, candidate))
+        {
+          insertEntry(f.depth, candidate);
+        }
+      }
+    } while (listed && at < end);
     // If the range holds no entry, the next range has twice the depth.
-    bool goesOn = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
-    searchReach = goesOn ? twice(searchReach) : searchReach;
-    range = goesOn ? ivec2(range.y, behind(range.y, searchReach, farthest)) : range;
-    at = goesOn ? 0 : at;
-  }
+    bool again = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
+    searchReach = again ? twice(searchReach) : searchReach;
+    range = again ? ivec2(range.y, behind(range.y, searchReach, farthest)) : range;
+    at = again ? 0 : at;
+  } while (at < end);
   searchReach =
     moreEntries ? max(twice(entryDepths.w - first), SMALLEST_REACH) : twice(searchReach);
   moreEntries = moreEntries || range.y < farthest;

@@ -155,9 +155,10 @@ vec4 finishRay();
 // rounding, in an inverted cell, or where cells overlap) has been integrated already and is
 // skipped. So is a cell with a vertex without a scalar.
 #if VERTEX_VALUES
-bool advance(int exitDepth, float crossing, float exitScalar, VertexValues exitValues)
+bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar,
+  VertexValues exitValues)
 #else
-bool advance(int exitDepth, float crossing, float exitScalar)
+bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar)
 #endif
 {
   int from = max(depthNow, startDepth);
@@ -175,7 +176,7 @@ bool advance(int exitDepth, float crossing, float exitScalar)
   segmentStart = segmentEnd;
 #endif
 #else
-  float perDepth = (exitScalar - faceScalar) / crossing;
+  float perDepth = (exitScalar - faceScalar) * perCrossing;
   segmentStart = late ? faceScalar + float(from - faceDepth) * perDepth : faceScalar;
   segmentEnd = early ? faceScalar + float(to - faceDepth) * perDepth : exitScalar;
 #endif
@@ -187,7 +188,7 @@ bool advance(int exitDepth, float crossing, float exitScalar)
   segmentEndDepth = frameDepthOf(to);
 #endif
 #if VERTEX_VALUES
-  VertexValues valuesPerDepth = (exitValues - faceValues) / crossing;
+  VertexValues valuesPerDepth = (exitValues - faceValues) * perCrossing;
   segmentValuesStart =
     late ? faceValues + float(from - faceDepth) * valuesPerDepth : faceValues;
   segmentValuesEnd = early ? faceValues + float(to - faceDepth) * valuesPerDepth : exitValues;
@@ -226,13 +227,16 @@ bool advance(int exitDepth, float crossing, float exitScalar)
 // distance of the corners from the point, weighted by the areas that edges span with the ray: small
 // cells are as precise as large ones. A face without projected area keeps the given values and
 // returns 0.
-float moveToFace(inout int depth, inout float rest, inout float scalar, out float inverse)
+float moveToFace(inout int depth, inout float rest, inout float scalar, out float inverse,
+  out float perCrossing)
 {
   float total = edges.x + edges.y + edges.z;
   bool real = total > 0.0;
   inverse = 1.0 / total;
   vec3 ahead = vec3(ivec3(a.z, b.z, c.z) - ivec3(depth));
-  float moved = dot(edges.yzx, ahead) * inverse;
+  float weighted = dot(edges.yzx, ahead);
+  float moved = weighted * inverse;
+  perCrossing = total / (weighted - rest * total);
   float whole = roundEven(moved);
 #if SEES_JUMPS
   // Relative to the corner with the largest weight: where the corners with weight have one scalar,
@@ -326,16 +330,17 @@ bool stepThroughCell(Ahead ahead, out int link)
   int exitDepth = faceDepth;
   float exitScalar = faceScalar;
   float inverse;
-  float crossing = moveToFace(exitDepth, faceRest, exitScalar, inverse);
+  float perCrossing;
+  float crossing = moveToFace(exitDepth, faceRest, exitScalar, inverse, perCrossing);
 #if VERTEX_VALUES
   VertexValues valuesX = fetchValues(number);
   valuesA = dropA ? valuesX : valuesA;
   valuesB = dropB ? valuesX : valuesB;
   valuesC = dropC ? valuesX : valuesC;
   return advance(
-    exitDepth, crossing, exitScalar, inverse > 0.0 ? meetValues(inverse) : faceValues);
+    exitDepth, crossing, perCrossing, exitScalar, inverse > 0.0 ? meetValues(inverse) : faceValues);
 #else
-  return advance(exitDepth, crossing, exitScalar);
+  return advance(exitDepth, crossing, perCrossing, exitScalar);
 #endif
 }
 
@@ -462,7 +467,8 @@ void enter(ProjectedFace f)
   faceRest = 0.0;
   faceScalar = vertexScalar(f.p);
   float inverse;
-  moveToFace(faceDepth, faceRest, faceScalar, inverse);
+  float perCrossing;
+  moveToFace(faceDepth, faceRest, faceScalar, inverse, perCrossing);
 #if CELL_SCALARS
   faceScalar = texelFetch(cellScalars, cell).r;
 #endif
