@@ -17,15 +17,6 @@ namespace
 /** A patch whose distance from its facet is within the rounding of its corners is flat. */
 constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 
-/**
- * Distance by which the normal at an intersection may be outside of the hull of the patch's control
- * points. Both causes are proportional to its derivatives: the intersection is outside of the facet
- * by up to 1e-8, and the normal is linear along Newton's last step of up to 1e-4, to an accuracy of
- * its square. The factor 50 is larger than the first and the second derivatives of normals, which
- * are sums of a few vectors of length 2.
- */
-constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
-
 }
 
 //------------------------------------------------------------------------------

@@ -129,6 +129,14 @@ public:
    * the origin.
    */
   static constexpr double Margin = 1e-7;
+  /**
+   * Distance by which the normal at an intersection may be outside of the hull of the patch's
+   * control points. Both causes are proportional to its derivatives: the intersection is outside of
+   * the facet by up to Border, and the normal is linear along Newton's last step of up to LastStep,
+   * to an accuracy of its square. The factor 50 is larger than the first and the second derivatives
+   * of normals, which are sums of a few vectors of length 2.
+   */
+  static constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;

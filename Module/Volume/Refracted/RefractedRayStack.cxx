@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,15 @@ constexpr int TileSize = RefractedRayTiles::TileSize;
 constexpr int BlockSize = 8;
 constexpr int RaysOfBlock = BlockSize * BlockSize;
 static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes");
+constexpr int BlocksOfRow = TileSize / BlockSize;
+constexpr int BlocksOfTile = BlocksOfRow * BlocksOfRow;
+static_assert(BlocksOfTile <= 16, "a bit of 16 per block of a tile");
+
+/** First pixel of a block of a tile, from the tile's. */
+glm::ivec2 FirstOfBlock(int number)
+{
+  return BlockSize * glm::ivec2(number % BlocksOfRow, number / BlocksOfRow);
+}
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -262,6 +272,7 @@ void RefractedRayStack::Clear()
 {
   this->Interfaces.clear();
   this->Rays.clear();
+  this->Untraced.clear();
   this->Sums = Counts();
   this->MeanDirection = glm::dvec3(0.0);
 }
@@ -297,13 +308,16 @@ void RefractedRayStack::Build(
   {
     rays.Resize(tiles);
   }
+  this->Untraced.resize(tiles);
+  const StackVisibility sight(
+    this->Interfaces, { this->MeshCenter, this->MeshHalf }, this->Of.Center);
   std::vector<TileSum> sums(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        sums[tile] = this->TraceTile(static_cast<int>(tile));
+        sums[tile] = this->TraceTile(static_cast<int>(tile), sight);
       }
     });
   this->Sums = Counts();
@@ -311,38 +325,103 @@ void RefractedRayStack::Build(
   for (const TileSum& tile : sums)
   {
     sum += tile.Directions;
-    this->Sums.Missing += tile.Rays.Missing;
-    this->Sums.Mismatched += tile.Rays.Mismatched;
-    this->Sums.Reflected += tile.Rays.Reflected;
-    this->Sums.Undecided += tile.Rays.Undecided;
+    this->Sums.Add(tile.Rays);
   }
   const double length = glm::length(sum);
   this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
 }
 
 //------------------------------------------------------------------------------
-RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
+std::int64_t RefractedRayStack::GetNumberOfUntracedBlocks() const
+{
+  std::int64_t number = 0;
+  for (const std::uint16_t blocks : this->Untraced)
+  {
+    number += static_cast<std::int64_t>(std::bitset<BlocksOfTile>(blocks).count());
+  }
+  return number;
+}
+
+//------------------------------------------------------------------------------
+RefractedRayStack::Counts RefractedRayStack::GetCounts() const
+{
+  Counts counts = this->Sums;
+  Block block(this->Interfaces.size());
+  for (std::size_t tile = 0; tile < this->Untraced.size(); ++tile)
+  {
+    for (int number = 0; number < BlocksOfTile; ++number)
+    {
+      if ((this->Untraced[tile] >> number & 1u) != 0)
+      {
+        this->StartBlock(this->FirstPixel(static_cast<int>(tile)) + FirstOfBlock(number), block);
+        this->TraceBlock(this->Interfaces.size(), block, counts);
+      }
+    }
+  }
+  return counts;
+}
+
+//------------------------------------------------------------------------------
+/** Traces the rays of a block through the first interfaces. */
+void RefractedRayStack::TraceBlock(std::size_t interfaces, Block& block, Counts& sums) const
+{
+  for (std::size_t k = 0; k < interfaces; ++k)
+  {
+    this->MeetInterface(k, block, sums);
+    this->RefractBlock(k, block, sums);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Rays at the corners of a square of pixels, from the depth of the eye on. */
+CornerRays RefractedRayStack::CornersOf(const glm::ivec2& first, int size) const
+{
+  const RayFrame& frame = this->Of.Frame;
+  const glm::dvec2 toCenter(0.5 - 0.5 * this->Of.Width, 0.5 - 0.5 * this->Of.Height);
+  const int last = size - 1;
+  const glm::ivec2 corners[4] = { { 0, 0 }, { last, 0 }, { last, last }, { 0, last } };
+  CornerRays rays;
+  for (int i = 0; i < 4; ++i)
+  {
+    const glm::dvec2 pixel = glm::dvec2(first + corners[i]) + toCenter;
+    const glm::dvec3 place(frame.Origin.At(pixel.x, pixel.y), 0.0);
+    const glm::dvec3 step(frame.Slope.At(pixel.x, pixel.y), 1.0);
+    rays.Starts[i] = frame.ViewToWorld * (place + this->Of.EyeDepth * step);
+    rays.Directions[i] = frame.ViewToWorld * step;
+  }
+  return rays;
+}
+
+//------------------------------------------------------------------------------
+RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVisibility& sight)
 {
   TileSum sum;
-  const int left = tile % this->Columns * TileSize;
-  const int bottom = tile / this->Columns * TileSize;
-  for (RefractedRayTiles& rays : this->Rays)
+  const glm::ivec2 first = this->FirstPixel(tile);
+  const bool mayShow = sight.MayShowMesh(this->CornersOf(first, TileSize));
+  for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
-    rays.ChangeTile(tile).assign(RefractedRayTiles::RaysOfTile, RefractedRay());
+    this->Rays[k].ChangeTile(tile).assign(
+      k == 0 || mayShow ? RefractedRayTiles::RaysOfTile : 0, RefractedRay());
   }
+  std::uint16_t& untraced = this->Untraced[static_cast<std::size_t>(tile)];
+  untraced = 0;
   Block block(this->Interfaces.size());
-  for (int row = 0; row < TileSize; row += BlockSize)
+  for (int number = 0; number < BlocksOfTile; ++number)
   {
-    for (int column = 0; column < TileSize; column += BlockSize)
+    const glm::ivec2 pixel = first + FirstOfBlock(number);
+    this->StartBlock(pixel, block);
+    if (mayShow && sight.MayShowMesh(this->CornersOf(pixel, BlockSize)))
     {
-      this->StartBlock(left + column, bottom + row, block);
-      for (std::size_t k = 0; k < this->Interfaces.size(); ++k)
-      {
-        this->MeetInterface(k, block, sum.Rays);
-        this->RefractBlock(k, block, sum.Rays);
-      }
+      this->TraceBlock(this->Interfaces.size(), block, sum.Rays);
       this->EndRaysBesideMesh(block);
       this->StoreBlock(block, tile, sum.Directions);
+    }
+    else
+    {
+      untraced = static_cast<std::uint16_t>(untraced | 1u << number);
+      Counts ofUntraced; // counted by GetCounts()
+      this->MeetInterface(0, block, ofUntraced);
+      this->StoreSights(block, tile);
     }
   }
   for (RefractedRayTiles& tiles : this->Rays)
@@ -358,8 +437,8 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
 }
 
 //------------------------------------------------------------------------------
-/** Sets leg 0 of the rays of a block; left and bottom are its first pixel. */
-void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
+/** Sets leg 0 of the rays of a block, which begins at the pixel `first`. */
+void RefractedRayStack::StartBlock(const glm::ivec2& first, Block& block) const
 {
   for (WorldLegs& legs : block.Legs)
   {
@@ -367,9 +446,9 @@ void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
   }
   block.Count = 0;
   SightLegs sight{ 0, {}, {}, block.Legs[0] };
-  for (int row = bottom; row < std::min(bottom + BlockSize, this->Of.Height); ++row)
+  for (int row = first.y; row < std::min(first.y + BlockSize, this->Of.Height); ++row)
   {
-    for (int column = left; column < std::min(left + BlockSize, this->Of.Width); ++column)
+    for (int column = first.x; column < std::min(first.x + BlockSize, this->Of.Width); ++column)
     {
       const auto ray = static_cast<std::size_t>(block.Count++);
       block.Pixels[ray] = row % TileSize * TileSize + column % TileSize;
@@ -532,6 +611,21 @@ void RefractedRayStack::StoreBlock(const Block& block, int tile, glm::dvec3& dir
         rays[static_cast<std::size_t>(block.Pixels[ray])] = { legs.Depth[ray], step };
         directions += step;
       }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Stores the intersections of a block's rays with the first interface, where they end. */
+void RefractedRayStack::StoreSights(const Block& block, int tile)
+{
+  std::vector<RefractedRay>& rays = this->Rays.front().ChangeTile(tile);
+  for (int ray = 0; ray < block.Count; ++ray)
+  {
+    if (IsHit(block.Lanes, ray))
+    {
+      const int pixel = block.Pixels[static_cast<std::size_t>(ray)];
+      rays[static_cast<std::size_t>(pixel)].Depth = block.Lanes.Last[ray];
     }
   }
 }

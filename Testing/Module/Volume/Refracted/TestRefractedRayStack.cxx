@@ -463,6 +463,7 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   int shown = 0;
   int ended = 0;
   int wrong = 0;
+  std::int64_t untraced = 0;
   for (int i = 0; i < 96; ++i)
   {
     RefractedRayField::View view =
@@ -477,6 +478,9 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
     SetMesh(view, box);
     some.Build(pane, view);
     EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
+    EXPECT_EQ(some.GetCounts().Reflected, all.GetCounts().Reflected);
+    EXPECT_EQ(all.GetNumberOfUntracedBlocks(), 0);
+    untraced += some.GetNumberOfUntracedBlocks();
     const RayLegs legs = LegsOf(all, view);
     for (int pixel = 0; pixel < Size * Size; ++pixel)
     {
@@ -505,6 +509,8 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(shown, 10000);
   EXPECT_GT(ended, 10000);
+  // Half of the blocks of 8 x 8 rays.
+  EXPECT_GT(untraced, 96 * Size * Size / (8 * 8) / 2);
 }
 
 TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
