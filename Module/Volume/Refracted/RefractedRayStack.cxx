@@ -23,17 +23,15 @@ namespace
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
 /** Side length, in pixels, of a block of rays that descend a tree together. */
-constexpr int BlockSize = 8;
+constexpr int BlockSize = RefractedRayTiles::SquareSize;
+constexpr int BlocksOfTile = RefractedRayTiles::SquaresOfTile;
 constexpr int RaysOfBlock = BlockSize * BlockSize;
 static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes");
-constexpr int BlocksOfRow = TileSize / BlockSize;
-constexpr int BlocksOfTile = BlocksOfRow * BlocksOfRow;
-static_assert(BlocksOfTile <= 16, "a bit of 16 per block of a tile");
 
 /** First pixel of a block of a tile, from the tile's. */
 glm::ivec2 FirstOfBlock(int number)
 {
-  return BlockSize * glm::ivec2(number % BlocksOfRow, number / BlocksOfRow);
+  return { RefractedRayTiles::ColumnOfSquare(number), RefractedRayTiles::RowOfSquare(number) };
 }
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
@@ -47,9 +45,12 @@ struct WorldLegs
   double Step[3][RaysOfBlock];
   /** Drawn depth of Place; infinite if the ray does not come to the interface of the leg. */
   double Depth[RaysOfBlock];
+  /** False if no leg behind this interface meets the mesh before the next one. */
+  bool MayShow = false;
 
   void Clear()
   {
+    this->MayShow = false;
     std::fill_n(this->Step[0], 3 * RaysOfBlock, 0.0);
     std::fill_n(this->Depth, RaysOfBlock, Infinity);
   }
@@ -114,6 +115,8 @@ struct EndedLegs
   const WorldLegs* Next;
   /** Not 0 if a further leg of the ray may meet the mesh. */
   std::int64_t (&Stays)[RaysOfBlock];
+  /** Not 0 if this leg may meet it. */
+  std::int64_t (&Meets)[RaysOfBlock];
 };
 
 /** Ends rays behind which there is nothing of the mesh. */
@@ -150,6 +153,7 @@ struct EndKernel
     const bool meets = rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
     const bool stays = (rays.Stays[i] != 0) | meets;
     rays.Stays[i] = stays ? 1 : 0;
+    rays.Meets[i] = meets ? 1 : 0;
     rays.Legs.SetStep(ray, stays ? step : glm::dvec3(0.0));
   }
 };
@@ -335,7 +339,7 @@ void RefractedRayStack::Build(
 std::int64_t RefractedRayStack::GetNumberOfUntracedBlocks() const
 {
   std::int64_t number = 0;
-  for (const std::uint16_t blocks : this->Untraced)
+  for (const TileSquares blocks : this->Untraced)
   {
     number += static_cast<std::int64_t>(std::bitset<BlocksOfTile>(blocks).count());
   }
@@ -402,8 +406,9 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVis
   {
     this->Rays[k].ChangeTile(tile).assign(
       k == 0 || mayShow ? RefractedRayTiles::RaysOfTile : 0, RefractedRay());
+    this->Rays[k].SetSquares(tile, 0, 0);
   }
-  std::uint16_t& untraced = this->Untraced[static_cast<std::size_t>(tile)];
+  TileSquares& untraced = this->Untraced[static_cast<std::size_t>(tile)];
   untraced = 0;
   Block block(this->Interfaces.size());
   for (int number = 0; number < BlocksOfTile; ++number)
@@ -414,11 +419,11 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVis
     {
       this->TraceBlock(this->Interfaces.size(), block, sum.Rays);
       this->EndRaysBesideMesh(block);
-      this->StoreBlock(block, tile, sum.Directions);
+      this->StoreBlock(block, tile, number, sum.Directions);
     }
     else
     {
-      untraced = static_cast<std::uint16_t>(untraced | 1u << number);
+      untraced = static_cast<TileSquares>(untraced | 1u << number);
       Counts ofUntraced; // counted by GetCounts()
       this->MeetInterface(0, block, ofUntraced);
       this->StoreSights(block, tile);
@@ -582,36 +587,39 @@ void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& s
 void RefractedRayStack::EndRaysBesideMesh(Block& block) const
 {
   std::int64_t stays[RaysOfBlock] = {};
+  std::int64_t meets[RaysOfBlock];
   const EndKernel kernel{ this->MeshCenter, this->MeshHalf };
   for (std::size_t k = block.Legs.size() - 1; k > 0; --k)
   {
-    EndedLegs rays{ block.Count, block.Legs[k],
-      k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr, stays };
+    WorldLegs& legs = block.Legs[k];
+    EndedLegs rays{ block.Count, legs, k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr,
+      stays, meets };
     RunLanes(kernel, this->Set, rays);
-    if (std::all_of(stays, stays + block.Count, [](std::int64_t ray) { return ray != 0; }))
-    {
-      return;
-    }
+    legs.MayShow =
+      std::any_of(meets, meets + block.Count, [](std::int64_t ray) { return ray != 0; });
   }
 }
 
 //------------------------------------------------------------------------------
 /** @param directions sum to which the steps of the legs are added, in the frame of the view. */
-void RefractedRayStack::StoreBlock(const Block& block, int tile, glm::dvec3& directions)
+void RefractedRayStack::StoreBlock(const Block& block, int tile, int number, glm::dvec3& directions)
 {
   for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
     std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
+    const WorldLegs& legs = block.Legs[k + 1];
+    bool goesOn = false;
     for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
     {
       if (block.Legs[k].GoesOn(ray))
       {
-        const WorldLegs& legs = block.Legs[k + 1];
         const glm::dvec3 step = this->WorldToFrame * legs.GetStep(ray);
         rays[static_cast<std::size_t>(block.Pixels[ray])] = { legs.Depth[ray], step };
         directions += step;
+        goesOn |= legs.GoesOn(ray);
       }
     }
+    this->Rays[k].AddSquare(tile, number, goesOn, legs.MayShow);
   }
 }
 

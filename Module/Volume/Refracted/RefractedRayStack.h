@@ -109,7 +109,7 @@ private:
   void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
   void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
   void EndRaysBesideMesh(Block& block) const;
-  void StoreBlock(const Block& block, int tile, glm::dvec3& directions);
+  void StoreBlock(const Block& block, int tile, int number, glm::dvec3& directions);
   void StoreSights(const Block& block, int tile);
 
   std::vector<StackedInterface> Interfaces;
@@ -122,7 +122,7 @@ private:
   glm::dvec3 MeshHalf{ 0.0 };
   std::vector<RefractedRayTiles> Rays;
   /** Blocks that are not traced behind the first interface: a bit per block of each tile. */
-  std::vector<std::uint16_t> Untraced;
+  std::vector<TileSquares> Untraced;
   glm::dvec3 MeanDirection{ 0.0 };
   Counts Sums;
 };
