@@ -73,7 +73,7 @@ PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, I
   this->Plane = { patch.Corner[0], normal, glm::cross(v, normal) / squared,
     glm::cross(normal, u) / squared };
   this->Size = std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
-  this->Scale = this->Size / rayLength;
+  this->SetRayLength(rayLength);
   // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
@@ -180,7 +180,18 @@ void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
 }
 
 //------------------------------------------------------------------------------
-PatchReach PatchIntersector::GetReach() const
+const PatchReach& PatchIntersector::GetReach() const
+{
+  if (!this->HasReach)
+  {
+    this->Reach = this->BoundReach();
+    this->HasReach = true;
+  }
+  return this->Reach;
+}
+
+//------------------------------------------------------------------------------
+PatchReach PatchIntersector::BoundReach() const
 {
   PatchReach reach;
   reach.Plane = this->Plane;

@@ -70,6 +70,8 @@ class PatchIntersector
 public:
   /** @param rayLength length of the direction of a typical ray. */
   PatchIntersector(const CurvedPatch& patch, double rayLength, InstructionSet set);
+  /** Prepares for other rays. */
+  void SetRayLength(double rayLength) { this->Scale = this->Size / rayLength; }
 
   /** Intersections of the rays of a rectangle of pixels with the plane of the facet. */
   struct FlatHits
@@ -141,7 +143,8 @@ public:
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(PatchIntersectionBatch& lanes) const;
-  PatchReach GetReach() const;
+  const PatchReach& GetReach() const;
+  PatchReach BoundReach() const;
   FreeRayBatch SiftNear(RayBlock& rays) const;
   template <class Rays, typename Visit>
   void MeetNear(
@@ -195,6 +198,9 @@ private:
    */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
+  /** Computed when it is needed first. */
+  mutable PatchReach Reach;
+  mutable bool HasReach = false;
   mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };

@@ -15,6 +15,7 @@
 #include <bitset>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace meniscus
 {
@@ -269,6 +270,34 @@ struct RefractedRayStack::Block
   RayBlock Lanes;
   /** Normals at these intersections. */
   double Normals[3][RaysOfBlock] = {};
+
+  /** Patches that earlier blocks of the tile met; a new patch takes the place of an older one. */
+  struct KeptPatch
+  {
+    std::size_t Interface;
+    std::int32_t Facet;
+    PatchIntersector Tracer;
+  };
+  static constexpr std::uint32_t KeptPatches = 64;
+  std::vector<std::optional<KeptPatch>> Kept{ KeptPatches };
+
+  /** Intersector of a patch, for rays of that length. */
+  const PatchIntersector& GetTracer(const StackedInterface& interface, std::size_t number,
+    std::int32_t facet, double rayLength, InstructionSet set)
+  {
+    const auto place = static_cast<std::uint32_t>(facet) + 17u * static_cast<std::uint32_t>(number);
+    std::optional<KeptPatch>& kept = this->Kept[place % KeptPatches];
+    if (kept && kept->Interface == number && kept->Facet == facet)
+    {
+      kept->Tracer.SetRayLength(rayLength);
+    }
+    else
+    {
+      kept.emplace(KeptPatch{
+        number, facet, PatchIntersector(interface.Patches->GetPatch(facet), rayLength, set) });
+    }
+    return kept->Tracer;
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -542,8 +571,10 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
     [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
     [&](std::int32_t facet, const TubeRange&)
     {
-      const PatchIntersector tracer(interface.Patches->GetPatch(facet), rayLength, this->Set);
+      const PatchIntersector& tracer =
+        block.GetTracer(interface, number, facet, rayLength, this->Set);
       isNearer = false;
+      sums.Undecided -= tracer.GetNumberOfUndecidedRays();
       tracer.Meet(lanes, keepNearest);
       sums.Undecided += tracer.GetNumberOfUndecidedRays();
       // Parameters of the tube count from its beginning.
