@@ -64,7 +64,7 @@ public:
     }
   };
 
-  /** Traces all rays. The indices of `view` are not used. */
+  /** Traces the rays. The indices of `view` are not used. */
   void Build(const std::vector<StackedInterface>& interfaces, const View& view,
     const RangeLoop& loop = SerialLoop);
   /** Removes all rays. */
