@@ -205,7 +205,10 @@ RefractedRayStack::Counts RayCastMembrane::GetCounts() const
   {
     return {};
   }
-  RefractedRayStack::Counts counts = this->Stack.GetCounts();
+  // Rays are only traced through the surfaces that the image is of.
+  const bool isCurrent = this->SightShapes == this->GetShapeVersion();
+  RefractedRayStack::Counts counts =
+    isCurrent ? this->Stack.GetCounts() : this->Stack.GetCountsOfTraced();
   counts.Undecided += this->Sight.GetNumberOfUndecidedRays();
   return counts;
 }

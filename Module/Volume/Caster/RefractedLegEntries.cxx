@@ -14,6 +14,7 @@ namespace
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
 static_assert(LegBlock::Size == LineBlock::Size, "lines of a square fill a block");
+static_assert(LegBlock::Side == RefractedRayTiles::SquareSize, "legs of a square fill a block");
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -238,17 +239,25 @@ void RefractedLegEntries::Collect(
       group.Clear();
     }
   }
-  for (int row = 0; row < TileSize; row += LegBlock::Side)
+  for (int square = 0; square < RefractedRayTiles::SquaresOfTile; ++square)
   {
-    for (int column = 0; column < TileSize; column += LegBlock::Side)
+    const int corner =
+      RefractedRayTiles::RowOfSquare(square) * TileSize + RefractedRayTiles::ColumnOfSquare(square);
+    if (!this->Legs.MayShow(leg.Number, leg.Tile, square))
     {
-      FindLegs(
-        this->Legs, leg.Tile, row * TileSize + column, leg.Number, this->Set, workspace.Legs);
-      this->SiftLegs(leg, job, joined, workspace);
-      if (workspace.Legs.Count > 0)
+      // The ends of the legs are outside of the mesh.
+      for (int i = 0; i < LegBlock::Size && this->Legs.HasLegs(leg.Number, leg.Tile, square); ++i)
       {
-        this->GroupLegs(workspace);
+        joined.SetEnd(
+          corner + LegBlock::RowOf(i) * TileSize + LegBlock::ColumnOf(i), PacketResult::Outside);
       }
+      continue;
+    }
+    FindLegs(this->Legs, leg.Tile, corner, leg.Number, this->Set, workspace.Legs);
+    this->SiftLegs(leg, job, joined, workspace);
+    if (workspace.Legs.Count > 0)
+    {
+      this->GroupLegs(workspace);
     }
   }
 }

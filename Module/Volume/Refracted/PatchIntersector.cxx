@@ -17,15 +17,6 @@ namespace
 /** A patch whose distance from its facet is within the rounding of its corners is flat. */
 constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 
-/**
- * Distance by which the normal at an intersection may be outside of the hull of the patch's control
- * points. Both causes are proportional to its derivatives: the intersection is outside of the facet
- * by up to 1e-8, and the normal is linear along Newton's last step of up to 1e-4, to an accuracy of
- * its square. The factor 50 is larger than the first and the second derivatives of normals, which
- * are sums of a few vectors of length 2.
- */
-constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
-
 }
 
 //------------------------------------------------------------------------------
@@ -82,7 +73,7 @@ PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, I
   this->Plane = { patch.Corner[0], normal, glm::cross(v, normal) / squared,
     glm::cross(normal, u) / squared };
   this->Size = std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
-  this->Scale = this->Size / rayLength;
+  this->SetRayLength(rayLength);
   // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
@@ -189,7 +180,18 @@ void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
 }
 
 //------------------------------------------------------------------------------
-PatchReach PatchIntersector::GetReach() const
+const PatchReach& PatchIntersector::GetReach() const
+{
+  if (!this->HasReach)
+  {
+    this->Reach = this->BoundReach();
+    this->HasReach = true;
+  }
+  return this->Reach;
+}
+
+//------------------------------------------------------------------------------
+PatchReach PatchIntersector::BoundReach() const
 {
   PatchReach reach;
   reach.Plane = this->Plane;

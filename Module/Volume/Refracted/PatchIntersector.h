@@ -70,6 +70,8 @@ class PatchIntersector
 public:
   /** @param rayLength length of the direction of a typical ray. */
   PatchIntersector(const CurvedPatch& patch, double rayLength, InstructionSet set);
+  /** Prepares for other rays. */
+  void SetRayLength(double rayLength) { this->Scale = this->Size / rayLength; }
 
   /** Intersections of the rays of a rectangle of pixels with the plane of the facet. */
   struct FlatHits
@@ -129,11 +131,20 @@ public:
    * the origin.
    */
   static constexpr double Margin = 1e-7;
+  /**
+   * Distance by which the normal at an intersection may be outside of the hull of the patch's
+   * control points. Both causes are proportional to its derivatives: the intersection is outside of
+   * the facet by up to Border, and the normal is linear along Newton's last step of up to LastStep,
+   * to an accuracy of its square. The factor 50 is larger than the first and the second derivatives
+   * of normals, which are sums of a few vectors of length 2.
+   */
+  static constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(PatchIntersectionBatch& lanes) const;
-  PatchReach GetReach() const;
+  const PatchReach& GetReach() const;
+  PatchReach BoundReach() const;
   FreeRayBatch SiftNear(RayBlock& rays) const;
   template <class Rays, typename Visit>
   void MeetNear(
@@ -187,6 +198,9 @@ private:
    */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
+  /** Computed when it is needed first. */
+  mutable PatchReach Reach;
+  mutable bool HasReach = false;
   mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };

@@ -13,6 +13,7 @@ namespace meniscus
 void PatchTree::Build(const Membrane& surface, const CurvedPatches& patches, const RangeLoop& loop)
 {
   std::vector<AxisBox> boxes(surface.GetFacets().size());
+  this->Patches.resize(boxes.size());
   loop(boxes.size(),
     [&](std::size_t begin, std::size_t end)
     {
@@ -24,6 +25,9 @@ void PatchTree::Build(const Membrane& surface, const CurvedPatches& patches, con
         const glm::dvec3 reach(BoundBulge(patch) + PatchIntersector::Margin * patch.GetSize());
         boxes[f] = { glm::min(corner[0], glm::min(corner[1], corner[2])) - reach,
           glm::max(corner[0], glm::max(corner[1], corner[2])) + reach };
+        const DirectionBox normals = BoundNormals(patch);
+        const glm::dvec3 half = normals.Half + PatchIntersector::NormalMargin;
+        this->Patches[f] = { boxes[f], { normals.Middle - half, normals.Middle + half } };
       }
     });
   this->Boxes.Build(boxes);

@@ -104,6 +104,17 @@ public:
     return this->Refracted[static_cast<std::size_t>(leg) - 1]->GetTile(tile);
   }
 
+  /** False if no ray of a square of a tile has leg number `leg`. */
+  bool HasLegs(int leg, int tile, int square) const
+  {
+    return this->Refracted[static_cast<std::size_t>(leg) - 1]->GoesOn(tile, square);
+  }
+  /** False if none of these legs may meet the mesh. */
+  bool MayShow(int leg, int tile, int square) const
+  {
+    return this->Refracted[static_cast<std::size_t>(leg) - 1]->MayShow(tile, square);
+  }
+
   /** Lower left pixel of a tile. */
   int GetLeft(int tile) const { return tile % this->Columns * RefractedRayTiles::TileSize; }
   int GetBottom(int tile) const { return tile / this->Columns * RefractedRayTiles::TileSize; }

@@ -470,6 +470,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
   {
     this->Refracted.ChangeTile(tile).assign(
       RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
+    this->Refracted.SetSquares(tile, 0, 0);
     return sum;
   }
   std::vector<MembraneHit> hits;
@@ -484,18 +485,23 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
       sum.Undecided += this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
     }
   }
-  this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum.Directions);
+  const TileSquares goingOn =
+    this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum.Directions);
+  this->Refracted.SetSquares(tile, goingOn, goingOn);
   return sum;
 }
 
 //------------------------------------------------------------------------------
 /**
+ * Returns the squares with refracted rays.
  * @param directions sum to which the steps along the refracted rays are added, in world
  *   coordinates.
  */
-void RefractedRayField::RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
-  std::vector<RefractedRay>& rays, glm::dvec3& directions) const
+TileSquares RefractedRayField::RefractTile(const PixelRays& tile,
+  const std::vector<MembraneHit>& hits, std::vector<RefractedRay>& rays,
+  glm::dvec3& directions) const
 {
+  TileSquares goingOn = 0;
   const auto bend = [&](PatchIntersectionBatch& lanes)
   {
     Refract(this->Rays, this->Mesh.Ratio, this->Set, lanes);
@@ -505,6 +511,7 @@ void RefractedRayField::RefractTile(const PixelRays& tile, const std::vector<Mem
       {
         const glm::dvec3 step(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
         rays[static_cast<std::size_t>(lanes.Index[i])].Step = this->WorldToFrame * step;
+        goingOn = static_cast<TileSquares>(goingOn | RefractedRayTiles::SquareOf(lanes.Index[i]));
         directions += step;
       }
     }
@@ -538,6 +545,7 @@ void RefractedRayField::RefractTile(const PixelRays& tile, const std::vector<Mem
   {
     rays.shrink_to_fit();
   }
+  return goingOn;
 }
 
 }

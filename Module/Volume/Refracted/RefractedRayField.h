@@ -138,7 +138,7 @@ private:
     std::vector<MembraneHit>& hits) const;
   void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
     const Box& box, bool matters, const PixelRays& rays, std::vector<MembraneHit>& hits) const;
-  void RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
+  TileSquares RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
     std::vector<RefractedRay>& rays, glm::dvec3& directions) const;
 
   View Of;

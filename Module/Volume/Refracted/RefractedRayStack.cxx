@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace meniscus
 {
@@ -22,9 +24,16 @@ namespace
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
 /** Side length, in pixels, of a block of rays that descend a tree together. */
-constexpr int BlockSize = 8;
+constexpr int BlockSize = RefractedRayTiles::SquareSize;
+constexpr int BlocksOfTile = RefractedRayTiles::SquaresOfTile;
 constexpr int RaysOfBlock = BlockSize * BlockSize;
 static_assert(RaysOfBlock == RayBlock::Size, "the rays of a block fill the lanes");
+
+/** First pixel of a block of a tile, from the tile's. */
+glm::ivec2 FirstOfBlock(int number)
+{
+  return { RefractedRayTiles::ColumnOfSquare(number), RefractedRayTiles::RowOfSquare(number) };
+}
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -37,9 +46,12 @@ struct WorldLegs
   double Step[3][RaysOfBlock];
   /** Drawn depth of Place; infinite if the ray does not come to the interface of the leg. */
   double Depth[RaysOfBlock];
+  /** False if no leg behind this interface meets the mesh before the next one. */
+  bool MayShow = false;
 
   void Clear()
   {
+    this->MayShow = false;
     std::fill_n(this->Step[0], 3 * RaysOfBlock, 0.0);
     std::fill_n(this->Depth, RaysOfBlock, Infinity);
   }
@@ -104,6 +116,8 @@ struct EndedLegs
   const WorldLegs* Next;
   /** Not 0 if a further leg of the ray may meet the mesh. */
   std::int64_t (&Stays)[RaysOfBlock];
+  /** Not 0 if this leg may meet it. */
+  std::int64_t (&Meets)[RaysOfBlock];
 };
 
 /** Ends rays behind which there is nothing of the mesh. */
@@ -140,6 +154,7 @@ struct EndKernel
     const bool meets = rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
     const bool stays = (rays.Stays[i] != 0) | meets;
     rays.Stays[i] = stays ? 1 : 0;
+    rays.Meets[i] = meets ? 1 : 0;
     rays.Legs.SetStep(ray, stays ? step : glm::dvec3(0.0));
   }
 };
@@ -255,6 +270,34 @@ struct RefractedRayStack::Block
   RayBlock Lanes;
   /** Normals at these intersections. */
   double Normals[3][RaysOfBlock] = {};
+
+  /** Patches that earlier blocks of the tile met; a new patch takes the place of an older one. */
+  struct KeptPatch
+  {
+    std::size_t Interface;
+    std::int32_t Facet;
+    PatchIntersector Tracer;
+  };
+  static constexpr std::uint32_t KeptPatches = 64;
+  std::vector<std::optional<KeptPatch>> Kept{ KeptPatches };
+
+  /** Intersector of a patch, for rays of that length. */
+  const PatchIntersector& GetTracer(const StackedInterface& interface, std::size_t number,
+    std::int32_t facet, double rayLength, InstructionSet set)
+  {
+    const auto place = static_cast<std::uint32_t>(facet) + 17u * static_cast<std::uint32_t>(number);
+    std::optional<KeptPatch>& kept = this->Kept[place % KeptPatches];
+    if (kept && kept->Interface == number && kept->Facet == facet)
+    {
+      kept->Tracer.SetRayLength(rayLength);
+    }
+    else
+    {
+      kept.emplace(KeptPatch{
+        number, facet, PatchIntersector(interface.Patches->GetPatch(facet), rayLength, set) });
+    }
+    return kept->Tracer;
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -262,6 +305,7 @@ void RefractedRayStack::Clear()
 {
   this->Interfaces.clear();
   this->Rays.clear();
+  this->Untraced.clear();
   this->Sums = Counts();
   this->MeanDirection = glm::dvec3(0.0);
 }
@@ -297,13 +341,16 @@ void RefractedRayStack::Build(
   {
     rays.Resize(tiles);
   }
+  this->Untraced.resize(tiles);
+  const StackVisibility sight(
+    this->Interfaces, { this->MeshCenter, this->MeshHalf }, this->Of.Center);
   std::vector<TileSum> sums(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        sums[tile] = this->TraceTile(static_cast<int>(tile));
+        sums[tile] = this->TraceTile(static_cast<int>(tile), sight);
       }
     });
   this->Sums = Counts();
@@ -311,38 +358,104 @@ void RefractedRayStack::Build(
   for (const TileSum& tile : sums)
   {
     sum += tile.Directions;
-    this->Sums.Missing += tile.Rays.Missing;
-    this->Sums.Mismatched += tile.Rays.Mismatched;
-    this->Sums.Reflected += tile.Rays.Reflected;
-    this->Sums.Undecided += tile.Rays.Undecided;
+    this->Sums.Add(tile.Rays);
   }
   const double length = glm::length(sum);
   this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
 }
 
 //------------------------------------------------------------------------------
-RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
+std::int64_t RefractedRayStack::GetNumberOfUntracedBlocks() const
+{
+  std::int64_t number = 0;
+  for (const TileSquares blocks : this->Untraced)
+  {
+    number += static_cast<std::int64_t>(std::bitset<BlocksOfTile>(blocks).count());
+  }
+  return number;
+}
+
+//------------------------------------------------------------------------------
+RefractedRayStack::Counts RefractedRayStack::GetCounts() const
+{
+  Counts counts = this->Sums;
+  Block block(this->Interfaces.size());
+  for (std::size_t tile = 0; tile < this->Untraced.size(); ++tile)
+  {
+    for (int number = 0; number < BlocksOfTile; ++number)
+    {
+      if ((this->Untraced[tile] >> number & 1u) != 0)
+      {
+        this->StartBlock(this->FirstPixel(static_cast<int>(tile)) + FirstOfBlock(number), block);
+        this->TraceBlock(this->Interfaces.size(), block, counts);
+      }
+    }
+  }
+  return counts;
+}
+
+//------------------------------------------------------------------------------
+/** Traces the rays of a block through the first interfaces. */
+void RefractedRayStack::TraceBlock(std::size_t interfaces, Block& block, Counts& sums) const
+{
+  for (std::size_t k = 0; k < interfaces; ++k)
+  {
+    this->MeetInterface(k, block, sums);
+    this->RefractBlock(k, block, sums);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Rays at the corners of a square of pixels, from the depth of the eye on. */
+CornerRays RefractedRayStack::CornersOf(const glm::ivec2& first, int size) const
+{
+  const RayFrame& frame = this->Of.Frame;
+  const glm::dvec2 toCenter(0.5 - 0.5 * this->Of.Width, 0.5 - 0.5 * this->Of.Height);
+  const int last = size - 1;
+  const glm::ivec2 corners[4] = { { 0, 0 }, { last, 0 }, { last, last }, { 0, last } };
+  CornerRays rays;
+  for (int i = 0; i < 4; ++i)
+  {
+    const glm::dvec2 pixel = glm::dvec2(first + corners[i]) + toCenter;
+    const glm::dvec3 place(frame.Origin.At(pixel.x, pixel.y), 0.0);
+    const glm::dvec3 step(frame.Slope.At(pixel.x, pixel.y), 1.0);
+    rays.Starts[i] = frame.ViewToWorld * (place + this->Of.EyeDepth * step);
+    rays.Directions[i] = frame.ViewToWorld * step;
+  }
+  return rays;
+}
+
+//------------------------------------------------------------------------------
+RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVisibility& sight)
 {
   TileSum sum;
-  const int left = tile % this->Columns * TileSize;
-  const int bottom = tile / this->Columns * TileSize;
-  for (RefractedRayTiles& rays : this->Rays)
+  const glm::ivec2 first = this->FirstPixel(tile);
+  const bool mayShow = sight.MayShowMesh(this->CornersOf(first, TileSize));
+  for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
-    rays.ChangeTile(tile).assign(RefractedRayTiles::RaysOfTile, RefractedRay());
+    this->Rays[k].ChangeTile(tile).assign(
+      k == 0 || mayShow ? RefractedRayTiles::RaysOfTile : 0, RefractedRay());
+    this->Rays[k].SetSquares(tile, 0, 0);
   }
+  TileSquares& untraced = this->Untraced[static_cast<std::size_t>(tile)];
+  untraced = 0;
   Block block(this->Interfaces.size());
-  for (int row = 0; row < TileSize; row += BlockSize)
+  for (int number = 0; number < BlocksOfTile; ++number)
   {
-    for (int column = 0; column < TileSize; column += BlockSize)
+    const glm::ivec2 pixel = first + FirstOfBlock(number);
+    this->StartBlock(pixel, block);
+    if (mayShow && sight.MayShowMesh(this->CornersOf(pixel, BlockSize)))
     {
-      this->StartBlock(left + column, bottom + row, block);
-      for (std::size_t k = 0; k < this->Interfaces.size(); ++k)
-      {
-        this->MeetInterface(k, block, sum.Rays);
-        this->RefractBlock(k, block, sum.Rays);
-      }
+      this->TraceBlock(this->Interfaces.size(), block, sum.Rays);
       this->EndRaysBesideMesh(block);
-      this->StoreBlock(block, tile, sum.Directions);
+      this->StoreBlock(block, tile, number, sum.Directions);
+    }
+    else
+    {
+      untraced = static_cast<TileSquares>(untraced | 1u << number);
+      Counts ofUntraced; // counted by GetCounts()
+      this->MeetInterface(0, block, ofUntraced);
+      this->StoreSights(block, tile);
     }
   }
   for (RefractedRayTiles& tiles : this->Rays)
@@ -358,8 +471,8 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
 }
 
 //------------------------------------------------------------------------------
-/** Sets leg 0 of the rays of a block; left and bottom are its first pixel. */
-void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
+/** Sets leg 0 of the rays of a block, which begins at the pixel `first`. */
+void RefractedRayStack::StartBlock(const glm::ivec2& first, Block& block) const
 {
   for (WorldLegs& legs : block.Legs)
   {
@@ -367,9 +480,9 @@ void RefractedRayStack::StartBlock(int left, int bottom, Block& block) const
   }
   block.Count = 0;
   SightLegs sight{ 0, {}, {}, block.Legs[0] };
-  for (int row = bottom; row < std::min(bottom + BlockSize, this->Of.Height); ++row)
+  for (int row = first.y; row < std::min(first.y + BlockSize, this->Of.Height); ++row)
   {
-    for (int column = left; column < std::min(left + BlockSize, this->Of.Width); ++column)
+    for (int column = first.x; column < std::min(first.x + BlockSize, this->Of.Width); ++column)
     {
       const auto ray = static_cast<std::size_t>(block.Count++);
       block.Pixels[ray] = row % TileSize * TileSize + column % TileSize;
@@ -458,8 +571,10 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
     [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
     [&](std::int32_t facet, const TubeRange&)
     {
-      const PatchIntersector tracer(interface.Patches->GetPatch(facet), rayLength, this->Set);
+      const PatchIntersector& tracer =
+        block.GetTracer(interface, number, facet, rayLength, this->Set);
       isNearer = false;
+      sums.Undecided -= tracer.GetNumberOfUndecidedRays();
       tracer.Meet(lanes, keepNearest);
       sums.Undecided += tracer.GetNumberOfUndecidedRays();
       // Parameters of the tube count from its beginning.
@@ -503,35 +618,53 @@ void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& s
 void RefractedRayStack::EndRaysBesideMesh(Block& block) const
 {
   std::int64_t stays[RaysOfBlock] = {};
+  std::int64_t meets[RaysOfBlock];
   const EndKernel kernel{ this->MeshCenter, this->MeshHalf };
   for (std::size_t k = block.Legs.size() - 1; k > 0; --k)
   {
-    EndedLegs rays{ block.Count, block.Legs[k],
-      k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr, stays };
+    WorldLegs& legs = block.Legs[k];
+    EndedLegs rays{ block.Count, legs, k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr,
+      stays, meets };
     RunLanes(kernel, this->Set, rays);
-    if (std::all_of(stays, stays + block.Count, [](std::int64_t ray) { return ray != 0; }))
-    {
-      return;
-    }
+    legs.MayShow =
+      std::any_of(meets, meets + block.Count, [](std::int64_t ray) { return ray != 0; });
   }
 }
 
 //------------------------------------------------------------------------------
 /** @param directions sum to which the steps of the legs are added, in the frame of the view. */
-void RefractedRayStack::StoreBlock(const Block& block, int tile, glm::dvec3& directions)
+void RefractedRayStack::StoreBlock(const Block& block, int tile, int number, glm::dvec3& directions)
 {
   for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
     std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
+    const WorldLegs& legs = block.Legs[k + 1];
+    bool goesOn = false;
     for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
     {
       if (block.Legs[k].GoesOn(ray))
       {
-        const WorldLegs& legs = block.Legs[k + 1];
         const glm::dvec3 step = this->WorldToFrame * legs.GetStep(ray);
         rays[static_cast<std::size_t>(block.Pixels[ray])] = { legs.Depth[ray], step };
         directions += step;
+        goesOn |= legs.GoesOn(ray);
       }
+    }
+    this->Rays[k].AddSquare(tile, number, goesOn, legs.MayShow);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Stores the intersections of a block's rays with the first interface, where they end. */
+void RefractedRayStack::StoreSights(const Block& block, int tile)
+{
+  std::vector<RefractedRay>& rays = this->Rays.front().ChangeTile(tile);
+  for (int ray = 0; ray < block.Count; ++ray)
+  {
+    if (IsHit(block.Lanes, ray))
+    {
+      const int pixel = block.Pixels[static_cast<std::size_t>(ray)];
+      rays[static_cast<std::size_t>(pixel)].Depth = block.Lanes.Last[ray];
     }
   }
 }

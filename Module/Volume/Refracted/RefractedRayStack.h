@@ -4,15 +4,14 @@
 #define meniscus_Volume_Refracted_RefractedRayStack_h
 
 #include "Common/RangeLoop.h"
-#include "Refraction/Membrane/CurvedPatches.h"
-#include "Refraction/Membrane/Membrane.h"
 #include "Simd/InstructionSets.h"
-#include "Volume/Refracted/PatchIntersector.h"
-#include "Volume/Refracted/PatchTree.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
+#include "Volume/Refracted/StackVisibility.h"
+#include "Volume/Refracted/StackedInterface.h"
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -20,20 +19,6 @@
 
 namespace meniscus
 {
-
-/** A refracting surface in a list of them. All objects must outlive the users of the list. */
-struct StackedInterface
-{
-  const Membrane* Surface = nullptr;
-  const CurvedPatches* Patches = nullptr;
-  const PatchTree* Tree = nullptr;
-  /**
-   * Indices of refraction on the side that the surface's normals point to, and on the other side;
-   * they differ.
-   */
-  double Exterior = 1.0;
-  double Interior = 1.0;
-};
 
 /**
  * Rays of an image behind several refracting interfaces, in the order of a list. A ray meets the
@@ -45,6 +30,9 @@ struct StackedInterface
  * A ray that is totally reflected at an interface ends there. A ray that misses an interface ends
  * at the one before, where nothing is known about its further way; rays that miss the first
  * interface are straight. A ray also ends at an interface behind which it does not reach the mesh.
+ *
+ * Blocks of rays that show nothing of the mesh by their bounds (StackVisibility) are not traced
+ * behind the first interface.
  *
  * RefractedRayField does the same for one interface, faster: rays from one eye are sorted by the
  * projections of the patches. Here rays have any directions, and blocks of them descend a tree of
@@ -66,9 +54,17 @@ public:
     std::int64_t Reflected = 0;
     /** As RefractedRayField::GetNumberOfUndecidedRays(). */
     std::int64_t Undecided = 0;
+
+    void Add(const Counts& other)
+    {
+      this->Missing += other.Missing;
+      this->Mismatched += other.Mismatched;
+      this->Reflected += other.Reflected;
+      this->Undecided += other.Undecided;
+    }
   };
 
-  /** Traces all rays. The indices of `view` are not used. */
+  /** Traces the rays. The indices of `view` are not used. */
   void Build(const std::vector<StackedInterface>& interfaces, const View& view,
     const RangeLoop& loop = SerialLoop);
   /** Removes all rays. */
@@ -80,7 +76,15 @@ public:
   bool IsSeen() const { return !this->Rays.empty() && this->Rays.front().HasRays(); }
   /** Mean direction of all legs in the frame of the view; a unit vector, or 0 without any. */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
-  const Counts& GetCounts() const { return this->Sums; }
+  /**
+   * Counts all rays of the image. Traces the blocks that Build() left out, through the interfaces
+   * that it was given.
+   */
+  Counts GetCounts() const;
+  /** Counts the rays in the blocks that Build() traced. */
+  const Counts& GetCountsOfTraced() const { return this->Sums; }
+  /** Number of the blocks that Build() traced through the first interface only. */
+  std::int64_t GetNumberOfUntracedBlocks() const;
   std::int64_t GetBytes() const;
 
 private:
@@ -92,13 +96,21 @@ private:
     Counts Rays;
   };
 
-  TileSum TraceTile(int tile);
-  void StartBlock(int left, int bottom, Block& block) const;
+  TileSum TraceTile(int tile, const StackVisibility& sight);
+  void TraceBlock(std::size_t interfaces, Block& block, Counts& sums) const;
+  /** First pixel of a tile. */
+  glm::ivec2 FirstPixel(int tile) const
+  {
+    return RefractedRayTiles::TileSize * glm::ivec2(tile % this->Columns, tile / this->Columns);
+  }
+  CornerRays CornersOf(const glm::ivec2& first, int size) const;
+  void StartBlock(const glm::ivec2& first, Block& block) const;
   void SetLanes(std::size_t number, Block& block, Counts& sums) const;
   void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
   void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
   void EndRaysBesideMesh(Block& block) const;
-  void StoreBlock(const Block& block, int tile, glm::dvec3& directions);
+  void StoreBlock(const Block& block, int tile, int number, glm::dvec3& directions);
+  void StoreSights(const Block& block, int tile);
 
   std::vector<StackedInterface> Interfaces;
   View Of;
@@ -109,6 +121,8 @@ private:
   glm::dvec3 MeshCenter{ 0.0 };
   glm::dvec3 MeshHalf{ 0.0 };
   std::vector<RefractedRayTiles> Rays;
+  /** Blocks that are not traced behind the first interface: a bit per block of each tile. */
+  std::vector<TileSquares> Untraced;
   glm::dvec3 MeanDirection{ 0.0 };
   Counts Sums;
 };

@@ -34,17 +34,42 @@ struct RefractedRay
   bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
 };
 
+/** Squares of a tile: a bit for each, row by row. */
+using TileSquares = std::uint16_t;
+
 /** The rays of an image behind one refracting interface, by tiles. */
 class RefractedRayTiles
 {
 public:
   static constexpr int TileSize = 32;
   static constexpr int RaysOfTile = TileSize * TileSize;
+  /** Side length, in pixels, of the squares of a tile; see LegBlock. */
+  static constexpr int SquareSize = 8;
+  static constexpr int SquaresOfRow = TileSize / SquareSize;
+  static constexpr int SquaresOfTile = SquaresOfRow * SquaresOfRow;
+  static constexpr TileSquares AllSquares = 0xFFFF;
+  static_assert(SquaresOfTile == 16, "TileSquares has a bit per square");
+
+  /** First pixel of a square, from the tile's. */
+  static int ColumnOfSquare(int square) { return square % SquaresOfRow * SquareSize; }
+  static int RowOfSquare(int square) { return square / SquaresOfRow * SquareSize; }
+  /** The square of a pixel, numbered in rows of TileSize, as a bit. */
+  static TileSquares SquareOf(int pixel)
+  {
+    const int column = pixel % TileSize / SquareSize;
+    const int row = pixel / TileSize / SquareSize;
+    return static_cast<TileSquares>(1u << (row * SquaresOfRow + column));
+  }
 
   /** Sets the number of tiles, and keeps the rays of those that there were. */
-  void Resize(std::size_t tiles) { this->Tiles.resize(tiles); }
+  void Resize(std::size_t tiles)
+  {
+    this->Tiles.resize(tiles);
+    this->GoingOn.resize(tiles, AllSquares);
+    this->Showing.resize(tiles, AllSquares);
+  }
   /** Removes all tiles. */
-  void Clear() { this->Tiles.clear(); }
+  void Clear() { this->Resize(0); }
 
   int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
   /**
@@ -60,6 +85,30 @@ public:
   std::vector<RefractedRay>& ChangeTile(int tile)
   {
     return this->Tiles[static_cast<std::size_t>(tile)];
+  }
+  /**
+   * Sets the squares of a tile in which a ray goes on behind the interface, and those in which the
+   * leg behind it may meet the mesh. In a new tile these are all squares.
+   */
+  void SetSquares(int tile, TileSquares goingOn, TileSquares showing)
+  {
+    this->GoingOn[static_cast<std::size_t>(tile)] = goingOn;
+    this->Showing[static_cast<std::size_t>(tile)] = showing;
+  }
+  /** Adds a square to them. */
+  void AddSquare(int tile, int square, bool goesOn, bool mayShow)
+  {
+    const auto at = static_cast<std::size_t>(tile);
+    this->GoingOn[at] = static_cast<TileSquares>(this->GoingOn[at] | (goesOn ? 1u : 0u) << square);
+    this->Showing[at] = static_cast<TileSquares>(this->Showing[at] | (mayShow ? 1u : 0u) << square);
+  }
+  bool GoesOn(int tile, int square) const
+  {
+    return (this->GoingOn[static_cast<std::size_t>(tile)] >> square & 1u) != 0;
+  }
+  bool MayShow(int tile, int square) const
+  {
+    return (this->Showing[static_cast<std::size_t>(tile)] >> square & 1u) != 0;
   }
   /** True if any ray meets the interface. */
   bool HasRays() const
@@ -79,6 +128,8 @@ public:
 
 private:
   std::vector<std::vector<RefractedRay>> Tiles;
+  std::vector<TileSquares> GoingOn;
+  std::vector<TileSquares> Showing;
 };
 
 }

@@ -98,6 +98,24 @@ SurfaceLighting RefractionFrame::Turn(const SurfaceLighting& lighting) const
 }
 
 //------------------------------------------------------------------------------
+/** Returns a bit per frame that a ray of the square needs. */
+unsigned int RefractionFrames::FindNeeded(const RefractedRay* rays, int square) const
+{
+  unsigned int needed = 0;
+  const int firstRow = RefractedRayTiles::RowOfSquare(square);
+  const int firstColumn = RefractedRayTiles::ColumnOfSquare(square);
+  for (int row = firstRow; row < firstRow + RefractedRayTiles::SquareSize; ++row)
+  {
+    const RefractedRay* first = rays + row * RefractedRayTiles::TileSize + firstColumn;
+    for (const RefractedRay* ray = first; ray != first + RefractedRayTiles::SquareSize; ++ray)
+    {
+      needed |= ray->GoesOn() ? 1u << this->IndexOf(ray->Step) : 0u;
+    }
+  }
+  return needed;
+}
+
+//------------------------------------------------------------------------------
 /** Returns a bit per frame that a ray of the tile needs. */
 unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
 {
@@ -105,9 +123,9 @@ unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
   for (int leg = 1; leg < legs.GetNumberOfLegs(tile); ++leg)
   {
     const RefractedRay* rays = legs.GetTile(leg, tile);
-    for (int i = 0; i < RefractedRayTiles::RaysOfTile; ++i)
+    for (int square = 0; square < RefractedRayTiles::SquaresOfTile; ++square)
     {
-      needed |= rays[i].GoesOn() ? 1u << this->IndexOf(rays[i].Step) : 0u;
+      needed |= legs.HasLegs(leg, tile, square) ? this->FindNeeded(rays, square) : 0u;
     }
   }
   return needed;

@@ -93,6 +93,7 @@ public:
 
 private:
   unsigned int FindNeeded(const RayLegs& legs, int tile) const;
+  unsigned int FindNeeded(const RefractedRay* rays, int square) const;
 
   /** Columns: the axes of the cube, the mean direction last. */
   glm::dmat3 Axes{ 1.0 };

@@ -453,6 +453,50 @@ TEST(RefractedRayStack, RaysComeFromTheSideOfTheirMedium)
   EXPECT_EQ(reversed.GetCounts().Missing, Size * Size);
 }
 
+/** Rays through interfaces to a small mesh, compared with those to a mesh that is everywhere. */
+struct EndedRays
+{
+  int Shown = 0;
+  int Ended = 0;
+  int Wrong = 0;
+  std::int64_t Untraced = 0;
+
+  void Compare(
+    const std::vector<StackedInterface>& list, RefractedRayField::View view, const WorldBox& box)
+  {
+    RefractedRayStack all;
+    SetMesh(view, Everywhere);
+    all.Build(list, view);
+    RefractedRayStack some;
+    SetMesh(view, box);
+    some.Build(list, view);
+    EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
+    EXPECT_EQ(some.GetCounts().Reflected, all.GetCounts().Reflected);
+    EXPECT_EQ(all.GetNumberOfUntracedBlocks(), 0);
+    this->Untraced += some.GetNumberOfUntracedBlocks();
+    const RayLegs legs = LegsOf(all, view);
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      const auto rayOf = [pixel](const RefractedRayStack& stack, std::size_t interface)
+      { return RayOf(stack.GetRays()[interface], pixel % Size, pixel / Size); };
+      bool comes = false;
+      for (std::size_t k = list.size(); k > 0; --k)
+      {
+        const WorldRay ray = LegOf(legs, view, pixel % Size, pixel / Size, static_cast<int>(k));
+        const RefractedRay exact = rayOf(all, k - 1);
+        const RefractedRay found = rayOf(some, k - 1);
+        const RefractedRay next = k < list.size() ? rayOf(all, k) : RefractedRay();
+        comes = comes ||
+          (exact.GoesOn() && box.Meets(ray.Start, ray.Direction, next.Depth - exact.Depth));
+        this->Shown += comes ? 1 : 0;
+        this->Ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
+        this->Wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
+      }
+      this->Wrong += rayOf(all, 0).Depth != rayOf(some, 0).Depth ? 1 : 0;
+    }
+  }
+};
+
 /** Rays end early only where they do not come to the mesh. */
 TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
 {
@@ -460,51 +504,54 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   const StackedSheet front(Shapes[2], 12);
   const StackedSheet back([](double x, double y) { return Shapes[1](y, x) - 0.8; }, 9);
   const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
-  int shown = 0;
-  int ended = 0;
-  int wrong = 0;
+  EndedRays rays;
   for (int i = 0; i < 96; ++i)
   {
-    RefractedRayField::View view =
+    const RefractedRayField::View view =
       LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), random(0.5, 3.0)),
         random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), i % 3 == 0, Size);
-    const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -2.0), glm::dvec3(1.0, 1.0, 0.5)),
-      random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
-    RefractedRayStack all;
-    SetMesh(view, Everywhere);
-    all.Build(pane, view);
-    RefractedRayStack some;
-    SetMesh(view, box);
-    some.Build(pane, view);
-    EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
-    const RayLegs legs = LegsOf(all, view);
-    for (int pixel = 0; pixel < Size * Size; ++pixel)
-    {
-      bool comes = false;
-      for (int leg = 2; leg > 0; --leg)
-      {
-        const WorldRay ray = LegOf(legs, view, pixel % Size, pixel / Size, leg);
-        const RefractedRay exact =
-          RayOf(all.GetRays()[static_cast<std::size_t>(leg) - 1], pixel % Size, pixel / Size);
-        const RefractedRay found =
-          RayOf(some.GetRays()[static_cast<std::size_t>(leg) - 1], pixel % Size, pixel / Size);
-        const RefractedRay next =
-          leg < 2 ? RayOf(all.GetRays()[1], pixel % Size, pixel / Size) : RefractedRay();
-        comes = comes ||
-          (exact.GoesOn() && box.Meets(ray.Start, ray.Direction, next.Depth - exact.Depth));
-        shown += comes ? 1 : 0;
-        ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
-        wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
-      }
-      wrong += RayOf(all.GetRays()[0], pixel % Size, pixel / Size).Depth !=
-          RayOf(some.GetRays()[0], pixel % Size, pixel / Size).Depth
-        ? 1
-        : 0;
-    }
+    rays.Compare(pane, view,
+      { random.Point(glm::dvec3(-1.0, -1.0, -2.0), glm::dvec3(1.0, 1.0, 0.5)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) });
   }
-  EXPECT_EQ(wrong, 0);
-  EXPECT_GT(shown, 10000);
-  EXPECT_GT(ended, 10000);
+  EXPECT_EQ(rays.Wrong, 0);
+  EXPECT_GT(rays.Shown, 10000);
+  EXPECT_GT(rays.Ended, 10000);
+  // Half of the blocks of 8 x 8 rays.
+  EXPECT_GT(rays.Untraced, 96 * Size * Size / (8 * 8) / 2);
+}
+
+/** The same from behind, at sheets of few and of many facets, through a ball, and into dense media.
+ */
+TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
+{
+  Random random(29);
+  const StackedSheet coarse(Shapes[0], 1);
+  const StackedSheet waves([](double x, double y) { return Shapes[2](x, y) - 0.4; }, 48);
+  const StackedSphere sphere(12);
+  // Media from above, and from below in the reverse order.
+  const std::vector<StackedInterface> above{ coarse.Between(1.0, 2.0), waves.Between(2.0, 1.0) };
+  const std::vector<StackedInterface> below{ waves.Between(2.0, 1.0), coarse.Between(1.0, 2.0) };
+  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 1.5), sphere.Between(1.0, 1.5) };
+  const std::vector<StackedInterface> behind{ coarse.Between(1.0, 1.3), sphere.Between(1.3, 1.0),
+    sphere.Between(1.3, 1.0) };
+  EndedRays rays;
+  for (int i = 0; i < 48; ++i)
+  {
+    const std::vector<StackedInterface>& list =
+      i % 4 == 0 ? above : (i % 4 == 1 ? below : (i % 4 == 2 ? ball : behind));
+    const double side = i % 4 == 1 ? -1.0 : 1.0;
+    const RefractedRayField::View view =
+      LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), side * random(1.5, 3.0)),
+        random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 3.0), i % 3 == 0, Size);
+    rays.Compare(list, view,
+      { random.Point(glm::dvec3(-0.9), glm::dvec3(0.9)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.4)) });
+  }
+  EXPECT_EQ(rays.Wrong, 0);
+  EXPECT_GT(rays.Shown, 5000);
+  EXPECT_GT(rays.Ended, 5000);
+  EXPECT_GT(rays.Untraced, 48 * Size * Size / (8 * 8) / 4);
 }
 
 TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/StackVisibility.h"
+
+#include <glm/common.hpp>
+
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Box around the points of a tube between two parameters; the last one may be infinite. */
+AxisBox BoundPart(const TubeBounds& tube, const TubeRange& range)
+{
+  AxisBox box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = tube.DirectionLow[axis];
+    const double high = tube.DirectionHigh[axis];
+    box.Low[axis] = tube.StartLow[axis] + (low < 0.0 ? low * range.To : low * range.From);
+    box.High[axis] = tube.StartHigh[axis] + (high > 0.0 ? high * range.To : high * range.From);
+  }
+  return box;
+}
+
+/** Unit vectors in a box. */
+DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
+{
+  return { 0.5 * (low + high), 0.5 * (high - low) };
+}
+
+}
+
+//------------------------------------------------------------------------------
+/**
+ * @param facing 1 if rays only meet the surface along its normals, -1 if only against them, 0 if
+ *   from both sides.
+ */
+StackVisibility::Meeting StackVisibility::Meet(
+  const StackedInterface& interface, const TubeBounds& tube, double facing) const
+{
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
+  const glm::dvec3 toSurface = this->Origin - interface.Surface->GetOrigin();
+  TubeBounds shifted = tube;
+  shifted.StartLow += toSurface;
+  shifted.StartHigh += toSurface;
+  Meeting meeting;
+  interface.Tree->GetBoxes().Visit(shifted, anywhere,
+    [&](std::int32_t facet, const TubeRange& range)
+    {
+      const PatchTree::PatchBox& patch = interface.Tree->GetPatch(facet);
+      const CosineBounds cosine = BoundCosine(sight, InBox(patch.Normals.Low, patch.Normals.High));
+      const double most = facing > 0.0 ? cosine.Most : -cosine.Least;
+      if (facing == 0.0 || most > 0.0)
+      {
+        const AxisBox part = BoundPart(shifted, range);
+        meeting.Exists = true;
+        meeting.Places.Add({ glm::max(part.Low, patch.Places.Low) - toSurface,
+          glm::min(part.High, patch.Places.High) - toSurface });
+        meeting.Normals.Add(patch.Normals);
+      }
+      return anywhere;
+    });
+  return meeting;
+}
+
+//------------------------------------------------------------------------------
+bool StackVisibility::MayShowMesh(const CornerRays& rays) const
+{
+  const auto& along = rays.Directions;
+  DirectionBox sight =
+    BoundDirections(0.25 * (along[0] + along[1] + along[2] + along[3]), along, 4, 0.0);
+  TubeBounds tube =
+    BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
+  double medium = 0.0;
+  for (std::size_t k = 0; k < this->Interfaces.size() && tube.IsValid(); ++k)
+  {
+    if (this->Mesh.Meets(tube))
+    {
+      return true;
+    }
+    const StackedInterface& interface = this->Interfaces[k];
+    if (k > 0 && medium != interface.Exterior && medium != interface.Interior)
+    {
+      return false;
+    }
+    const double facing = medium == interface.Exterior ? -1.0 : 1.0;
+    const Meeting meeting = this->Meet(interface, tube, k == 0 ? 0.0 : facing);
+    if (!meeting.Exists)
+    {
+      return false;
+    }
+    DirectionBox normal = InBox(meeting.Normals.Low, meeting.Normals.High);
+    const CosineBounds cosine = BoundCosine(sight, normal);
+    if (k == 0 && !(cosine.Most < 0.0) && !(cosine.Least > 0.0))
+    {
+      return true; // rays may pass the first surface from both sides
+    }
+    const bool fromFront = k == 0 ? cosine.Most < 0.0 : facing < 0.0;
+    const double before = fromFront ? interface.Exterior : interface.Interior;
+    const double behind = fromFront ? interface.Interior : interface.Exterior;
+    normal.Middle = fromFront ? normal.Middle : -normal.Middle;
+    const glm::dvec3 corners[2] = { meeting.Places.Low, meeting.Places.High };
+    tube = BoundRefractedRays(sight, normal, before / behind, corners, 2, 0.0);
+    sight = InBox(tube.DirectionLow, tube.DirectionHigh);
+    medium = behind;
+  }
+  // Without valid bounds all rays are totally reflected.
+  return tube.IsValid() && this->Mesh.Meets(tube);
+}
+
+}
