@@ -294,7 +294,13 @@ void MirrorChecker::CheckImage(int i, const glm::dvec3& point, const VirtualVert
   PatchHit place{};
   const double size = this->Tracer->GetSize(std::max(vertex.Facet, 0));
   const double off = Rest * size + 4.0 * this->Rounding;
-  if (!this->FindPlace(vertex, place) || glm::length(place.Position - sight) > 4.0 * off)
+  const auto isThere = [&place, &sight, off]
+  { return glm::length(place.Position - sight) <= 4.0 * off && place.Inside >= -1e-9; };
+  if ((!this->FindPlace(vertex, place) || !isThere()) && vertex.Facet >= 0)
+  {
+    place = this->Tracer->FindFoot(vertex.Facet, sight, true);
+  }
+  if (!isThere())
   {
     if (!this->Tracer->IsAtBorder(vertex.Facet, { 1.0 / 3.0, 1.0 / 3.0 }, 1.0))
     {

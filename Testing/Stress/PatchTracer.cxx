@@ -125,6 +125,21 @@ std::vector<PatchHit> PatchTracer::FindCrossings(
 }
 
 //------------------------------------------------------------------------------
+PatchHit PatchTracer::FindFoot(std::int32_t facet, const glm::dvec3& position, bool fromFront) const
+{
+  const CurvedPatch patch = this->Patches.GetPatch(facet);
+  glm::dvec2 b = patch.ProjectToFacet(position);
+  // Patches are nearly flat: each step leaves a fraction of the error.
+  constexpr int steps = 60;
+  for (int i = 0; i < steps; ++i)
+  {
+    const glm::dvec3 rest = position - patch.Evaluate(b).Position;
+    b = patch.ProjectToFacet(patch.GetFlatPoint(b) + rest);
+  }
+  return this->Evaluate(facet, b, fromFront);
+}
+
+//------------------------------------------------------------------------------
 PatchHit PatchTracer::Evaluate(std::int32_t facet, const glm::dvec2& b, bool fromFront) const
 {
   const PatchPoint at = this->Patches.GetPatch(facet).Evaluate(b);

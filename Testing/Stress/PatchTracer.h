@@ -44,6 +44,12 @@ public:
   std::vector<PatchHit> FindCrossings(
     const glm::dvec3& origin, const glm::dvec3& direction, bool fromFront, double least) const;
 
+  /**
+   * The place of a patch that a position lies on, or one near it. Use this where a ray grazes a
+   * patch: its two crossings are so close that FindCrossings() may find one of them only.
+   */
+  PatchHit FindFoot(std::int32_t facet, const glm::dvec3& position, bool fromFront) const;
+
   /** Hit at a known place, as if seen from the given side. */
   PatchHit Evaluate(std::int32_t facet, const glm::dvec2& b, bool fromFront) const;
 
