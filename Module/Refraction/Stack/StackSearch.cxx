@@ -31,11 +31,13 @@ constexpr double SameRoot = 1e-5;
 // A part whose rays all fail is divided down to this level.
 constexpr int DeepestBlind = 2;
 
-// As in PatchRoots: size of the part of second degree above which the interpolant is only a guess,
-// and the assumed part of higher degree relative to it.
+// As in PatchRoots: size of the part of second degree above which the interpolant is only a guess.
 constexpr double LargestDeflection = 0.5;
-constexpr double HigherDegree = 0.5;
-constexpr double HigherDegreeOfGuess = 2.0;
+
+// The assumed part of higher degree relative to that of second degree. It is four times that of one
+// surface (PatchRoots), because each surface adds parts of higher degree: with half as much, pairs
+// of images next to caustics behind three surfaces were missed.
+constexpr double HigherDegree = 2.0;
 
 // Newton's step from a place in a smallest part, in units of that part, beyond which there is no
 // root in the part: rays are nearly linear there.
@@ -222,8 +224,7 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   }
   const bool isGuess = !(bend <= LargestDeflection * size);
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-  const double margin =
-    (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * (reach + size);
+  const double margin = HigherDegree * bend + rounding * (reach + size);
   if (IsSeparated(control, margin))
   {
     return false;
