@@ -310,7 +310,7 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
     bool isDivided = isOne;
     for (std::size_t k = 0; k + 1 < count; ++k)
     {
-      if (isOne && this->IsUnique(ids + k, 2) &&
+      if (isOne && this->MayBeDivided(ids + k, 2) &&
         division.AddLine(
           this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[k + 1]), cell, pieces))
       {
@@ -367,7 +367,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       triangulate(ids, count, triangles);
     }
     const std::size_t before = pieces.GetNumberOfCells();
-    const bool isDivided = isOne && this->IsUnique(ids, count) &&
+    const bool isDivided = isOne && this->MayBeDivided(ids, count) &&
       this->DividePolygon(ids, triangles, cell, division, pieces);
     for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
     {

@@ -88,6 +88,15 @@ private:
   };
 
   bool IsUnique(const std::int64_t* ids, std::size_t count) const;
+  /**
+   * True if a cell whose image is curved may be divided instead of mapped from the membrane. Behind
+   * other membranes than convex fields, pieces of cells do not depend on whether the object has
+   * enough points for PrepareUnique: its parts on several computers have the same.
+   */
+  bool MayBeDivided(const std::int64_t* ids, std::size_t count) const
+  {
+    return this->Geometry.HasConvexField() && this->IsUnique(ids, count);
+  }
   /** How the images of a point are found. */
   enum class Way : unsigned char
   {

@@ -233,10 +233,10 @@ struct LaneKernel
       rays.Lanes.Direction[axis][i] = rays.Legs.Step[axis][i];
     }
     rays.Lanes.First[i] = this->FirstDepth;
-    rays.Lanes.Last[i] = goesOn & fits ? Infinity : -Infinity;
+    rays.Lanes.Last[i] = (goesOn & fits) ? Infinity : -Infinity;
     const double facing = isOutside ? -1.0 : 1.0;
     rays.Lanes.Facing[i] = this->FromEitherSide ? 0.0 : facing;
-    rays.Mismatched[i] = goesOn & !fits ? 1 : 0;
+    rays.Mismatched[i] = (goesOn & !fits) ? 1 : 0;
   }
 };
 
