@@ -3,7 +3,6 @@
 #include "Volume/Rays/RayPivot.h"
 
 #include "Volume/Mesh/TetrahedralMesh.h"
-#include "Volume/Rays/FixedPointRays.h"
 
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -20,25 +19,14 @@ namespace
 /** Number of intervals between rays along a side of the image. */
 constexpr int Steps = 8;
 
-/**
- * Rounding error at the far end of the rays over that at the near end, both as a share of a pixel.
- * Places in front hide those behind: at this ratio, the largest errors of nearly opaque and of
- * translucent pictures of data meshes are alike.
- */
-constexpr double FarError = 2.5;
-
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** Depths between which rays are in a box; empty if the first is larger. */
-struct DepthRange
-{
-  double First = Infinity;
-  double Last = -Infinity;
-};
-
-/** Extends a range by the part, not before `begin`, of place + depth * along in the box +-half. */
-void AddRay(const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& half, double begin,
-  DepthRange& range)
+/**
+ * Depth, not before `begin`, from which the line place + depth * along is in the box about the
+ * origin; infinite if it is not.
+ */
+double FirstDepth(
+  const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& half, double begin)
 {
   double end = Infinity;
   for (int axis = 0; axis < 3; ++axis)
@@ -52,14 +40,10 @@ void AddRay(const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& 
     }
     else if (!(std::abs(place[axis]) <= half[axis]))
     {
-      return;
+      return Infinity;
     }
   }
-  if (begin <= end)
-  {
-    range.First = std::min(range.First, begin);
-    range.Last = std::max(range.Last, end);
-  }
+  return begin <= end ? begin : Infinity;
 }
 
 }
@@ -71,7 +55,7 @@ double FindPivot(const RayFrame& frame, int width, int height, const Tetrahedral
   const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();
   const glm::dmat3 toModel =
     glm::inverse(glm::transpose(glm::dmat3(frame.RowX, frame.RowY, frame.RowDepth)));
-  DepthRange range;
+  double pivot = Infinity;
   for (int i = 0; i <= Steps; ++i)
   {
     for (int j = 0; j <= Steps; ++j)
@@ -80,19 +64,10 @@ double FindPivot(const RayFrame& frame, int width, int height, const Tetrahedral
       const double row = (static_cast<double>(j) / Steps - 0.5) * height;
       const glm::dvec3 place = toModel * glm::dvec3(frame.Origin.At(column, row), 0.0);
       const glm::dvec3 along = toModel * glm::dvec3(frame.Slope.At(column, row), 1.0);
-      AddRay(place, along, half, begin, range);
+      pivot = std::min(pivot, FirstDepth(place, along, half, begin));
     }
   }
-  const double last = std::min(range.Last, 1.0);
-  if (!(range.First <= last))
-  {
-    return begin;
-  }
-  // The distance of the far end from the pivot, as a share of the pixels' spacing there, is
-  // FarError times that of the near end. The spacing changes linearly.
-  const double spacing = FixedPointRays::SpacingAt(frame, range.First);
-  const double sum = spacing + FarError * FixedPointRays::SpacingAt(frame, last);
-  return sum > 0.0 ? range.First + (last - range.First) * (spacing / sum) : range.First;
+  return pivot <= 1.0 ? pivot : begin;
 }
 
 }
