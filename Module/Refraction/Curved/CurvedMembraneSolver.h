@@ -274,7 +274,7 @@ private:
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
   SightFollower GetFollower() const
   {
-    return { this->Patches, this->Optics, this->Surface.GetOrigin() };
+    return { this->Patches, this->Optics, this->Surface.GetOrigin(), this->Set };
   }
   void SolveChains(const double* points, std::size_t begin, std::size_t end,
     VirtualVertex* vertices, const unsigned char* isAsked) const;
@@ -304,6 +304,7 @@ private:
   bool Closed = false;
   bool OutsideIsFront = false; ///< the membrane is closed and its normals point outwards
   Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
+  InstructionSet Set = BestInstructionSet();
   mutable std::atomic<std::int64_t> UndecidedSearches{ 0 };
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/InjectivityGrid.h"
 
+#include "Refraction/Curved/TriangleMap.h"
+
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -126,11 +128,6 @@ std::array<glm::dvec2, 3> ProjectFacet(
   const auto at = [&membrane, &frame, &f](std::size_t k)
   { return frame.Project(membrane.GetPositions()[static_cast<std::size_t>(f[k])]); };
   return { at(0), at(1), at(2) };
-}
-
-double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
 }
 
 // Twice the area, positive if the corners are in counter-clockwise order.

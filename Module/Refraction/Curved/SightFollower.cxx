@@ -4,7 +4,6 @@
 
 #include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Curved/VirtualPlace.h"
-#include "Simd/InstructionSets.h"
 
 #include <algorithm>
 
@@ -202,14 +201,13 @@ void SightFollower::Load(const SightTrail& trail, int lane, SightLanes& lanes) c
 // Newton's method in the patches that the trails have come to. The last trail fills free lanes.
 void SightFollower::FollowBlock(SightTrail* const* trails, int count, SightLanes& lanes) const
 {
-  const InstructionSet set = BestInstructionSet();
   this->WalkAll(trails, count);
   for (int lane = 0; lane < SightLanes::Count; ++lane)
   {
     this->Load(*trails[std::min(lane, count - 1)], lane, lanes);
   }
   SightRoot roots[SightLanes::Count];
-  SolveLanes(this->Optics, Steps, Reach, set, lanes, roots);
+  SolveLanes(this->Optics, Steps, Reach, this->Set, lanes, roots);
   bool isFound = false;
   for (int lane = 0; lane < count; ++lane)
   {
@@ -219,7 +217,7 @@ void SightFollower::FollowBlock(SightTrail* const* trails, int count, SightLanes
   }
   if (isFound)
   {
-    ComputeVirtualPlaces(this->Optics, set, roots, lanes);
+    ComputeVirtualPlaces(this->Optics, this->Set, roots, lanes);
   }
   for (int lane = 0; lane < count; ++lane)
   {

@@ -8,6 +8,7 @@
 #include "Refraction/Curved/SightLanes.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/CurvedPatches.h"
+#include "Simd/InstructionSets.h"
 
 #include <glm/vec3.hpp>
 
@@ -52,11 +53,13 @@ struct SightTrail
 class SightFollower
 {
 public:
-  /** All arguments must outlive this object. `origin` is the membrane's. */
-  SightFollower(const CurvedPatches& patches, const Media& media, const glm::dvec3& origin)
+  /** All references must outlive this object. `origin` is the membrane's. */
+  SightFollower(
+    const CurvedPatches& patches, const Media& media, const glm::dvec3& origin, InstructionSet set)
     : Patches(patches)
     , Optics(media)
     , Origin(origin)
+    , Set(set)
   {
   }
 
@@ -89,6 +92,7 @@ private:
   const CurvedPatches& Patches;
   const Media& Optics;
   const glm::dvec3& Origin;
+  InstructionSet Set;
 };
 
 }
