@@ -109,17 +109,17 @@ void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
     vec3 toLight = lightPosition[i].xyz - lightPosition[i].w * place;
     float distance = length(toLight);
     toLight /= distance;
-    float strength =
-      1.0 / dot(lightFalloff[i].xyz, vec3(1.0, distance, distance * distance));
+    float falloff = dot(lightFalloff[i].xyz, vec3(1.0, distance, distance * distance));
+    float strength = min(1.0 / falloff, LARGEST_LIGHT_STRENGTH);
     float inCone = -dot(toLight, lightCone[i].xyz);
     bool lit = inCone >= lightCone[i].w;
     strength *= lightCone[i].w >= -1.0 && lightFalloff[i].w != 0.0
-      ? pow(max(inCone, 0.0), lightFalloff[i].w)
+      ? pow(clamp(inCone, 0.0, 1.0), lightFalloff[i].w)
       : 1.0;
-    float facing = dot(normal, toLight);
+    float facing = min(dot(normal, toLight), 1.0);
     if (lit && facing > 0.0)
     {
-      float glance = dot(2.0 * facing * normal - toLight, toEye);
+      float glance = min(dot(2.0 * facing * normal - toLight, toEye), 1.0);
       reflected += strength * diffuse * facing * lightDiffuse[i];
       highlight +=
         glance > 0.0 ? strength * specular * pow(glance, specularPower) * lightSpecular[i]

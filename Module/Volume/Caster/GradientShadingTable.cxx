@@ -3,6 +3,7 @@
 #include "Volume/Caster/GradientShadingTable.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <cstdint>
@@ -48,7 +49,10 @@ void GradientShadingTable::Pack(const SurfaceLighting* lighting, const glm::dmat
     {
       this->Lights.emplace_back();
       PacketLight& packed = this->Lights.back();
-      Round(light.Position, packed.Position);
+      const bool positional = light.Position.w != 0.0;
+      const glm::dvec3 place(light.Position);
+      Round(
+        glm::dvec4(positional ? place : glm::normalize(place), light.Position.w), packed.Position);
       Round(light.Diffuse, packed.Diffuse);
       Round(light.Specular, packed.Specular);
       Round(light.Cone, packed.Cone);

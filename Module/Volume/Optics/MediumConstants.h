@@ -42,6 +42,12 @@ struct AbsorptionFit
   };
 };
 
+/**
+ * Strength, at most, of a light at a place, where its falloff is 0 or next to it: 2^64, so that
+ * products of a strength, a colour and powers of cosines are finite in single precision.
+ */
+constexpr float LargestLightStrength = 18446744073709551616.0f;
+
 /** Optical depth beyond which nothing can be told apart; its square is finite. */
 constexpr float LargestDepth = 1.0e+18f;
 

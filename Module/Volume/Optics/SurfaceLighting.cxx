@@ -4,6 +4,8 @@
 // Twin: Module/Volume/Packet/Models/PacketLights.h (lights)
 #include "Volume/Optics/SurfaceLighting.h"
 
+#include "Volume/Optics/MediumConstants.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -12,6 +14,19 @@
 
 namespace meniscus
 {
+namespace
+{
+
+/**
+ * Clamps a cosine to [0, 1]: powers of one that rounding carried beyond 1 would overflow. The
+ * cosine of a direction that does not exist, NaN, becomes 0.
+ */
+double Clamped(double cosine)
+{
+  return cosine > 0.0 ? std::min(cosine, 1.0) : 0.0;
+}
+
+}
 
 //------------------------------------------------------------------------------
 bool operator==(const RayCastLight& a, const RayCastLight& b)
@@ -47,16 +62,17 @@ ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
     const double distance = glm::length(toLight);
     toLight /= distance;
     const glm::dvec3 powers(1.0, distance, distance * distance);
-    double strength = 1.0 / glm::dot(glm::dvec3(source.Falloff), powers);
+    double strength =
+      std::min<double>(1.0 / glm::dot(glm::dvec3(source.Falloff), powers), LargestLightStrength);
     const double inCone = -glm::dot(toLight, glm::dvec3(source.Cone));
     if (source.Cone.w >= -1.0 && source.Falloff.w != 0.0)
     {
-      strength *= std::pow(std::max(inCone, 0.0), source.Falloff.w);
+      strength *= std::pow(Clamped(inCone), source.Falloff.w);
     }
-    const double cosine = glm::dot(facing, toLight);
+    const double cosine = Clamped(glm::dot(facing, toLight));
     if (inCone >= source.Cone.w && cosine > 0.0)
     {
-      const double glance = glm::dot(2.0 * cosine * facing - toLight, toEye);
+      const double glance = Clamped(glm::dot(2.0 * cosine * facing - toLight, toEye));
       light.Reflected += strength * lighting.Diffuse * cosine * source.Diffuse;
       if (glance > 0.0)
       {

@@ -15,12 +15,12 @@ namespace meniscus
 /** A light in the frame of the rays (RayFrame): x, y and depth relative to the mesh's centre. */
 struct RayCastLight
 {
-  /** Position and 1, or direction towards the light and 0. */
+  /** Position and 1, or direction towards the light, of any length, and 0. */
   glm::dvec4 Position{ 0.0 };
   /** Colours times intensity. */
   glm::dvec3 Diffuse{ 0.0 };
   glm::dvec3 Specular{ 0.0 };
-  /** Axis and cosine of the cone's half angle; the cosine is -2 without a cone. */
+  /** Axis, of length 1, and cosine of the cone's half angle; the cosine is -2 without a cone. */
   glm::dvec4 Cone{ 0.0, 0.0, 1.0, -2.0 };
   /** Coefficients of the powers 0, 1, 2 of the distance, then the exponent within the cone. */
   glm::dvec4 Falloff{ 1.0, 0.0, 0.0, 0.0 };

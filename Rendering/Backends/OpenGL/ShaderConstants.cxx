@@ -82,6 +82,7 @@ std::string DefinePolynomial(const std::string& name, const float (&coefficients
 std::string MediumConstants()
 {
   std::string text = Define("LARGEST_DEPTH", LargestDepth) +
+    Define("LARGEST_LIGHT_STRENGTH", LargestLightStrength) +
     Define("LARGEST_GAUSS_DEPTH", LargestGaussDepth) + Define("GAUSS_PLACE", GaussPlace) +
     Define("OUTER_GAUSS_WEIGHT", GaussWeights[0]) + Define("MIDDLE_GAUSS_WEIGHT", GaussWeights[1]) +
     Define("LARGEST_FADED_DEPTH", LargestFadedDepth) + Define("INVISIBLE_DEPTH", InvisibleDepth) +

@@ -5,6 +5,7 @@
 #ifndef meniscus_Volume_Packet_Models_PacketLights_h
 #define meniscus_Volume_Packet_Models_PacketLights_h
 
+#include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 
 #include <array>
@@ -114,6 +115,15 @@ private:
   {
     return Simd::Fma(a[0], b[0], Simd::Fma(a[1], b[1], a[2] * b[2]));
   }
+  /**
+   * Clamps a cosine to [0, 1]: powers of one that rounding carried beyond 1 would overflow. The
+   * cosine of a direction that does not exist, NaN, becomes 0.
+   */
+  static Float Clamped(Float cosine)
+  {
+    return Simd::Min(Simd::Max(cosine, Simd::Splat(0.0f)), Simd::Splat(1.0f));
+  }
+  static Float Cosine(const Vector& a, const Vector& b) { return Clamped(Dot(a, b)); }
   static Vector Scaled(const Vector& a, Float by) { return { a[0] * by, a[1] * by, a[2] * by }; }
   static Vector Splat(const float* of)
   {
@@ -151,9 +161,9 @@ inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& plac
     strength =
       Reciprocal(Simd::Fma(distance, Simd::Fma(distance, quadratic, Simd::Splat(light.Falloff[1])),
         Simd::Splat(light.Falloff[0])));
+    strength = Simd::Min(strength, Simd::Splat(LargestLightStrength));
   }
-  // A light at exactly this place has no direction: NaN, which Max() replaces by 0.
-  const Float facing = Simd::Max(Dot(normal, toLight), zero);
+  const Float facing = Cosine(normal, toLight);
   Mask lit = facing > zero;
   if (light.Cone[3] >= -1.0f)
   {
@@ -161,17 +171,16 @@ inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& plac
     lit = lit & Simd::Not(inCone < Simd::Splat(light.Cone[3]));
     if (light.Falloff[3] != 0.0f)
     {
-      strength = strength * PacketPower<Simd>(light.Falloff[3])(Simd::Max(inCone, zero));
+      strength = strength * PacketPower<Simd>(light.Falloff[3])(Clamped(inCone));
     }
   }
   strength = Simd::Select(lit, strength, zero);
   const Vector mirrored = Scaled(normal, facing + facing);
   const Float glance =
-    Dot({ mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
+    Cosine({ mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
   const Float diffuse = strength * Simd::Splat(this->Medium.Diffuse) * facing;
   const Float shine = Simd::Select(glance > zero,
-    strength * Simd::Splat(this->Medium.Specular) * this->SpecularPower(Simd::Max(glance, zero)),
-    zero);
+    strength * Simd::Splat(this->Medium.Specular) * this->SpecularPower(glance), zero);
   for (int c = 0; c < 3; ++c)
   {
     sum.Reflected[c] = Simd::Fma(diffuse, Simd::Splat(light.Diffuse[c]), sum.Reflected[c]);

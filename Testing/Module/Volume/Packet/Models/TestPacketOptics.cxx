@@ -229,6 +229,39 @@ TEST_P(PacketOpticsTest, FieldWithoutSlopeHasAmbientLight)
   ExpectColor(CastPicture(scene.Picture, Size, GetParam()), expected);
 }
 
+TEST_P(PacketOpticsTest, PowersOfCosinesAreAtMostOne)
+{
+  // The gradient points to the light, which is at the viewer: cosines are 1 up to rounding, and a
+  // cone's axis may be longer than 1.
+  OpticsScene scene({ 0.36, 0.48, 0.6 });
+  scene.Picture.Frame = FrameAlongZ(scene.Picture.Mesh, 0.4, Size);
+  scene.AddHeadlight();
+  scene.Lighting.SpecularPower = 1.0e9;
+  RayCastLight& light = scene.Lighting.Lights.front();
+  light.Position = glm::dvec4(1.0e3 * glm::dvec3(0.36, 0.48, -0.6), 0.0);
+  light.Cone = glm::dvec4(-1.0e9 * glm::dvec3(0.36, 0.48, -0.6), 0.5);
+  light.Falloff = glm::dvec4(1.0, 0.0, 0.0, 8.0);
+  for (const float channel : CastPicture(scene.Picture, Size, GetParam()).Rgba)
+  {
+    EXPECT_GE(channel, 0.0f);
+    EXPECT_LE(channel, 1.0f);
+  }
+}
+
+TEST_P(PacketOpticsTest, LightsWithoutFalloffAreFinite)
+{
+  OpticsScene scene({ 0.0, 0.0, 0.6 });
+  scene.AddHeadlight();
+  scene.Lighting.Lights.front().Position = glm::dvec4(0.0, 0.0, -100.0, 1.0);
+  scene.Lighting.Lights.front().Falloff = glm::dvec4(0.0);
+  const Picture picture = CastPicture(scene.Picture, Size, GetParam());
+  for (const float channel : picture.Rgba)
+  {
+    EXPECT_TRUE(std::isfinite(channel));
+  }
+  EXPECT_GT(picture.Rgba.front(), 1.0e18f);
+}
+
 TEST_P(PacketOpticsTest, IndependentComponentsAddUp)
 {
   // Attenuations and emissions of constant media.
