@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Packs and unpacks the corpus of the fuzzers: fuzz_corpus.py unpack|pack TARGET
+"""Packs and unpacks the corpus of the fuzzers: fuzz_corpus.py unpack|pack TARGET [FOLDER]
 
 Testing/Fuzz/Corpus/TARGET.txt has one input per line, as hexadecimal digits; libFuzzer works on
-the folder build-fuzz/corpus/TARGET with one file per input. Packing minimises the folder first, to
-inputs that reach different code (libFuzzer's -set_cover_merge), and keeps some of all lengths if
-these are too many.
+a folder, by default build-fuzz/corpus/TARGET, with one file per input. Packing minimises the folder
+first, to inputs that reach different code (libFuzzer's -set_cover_merge), and keeps some of all
+lengths if these are too many.
 """
 
 import pathlib
@@ -41,11 +41,13 @@ def pack(target, folder):
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in ("pack", "unpack"):
+    if len(sys.argv) not in (3, 4) or sys.argv[1] not in ("pack", "unpack"):
         sys.exit(__doc__)
     target = sys.argv[2]
     kept = ROOT / "Testing" / "Fuzz" / "Corpus" / f"{target}.txt"
     folder = ROOT / "build-fuzz" / "corpus" / target
+    if len(sys.argv) == 4:
+        folder = pathlib.Path(sys.argv[3])
     if sys.argv[1] == "unpack":
         unpack(target, kept.read_text().split(), folder)
     else:
