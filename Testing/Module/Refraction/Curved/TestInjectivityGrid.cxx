@@ -52,6 +52,44 @@ InjectivityGrid Build(const CurvedMembraneSolver& geometry, double low, double h
   return unique;
 }
 
+/** Random boxes: their middles are in a box, and they are cubes up to a size. */
+struct RandomBoxes
+{
+  glm::dvec3 Low;
+  glm::dvec3 High;
+  double LargestHalf;
+  int Count;
+};
+
+struct BoxCounts
+{
+  int Unique = 0;  ///< boxes reported to hold no point with several images
+  int Several = 0; ///< points with several images, of five per box
+};
+
+/** Searches boxes at random points: none of one that is unique has several images. */
+BoxCounts SearchBoxes(const CurvedMembraneSolver& geometry, const InjectivityGrid& unique,
+  const RandomBoxes& boxes, Random random)
+{
+  const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
+  std::vector<VirtualVertex> found;
+  BoxCounts counts;
+  for (int i = 0; i < boxes.Count; ++i)
+  {
+    const glm::dvec3 middle = random.Point(boxes.Low, boxes.High);
+    const glm::dvec3 half(random(0.0, boxes.LargestHalf));
+    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
+    counts.Unique += isUnique;
+    for (int k = 0; k < 5; ++k)
+    {
+      geometry.FindImages(random.Point(middle - half, middle + half), found);
+      counts.Several += found.size() > 1;
+      EXPECT_TRUE(!isUnique || found.size() <= 1) << "box " << i;
+    }
+  }
+  return counts;
+}
+
 struct UniqueCase
 {
   const char* Name;
@@ -91,27 +129,11 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   ASSERT_TRUE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
   const InjectivityGrid unique = Build(geometry, -test.Depth - origin.y, -40.0 - origin.y);
-  Random random(5);
-  std::vector<VirtualVertex> found;
-  int boxes = 0;
-  int several = 0;
   constexpr int count = 500;
-  for (int i = 0; i < count; ++i)
-  {
-    const glm::dvec3 middle =
-      random.Point({ -80.0, -test.Depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
-    const glm::dvec3 half(random(0.0, 4.0));
-    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
-    boxes += isUnique;
-    for (int k = 0; k < 5; ++k)
-    {
-      geometry.FindImages(random.Point(middle - half, middle + half), found);
-      several += found.size() > 1;
-      ASSERT_TRUE(!isUnique || found.size() <= 1) << test.Name << " box " << i;
-    }
-  }
-  EXPECT_GE(100 * boxes, test.LeastUnique * count) << boxes;
-  EXPECT_GE(100 * several, test.LeastSeveral * 5 * count) << several;
+  const BoxCounts counts = SearchBoxes(geometry, unique,
+    { { -80.0, -test.Depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 }, 4.0, count }, Random(5));
+  EXPECT_GE(100 * counts.Unique, test.LeastUnique * count);
+  EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
@@ -258,26 +280,11 @@ TEST_P(RefractionUniqueSheet, NoPointOfABoxHasSeveral)
   EXPECT_FALSE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
   const InjectivityGrid unique = Build(geometry, -3.0 - origin.y, 0.0 - origin.y);
-  Random random(6);
-  std::vector<VirtualVertex> found;
-  int boxes = 0;
-  int several = 0;
   constexpr int count = 400;
-  for (int i = 0; i < count; ++i)
-  {
-    const glm::dvec3 middle = random.Point({ -5.0, -2.5, -5.0 }, { 5.0, -0.5, 5.0 });
-    const glm::dvec3 half(random(0.0, 0.2));
-    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
-    boxes += isUnique;
-    for (int k = 0; k < 5; ++k)
-    {
-      geometry.FindImages(random.Point(middle - half, middle + half), found);
-      several += found.size() > 1;
-      ASSERT_TRUE(!isUnique || found.size() <= 1) << "box " << i;
-    }
-  }
-  EXPECT_GE(100 * boxes, test.LeastUnique * count) << boxes;
-  EXPECT_GE(100 * several, test.LeastSeveral * 5 * count) << several;
+  const BoxCounts counts = SearchBoxes(
+    geometry, unique, { { -5.0, -2.5, -5.0 }, { 5.0, -0.5, 5.0 }, 0.2, count }, Random(6));
+  EXPECT_GE(100 * counts.Unique, test.LeastUnique * count);
+  EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, testing::ValuesIn(Sheets),
