@@ -38,9 +38,9 @@ enum class RayGrid
  * processor and for every user of a ray.
  *
  * Rays pass through their offsets at a depth called pivot, and depths about a ray count from it.
- * The pivot is where the rays begin to be seen: floats near it are small and precise. Their
- * rounding errors are at most 2^-24 of the distance from the pivot, which is at most that from the
- * eye: a fixed small share of a pixel's width, wherever the eye is.
+ * Floats near it are small and precise: rounding errors are at most 2^-24 of the distance from the
+ * pivot. FindPivot() chooses it so that this is a fixed small share of a pixel's width, wherever
+ * the eye is.
  */
 class FixedPointRays
 {
@@ -55,8 +55,8 @@ public:
   FixedPointRays(
     const RayFrame& frame, int width, int height, double pivot, RayGrid grid = RayGrid::Packets);
   /**
-   * @param spacing smallest distance of rays of neighbouring pixels where they begin to be seen, in
-   *   units of the frame.
+   * @param spacing smallest distance of rays of neighbouring pixels at the pivot, in units of the
+   *   frame.
    */
   FixedPointRays(const RayFrame& frame, int width, int height, double pivot, double spacing,
     RayGrid grid = RayGrid::Packets);
@@ -69,9 +69,9 @@ public:
   }
   /**
    * True if rays are fine (PacketRay). They are where coordinates about other rays would not be
-   * precise enough: if rays of neighbouring pixels are less than 2^15 grid units apart where they
-   * begin to be seen, since offsets without fractions displace a ray by 1/2, or if the longest edge
-   * of a cell is less than 2^18 grid units, since coordinates are rounded by up to RoundingOfRay.
+   * precise enough: if rays of neighbouring pixels are less than 2^15 grid units apart at the
+   * pivot, since offsets without fractions displace a ray by 1/2, or if the longest edge of a cell
+   * is less than 2^18 grid units, since coordinates are rounded by up to RoundingOfRay.
    */
   bool AreFine() const { return this->Fine; }
 

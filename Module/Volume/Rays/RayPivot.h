@@ -12,9 +12,12 @@ class TetrahedralMesh;
 
 /**
  * Depth from which depths along an image's rays are counted (FixedPointRays), in units of the
- * frame: about where the first of the rays begins to be seen, at the near clipping plane or behind
- * it at the mesh's bounding box. A picture of a small part of the mesh thus has depths that are as
- * precise as those of a mesh of this size, wherever the part and the eye are.
+ * frame: between the depths at which rays begin and cease to be in the mesh's bounding box, behind
+ * the near clipping plane. Rounding errors grow with the distance from the pivot. Measured in
+ * pixels, those at the near end are a fixed share of those at the far end, which is hidden more
+ * often. A picture of a small part of the mesh, or from an eye inside of it, thus has depths that
+ * are as precise as those of a mesh of this size, wherever the part and the eye are. For meshes
+ * with cells below about a thousandth of their radius it is the near end.
  *
  * Any pivot within the unit is valid; rays on a grid of pixels are enough to find a good one.
  */
