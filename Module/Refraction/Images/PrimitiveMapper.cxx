@@ -204,7 +204,9 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
-    if (!(sign > 0.0 ? isFacing : isTurned))
+    // A ray that meets the primitive edge-on begins a strip for either sign, which may end in the
+    // sub-cell.
+    if (!(sign > 0.0 ? isFacing : isTurned) && !(edgeOn.IsThere && edgeOn.IsMet))
     {
       continue;
     }

@@ -298,6 +298,9 @@ INSTANTIATE_TEST_SUITE_P(EdgeOn, RefractionSeams,
   ::testing::Values(55, 97, 115, 136, 145, 151, 208, 214, 286, 310, 313, 352, 361, 137, 155, 222,
     233, 239, 269, 323, 350, 362));
 
+// A triangle is seen edge-on, and the strip beyond that place ends in the same sub-cell.
+INSTANTIATE_TEST_SUITE_P(StripEndsInside, RefractionSeams, ::testing::Values(566, 851));
+
 // A side between two facets that is straight at its middle but not at a quarter.
 INSTANTIATE_TEST_SUITE_P(WholeNeighbours, RefractionSeams, ::testing::Values(866, 957));
 
