@@ -308,6 +308,9 @@ INSTANTIATE_TEST_SUITE_P(NextToCaustics, RefractionSeams, ::testing::Values(698,
 // A side between two facets that is straight at its middle but not at a quarter.
 INSTANTIATE_TEST_SUITE_P(WholeNeighbours, RefractionSeams, ::testing::Values(866, 957));
 
+// A side of the ball crosses the water at such a small angle that the two are within the tolerance.
+INSTANTIATE_TEST_SUITE_P(AlongTheWater, RefractionSeams, ::testing::Values(895));
+
 /** Area of a triangle's pieces, mapped from the membrane, at their true places. */
 double MapWholeTriangle(
   const CurvedMembraneSolver& geometry, const std::array<glm::dvec3, 3>& corners)
