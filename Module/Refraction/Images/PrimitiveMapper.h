@@ -129,6 +129,7 @@ private:
   double GetSlope(const Context& context, const std::vector<MappedPoint>& points) const;
   bool CutAtMembrane(const Context& context, const SubCell& nodes, const Polygon& whole,
     double sign, const EdgeOn& edgeOn, Polygon& polygon) const;
+  static void DropUnmetEnds(Polygon& polygon);
   void Locate(const Context& context, const SubCell& nodes, Corner& corner) const;
   double GetDistance(const Context& context, const SubCell& nodes, std::size_t end) const;
   const Meeting& FindMeeting(

@@ -311,6 +311,9 @@ INSTANTIATE_TEST_SUITE_P(WholeNeighbours, RefractionSeams, ::testing::Values(866
 // A side of the ball crosses the water at such a small angle that the two are within the tolerance.
 INSTANTIATE_TEST_SUITE_P(AlongTheWater, RefractionSeams, ::testing::Values(895));
 
+// A triangle is seen edge-on where it meets the water, which leaves the sub-cell before a side.
+INSTANTIATE_TEST_SUITE_P(EdgeOnAtTheWater, RefractionSeams, ::testing::Values(415, 490));
+
 /** Area of a triangle's pieces, mapped from the membrane, at their true places. */
 double MapWholeTriangle(
   const CurvedMembraneSolver& geometry, const std::array<glm::dvec3, 3>& corners)
