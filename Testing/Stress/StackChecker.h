@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -86,6 +87,7 @@ private:
   bool CheckNearest(const glm::dvec3& point, const StackPath& path) const;
   void CheckVertex(
     int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex);
+  std::optional<glm::dvec3> WalkBack(const TracedPath& path, const glm::dvec3& seen) const;
   void CheckWayBack(
     int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex);
   void CheckChains();

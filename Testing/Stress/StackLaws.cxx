@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace meniscus
@@ -284,6 +285,44 @@ void StackChecker::CheckVertex(
 }
 
 //------------------------------------------------------------------------------
+// Point of a traced path that the depth convention of the virtual vertex gives; none if the ray
+// ends before it.
+std::optional<glm::dvec3> StackChecker::WalkBack(
+  const TracedPath& path, const glm::dvec3& seen) const
+{
+  const glm::dvec3 sight = path.Points.front().Position - this->Eye;
+  double rest =
+    (glm::length(seen - this->Eye) - glm::length(sight)) / this->GetLayer(0).GetBefore();
+  for (std::size_t k = 0; k < path.Points.size(); ++k)
+  {
+    const glm::dvec3& origin = path.Points[k].Position;
+    const glm::dvec3& direction = path.Directions[k];
+    const double along = rest * this->GetLayer(k).GetBehind();
+    const bool isLast = k + 1 == path.Points.size();
+    double length = std::numeric_limits<double>::infinity();
+    if (!isLast)
+    {
+      length = glm::length(path.Points[k + 1].Position - origin);
+    }
+    else if (path.End != PathEnd::Passed)
+    {
+      const std::vector<PatchHit> hits = this->FindCrossings(k + 1, origin, direction);
+      length = hits.empty() ? 0.0 : hits.front().Distance;
+    }
+    if (along >= 0.0 && along <= length)
+    {
+      return origin + along * direction;
+    }
+    rest -= length / this->GetLayer(k).GetBehind();
+  }
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+// The way back follows the sight ray to its first crossing. This is on another sheet than the image
+// if one lies in front of it, if only by a millionth of a facet: small facets inside of others. The
+// point is then the one that the ray through this crossing shows. Where several crossings are at
+// one distance within rounding, each of them may be the first.
 void StackChecker::CheckWayBack(
   int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex)
 {
@@ -291,22 +330,36 @@ void StackChecker::CheckWayBack(
   {
     return;
   }
-  // The way back follows the sight ray to its first crossing.
-  const glm::dvec3 sight = path.Points[0].Ray.Origin - this->Eye;
-  const std::vector<PatchHit> hits = this->FindCrossings(0, this->Eye, glm::normalize(sight));
-  const double size = this->GetSurface(0).Tracer->GetSize(0);
-  const PatchHit first = this->Evaluate(0, path.Points[0].Place.Facet, path.Points[0].Place.B);
-  const TracedPath traced = this->Trace(first);
-  if (hits.empty() || !traced.IsCertain || traced.Points.size() < path.Count ||
-    hits.front().Distance < glm::length(sight) - SamePlace * size ||
-    -glm::dot(first.Normal, glm::normalize(sight)) < Marginal)
+  const StackPlace& place = path.Points[0].Place;
+  const glm::dvec3 sight = glm::normalize(path.Points[0].Ray.Origin - this->Eye);
+  const StackTruePosition back =
+    FindTruePosition(this->Solver.GetStack(), this->GetLayer(0).GetBefore(), vertex.Position);
+  double error = std::numeric_limits<double>::infinity();
+  double first = error;
+  for (const PatchHit& hit : this->FindCrossings(0, this->Eye, sight))
+  {
+    const double cosine = -glm::dot(hit.Normal, sight);
+    first = std::min(first, hit.Distance);
+    if (hit.Distance > first + 8.0 * this->Rounding / cosine)
+    {
+      break;
+    }
+    const TracedPath traced = this->Trace(hit);
+    const bool isImage = hit.Facet == place.Facet && glm::length(hit.B - place.B) < SamePlace;
+    const std::optional<glm::dvec3> expected = isImage && traced.Points.size() >= path.Count
+      ? std::optional<glm::dvec3>(point)
+      : this->WalkBack(traced, vertex.Position - this->Frame);
+    if (!traced.IsCertain || cosine < Marginal || !expected)
+    {
+      return;
+    }
+    error = std::min(error, glm::length(back.Position - this->Frame - *expected));
+  }
+  if (first == std::numeric_limits<double>::infinity())
   {
     return;
   }
   ++this->Tally.RoundTrips;
-  const StackTruePosition back =
-    FindTruePosition(this->Solver.GetStack(), this->GetLayer(0).GetBefore(), vertex.Position);
-  const double error = glm::length(back.Position - this->Frame - point);
   const double scene = glm::length(point - this->Eye) + this->Test.Scale * Side;
   // A spread of rays multiplies the rest of the first sight point.
   this->Tally.LargestRoundTrip = std::max(this->Tally.LargestRoundTrip, error / scene);

@@ -5,7 +5,7 @@
 
 #include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Images/ImageMesh.h"
-#include "Refraction/Images/SubCellDivision.h"
+#include "Refraction/Images/SubCellBend.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -172,8 +172,17 @@ struct ObjectPrimitive
   }
 
   // True if the sub-cell is outside by more than its own extent, so that curvature cannot bring it
-  // back. Parts of the primitive up to `inFront` in front of the surface are not outside.
-  bool IsOutside(const SubCell& nodes, double inFront = 0.0) const
+  // back.
+  bool IsOutside(const SubCell& nodes) const
+  {
+    return this->IsOutside(nodes, 0.0, [](int, double extent) { return extent; });
+  }
+
+  // True if all corners of the sub-cell are outside by more than `getReach(k, extent)`, by which
+  // curvature may bring it back across constraint k; `extent` is the difference between its
+  // corners. Parts of the primitive up to `inFront` in front of the surface are not outside.
+  template <typename GetReach>
+  bool IsOutside(const SubCell& nodes, double inFront, const GetReach& getReach) const
   {
     double value[3][PrimitiveConstraints];
     for (std::size_t i = 0; i < 3; ++i)
@@ -192,13 +201,34 @@ struct ObjectPrimitive
       const bool beside = this->IsLine && k == 3;
       const double most = std::max({ value[0][k], value[1][k], value[2][k] });
       const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-      const double spread = k == 0 ? most - least + margin : most - least;
-      if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
+      const bool isBelow = (front || beside) && most < 0.0;
+      const bool isAbove = (back || beside) && least > 0.0;
+      if (isBelow || isAbove)
       {
-        return true;
+        const double reach = getReach(k, most - least) + (k == 0 ? margin : 0.0);
+        if ((isBelow && most < -reach) || (isAbove && least > reach))
+        {
+          return true;
+        }
       }
     }
     return false;
+  }
+
+  // Deviation of a value from linear interpolation in a sub-cell, for a constraint other than the
+  // membrane.
+  double GetDeviation(int k, const SubCell& nodes, const SubCellBend& bend) const
+  {
+    const glm::dvec3& place = nodes[0].From.At.Position;
+    if (this->IsLine && k != 3)
+    {
+      const double distance = glm::length(place - this->Corners[0]) + bend.Size;
+      const double moment = glm::length(this->Axis[1]) * bend.GetMoment(distance);
+      return k == 1 ? moment : moment + glm::length(this->Normal) * bend.Direction;
+    }
+    const ObjectLine& line = this->Sides[static_cast<std::size_t>(k)].Line;
+    return glm::length(line.Direction) *
+      bend.GetMoment(glm::length(place - line.Origin) + bend.Size);
   }
 
   glm::dvec3 GetPoint(const glm::dvec3& weight) const

@@ -311,6 +311,29 @@ double PrimitiveMapper::GetDistance(
 }
 
 //------------------------------------------------------------------------------
+// Drops crossings of sides with the membrane that EndEdgeOn has added in the interior, if the side
+// goes on in front of the membrane: the cut then leaves the sub-cell before it meets the side.
+void PrimitiveMapper::DropUnmetEnds(Polygon& polygon)
+{
+  const std::size_t count = polygon.size();
+  Polygon kept;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Corner& corner = polygon[i];
+    const unsigned sides = corner.Limits & AllSides;
+    const auto isInFront = [&corner, sides](const Corner& other)
+    { return (other.Limits & sides) != 0 && other.Value[0] < 0.0; };
+    const bool isUnmet = corner.Edges == 0 && (corner.Limits & OnMembrane) != 0 && sides != 0 &&
+      (isInFront(polygon[(i + 1) % count]) || isInFront(polygon[(i + count - 1) % count]));
+    if (!isUnmet)
+    {
+      kept.push_back(corner);
+    }
+  }
+  polygon.swap(kept);
+}
+
+//------------------------------------------------------------------------------
 // Cuts the part of a primitive behind the membrane between corners on different sides of it, each
 // of which is determined by itself: neighbours agree on it. Interpolation may put an end next to
 // the membrane on its other side, and the waterline on the wrong side of a narrow strip. Returns
@@ -337,6 +360,7 @@ bool PrimitiveMapper::CutAtMembrane(const Context& context, const SubCell& nodes
   {
     this->Locate(context, nodes, corner);
   }
+  DropUnmetEnds(uncut);
   polygon.clear();
   int crossings = 0;
   for (std::size_t i = 0; i < uncut.size(); ++i)
@@ -349,8 +373,12 @@ bool PrimitiveMapper::CutAtMembrane(const Context& context, const SubCell& nodes
     }
     if ((from.Value[0] >= 0.0) != (to.Value[0] >= 0.0))
     {
-      polygon.push_back(context.Cross(from, to, 0));
       ++crossings;
+      if (((from.Limits | to.Limits) & OnMembrane) != 0)
+      {
+        continue; // one of the two is the crossing
+      }
+      polygon.push_back(context.Cross(from, to, 0));
       if (polygon.back().Edges == 0 && polygon.back().Limits == OnMembrane)
       {
         return false;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace meniscus
 {
@@ -159,14 +160,35 @@ void PrimitiveMapper::Map(const Context& context) const
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
     inPatch.Meetings = &meetings;
+    const PatchBend patchBend(patch, this->Geometry.GetMedia());
     this->Division.Visit(
       patch,
-      [&inPatch, inFront](const SubCell& nodes) {
+      [&inPatch, &patchBend, inFront](const SubCell& nodes)
+      {
         return (inPatch.IsPartInFront && *inPatch.IsPartInFront) ||
-          inPatch.IsOutside(nodes, inFront);
+          IsOutside(inPatch, patchBend, nodes, inFront);
       },
       [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
   }
+}
+
+//------------------------------------------------------------------------------
+// True if no ray of the sub-cell shows the primitive. Next to a caustic the rays at its corners
+// meet the primitive's plane close to each other, and those between them elsewhere.
+bool PrimitiveMapper::IsOutside(
+  const Context& context, const PatchBend& patch, const SubCell& nodes, double inFront)
+{
+  std::optional<SubCellBend> bend;
+  return context.IsOutside(nodes, inFront,
+    [&context, &patch, &nodes, &bend](int k, double extent)
+    {
+      if (k == 0)
+      {
+        return extent;
+      }
+      bend = bend ? bend : patch.Measure(nodes);
+      return context.GetDeviation(k, nodes, *bend);
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -204,7 +226,9 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
   Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
-    if (!(sign > 0.0 ? isFacing : isTurned))
+    // A ray that meets the primitive edge-on begins a strip for either sign, which may end in the
+    // sub-cell.
+    if (!(sign > 0.0 ? isFacing : isTurned) && !(edgeOn.IsThere && edgeOn.IsMet))
     {
       continue;
     }

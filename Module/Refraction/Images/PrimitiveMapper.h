@@ -25,6 +25,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/ObjectPrimitive.h"
+#include "Refraction/Images/SubCellBend.h"
 #include "Refraction/Images/SubCellDivision.h"
 
 #include <array>
@@ -115,6 +116,8 @@ private:
   double GetLengthInFront(const Context& context) const;
   double GetReach(const SubCell& nodes) const;
   bool IsInFront(const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const;
+  static bool IsOutside(
+    const Context& context, const PatchBend& patch, const SubCell& nodes, double inFront);
   void MapSubCell(const Context& context, const SubCell& nodes) const;
   void KeepAsBehind(const Context& context, const SubCell& nodes, const Polygon& whole, double sign,
     Polygon& polygon) const;
@@ -126,6 +129,7 @@ private:
   double GetSlope(const Context& context, const std::vector<MappedPoint>& points) const;
   bool CutAtMembrane(const Context& context, const SubCell& nodes, const Polygon& whole,
     double sign, const EdgeOn& edgeOn, Polygon& polygon) const;
+  static void DropUnmetEnds(Polygon& polygon);
   void Locate(const Context& context, const SubCell& nodes, Corner& corner) const;
   double GetDistance(const Context& context, const SubCell& nodes, std::size_t end) const;
   const Meeting& FindMeeting(
@@ -144,7 +148,7 @@ private:
     const ClippedBoundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
-  bool StaysAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double l,
+  bool StaysAlong(const CurvedPatch& patch, const SubCell& nodes, const ObjectLine& side, double& l,
     glm::dvec2& b) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
   bool FindEdgeOn(

@@ -147,18 +147,35 @@ bool PrimitiveMapper::ResolveTie(const Context& context, const SubCell& nodes, P
 // True if the side, around its place `l`, stays closer to the membrane, over one length of the
 // sub-cell, than the error of linear interpolation there. Then the sub-cell does not determine
 // where the two cross, and may have a crossing where they have none. Moves `b` to the foot of the
-// place.
+// place, or, with `l`, to the crossing if the sub-cell has it: neighbours agree on that.
 bool PrimitiveMapper::StaysAlong(const CurvedPatch& patch, const SubCell& nodes,
-  const ObjectLine& side, double l, glm::dvec2& b) const
+  const ObjectLine& side, double& l, glm::dvec2& b) const
 {
   const double most = this->GetReach(nodes);
   glm::dvec3 normal;
+  if (!RunsAlong(side.Direction, GetCorners(nodes), most, normal))
+  {
+    return false;
+  }
+  const auto findFoot = [&patch, &side, &normal, most](double place, glm::dvec2& foot)
+  {
+    double distance = 0.0;
+    return MeetPatch(patch, { side.GetPoint(place), normal }, foot, distance) &&
+      std::fabs(distance) <= most;
+  };
   glm::dvec2 foot = b;
-  double distance = 0.0;
-  const bool staysClose = RunsAlong(side.Direction, GetCorners(nodes), most, normal) &&
-    MeetPatch(patch, { side.GetPoint(l), normal }, foot, distance) && std::fabs(distance) <= most;
-  b = staysClose ? foot : b;
-  return staysClose;
+  if (!findFoot(l, foot))
+  {
+    return false;
+  }
+  b = foot;
+  double crossing = l;
+  if (MeetPatchAgain(patch, side, foot, crossing) && IsInside(nodes, foot))
+  {
+    b = foot;
+    l = crossing;
+  }
+  return true;
 }
 
 }

@@ -290,7 +290,6 @@ void SeamClosure::CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const
     left.pop_back();
     Loop loop = { &first.To, &first.From };
     Parts used = { &first };
-    bool hasWhole = first.IsWhole;
     while (!AreSame(*loop.back(), *loop.front()))
     {
       const ImagePoint& last = *loop.back();
@@ -305,13 +304,12 @@ void SeamClosure::CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const
       }
       used.push_back(*next);
       loop.push_back(AreSame((*next)->From, last) ? &(*next)->To : &(*next)->From);
-      hasWhole = hasWhole || (*next)->IsWhole;
       left.erase(next);
     }
     if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
     {
       loop.pop_back();
-      this->Fill(loop, first, hasWhole, mesh);
+      this->Fill(loop, first, mesh);
     }
   }
 }
@@ -448,20 +446,14 @@ void SeamClosure::AddCell(const Loop& loop, const Part& first, ImageMesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, ImageMesh& mesh) const
+// A polygon that is drawn unchanged may lack an image that its neighbour has, which leaves no gap
+// to fill. But a chain along which the parameter grows from one end of the seam to the other shows
+// each place once: it is the image that the polygon draws, however far it is from it.
+void SeamClosure::Fill(const Loop& loop, const Part& first, ImageMesh& mesh) const
 {
-  // A polygon that is drawn unchanged may lack an image that its neighbour has; that leaves no gap
-  // to fill.
-  const auto add = [this, mustBeThin, &first, &mesh](const Loop& polygon)
-  {
-    if (!mustBeThin || this->IsThin(polygon))
-    {
-      AddCell(polygon, first, mesh);
-    }
-  };
   if (loop.size() == 3 || this->IsThin(loop))
   {
-    add(loop);
+    AddCell(loop, first, mesh);
     return;
   }
   // Triangles between the two chains, for a curved seam.
@@ -477,7 +469,7 @@ void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, Ima
     (isForward ? i : j) += 1;
     if (triangle[0] != triangle[2] && triangle[1] != triangle[0] && triangle[1] != triangle[2])
     {
-      add(triangle);
+      AddCell(triangle, first, mesh);
     }
   }
 }

@@ -156,8 +156,7 @@ private:
   std::vector<Part> FindFreeSides(const Parts& open, const ImageMesh& mesh) const;
   /** Fills thin loops of parts of several seams and of free sides. */
   void CloseAcrossSeams(const Parts& open, ImageMesh& mesh) const;
-  void Fill(const std::vector<const ImagePoint*>& loop, const Part& first, bool mustBeThin,
-    ImageMesh& mesh) const;
+  void Fill(const std::vector<const ImagePoint*>& loop, const Part& first, ImageMesh& mesh) const;
   static void AddCell(
     const std::vector<const ImagePoint*>& loop, const Part& first, ImageMesh& mesh);
   bool IsThin(const std::vector<const ImagePoint*>& loop) const;

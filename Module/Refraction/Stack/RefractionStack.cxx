@@ -4,6 +4,7 @@
 
 #include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Stack/StackPassage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,7 @@ EyeStatus RefractionStack::SetEye(const glm::dvec3& eye)
     for (const MediaChain::Way& way : this->Ways)
     {
       this->ListLinks(way, first, this->Links);
-      this->Passes = this->IsPassed();
+      this->Passes = StackPassage(*this).Find();
       if (this->Passes)
       {
         break;
@@ -127,59 +128,6 @@ EyeStatus RefractionStack::SetEye(const glm::dvec3& eye)
     this->ListLinks(this->Ways.front(), 0, this->Links);
   }
   return EyeStatus::Ready;
-}
-
-//------------------------------------------------------------------------------
-// True if a ray from the eye meets the first surface from the right side and goes on through all
-// others; at the last one it may be reflected, since it is there on the right side too. Patches are
-// tried with strides that get smaller, so that the first few are far apart.
-bool RefractionStack::IsPassed() const
-{
-  const std::size_t count = this->Links.front().Surface->GetMembrane().GetFacets().size();
-  std::size_t top = 1;
-  while (top < count)
-  {
-    top *= 2;
-  }
-  // The middle of a patch, then those of its corners' parts.
-  for (const glm::dvec2& b : { glm::dvec2(1.0 / 3.0), glm::dvec2(2.0 / 3.0, 1.0 / 6.0),
-         glm::dvec2(1.0 / 6.0, 2.0 / 3.0), glm::dvec2(1.0 / 6.0) })
-  {
-    std::size_t begin = 0;
-    for (std::size_t stride = top; stride > 0; stride /= 2)
-    {
-      for (std::size_t i = begin; i < count; i += 2 * stride)
-      {
-        if (this->IsPassedAt({ static_cast<std::int32_t>(i), b }))
-        {
-          return true;
-        }
-      }
-      begin = stride / 2; // odd multiples of the next stride are new
-    }
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
-bool RefractionStack::IsPassedAt(const StackPlace& aim) const
-{
-  const Link& link = this->Links.front();
-  const glm::dvec3 target = link.Surface->GetPatches().GetPatch(aim.Facet).Evaluate(aim.B).Position;
-  const glm::dvec3 eye = this->Eye - link.Shift;
-  const double distance = glm::length(target - eye);
-  SurfaceCrossing crossing;
-  if (!(distance > 0.0) ||
-    !link.Surface->FindCrossing(
-      eye, (target - eye) / distance, 0, 0.0, std::numeric_limits<double>::max(), crossing) ||
-    crossing.Side != (link.Passage.FromFront ? -1 : 1))
-  {
-    return false;
-  }
-  StackPath path;
-  const PathEnd end = this->Trace({ crossing.Facet, crossing.B }, this->Links.size(), false, path);
-  return end == PathEnd::Passed ||
-    (end == PathEnd::Reflected && path.Count + 1 == this->Links.size());
 }
 
 //------------------------------------------------------------------------------

@@ -166,8 +166,6 @@ private:
     PlaceGradient& gradient, HeldPatch& held, double& off) const;
   /** The argument of TraceOn for complete traces. */
   auto MakeMeeting(bool follows) const;
-  bool IsPassed() const;
-  bool IsPassedAt(const StackPlace& aim) const;
   bool MeetNear(
     const Link& link, const RayJet& ray, PathPoint& point, CurvedPatch& patch, PatchJet& jet) const;
   bool Meet(

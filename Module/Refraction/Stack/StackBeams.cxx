@@ -29,31 +29,6 @@ constexpr double HigherDegreeOfGuess = 2.0;
 const glm::dvec2 Places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 }, { 0.0, 0.5 },
   { 0.5, 0.0 } };
 
-DirectionBox MakeDirectionBox(const TubeBounds& tube)
-{
-  return { 0.5 * (tube.DirectionLow + tube.DirectionHigh),
-    0.5 * (tube.DirectionHigh - tube.DirectionLow) };
-}
-
-void Merge(TubeBounds& bounds, const TubeBounds& other)
-{
-  bounds.StartLow = glm::min(bounds.StartLow, other.StartLow);
-  bounds.StartHigh = glm::max(bounds.StartHigh, other.StartHigh);
-  bounds.DirectionLow = glm::min(bounds.DirectionLow, other.DirectionLow);
-  bounds.DirectionHigh = glm::max(bounds.DirectionHigh, other.DirectionHigh);
-}
-
-// Box of the rays of `tube` between the two ends of `range`.
-AxisBox BoundPart(const TubeBounds& tube, const TubeRange& range)
-{
-  AxisBox box;
-  for (const double t : { range.From, range.To })
-  {
-    box.Add({ tube.StartLow + t * tube.DirectionLow, tube.StartHigh + t * tube.DirectionHigh });
-  }
-  return box;
-}
-
 // Box of the control points of a map of second degree with the given values, widened for its part
 // of higher degree. Returns false if that is not known.
 bool BoundMap(const std::array<glm::dvec3, 6>& f, double least, AxisBox& box)
@@ -166,7 +141,7 @@ void StackBeams::Bound(std::int32_t facet, Samples& samples)
     TubeBounds bySamples;
     leg = this->BoundBySamples(samples, k, bySamples)
       ? bySamples
-      : this->BoundLeg(this->Stack->GetLinks()[k], leg);
+      : BoundNextLeg(this->Stack->GetLinks()[k], leg);
     this->Bounds[k][i] = leg;
   }
 }
@@ -210,83 +185,10 @@ TubeBounds StackBeams::BoundFirstLeg(std::int32_t facet) const
 }
 
 //------------------------------------------------------------------------------
-// Every ray of `before` that meets the next surface does so in one of the patches that the tube
-// meets, inside the tube.
-TubeBounds StackBeams::BoundLeg(const RefractionStack::Link& link, const TubeBounds& before) const
-{
-  TubeBounds local = before;
-  local.StartLow -= link.Shift;
-  local.StartHigh -= link.Shift;
-  const DirectionBox sight = MakeDirectionBox(before);
-  const double ratio = link.Passage.Before / link.Passage.Behind;
-  TubeBounds bounds;
-  link.Surface->VisitFacets(local,
-    [&](std::int32_t facet, const TubeRange& range)
-    {
-      const StackSurface::PatchBounds& patch = link.Surface->GetBounds(facet);
-      DirectionBox normals = patch.Normals;
-      normals.Middle *= link.Passage.FromFront ? 1.0 : -1.0;
-      const AxisBox part = BoundPart(local, range);
-      const glm::dvec3 corners[2] = { glm::max(part.Low, patch.Box.Low),
-        glm::min(part.High, patch.Box.High) };
-      const TubeBounds refracted = BoundRefractedRays(sight, normals, ratio, corners, 2, 0.0);
-      if (refracted.IsValid())
-      {
-        Merge(bounds, refracted);
-      }
-    });
-  if (bounds.IsValid())
-  {
-    bounds.StartLow += link.Shift;
-    bounds.StartHigh += link.Shift;
-  }
-  return bounds;
-}
-
-//------------------------------------------------------------------------------
-// The normals of a patch are of second degree, so those of the triangle are in the hull of the
-// control points that follow from its corners and the middles of its sides.
-TubeBounds StackBeams::BoundTriangle(
-  std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const
-{
-  const RefractionStack::Link& first = this->Stack->GetLinks().front();
-  const CurvedPatch patch = first.Surface->GetPatch(facet, !first.Passage.FromFront);
-  const glm::dvec3 eye = this->Stack->GetEye() - first.Shift;
-  glm::dvec3 normals[6];
-  glm::dvec3 places[3];
-  glm::dvec3 sights[3];
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec2& a = corners[(k + 1) % 3];
-    const glm::dvec2& b = corners[(k + 2) % 3];
-    normals[k] = patch.GetNormal(corners[k]);
-    normals[k + 3] =
-      2.0 * patch.GetNormal(0.5 * (a + b)) - 0.5 * (patch.GetNormal(a) + patch.GetNormal(b));
-    places[k] = patch.GetFlatPoint(corners[k]);
-    sights[k] = places[k] - eye;
-  }
-  const double bulge = first.Surface->GetBounds(facet).Bulge;
-  TubeBounds tube =
-    BoundRefractedRays(BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge),
-      BoundDirections((normals[0] + normals[1] + normals[2]) / 3.0, normals, 6, 0.0),
-      first.Passage.Before / first.Passage.Behind, places, 3, bulge);
-  if (tube.IsValid())
-  {
-    tube.StartLow += first.Shift;
-    tube.StartHigh += first.Shift;
-  }
-  for (std::size_t k = 1; k < count && tube.IsValid(); ++k)
-  {
-    tube = this->BoundLeg(this->Stack->GetLinks()[k], tube);
-  }
-  return tube;
-}
-
-//------------------------------------------------------------------------------
 bool StackBeams::MayShow(
-  const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const
+  const StackTarget& target, std::int32_t facet, const PatchTriangle& corners) const
 {
-  const TubeBounds tube = this->BoundTriangle(facet, corners, target.Count);
+  const TubeBounds tube = BoundStackRays(*this->Stack, facet, corners, target.Count);
   if (!tube.IsValid())
   {
     return false;

@@ -5,6 +5,7 @@
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Stack/StackShot.h"
+#include "Refraction/Stack/StackTubes.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <array>
@@ -48,14 +49,12 @@ public:
    * False if interval arithmetic proves that no ray from a triangle of the patch, with the corners
    * `corners`, meets the target.
    */
-  bool MayShow(
-    const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const;
+  bool MayShow(const StackTarget& target, std::int32_t facet, const PatchTriangle& corners) const;
 
   /** False if interval arithmetic proves that no ray from it passes `count` interfaces. */
-  bool MayPass(
-    std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const
+  bool MayPass(std::int32_t facet, const PatchTriangle& corners, std::size_t count) const
   {
-    return this->BoundTriangle(facet, corners, count).IsValid();
+    return BoundStackRays(*this->Stack, facet, corners, count).IsValid();
   }
 
   /**
@@ -78,9 +77,6 @@ private:
   using Samples = std::array<StackPath, 6>;
 
   void BuildTrees();
-  TubeBounds BoundLeg(const RefractionStack::Link& link, const TubeBounds& before) const;
-  TubeBounds BoundTriangle(
-    std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const;
   TubeBounds BoundFirstLeg(std::int32_t facet) const;
   bool BoundBySamples(const Samples& samples, std::size_t leg, TubeBounds& bounds) const;
   void Bound(std::int32_t facet, Samples& samples);

@@ -27,6 +27,15 @@ constexpr double ShortStep = 1e-6;
 constexpr double LargestError = 2e-12;
 constexpr double LastStep = 1e-5;
 
+// A step that turns a ray by the angle t turns it by t^2 / (2 c) less or more than its derivatives
+// say, where c is the cosine behind the interface, the root in Snell's law: next to a critical
+// angle the derivatives change fast. This angle, times the lengths of legs, is the error of a last
+// step.
+constexpr double LargestTurnError = 1e-11;
+
+// Steps that get no shorter than this part of the one before consist of rounding.
+constexpr double Stagnation = 0.5;
+
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
 constexpr int LongestWalk = 64;
 
@@ -81,6 +90,23 @@ void Predict(StackPath& path, const glm::dvec2& move)
   }
 }
 
+// True if the derivatives of all rays hold for the step within LargestTurnError.
+bool IsLinear(const RefractionStack& stack, const StackPath& path, const glm::dvec2& move)
+{
+  for (std::size_t i = 0; i < path.Count; ++i)
+  {
+    const PathPoint& point = path.Points[i];
+    const glm::dvec3 turn = GetChange(point.Ray.DirectionBy, move);
+    const double cosine =
+      std::sqrt(RefractionRadicand(point.Cosine, stack.GetLinks()[i].Ratio)); // above 0: it passes
+    if (!(glm::dot(turn, turn) <= 2.0 * cosine * LargestTurnError))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec2& move,
   double size, double before)
 {
@@ -90,7 +116,8 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
   const bool isLast =
     part > 0.0 ? size < LastStep && part * part * size <= LargestError : size < ShortStep;
   const glm::dvec3 sight = first.Origin - stack.GetEye();
-  return isLast && glm::dot(shift, shift) <= ShortStep * ShortStep * glm::dot(sight, sight);
+  return isLast && glm::dot(shift, shift) <= ShortStep * ShortStep * glm::dot(sight, sight) &&
+    (part >= Stagnation || IsLinear(stack, path, move));
 }
 
 // Newton's method; `trace(place, off)` sets the path, with an error of the order of the square of
@@ -116,6 +143,7 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
       }
       move *= 0.5;
       place = known;
+      before = std::numeric_limits<double>::infinity(); // the next step is no remainder of this one
       if (!Advance(stack, move, place))
       {
         return false;

@@ -298,6 +298,22 @@ INSTANTIATE_TEST_SUITE_P(EdgeOn, RefractionSeams,
   ::testing::Values(55, 97, 115, 136, 145, 151, 208, 214, 286, 310, 313, 352, 361, 137, 155, 222,
     233, 239, 269, 323, 350, 362));
 
+// A triangle is seen edge-on, and the strip beyond that place ends in the same sub-cell.
+INSTANTIATE_TEST_SUITE_P(StripEndsInside, RefractionSeams, ::testing::Values(566, 851));
+
+// The rays at the corners of a sub-cell next to a caustic pass beside a triangle that those between
+// them meet.
+INSTANTIATE_TEST_SUITE_P(NextToCaustics, RefractionSeams, ::testing::Values(698, 986));
+
+// A side between two facets that is straight at its middle but not at a quarter.
+INSTANTIATE_TEST_SUITE_P(WholeNeighbours, RefractionSeams, ::testing::Values(866, 957));
+
+// A side of the ball crosses the water at such a small angle that the two are within the tolerance.
+INSTANTIATE_TEST_SUITE_P(AlongTheWater, RefractionSeams, ::testing::Values(895));
+
+// A triangle is seen edge-on where it meets the water, which leaves the sub-cell before a side.
+INSTANTIATE_TEST_SUITE_P(EdgeOnAtTheWater, RefractionSeams, ::testing::Values(415, 490));
+
 /** Area of a triangle's pieces, mapped from the membrane, at their true places. */
 double MapWholeTriangle(
   const CurvedMembraneSolver& geometry, const std::array<glm::dvec3, 3>& corners)

@@ -424,6 +424,24 @@ TEST(RefractionStack, ListStartsBehindAnEyeBetweenInterfaces)
 }
 
 //------------------------------------------------------------------------------
+// The critical angle is at 165 from the point of the first pane below the eye, and the pane begins
+// 163.5 from there: only next to its border do rays pass. None goes to the middle of a facet, which
+// is 40 wide, or of a quarter of it.
+TEST(RefractionStack, ListBeginsAtAPaneThatFewRaysPass)
+{
+  const std::vector<StackInterface> list = { { MakeSurface(MakePlane(0.0, 200.0, 5)),
+                                               { 1.0, 0.6 } },
+    { MakeSurface(MakePlane(-5.0, 400.0, 5)), { 0.6, 1.5 } } };
+  StackSolver solver;
+  SetStack(solver, list, { -263.5, 220.0, 0.0 });
+  EXPECT_TRUE(solver.GetStack().HasPassage());
+  EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u);
+  // Beyond the critical angle everywhere.
+  SetStack(solver, list, { -265.5, 220.0, 0.0 });
+  EXPECT_EQ(solver.GetStack().GetLinks().size(), 1u);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionStack, WrongOrderIsNoticed)
 {
   StackSolver solver;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Bounds of the rays that go from a part of the first surface through a stack, by interval
+ * arithmetic on Snell's law, surface by surface. No ray is outside of them. Positions are relative
+ * to the stack's origin.
+ */
+#ifndef meniscus_Refraction_Stack_StackTubes_h
+#define meniscus_Refraction_Stack_StackTubes_h
+
+#include "Refraction/Stack/RefractionStack.h"
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** Corners of a triangle in a patch. */
+using PatchTriangle = std::array<glm::dvec2, 3>;
+
+/** Bounds of the rays behind an interface, from those of the rays before it. */
+TubeBounds BoundNextLeg(const RefractionStack::Link& link, const TubeBounds& before);
+
+/**
+ * Bounds of the rays from a triangle in a patch of the first surface behind `count` interfaces, at
+ * least one. They are not valid if no ray passes these.
+ */
+TubeBounds BoundStackRays(const RefractionStack& stack, std::int32_t facet,
+  const PatchTriangle& corners, std::size_t count);
+
+/**
+ * False if interval arithmetic proves that no ray to the triangle passes all interfaces but the
+ * last one and meets that one from the right side.
+ */
+bool MayMeetLast(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners);
+
+}
+
+#endif
