@@ -35,12 +35,12 @@ uniform int listedLeg;               // number of the leg
 // times 2^-24.
 const float AREA_ROUNDING = 9.5367431640625e-07;
 // Largest deviation of (u, v) from affine functions of the pixel, in grid units: 1/2 for the
-// rounding of a ray's offset (behind a membrane), 1/8 for its slope, and 1/8 for the product of
-// slope and depth.
-const float GRID_ROUNDING = 1.0;
+// rounding of a ray's offset (behind a membrane), 1/4 for its slope, 1/4 for the product of slope
+// and depth, and 2 for halves that are rounded down in fetchNearVertex.
+const float GRID_ROUNDING = 3.0;
 
-// Largest distance of the rays of a tile, the mesh's radius. If they are farther apart, the tree is
-// searched instead.
+// Largest distance of the rays of a tile, half of the mesh's radius. If they are farther apart, the
+// tree is searched instead.
 const float LARGEST_REACH = 536870912.0;
 // Largest refinement of a sight point's depth.
 const int DEPTH_SLACK = 128;
@@ -86,13 +86,24 @@ vec3 seen(RayVertex p)
   return vec3(placeOf(p), frameDepthOf(p.z));
 }
 
+// As fetchVertex, about the tile's central ray, which may miss the mesh by twice LARGEST_REACH:
+// differences are computed from halves of integers, which fit.
+RayVertex fetchNearVertex(int index)
+{
+  ivec4 p = texelFetch(vertices, FIRST_VERTEX + index);
+  vec2 rest;
+  ivec2 leading = multiplySlope(p.z, rest);
+  vec2 uv = 2.0 * vec2((p.xy >> 1) - (rayOffset >> 1) - (leading >> 1)) - rest;
+  return ivec4(floatBitsToInt(uv), p.zw);
+}
+
 // True if a ray of the tile may enter the mesh by the face.
 bool mayEnter(int index)
 {
   ivec4 record = texelFetch(treeFaces, index);
-  RayVertex p = fetchVertex(record.x < 0 ? ~record.x : record.x);
-  RayVertex q = fetchVertex(record.y);
-  RayVertex r = fetchVertex(record.z);
+  RayVertex p = fetchNearVertex(record.x < 0 ? ~record.x : record.x);
+  RayVertex q = fetchNearVertex(record.y);
+  RayVertex r = fetchNearVertex(record.z);
   float entering = float((record.x < 0 ? -1 : 1) * enteringSign);
   vec3 areas = entering * vec3(edgeArea(p, q), edgeArea(q, r), edgeArea(r, p));
   vec3 a = seen(p);
@@ -148,8 +159,7 @@ bool setUpTile(out int end, out bool alike)
   // between them.
   vec4 spread = 0.5 * (vec4(most) - vec4(least));
   reach = spread.xy + vec2(BOX_MARGIN);
-  // Slopes are per grid unit of depth, in units of 2^-32.
-  reachPerDepth = spread.zw * (GRID_PER_DEPTH / 4294967296.0) + vec2(BOX_MARGIN);
+  reachPerDepth = spread.zw * (GRID_PER_DEPTH * SLOPE_UNIT) + vec2(BOX_MARGIN);
   return true;
 }
 #else
@@ -161,7 +171,8 @@ bool setUpTile(out int end, out bool alike)
   vec2 slopeReach = 0.5 * tileSize * (abs(slopePerColumn) + abs(slopePerRow));
   reach = originReach * gridPerUnit;
   reachPerDepth = slopeReach * gridPerUnit;
-  alike = true;
+  // The slope of a tile that extends beyond the image may not fit an integer.
+  alike = all(lessThan(abs(rayAlong.xy) * gridPerUnit, vec2(GRID_PER_DEPTH)));
 #if REFRACTED
   end = BEFORE_EVERYTHING;
   for (int i = 0; i < int(tileSize * tileSize); ++i)

@@ -177,6 +177,9 @@ void limitRay(float opaque)
 void castLeg(int lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
+#if REFRACTED
+  cycleSteps = steps;
+#endif
   // The condition comes last, as in walk().
   bool goesOn = !isRayDone() && depthNow < endDepth;
   do
@@ -199,8 +202,7 @@ void castLeg(int lastDepth, inout int steps, inout int lost)
       bool wasNear = lastFace == NEAR_FACE;
       entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
       lastFace = wasNear ? -1 : lastFace;
-      ended = ended || wasNear;
-      cycleStart = -1;
+      ended = ended || wasNear || (cycleStart >= 0 && 4 * cell + face == cycleStart);
 #endif
       lastDepth = entryDepth;
       lost += ended ? 0 : 1;

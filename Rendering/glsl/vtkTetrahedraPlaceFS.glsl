@@ -19,7 +19,7 @@ uniform isamplerBuffer modelVertices; // fixed-point position, bits of the norma
 uniform int firstVertex;              // first vertex of the fragments
 uniform int columns;                  // number of vertices in a row of fragments
 uniform int rows;                     // number of rows of fragments
-uniform int toGrid[9];                // rows for x and y in units of 2^-32, depth of 2^-31
+uniform int toGrid[9];                // rows in units of 2^-31
 uniform float toGridRest[9];          // remainders of these, at most 1/2
 
 // a * b = high * 2^32 + low
@@ -42,27 +42,24 @@ void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
 #endif
 }
 
-// A row times a position, in whole units: the 64-bit sum of three products over 2^32, or 2^31 with
-// `doubled`, rounded. The last three bits of each product are dropped, so that the sum of the lower
-// words fits.
-int along(int row, ivec3 position, int doubled)
+// A row times a position, in whole units: the 64-bit sum of three products over 2^31, rounded. The
+// last three bits of each product are dropped, so that the sum of the lower words fits.
+int along(int row, ivec3 position)
 {
   ivec3 high;
   uvec3 low;
   multiply(ivec3(toGrid[row], toGrid[row + 1], toGrid[row + 2]), position, high, low);
   low >>= 3u;
-  uint one = 29u - uint(doubled);
   vec3 rests = vec3(toGridRest[row], toGridRest[row + 1], toGridRest[row + 2]);
   int more = int(0.125 * dot(rests, vec3(position)));
   // 1/2 to round, and 1 because `more` may be negative.
-  uint sum = low.x + low.y + low.z + uint(more + (3 << (one - 1u)));
-  return ((high.x + high.y + high.z) << doubled) + int(sum >> one) - 1;
+  uint sum = low.x + low.y + low.z + uint(more + (3 << 27));
+  return 2 * (high.x + high.y + high.z) + int(sum >> 28) - 1;
 }
 
 void main()
 {
   ivec2 fragment = ivec2(texCoord * vec2(float(columns), float(rows)));
   ivec4 vertex = texelFetch(modelVertices, firstVertex + fragment.y * columns + fragment.x);
-  placed =
-    ivec4(along(0, vertex.xyz, 0), along(3, vertex.xyz, 0), along(6, vertex.xyz, 1), vertex.w);
+  placed = ivec4(along(0, vertex.xyz), along(3, vertex.xyz), along(6, vertex.xyz), vertex.w);
 }

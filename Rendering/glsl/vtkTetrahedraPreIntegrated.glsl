@@ -30,22 +30,22 @@ void addPart(vec2 places, float partLength)
   transmittance -= transmittance * gone;
 }
 
+// Integrates the next part of the pending segment: before, within or behind the range of the table,
+// outside of which the function is constant. One part per turn reads the table in one place only:
+// llvmpipe executes all branches. Returns true if the segment is done.
 bool integratePiece()
 {
   vec2 ends = (vec2(segmentStart, segmentEnd) - preIntegratedRange.x) * preIntegratedRange.y;
   vec2 within = clamp(ends, -1.0, 1.0);
-  if (ends == within)
-  {
-    addPart(ends, segmentLength);
-    return true;
-  }
-  // Outside the range of the table the function is constant.
   float change = ends.y - ends.x;
-  float before = ends.x == within.x ? 0.0 : change == 0.0 ? 1.0 : (within.x - ends.x) / change;
-  before = clamp(before, 0.0, 1.0);
-  float inside = change == 0.0 ? 0.0 : clamp((within.y - within.x) / change, 0.0, 1.0 - before);
-  addPart(within.xx, before * segmentLength);
-  addPart(within, inside * segmentLength);
-  addPart(within.yy, (1.0 - before - inside) * segmentLength);
-  return true;
+  vec2 met = (within - vec2(ends.x)) / change;
+  float entered = ends.x == within.x ? 0.0 : (change == 0.0 ? 1.0 : clamp(met.x, 0.0, 1.0));
+  float left = ends.y == within.y ? 1.0 : (change == 0.0 ? entered : clamp(met.y, entered, 1.0));
+  bool before = segmentDone < entered;
+  bool behind = segmentDone >= left;
+  float reached = before ? entered : (behind ? 1.0 : left);
+  addPart(before ? within.xx : (behind ? within.yy : within),
+    (reached - segmentDone) * segmentLength);
+  segmentDone = reached;
+  return reached >= 1.0;
 }

@@ -61,15 +61,17 @@ uniform int frameFirstVertex[NUMBER_OF_FRAMES]; // start of the vertices placed 
 
 // Units of the frame per grid unit of depth (PacketVertex::GridPerDepth).
 const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
-// The mesh's radius in grid units, projected along a ray, is at most 2^29 (FixedPointRays), and
-// coordinates relative to a ray that meets the mesh are below 2^30.
+// Unit of slopes (FixedPointRays::ShaderSlopeUnit).
+const float SLOPE_UNIT = 1.0 / 2147483648.0;
+// The mesh's radius in grid units, projected along a ray, is less than 2^30 - 2^12
+// (FixedPointRays), and coordinates relative to a ray that meets the mesh are below 2^31.
 //
 // Bound, in grid units, of the difference between a vertex's u or v and the same sum in floats over
-// a box that holds the vertex. Terms are below 2^29 and rounded to 2^-24 of themselves: 3.5 * 32
-// for those of a dot product and their sums, 3 * 32 for the rows, 3 * 16 for the box (of vertices
-// in floats), 1.25 * 32 for the half extent, 2 * 32 for the origin, 33 for u itself and its
-// rounding to float: 393.
-const float BOX_MARGIN = 512.0;
+// a box that holds the vertex. Terms are below 2^30 and rounded to 2^-24 of themselves: 3.5 * 64
+// for those of a dot product and their sums, 3 * 64 for the rows, 3 * 32 for the box (of vertices
+// in floats), 1.25 * 64 for the half extent, 2 * 64 for the origin, 65 for u itself and its
+// rounding to float: 785.
+const float BOX_MARGIN = 1024.0;
 // The same bound for depths, which are below 2 in magnitude.
 const float DEPTH_MARGIN = 1.9073486328125e-06;
 
@@ -106,13 +108,13 @@ float rayGrid;       // grid units of x and y per unit of the frame
 #define RAY_GRID gridPerUnit
 #endif
 
-// Sets the slope in the grid, given in units of 2^-32.
-void setSlope(ivec2 slope)
+// Sets the slope in the grid, given in units of SLOPE_UNIT, as an integer and a fraction.
+void setSlope(ivec2 slope, vec2 fraction)
 {
-  raySlope = vec2(slope) * (1.0 / 4294967296.0);
-  raySlopeHigh = vec2(slope >> 22) * (1.0 / 1024.0);
+  raySlope = vec2(slope) * SLOPE_UNIT;
+  raySlopeHigh = vec2(slope >> 22) * (1.0 / 512.0);
   ivec2 low = slope & 4194303;
-  raySlopeLow = vec2(low) * (1.0 / 4294967296.0);
+  raySlopeLow = (vec2(low) + fraction) * SLOPE_UNIT;
 }
 
 // Sets up the line (x, y) = origin + depth * slope of the frame with these rows, except for
@@ -151,7 +153,8 @@ bool setUpRay(vec2 pixel, vec2 reach)
   ivec4 offset = gridValue(gridOffset, halves);
   rayOffset = offset.xy;
   rayFraction = vec2(offset.zw) * (1.0 / 32768.0);
-  setSlope(gridValue(gridSlope, halves).xy);
+  ivec4 gridded = gridValue(gridSlope, halves);
+  setSlope(gridded.xy, vec2(gridded.zw) * (1.0 / 32768.0));
 #if REFRACTED
   rayFirstVertex = 0;
   rayGrid = gridPerUnit;
@@ -180,10 +183,9 @@ bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
   rayGrid = frameGridPerUnit[frame];
   rayOffset = line.xy;
   rayFraction = vec2(0.0);
-  setSlope(line.zw);
+  setSlope(line.zw, vec2(0.0));
   vec2 origin = vec2(line.xy) / rayGrid;
-  // Slopes are per grid unit of depth, in units of 2^-32.
-  vec2 slope = vec2(line.zw) * (GRID_PER_DEPTH / 4294967296.0 / rayGrid);
+  vec2 slope = vec2(line.zw) * (GRID_PER_DEPTH * SLOPE_UNIT / rayGrid);
   rayPlace = origin.x * frameAxisX[frame] + origin.y * frameAxisY[frame];
   rayAlong = slope.x * frameAxisX[frame] + slope.y * frameAxisY[frame] + frameAxisDepth[frame];
   return setUpLine(
@@ -192,17 +194,25 @@ bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
 #endif
 
 
-// The product of depth and slope is computed in parts: the leading 15 digits of one times the
-// leading 9 digits of the other are an integer of 24 digits, which is subtracted exactly; the rest
-// is below 2^21 and has an error of 1/8.
+// Integer part of the product of a depth and the ray's slope, and the rest, with the fraction of
+// the ray's offset. The leading 15 digits of one times the leading 9 digits of the other are an
+// integer of 24 digits, which is exact; the rest is below 2^22 and has an error of 1/4.
+ivec2 multiplySlope(int depth, out vec2 rest)
+{
+  float high = float(depth & -32768);
+  float low = float(depth & 32767);
+  EXACTLY_AS_WRITTEN vec2 leading = high * raySlopeHigh;
+  EXACTLY_AS_WRITTEN vec2 more = high * raySlopeLow + (low * raySlope + rayFraction);
+  rest = more;
+  return ivec2(leading);
+}
+
 RayVertex fetchVertex(int index)
 {
   ivec4 p = texelFetch(vertices, FIRST_VERTEX + index);
-  float high = float(p.z & -32768);
-  float low = float(p.z & 32767);
-  EXACTLY_AS_WRITTEN vec2 leading = high * raySlopeHigh;
-  EXACTLY_AS_WRITTEN vec2 rest = high * raySlopeLow + (low * raySlope + rayFraction);
-  EXACTLY_AS_WRITTEN vec2 uv = vec2(p.xy - rayOffset - ivec2(leading)) - rest;
+  vec2 rest;
+  ivec2 leading = multiplySlope(p.z, rest);
+  EXACTLY_AS_WRITTEN vec2 uv = vec2(p.xy - rayOffset - leading) - rest;
   return ivec4(floatBitsToInt(uv), p.zw);
 }
 

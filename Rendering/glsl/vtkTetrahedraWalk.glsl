@@ -71,7 +71,8 @@ float legStart;      // depth of that point in the frame of the leg
 float legPerDepth;   // depth in that frame per drawn depth
 float legEnd;        // depth there at which the leg meets the next interface, or NOWHERE
 int legEndAt;        // the same in grid units
-int cycleStart;      // link to the face inside the mesh by which the walk began; otherwise -1
+int cycleStart;      // link to the face inside the mesh by which the leg's first walk began, or -1
+int cycleSteps;      // number of steps before that walk
 #if FADED
 float legPath;       // world length of the legs behind the first interface up to this one
 #endif
@@ -346,7 +347,9 @@ bool stepThroughCell(Ahead ahead, out int link)
 
 // Walks from the boundary to the boundary, or until the ray ends. Adds to the number of steps;
 // returns false if the ray is lost. A walk that begins inside the mesh reaches the boundary, too,
-// or returns to its start: every face and side has one predecessor.
+// or returns to its start: every face and side has one predecessor. A later walk that comes to that
+// start ends there, since its other cells have been crossed: they are not crossed again, because
+// depths that are rounded otherwise could make a piece of them count twice.
 bool walk(inout int steps)
 {
   // A ray crosses a cell at most once through each of its 4 faces, in 2 orientations.
@@ -355,7 +358,6 @@ bool walk(inout int steps)
   bool pending = false;
   bool ended = false;
 #if REFRACTED
-  int before = steps;
   bool closedCycle = false;
 #else
   const bool closedCycle = false;
@@ -376,7 +378,7 @@ bool walk(inout int steps)
 #endif
     bool goesOn = !pending && !ended;
 #if REFRACTED
-    closedCycle = goesOn && steps > before && link == cycleStart;
+    closedCycle = goesOn && steps > cycleSteps && link == cycleStart;
     goesOn = goesOn && !closedCycle;
 #endif
     if (goesOn)

@@ -41,11 +41,11 @@ constexpr double DepthError = 1.9073486328125e-06; // 2^-19
 
 /**
  * Bound of the error of u and v of a vertex about a ray in a shader, in grid units. Both are below
- * 2^30 near a ray that meets the mesh; one integer and one difference are rounded to float, with an
- * error of 32 each. Placing the vertex, the ray, and the product of depth and slope add less than 4
+ * 2^31 near a ray that meets the mesh; one integer and one difference are rounded to float, with an
+ * error of 64 each. Placing the vertex, the ray, and the product of depth and slope add less than 4
  * (fetchVertex in vtkTetrahedraRays.glsl).
  */
-constexpr double ErrorInShader = 128.0;
+constexpr double ErrorInShader = 256.0;
 
 /** A range of tiles in a row. */
 struct TileSpan

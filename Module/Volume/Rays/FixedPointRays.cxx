@@ -18,26 +18,25 @@ namespace
 {
 
 /**
- * Grid units of x and y per unit of the frame, times 1 + the steepest slope.
+ * Grid units of x and y per unit of the frame, times 1 + the steepest slope: 2^30 - 2^13.
  *
  * In packets, u and v are differences of places and offsets, integers of 32 bits, at the pivot.
  * Where a ray meets the mesh they are below twice this number: places are within r = GridRadius /
  * (1 + s) of the centre, for the steepest slope s, and the pivot is within twice the unit of depth
  * from any part of the mesh, so that offsets are within r (1 + 2 s).
  *
- * In shaders, slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
+ * In shaders, u and v are such differences at the depth of a vertex, within r (2 + 2 s). Slopes per
+ * grid unit of depth are below 1, up to views of nearly 180 degrees.
  */
-constexpr double GridRadiusOf(RayGrid grid)
-{
-  return grid == RayGrid::Shaders ? 536866816.0 /* 2^29 - 2^12 */ : 1073733632.0 /* 2^30 - 2^13 */;
-}
+constexpr double GridRadius = 1073733632.0;
 
 /** 2^31 - 2^12: bound of differences of places and offsets, before these are rounded. */
 constexpr double LargestDifference = 2147479552.0;
-static_assert(2.0 * GridRadiusOf(RayGrid::Packets) + 1.0 < LargestDifference, "rays are kept");
-static_assert(GridRadiusOf(RayGrid::Packets) < PacketVertex::GridPerDepth, "slopes are below 1");
+static_assert(2.0 * GridRadius + 1.0 < LargestDifference, "rays are kept");
+static_assert(GridRadius < PacketVertex::GridPerDepth, "slopes are below 1");
 
-constexpr double FractionOfGrid = 4294967296.0; // 2^32, of slopes for shaders
+/** Slopes and coefficients for shaders per unit. */
+constexpr double ShaderSlopes = 1.0 / FixedPointRays::ShaderSlopeUnit;
 constexpr double LargestSlope = 2147483647.0;
 /** Bound of the offset at depth 0 of a line for shaders that may meet the mesh. */
 constexpr double LargestLineOffset = 1073741824.0; // 2^30
@@ -51,13 +50,13 @@ AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
 }
 
-/** Converts a map to integers and fractions of 2^-15, with `more` added to its base. */
-FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::dvec2& more)
+/** Converts a map to integers and fractions of 2^-15. */
+FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map)
 {
   constexpr double fractions = 32768.0;
   // Integers are computed modulo 2^32: where a ray meets the mesh, their sum is in range.
   constexpr double largest = 70368744177664.0; // 2^46
-  const glm::dvec2 values[3] = { map.Base + more, 0.5 * map.PerColumn, 0.5 * map.PerRow };
+  const glm::dvec2 values[3] = { map.Base, 0.5 * map.PerColumn, 0.5 * map.PerRow };
   FixedPointRays::FixedPointMap fixed{};
   for (int i = 0; i < 3; ++i)
   {
@@ -75,21 +74,20 @@ FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::d
 }
 
 //------------------------------------------------------------------------------
-FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, RayGrid grid)
-  : FixedPointRays(frame, width, height, std::clamp(frame.NearDepth, -1.0, 1.0), grid)
+FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height)
+  : FixedPointRays(frame, width, height, std::clamp(frame.NearDepth, -1.0, 1.0))
+{
+}
+
+//------------------------------------------------------------------------------
+FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, double pivot)
+  : FixedPointRays(frame, width, height, pivot, SpacingAt(frame, pivot))
 {
 }
 
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointRays(
-  const RayFrame& frame, int width, int height, double pivot, RayGrid grid)
-  : FixedPointRays(frame, width, height, pivot, SpacingAt(frame, pivot), grid)
-{
-}
-
-//------------------------------------------------------------------------------
-FixedPointRays::FixedPointRays(
-  const RayFrame& frame, int width, int height, double pivot, double spacing, RayGrid grid)
+  const RayFrame& frame, int width, int height, double pivot, double spacing)
   : Frame(frame)
   , Width(width)
   , Height(height)
@@ -106,7 +104,7 @@ FixedPointRays::FixedPointRays(
       steepest = std::max({ steepest, slope.x, slope.y });
     }
   }
-  const double perUnit = GridRadiusOf(grid) / (1.0 + steepest);
+  const double perUnit = GridRadius / (1.0 + steepest);
   this->GridUnit = 1.0 / perUnit;
   this->Fine = spacing * perUnit < FineSpacing || frame.SmallestCell * perUnit < FineCell;
   this->LargestOffset =
@@ -143,12 +141,11 @@ bool FixedPointRays::SeesAs(const FixedPointRays& other) const
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointRows FixedPointRays::GetFixedPointRows() const
 {
-  // Coefficients of x and y are below 1/2, those of depth below 1.
+  // Coefficients are below 1.
   FixedPointRows rows{};
   for (int i = 0; i < 9; ++i)
   {
-    const double scaled =
-      this->ToGrid[i % 3][i / 3] * (i < 6 ? FractionOfGrid : 0.5 * FractionOfGrid);
+    const double scaled = this->ToGrid[i % 3][i / 3] * ShaderSlopes;
     const double whole = std::clamp(std::rint(scaled), -LargestSlope, LargestSlope);
     rows.Whole[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(whole);
     rows.Rests[static_cast<std::size_t>(i)] =
@@ -160,13 +157,13 @@ FixedPointRays::FixedPointRows FixedPointRays::GetFixedPointRows() const
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointMap FixedPointRays::GetFixedPointOffset() const
 {
-  return FixedPoint(this->Offset, glm::dvec2(0.0));
+  return FixedPoint(this->Offset);
 }
 
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointMap FixedPointRays::GetFixedPointSlope() const
 {
-  return FixedPoint(Scaled(this->Slope, FractionOfGrid), glm::dvec2(0.5));
+  return FixedPoint(Scaled(this->Slope, ShaderSlopes));
 }
 
 //------------------------------------------------------------------------------
@@ -179,7 +176,7 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
       std::lrint(std::clamp(origin[axis] / this->GridUnit, -LargestLineOffset, LargestLineOffset)));
     const double perDepth = slope[axis] / (this->GridUnit * GridPerDepth);
     gridSlope[axis] = static_cast<std::int32_t>(
-      std::clamp(std::rint(perDepth * FractionOfGrid), -LargestSlope, LargestSlope));
+      std::clamp(std::rint(perDepth * ShaderSlopes), -LargestSlope, LargestSlope));
   }
 }
 

@@ -19,23 +19,14 @@
 namespace meniscus
 {
 
-/** Who computes in a grid, which decides how fine it is: see FixedPointRays. */
-enum class RayGrid
-{
-  Packets,
-  /** Slopes are integers of 32 bits, in units of 2^-32, and rays may miss the mesh by far. */
-  Shaders
-};
-
 /**
  * The rays of an image's pixels, and the positions of vertices relative to them, in integer grid
  * units.
  *
  * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of about 2^-30 of the
  * frame's, x and y in units of about 2^-30 times 1 + the steepest slope, so that |u| and |v| stay
- * below 2^31 where a ray meets the mesh. For shaders, these units are twice as large. Coordinates
- * relative to a ray are floats that are defined to the last bit (PacketRay), the same on every
- * processor and for every user of a ray.
+ * below 2^31 where a ray meets the mesh. Coordinates relative to a ray are floats that are defined
+ * to the last bit (PacketRay), the same on every processor and for every user of a ray.
  *
  * Rays pass through their offsets at a depth called pivot, and depths about a ray count from it.
  * Floats near it are small and precise: rounding errors are at most 2^-24 of the distance from the
@@ -50,16 +41,14 @@ public:
    * The pivot is at the near clipping plane, or at the end of the unit about the mesh that is next
    * to it.
    */
-  FixedPointRays(const RayFrame& frame, int width, int height, RayGrid grid = RayGrid::Packets);
+  FixedPointRays(const RayFrame& frame, int width, int height);
   /** @param pivot depth of the pivot in units of the frame. */
-  FixedPointRays(
-    const RayFrame& frame, int width, int height, double pivot, RayGrid grid = RayGrid::Packets);
+  FixedPointRays(const RayFrame& frame, int width, int height, double pivot);
   /**
    * @param spacing smallest distance of rays of neighbouring pixels at the pivot, in units of the
    *   frame.
    */
-  FixedPointRays(const RayFrame& frame, int width, int height, double pivot, double spacing,
-    RayGrid grid = RayGrid::Packets);
+  FixedPointRays(const RayFrame& frame, int width, int height, double pivot, double spacing);
 
   /** Smallest distance of rays of neighbouring pixels at a depth, in units of the frame. */
   static double SpacingAt(const RayFrame& frame, double depth)
@@ -139,8 +128,7 @@ public:
     }
   };
   /**
-   * Rows of the matrix from fixed-point positions to the grid of shaders. Those of x and y are in
-   * units of 2^-32, that of depth in units of 2^-31.
+   * Rows of the matrix from fixed-point positions to the grid for shaders, in units of 2^-31.
    */
   FixedPointRows GetFixedPointRows() const;
 
@@ -150,15 +138,17 @@ public:
    */
   using FixedPointMap = std::array<std::int32_t, 12>;
   /**
-   * Offset at depth 0 and slope of pixels' rays, the slope in units of 2^-32. Their error is
-   * 2^-15 of the image's width in pixels. The slope is half a unit larger, so that rounding down
-   * gives the nearest value.
+   * Offset at depth 0 and slope of pixels' rays, the slope in units of ShaderSlopeUnit. Their error
+   * is 2^-15 of the image's width in pixels.
    */
   FixedPointMap GetFixedPointOffset() const;
   FixedPointMap GetFixedPointSlope() const;
   /** Offset at depth 0 and slope of a line of the frame for shaders, as integers in these units. */
   void GetFixedPointLine(const glm::dvec2& origin, const glm::dvec2& slope,
     std::int32_t (&gridOffset)[2], std::int32_t (&gridSlope)[2]) const;
+
+  /** Unit of slopes for shaders, in grid units across per grid unit of depth: 2^-31. */
+  static constexpr double ShaderSlopeUnit = 4.656612873077393e-10;
 
   /** Grid unit of x and y, in units of the frame. */
   double GetGridUnit() const { return this->GridUnit; }

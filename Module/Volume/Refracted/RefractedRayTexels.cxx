@@ -61,7 +61,7 @@ RefractedRayLine LineOf(
     const glm::dvec3 place = turn * leg.Begin;
     const glm::dvec3 step = turn * leg.Step;
     const FrameLine of = FrameLine::Through(place, step);
-    frames.Get(index).ShaderRays.GetFixedPointLine(of.Origin, of.Slope, line.Offset, line.Slope);
+    frames.Get(index).Rays.GetFixedPointLine(of.Origin, of.Slope, line.Offset, line.Slope);
     line.Start = static_cast<float>(place.z);
     line.PerDepth = static_cast<float>(step.z);
     line.FrameAndRests |= index | RestOf(place.z) << 16;

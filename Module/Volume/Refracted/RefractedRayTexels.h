@@ -22,7 +22,7 @@ struct RefractedRayLine
 {
   /** Offset in grid units. */
   std::int32_t Offset[2];
-  /** Slope per grid unit of depth, in units of 2^-32. */
+  /** Slope per grid unit of depth, in units of FixedPointRays::ShaderSlopeUnit. */
   std::int32_t Slope[2];
   /**
    * Depth of the sight point on the leg before, in the frame of that leg; Nowhere if that leg does

@@ -55,7 +55,6 @@ RefractionFrame MakeFrame(
   const double pivot = std::clamp((rotation * sightPoint).z, -frame.Extent, frame.Extent);
   const double spacing = FixedPointRays::SpacingAt(view, sightPoint.z);
   frame.Rays = FixedPointRays(turned, 1, 1, pivot, spacing);
-  frame.ShaderRays = FixedPointRays(turned, 1, 1, pivot, RayGrid::Shaders);
   return frame;
 }
 

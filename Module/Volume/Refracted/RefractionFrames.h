@@ -40,9 +40,7 @@ struct RefractionFrame
 {
   /** Rotation from the frame of the view to this one. */
   glm::dmat3 FromView{ 1.0 };
-  /** Fixed-point grids of the frame, for packets and for shaders. */
   FixedPointRays Rays;
-  FixedPointRays ShaderRays;
   /** Bound of the magnitude of the mesh's coordinates. */
   double Extent = 0.0;
   /** Vertices of the mesh, after they have been placed. */

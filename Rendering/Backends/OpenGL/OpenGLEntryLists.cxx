@@ -37,8 +37,7 @@ bool OpenGLEntryLists::Update(VolumeInput& input, const RayCastFrame& frame, Ope
   {
     return false;
   }
-  const FixedPointRays rays(
-    frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1], RayGrid::Shaders);
+  const FixedPointRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
   if (this->BoundaryOfTiles != input.GetBoundaryVersions() || !rays.SeesAs(this->RaysOfTiles))
   {
     this->Fit = this->Tiles.Build(

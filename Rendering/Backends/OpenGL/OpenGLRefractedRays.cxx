@@ -84,9 +84,9 @@ std::string OpenGLRefractedRays::Upload(vtkOpenGLRenderWindow* window,
     const bool needed = frame.Extent > 0.0;
     if (needed)
     {
-      this->FixedRows.push_back(frame.ShaderRays.GetFixedPointRows());
+      this->FixedRows.push_back(frame.Rays.GetFixedPointRows());
     }
-    this->GridPerUnit.push_back(static_cast<float>(1.0 / frame.ShaderRays.GetGridUnit()));
+    this->GridPerUnit.push_back(static_cast<float>(1.0 / frame.Rays.GetGridUnit()));
     this->Places.push_back(needed ? static_cast<int>(this->FixedRows.size()) : 0);
   }
   return std::string();

@@ -145,7 +145,7 @@ std::string RayCastOpenGL::Cast(RayCastTarget& target, RayProgram program)
   if (error.empty())
   {
     error = this->Tables.PlaceVertices(
-      FixedPointRays(this->Frame.Rays, this->Size[0], this->Size[1], RayGrid::Shaders), refracting);
+      FixedPointRays(this->Frame.Rays, this->Size[0], this->Size[1]), refracting);
   }
   if (error.empty() && drawsSight && !this->Frame.Optics.LongLists)
   {
@@ -427,7 +427,7 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   set2("slopeBase", rays.Slope.Base);
   set2("slopePerColumn", rays.Slope.PerColumn);
   set2("slopePerRow", rays.Slope.PerRow);
-  const FixedPointRays grid(rays, this->Size[0], this->Size[1], RayGrid::Shaders);
+  const FixedPointRays grid(rays, this->Size[0], this->Size[1]);
   const FixedPointRays::FixedPointMap offset = grid.GetFixedPointOffset();
   const FixedPointRays::FixedPointMap slope = grid.GetFixedPointSlope();
   program->SetUniformf("gridPerUnit", static_cast<float>(1.0 / grid.GetGridUnit()));

@@ -26,11 +26,11 @@ namespace test
  * differ by the range of the results, in addition to the plain tolerance.
  *
  * Rounding of an image:
- * - points: to a grid of 2^-29 of the mesh's radius (natively 2^-30) times 1 + the steepest slope,
- *   by half a unit, and the ray by as much again; 1.5 units with the depth's. Coordinates about the
- *   ray are floats: natively two roundings of 2^-25 of the distance from the ray, which is at most
- *   the longest edge of a cell that the ray meets; by shaders 2^-24 of the radius. Behind a
- *   membrane rays are kept in single precision, and their origin and slope add up: 2^-22.
+ * - points: to a grid of 2^-30 of the mesh's radius times 1 + the steepest slope, by half a unit,
+ *   and the ray by as much again; 1.5 units with the depth's. Coordinates about the ray are floats:
+ *   natively two roundings of 2^-25 of the distance from the ray, which is at most the longest edge
+ *   of a cell that the ray meets; by shaders 2^-24 of the radius. Behind a membrane rays are kept
+ *   in single precision, and their origin and slope add up: 2^-22.
  * - scalars: to 2^-24 of the range that they are normalised to, by half a unit, and interpolated
  *   along the ray in single precision: 2 units natively, 4 by shaders. The mean adds up a term per
  *   cell, half a unit each. Twice that for two images. Points and scalars are moved by the full

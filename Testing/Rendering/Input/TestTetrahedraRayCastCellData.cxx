@@ -326,6 +326,20 @@ TEST(TetrahedraRayCastCellData, ThroughAMembrane)
   }
 }
 
+TEST(TetrahedraRayCastCellData, ThroughAMembraneNextToTheBoundary)
+{
+  // Refracted legs begin in the cells by which sight rays enter the mesh, within the margin in
+  // which shaders look for entries. No cell may count twice.
+  const Grid grid = MakeCellBlock(6);
+  CellScene surfaces(grid, SurfaceProperty());
+  surfaces.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  for (const double below : { 1e-5, 1e-4, 3e-4 })
+  {
+    surfaces.RefractionAt(MakePlaneCase(1.0 - below, 4.0, 2));
+    surfaces.ExpectSurfaces(std::to_string(below) + " below the top");
+  }
+}
+
 TEST(TetrahedraRayCastCellData, Projections)
 {
   const Grid grid = MakeCellBlock(6);

@@ -40,14 +40,14 @@ constexpr double Views[4] = { 1.0, 3e-2, 1e-3, 2e-4 };
 const double Radius = std::sqrt(3.0);
 
 // Distance by which a ray may miss a feature in an image of a part of the domain. Vertices are
-// placed to 2^-29 of the radius times 1 + the steepest slope, less than 2^-28, and coordinates
+// placed to 2^-30 of the radius times 1 + the steepest slope, less than 2^-29, and coordinates
 // about a ray are rounded to 2^-24 of themselves: those of the needles between large and small
 // cells are as large as the image. A pixel may be excused if the exact result itself changes by
 // half of the pixel's error when the ray moves by this distance: where a ray only touches an
 // isosurface, or passes a silhouette.
 double RoundingOf(double part)
 {
-  return Radius * (std::pow(2.0, -28) + part * std::pow(2.0, -24));
+  return Radius * (std::pow(2.0, -29) + part * std::pow(2.0, -24));
 }
 
 // The cube [-1, 1]^3, with cubes that become smaller towards the corner (1, 1, 1): their sides grow
@@ -130,11 +130,7 @@ double ToleranceOf(const CornerScene& corner, int mode)
   {
     return corner.IsAfar ? 4e-5 : 2e-5;
   }
-  if (mode != vtkVolumeMapper::COMPOSITE_BLEND)
-  {
-    return 4e-5;
-  }
-  return corner.IsAfar ? FloatTolerance : 8e-5;
+  return mode == vtkVolumeMapper::COMPOSITE_BLEND ? 4e-5 : 2e-5;
 }
 
 // Renders and compares all pixels.
@@ -211,7 +207,8 @@ TEST(TetrahedraRayCastSmallCells, CompositeInEveryView)
     for (const FunctionKind kind :
       { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Opaque })
     {
-      // Peaks are a tenth of a cell wide: 2^-29 of the radius is 5e-4 of one in the smallest cells.
+      // Peaks are a tenth of a cell wide: 2^-30 of the radius is 2.5e-4 of one in the smallest
+      // cells.
       if (kind == FunctionKind::Peaked && part < 1e-3)
       {
         continue;

@@ -436,8 +436,9 @@ TEST(RayLegs, LinesForShadersAreTheLegs)
         EXPECT_NEAR(
           FixedPointRays::DepthOf(line.GetGridEndBefore()), (frameBefore * leg.Begin).z, precision);
         frameBefore = frame.FromView;
-        const double unit = frame.ShaderRays.GetGridUnit();
-        const double slopeUnit = unit * PacketVertex::GridPerDepth / 4294967296.0;
+        const double unit = frame.Rays.GetGridUnit();
+        const double slopeUnit =
+          unit * PacketVertex::GridPerDepth * FixedPointRays::ShaderSlopeUnit;
         const glm::dvec3 along(line.Slope[0] * slopeUnit, line.Slope[1] * slopeUnit, 1.0);
         const glm::dvec3 place = glm::dvec3(unit * line.Offset[0], unit * line.Offset[1], 0.0) +
           FixedPointRays::DepthOf(line.GetGridStart()) * along;

@@ -174,8 +174,8 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
     const auto depthOf = [](std::int32_t grid, float depth)
     { return std::abs(depth) < 1.0f ? FixedPointRays::DepthOf(grid) : double{ depth }; };
     const RefractionFrame& turned = picture.Frames.Get(line.GetFrame());
-    const double unit = turned.ShaderRays.GetGridUnit();
-    const double slopeUnit = unit * PacketVertex::GridPerDepth / 4294967296.0;
+    const double unit = turned.Rays.GetGridUnit();
+    const double slopeUnit = unit * PacketVertex::GridPerDepth * FixedPointRays::ShaderSlopeUnit;
     const glm::dmat3 toView = glm::transpose(turned.FromView);
     const glm::dvec3 along =
       toView * glm::dvec3(line.Slope[0] * slopeUnit, line.Slope[1] * slopeUnit, 1.0);

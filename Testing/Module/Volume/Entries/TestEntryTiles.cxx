@@ -170,8 +170,7 @@ TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
       { { 0.9, 0.8, 1.1 }, 5.0 } };
     for (const auto& view : views)
     {
-      const FixedPointRays rays(
-        FrameFrom(mesh, view.first, view.second), Pixels, Pixels, RayGrid::Shaders);
+      const FixedPointRays rays(FrameFrom(mesh, view.first, view.second), Pixels, Pixels);
       EntryTiles tiles;
       ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
       const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -192,8 +191,7 @@ TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
   // direction and for needles.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
-  const FixedPointRays rays(
-    FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels, RayGrid::Shaders);
+  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
   EntryTiles tiles;
   ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
   const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -205,8 +203,7 @@ TEST(EntryTiles, DoNotDependOnTheLoop)
 {
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(7), 0.8).View()), MeshStatus::Ok);
-  const FixedPointRays rays(
-    FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels, RayGrid::Shaders);
+  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels);
   EntryTiles serial;
   EntryTiles other;
   ASSERT_TRUE(serial.Build(mesh, mesh.GetBoundary(), rays, TileSize));
@@ -239,8 +236,8 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
     const glm::dvec3 eye = glm::dvec3(0.5) + 3.0 * glm::normalize(direction);
     const RayFrame frame = FrameFrom(mesh, eye, 0.0);
     EntryTiles tiles;
-    ASSERT_TRUE(tiles.Build(
-      mesh, mesh.GetBoundary(), FixedPointRays(frame, Pixels, Pixels, RayGrid::Shaders), TileSize));
+    ASSERT_TRUE(
+      tiles.Build(mesh, mesh.GetBoundary(), FixedPointRays(frame, Pixels, Pixels), TileSize));
     for (std::size_t t = 0; t + 1 < tiles.GetBegins().size(); ++t)
     {
       const std::int32_t length = tiles.GetBegins()[t + 1] - tiles.GetBegins()[t];
