@@ -285,6 +285,15 @@ void ObjectImages::FinishPoints()
     this->Chunks.clear(); // all points are solved, so no chunk can be requested later
   }
   this->Nearest = std::min(this->Nearest, this->Farthest);
+  this->ForgetNodes();
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::ForgetNodes()
+{
+  const Membrane& membrane = this->Geometry.GetMembrane();
+  this->Nodes =
+    std::make_unique<SharedNodes>(membrane.GetPositions().size(), membrane.GetFacets().size());
 }
 
 //------------------------------------------------------------------------------
@@ -371,7 +380,8 @@ void ObjectImages::PrepareSides(
 CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
-  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  const PrimitiveMapper mapping(
+    this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
   CellReport report;
   for (std::size_t i = begin; i < end; ++i)
@@ -415,7 +425,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
   ImageMesh& whole, unsigned char* isMapped) const
 {
-  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  const PrimitiveMapper mapping(
+    this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
   CellReport report;
   std::vector<std::int64_t> triangles;

@@ -17,11 +17,13 @@
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/PrimitiveMapper.h"
 #include "Refraction/Images/SeamClosure.h"
+#include "Refraction/Images/SharedNodes.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -37,7 +39,11 @@ public:
   }
 
   /** Sets the tolerance, an angle in radians at the eye. */
-  void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
+  void SetTolerance(double tolerance)
+  {
+    this->Tolerance = tolerance;
+    this->ForgetNodes();
+  }
 
   /**
    * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them may
@@ -97,6 +103,7 @@ private:
     glm::dvec3 Low{ std::numeric_limits<double>::max() };
     glm::dvec3 High{ std::numeric_limits<double>::lowest() };
   };
+  void ForgetNodes();
   Extent FindExtent() const;
   bool IsProofWorthwhile(const Extent& extent, std::size_t wanted, std::size_t cells) const;
   bool IsUnique(const std::int64_t* ids, std::size_t count) const;
@@ -150,6 +157,8 @@ private:
   std::vector<std::vector<VirtualVertex>> Chunks;
   std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
   std::vector<bool> InFront;
+  /** For the tolerance and the distances of the images; mapping adds to it. */
+  std::unique_ptr<SharedNodes> Nodes;
 };
 
 }

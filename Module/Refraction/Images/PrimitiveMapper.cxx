@@ -34,11 +34,11 @@ double GetArea(std::size_t count, const GetPlace& getPlace)
 }
 
 //------------------------------------------------------------------------------
-PrimitiveMapper::PrimitiveMapper(
-  const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
+PrimitiveMapper::PrimitiveMapper(const CurvedMembraneSolver& geometry, double tolerance,
+  double nearest, double farthest, SharedNodes& shared)
   : Geometry(geometry)
   , Tolerance(tolerance)
-  , Division(geometry, tolerance, nearest, farthest)
+  , Division(geometry, tolerance, nearest, farthest, shared)
 {
 }
 
@@ -152,20 +152,22 @@ void PrimitiveMapper::Map(const Context& context) const
   std::sort(facets.begin(), facets.end());
   const double inFront = this->GetLengthInFront(context);
   Meetings meetings;
+  Context inPatch = context;
+  inPatch.Meetings = &meetings;
   for (const std::int32_t facet : facets)
   {
-    const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
-    Context inPatch = context;
-    inPatch.Patch = &patch;
     inPatch.Facet = facet;
-    inPatch.Meetings = &meetings;
     this->Division.Visit(
-      patch,
+      facet,
       [&inPatch, inFront](const SubCell& nodes) {
         return (inPatch.IsPartInFront && *inPatch.IsPartInFront) ||
           inPatch.IsOutside(nodes, inFront);
       },
-      [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
+      [this, &inPatch](const CurvedPatch& patch, const SubCell& nodes)
+      {
+        inPatch.Patch = &patch;
+        this->MapSubCell(inPatch, nodes);
+      });
   }
 }
 

@@ -56,10 +56,11 @@ class PrimitiveMapper
 public:
   /**
    * `tolerance` is the largest error of linear interpolation in a sub-cell, as an angle in radians
-   * at the eye, at the distances `nearest` and `farthest` behind the membrane.
+   * at the eye, at the distances `nearest` and `farthest` behind the membrane. `shared` has the
+   * nodes of mappers with the same parameters.
    */
-  PrimitiveMapper(
-    const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
+  PrimitiveMapper(const CurvedMembraneSolver& geometry, double tolerance, double nearest,
+    double farthest, SharedNodes& shared);
 
   /**
    * Adds the images of a triangle as convex polygons with the winding of the triangle. With

@@ -319,7 +319,9 @@ double MapWholeTriangle(
     farthest = std::max(farthest, images[0].Depth);
   }
   ImageMesh pieces;
-  meniscus::PrimitiveMapper(geometry, 0.005 * Pi / 180.0, nearest, farthest)
+  meniscus::SharedNodes shared(
+    geometry.GetMembrane().GetPositions().size(), geometry.GetMembrane().GetFacets().size());
+  meniscus::PrimitiveMapper(geometry, 0.005 * Pi / 180.0, nearest, farthest, shared)
     .MapTriangle(triangle, 0, false, pieces);
   double area = 0.0;
   std::int64_t begin = 0;
