@@ -289,7 +289,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
     block.Images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
     block.Images->SetPoints(block.Points.data(), count, mayCross);
     this->Scene.GetCurved().PrepareField();
-    block.Images->PrepareUnique(count, meniscus::FacetLoop);
+    const std::size_t cells = block.Topology.Lines.GetCount() + block.Topology.Polygons.GetCount();
+    block.Images->PrepareUnique(count, cells, meniscus::FacetLoop);
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)

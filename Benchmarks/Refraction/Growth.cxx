@@ -148,7 +148,7 @@ void MeasureCurved(
         geometry.PrepareField();
         ObjectImages object(geometry);
         object.SetPoints(points.data(), points.size() / 3, false);
-        object.PrepareUnique(points.size() / 3, SerialLoop);
+        object.PrepareUnique(points.size() / 3, 0, SerialLoop);
         object.SolvePoints(0, points.size() / 3);
         object.FinishPoints();
       })

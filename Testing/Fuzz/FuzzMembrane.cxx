@@ -129,7 +129,7 @@ void MapObject(CurvedMembraneSolver& solver, const FuzzObject& object, ByteReade
   images.SetPoints(object.Points.data(), count, mayCross);
   solver.PrepareField();
   images.PrepareUnique(
-    reader.Flag() ? count : std::numeric_limits<std::uint32_t>::max(), SerialLoop);
+    reader.Flag() ? count : std::numeric_limits<std::uint32_t>::max(), 0, SerialLoop);
   images.SolvePoints(0, count);
   images.FinishPoints();
   object.Map(images, reader.Flag());

@@ -217,7 +217,7 @@ private:
     this->Geometry.PrepareField();
     ObjectImages object(this->Geometry);
     object.SetPoints(points.data(), points.size() / 3, false);
-    object.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), SerialLoop);
+    object.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), 0, SerialLoop);
     object.SolvePoints(0, points.size() / 3);
     object.FinishPoints();
     return object;

@@ -80,7 +80,7 @@ std::vector<Piece> Draw(const CurvedMembraneSolver& geometry, const Triangle& tr
   ObjectImages images(geometry);
   images.SetTolerance(Tolerance);
   images.SetPoints(&triangle[0].x, 3, false);
-  images.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), SerialLoop);
+  images.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), 0, SerialLoop);
   images.SolvePoints(0, 3);
   images.FinishPoints();
   const std::int64_t offsets[2] = { 0, 3 };

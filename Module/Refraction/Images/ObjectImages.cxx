@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/ObjectImages.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,14 @@ namespace
 
 // The cost of testing a facet is a third of the cost that is saved for a point.
 constexpr std::size_t FacetsPerPoint = 3;
+
+// Mapping cells from the membrane makes about two pieces for each facet that they may be seen
+// through, and four for each cell. Each piece costs at least twice as much as testing a facet.
+constexpr std::size_t FacetsPerFacetInReach = 4;
+constexpr std::size_t FacetsPerCell = 8;
+
+// A triangle is halved this often at most to prove that its points have one image each.
+constexpr int MostHalvings = 6;
 
 // Number of points that are tested together; a divisor of the chunk size.
 constexpr std::size_t Run = 8;
@@ -35,35 +45,62 @@ void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCr
 }
 
 //------------------------------------------------------------------------------
-void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
+ObjectImages::Extent ObjectImages::FindExtent() const
 {
-  const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
-  if (this->Geometry.IsClosed() || FacetsPerPoint * wanted < facets)
-  {
-    return;
-  }
-  const HeightFrame& frame = this->Geometry.GetFrame();
-  const double origin = frame.GetHeight(this->Geometry.GetMembrane().GetOrigin());
-  double low = std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::lowest();
+  Extent extent;
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
-    if (this->Geometry.IsInReach(point - this->Geometry.GetMembrane().GetOrigin()))
+    const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
+    if (this->Geometry.IsInReach(local))
     {
-      low = std::min(low, frame.GetHeight(point));
-      high = std::max(high, frame.GetHeight(point));
+      const double height = this->Geometry.GetFrame().GetHeight(point);
+      extent.Lowest = std::min(extent.Lowest, height);
+      extent.Highest = std::max(extent.Highest, height);
+      extent.Low = glm::min(extent.Low, local);
+      extent.High = glm::max(extent.High, local);
     }
   }
-  if (low <= high)
+  return extent;
+}
+
+//------------------------------------------------------------------------------
+// True if the proof of single images saves more than it costs.
+bool ObjectImages::IsProofWorthwhile(
+  const Extent& extent, std::size_t wanted, std::size_t cells) const
+{
+  const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
+  std::size_t saved = FacetsPerPoint * wanted;
+  if (saved < facets && cells > 0 && this->Geometry.HasConvexField())
   {
+    saved += FacetsPerCell * cells;
+    const glm::dvec3 half = 0.5 * (extent.High - extent.Low);
+    this->Geometry.VisitFacets(0.5 * (extent.Low + extent.High),
+      std::max({ half.x, half.y, half.z }),
+      [&saved](std::int32_t) { saved += FacetsPerFacetInReach; });
+  }
+  return saved >= facets;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::PrepareUnique(std::size_t wanted, std::size_t cells, const RangeLoop& loop)
+{
+  if (this->Geometry.IsClosed())
+  {
+    return;
+  }
+  const Extent extent = this->FindExtent();
+  if (extent.Lowest <= extent.Highest && this->IsProofWorthwhile(extent, wanted, cells))
+  {
+    const HeightFrame& frame = this->Geometry.GetFrame();
+    const double origin = frame.GetHeight(this->Geometry.GetMembrane().GetOrigin());
     // The rounding error of a point's height is a few roundings of its coordinates.
     const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
-      (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
+      (std::fabs(extent.Lowest) + std::fabs(extent.Highest) + std::fabs(origin) +
         this->Geometry.GetMembrane().GetRadius());
     this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
       this->Geometry.HasConvexField(), this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(),
-      low - origin - slack, high - origin + slack, loop);
+      extent.Lowest - origin - slack, extent.Highest - origin + slack, loop);
   }
 }
 
@@ -85,6 +122,50 @@ bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
   }
   const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
   return this->Unique.HoldsAtMostOne(low - origin, high - origin);
+}
+
+//------------------------------------------------------------------------------
+// True if no point of the triangle has several images. Halves of a triangle whose bounding box is
+// too large for the proof may have smaller ones.
+bool ObjectImages::IsUniqueTriangle(const std::array<glm::dvec3, 3>& corners, int halvings) const
+{
+  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
+  if (this->Unique.HoldsAtMostOne(glm::min(glm::min(corners[0], corners[1]), corners[2]) - origin,
+        glm::max(glm::max(corners[0], corners[1]), corners[2]) - origin))
+  {
+    return true;
+  }
+  if (halvings == 0)
+  {
+    return false;
+  }
+  const auto squared = [&corners](std::size_t k)
+  {
+    const glm::dvec3 side = corners[(k + 2) % 3] - corners[(k + 1) % 3];
+    return glm::dot(side, side);
+  };
+  const std::size_t k =
+    squared(1) > squared(0) ? (squared(2) > squared(1) ? 2 : 1) : (squared(2) > squared(0) ? 2 : 0);
+  const glm::dvec3& first = corners[(k + 1) % 3];
+  const glm::dvec3& last = corners[(k + 2) % 3];
+  const glm::dvec3 middle = 0.5 * (first + last);
+  return this->IsUniqueTriangle({ corners[k], first, middle }, halvings - 1) &&
+    this->IsUniqueTriangle({ corners[k], middle, last }, halvings - 1);
+}
+
+//------------------------------------------------------------------------------
+bool ObjectImages::MayBeDivided(
+  const std::int64_t* ids, const std::vector<std::int64_t>& triangles) const
+{
+  bool isUnique = this->Geometry.HasConvexField() && !this->Unique.IsEmpty();
+  for (std::size_t k = 0; k + 2 < triangles.size() && isUnique; k += 3)
+  {
+    isUnique = this->IsUniqueTriangle(
+      { this->GetPoint(ids[triangles[k]]), this->GetPoint(ids[triangles[k + 1]]),
+        this->GetPoint(ids[triangles[k + 2]]) },
+      MostHalvings);
+  }
+  return isUnique;
 }
 
 //------------------------------------------------------------------------------
@@ -204,6 +285,15 @@ void ObjectImages::FinishPoints()
     this->Chunks.clear(); // all points are solved, so no chunk can be requested later
   }
   this->Nearest = std::min(this->Nearest, this->Farthest);
+  this->ForgetNodes();
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::ForgetNodes()
+{
+  const Membrane& membrane = this->Geometry.GetMembrane();
+  this->Nodes =
+    std::make_unique<SharedNodes>(membrane.GetPositions().size(), membrane.GetFacets().size());
 }
 
 //------------------------------------------------------------------------------
@@ -290,7 +380,8 @@ void ObjectImages::PrepareSides(
 CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
-  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  const PrimitiveMapper mapping(
+    this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
   CellReport report;
   for (std::size_t i = begin; i < end; ++i)
@@ -310,7 +401,7 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
     bool isDivided = isOne;
     for (std::size_t k = 0; k + 1 < count; ++k)
     {
-      if (isOne && this->MayBeDivided(ids + k, 2) &&
+      if (isOne && this->MayLineBeDivided(ids + k) &&
         division.AddLine(
           this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[k + 1]), cell, pieces))
       {
@@ -334,7 +425,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
   ImageMesh& whole, unsigned char* isMapped) const
 {
-  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  const PrimitiveMapper mapping(
+    this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
   CellReport report;
   std::vector<std::int64_t> triangles;
@@ -367,7 +459,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       triangulate(ids, count, triangles);
     }
     const std::size_t before = pieces.GetNumberOfCells();
-    const bool isDivided = isOne && this->MayBeDivided(ids, count) &&
+    const bool isDivided = isOne && this->MayBeDivided(ids, triangles) &&
       this->DividePolygon(ids, triangles, cell, division, pieces);
     for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
     {

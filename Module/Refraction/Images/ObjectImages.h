@@ -17,10 +17,13 @@
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/PrimitiveMapper.h"
 #include "Refraction/Images/SeamClosure.h"
+#include "Refraction/Images/SharedNodes.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -36,7 +39,11 @@ public:
   }
 
   /** Sets the tolerance, an angle in radians at the eye. */
-  void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
+  void SetTolerance(double tolerance)
+  {
+    this->Tolerance = tolerance;
+    this->ForgetNodes();
+  }
 
   /**
    * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them may
@@ -45,11 +52,12 @@ public:
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 
   /**
-   * Determines where points have at most one image, if the expected saving for `wanted` points
-   * exceeds the cost and the membrane is not closed. Call the geometry's PrepareField() before. The
-   * results are the same with and without it, up to rounding.
+   * Determines where points have at most one image, if the expected saving for `wanted` points and
+   * for `cells` lines and polygons exceeds the cost and the membrane is not closed. Call the
+   * geometry's PrepareField() before. Images of points are the same with and without it, up to
+   * rounding; pieces of cells differ within the tolerance.
    */
-  void PrepareUnique(std::size_t wanted, const RangeLoop& loop);
+  void PrepareUnique(std::size_t wanted, std::size_t cells, const RangeLoop& loop);
 
   /**
    * Selects the chunks of points that are wanted from now on; an empty list selects all of them.
@@ -87,15 +95,28 @@ private:
     Both
   };
 
+  /** Bounds of the points in reach: of their heights, and of their local coordinates. */
+  struct Extent
+  {
+    double Lowest = std::numeric_limits<double>::max();
+    double Highest = std::numeric_limits<double>::lowest();
+    glm::dvec3 Low{ std::numeric_limits<double>::max() };
+    glm::dvec3 High{ std::numeric_limits<double>::lowest() };
+  };
+  void ForgetNodes();
+  Extent FindExtent() const;
+  bool IsProofWorthwhile(const Extent& extent, std::size_t wanted, std::size_t cells) const;
   bool IsUnique(const std::int64_t* ids, std::size_t count) const;
+  bool IsUniqueTriangle(const std::array<glm::dvec3, 3>& corners, int halvings) const;
   /**
    * True if a cell whose image is curved may be divided instead of mapped from the membrane. Behind
    * other membranes than convex fields, pieces of cells do not depend on whether the object has
    * enough points for PrepareUnique: its parts on several computers have the same.
    */
-  bool MayBeDivided(const std::int64_t* ids, std::size_t count) const
+  bool MayBeDivided(const std::int64_t* ids, const std::vector<std::int64_t>& triangles) const;
+  bool MayLineBeDivided(const std::int64_t* ids) const
   {
-    return this->Geometry.HasConvexField() && this->IsUnique(ids, count);
+    return this->Geometry.HasConvexField() && this->IsUnique(ids, 2);
   }
   /** How the images of a point are found. */
   enum class Way : unsigned char
@@ -136,6 +157,8 @@ private:
   std::vector<std::vector<VirtualVertex>> Chunks;
   std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
   std::vector<bool> InFront;
+  /** For the tolerance and the distances of the images; mapping adds to it. */
+  std::unique_ptr<SharedNodes> Nodes;
 };
 
 }

@@ -35,11 +35,11 @@ double GetArea(std::size_t count, const GetPlace& getPlace)
 }
 
 //------------------------------------------------------------------------------
-PrimitiveMapper::PrimitiveMapper(
-  const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
+PrimitiveMapper::PrimitiveMapper(const CurvedMembraneSolver& geometry, double tolerance,
+  double nearest, double farthest, SharedNodes& shared)
   : Geometry(geometry)
   , Tolerance(tolerance)
-  , Division(geometry, tolerance, nearest, farthest)
+  , Division(geometry, tolerance, nearest, farthest, shared)
 {
 }
 
@@ -153,40 +153,48 @@ void PrimitiveMapper::Map(const Context& context) const
   std::sort(facets.begin(), facets.end());
   const double inFront = this->GetLengthInFront(context);
   Meetings meetings;
+  Context inPatch = context;
+  inPatch.Meetings = &meetings;
   for (const std::int32_t facet : facets)
   {
-    const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
-    Context inPatch = context;
-    inPatch.Patch = &patch;
     inPatch.Facet = facet;
-    inPatch.Meetings = &meetings;
-    const PatchBend patchBend(patch, this->Geometry.GetMedia());
+    std::optional<PatchBend> patchBend;
     this->Division.Visit(
-      patch,
-      [&inPatch, &patchBend, inFront](const SubCell& nodes)
+      facet,
+      [this, &inPatch, &patchBend, inFront](const SubCell& nodes)
       {
         return (inPatch.IsPartInFront && *inPatch.IsPartInFront) ||
-          IsOutside(inPatch, patchBend, nodes, inFront);
+          this->IsOutside(inPatch, patchBend, nodes, inFront);
       },
-      [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
+      [this, &inPatch](const CurvedPatch& patch, const SubCell& nodes)
+      {
+        inPatch.Patch = &patch;
+        this->MapSubCell(inPatch, nodes);
+      });
   }
 }
 
 //------------------------------------------------------------------------------
 // True if no ray of the sub-cell shows the primitive. Next to a caustic the rays at its corners
-// meet the primitive's plane close to each other, and those between them elsewhere.
-bool PrimitiveMapper::IsOutside(
-  const Context& context, const PatchBend& patch, const SubCell& nodes, double inFront)
+// meet the primitive's plane close to each other, and those between them elsewhere. The bend of the
+// patch is set when it is needed first.
+bool PrimitiveMapper::IsOutside(const Context& context, std::optional<PatchBend>& patchBend,
+  const SubCell& nodes, double inFront) const
 {
   std::optional<SubCellBend> bend;
   return context.IsOutside(nodes, inFront,
-    [&context, &patch, &nodes, &bend](int k, double extent)
+    [this, &context, &patchBend, &nodes, &bend](int k, double extent)
     {
       if (k == 0)
       {
         return extent;
       }
-      bend = bend ? bend : patch.Measure(nodes);
+      if (!patchBend)
+      {
+        patchBend.emplace(
+          this->Geometry.GetPatches().GetPatch(context.Facet), this->Geometry.GetMedia());
+      }
+      bend = bend ? bend : patchBend->Measure(nodes);
       return context.GetDeviation(k, nodes, *bend);
     });
 }

@@ -30,6 +30,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace meniscus
@@ -57,10 +58,11 @@ class PrimitiveMapper
 public:
   /**
    * `tolerance` is the largest error of linear interpolation in a sub-cell, as an angle in radians
-   * at the eye, at the distances `nearest` and `farthest` behind the membrane.
+   * at the eye, at the distances `nearest` and `farthest` behind the membrane. `shared` has the
+   * nodes of mappers with the same parameters.
    */
-  PrimitiveMapper(
-    const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
+  PrimitiveMapper(const CurvedMembraneSolver& geometry, double tolerance, double nearest,
+    double farthest, SharedNodes& shared);
 
   /**
    * Adds the images of a triangle as convex polygons with the winding of the triangle. With
@@ -116,8 +118,8 @@ private:
   double GetLengthInFront(const Context& context) const;
   double GetReach(const SubCell& nodes) const;
   bool IsInFront(const SubCell& nodes, const RefractedPoint& from, const glm::dvec3& place) const;
-  static bool IsOutside(
-    const Context& context, const PatchBend& patch, const SubCell& nodes, double inFront);
+  bool IsOutside(const Context& context, std::optional<PatchBend>& patchBend, const SubCell& nodes,
+    double inFront) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
   void KeepAsBehind(const Context& context, const SubCell& nodes, const Polygon& whole, double sign,
     Polygon& polygon) const;

@@ -33,15 +33,51 @@ const double RightAngle = std::acos(0.0);
 }
 
 //------------------------------------------------------------------------------
-SubCellDivision::SubCellDivision(
-  const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
+SubCellDivision::SubCellDivision(const CurvedMembraneSolver& geometry, double tolerance,
+  double nearest, double farthest, SharedNodes& shared)
   : Geometry(geometry)
   , Tolerance(tolerance)
   , Distance{ nearest, farthest }
   , Limit(geometry.GetMedia().Exterior > geometry.GetMedia().Interior
         ? std::asin(geometry.GetMedia().Interior / geometry.GetMedia().Exterior)
         : RightAngle)
+  , Shared(shared)
 {
+}
+
+//------------------------------------------------------------------------------
+// The patch's points at its corners are the membrane's vertices.
+SubCell SubCellDivision::MakeCorners(std::int32_t facet) const
+{
+  constexpr glm::dvec2 places[3] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 } };
+  const Membrane& membrane = this->Geometry.GetMembrane();
+  const Membrane::Facet& vertices = membrane.GetFacets()[static_cast<std::size_t>(facet)];
+  SubCell nodes;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    nodes[k].B = places[k];
+    nodes[k].From = this->Shared.GetRay(vertices[k],
+      [this, &membrane, vertex = static_cast<std::size_t>(vertices[k])]()
+      {
+        return RefractAt({ membrane.GetPositions()[vertex], membrane.GetNormals()[vertex] },
+          this->Geometry.GetMedia());
+      });
+  }
+  return nodes;
+}
+
+//------------------------------------------------------------------------------
+bool SubCellDivision::IsDivided(
+  std::int32_t facet, const CurvedPatch& patch, const SubCell& nodes) const
+{
+  return this->Shared.IsDivided(facet,
+    [this, &patch, &nodes]()
+    {
+      SubCellNode middle;
+      return this->FindSplit(patch, nodes[1], nodes[2], 0, middle) ||
+        this->FindSplit(patch, nodes[2], nodes[0], 0, middle) ||
+        this->FindSplit(patch, nodes[0], nodes[1], 0, middle);
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -12,9 +12,11 @@
 #define meniscus_Refraction_Images_SubCellDivision_h
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Images/SharedNodes.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace meniscus
 {
@@ -46,22 +48,32 @@ class SubCellDivision
 public:
   /**
    * `tolerance` is the largest error of linear interpolation in a sub-cell, as an angle in radians
-   * at the eye, at the distances `nearest` and `farthest` behind the membrane.
+   * at the eye, at the distances `nearest` and `farthest` behind the membrane. `shared` has the
+   * nodes of divisions with the same parameters.
    */
-  SubCellDivision(
-    const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
+  SubCellDivision(const CurvedMembraneSolver& geometry, double tolerance, double nearest,
+    double farthest, SharedNodes& shared);
 
   /**
-   * Calls `map(nodes)` for each sub-cell of the patch. Those with rays for which `isOutside(nodes)`
-   * is true are left out before they are divided further.
+   * Calls `map(patch, nodes)` for each sub-cell of a patch. Those with rays for which
+   * `isOutside(nodes)` is true are left out before they are divided further.
    */
   template <typename IsOutside, typename Map>
-  void Visit(const CurvedPatch& patch, const IsOutside& isOutside, const Map& map) const
+  void Visit(std::int32_t facet, const IsOutside& isOutside, const Map& map) const
   {
-    this->Divide(patch,
-      { this->MakeNode(patch, { 0.0, 0.0 }), this->MakeNode(patch, { 1.0, 0.0 }),
-        this->MakeNode(patch, { 0.0, 1.0 }) },
-      0, isOutside, map);
+    const SubCell nodes = this->MakeCorners(facet);
+    const bool allValid = nodes[0].From.IsValid && nodes[1].From.IsValid && nodes[2].From.IsValid;
+    if (allValid && isOutside(nodes))
+    {
+      return;
+    }
+    const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
+    if (allValid && !this->IsDivided(facet, patch, nodes))
+    {
+      map(patch, nodes);
+      return;
+    }
+    this->Divide(patch, nodes, 0, isOutside, map);
   }
 
 private:
@@ -87,7 +99,7 @@ private:
     {
       if (allValid)
       {
-        map(nodes);
+        map(patch, nodes);
       }
       return;
     }
@@ -120,6 +132,8 @@ private:
     divide({ middle[j], nodes[j], middle[i] });
   }
 
+  SubCell MakeCorners(std::int32_t facet) const;
+  bool IsDivided(std::int32_t facet, const CurvedPatch& patch, const SubCell& nodes) const;
   SubCellNode MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const;
   bool FindSplit(const CurvedPatch& patch, const SubCellNode& a, const SubCellNode& b, int depth,
     SubCellNode& split) const;
@@ -135,6 +149,7 @@ private:
   double Tolerance;
   double Distance[2];
   double Limit; ///< angle of incidence up to which rays exist
+  SharedNodes& Shared;
 };
 
 }

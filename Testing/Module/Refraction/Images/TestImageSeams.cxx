@@ -90,7 +90,8 @@ struct Drawn
   meniscus::CellReport Report;
 };
 
-Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double tolerance)
+Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double tolerance,
+  std::size_t wanted = std::numeric_limits<std::uint32_t>::max())
 {
   geometry.PrepareField();
   geometry.PrepareSides();
@@ -98,7 +99,7 @@ Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double toleranc
   images.SetTolerance(tolerance);
   const std::size_t count = object.Points.size();
   images.SetPoints(&object.Points[0].x, count, true);
-  images.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), meniscus::SerialLoop);
+  images.PrepareUnique(wanted, object.Names.size(), meniscus::SerialLoop);
   images.SolvePoints(0, count);
   images.FinishPoints();
   Drawn drawn;
@@ -334,7 +335,9 @@ double MapWholeTriangle(
     farthest = std::max(farthest, images[0].Depth);
   }
   ImageMesh pieces;
-  meniscus::PrimitiveMapper(geometry, 0.005 * Pi / 180.0, nearest, farthest)
+  meniscus::SharedNodes shared(
+    geometry.GetMembrane().GetPositions().size(), geometry.GetMembrane().GetFacets().size());
+  meniscus::PrimitiveMapper(geometry, 0.005 * Pi / 180.0, nearest, farthest, shared)
     .MapTriangle(triangle, 0, false, pieces);
   double area = 0.0;
   std::int64_t begin = 0;
@@ -438,6 +441,26 @@ TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
   ASSERT_GT(drawn.Report.Mapped, 150u);
   // One part in front and one to four behind: triangles are smaller than facets.
   EXPECT_LT(drawn.Pieces.GetNumberOfCells(), 6 * drawn.Report.Mapped);
+}
+
+//------------------------------------------------------------------------------
+// A large floor has few points for the facets that it is seen through, but mapping it from all of
+// these makes many pieces.
+TEST(RefractionSeamsCost, FloorsOfFewPointsAreDivided)
+{
+  const HeightField field{ HeightField::Shape::Waves, 200.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
+  CurvedMembraneSolver geometry;
+  geometry.SetMembrane(field.MakeMesh(64).AsInput());
+  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
+  Object floor;
+  floor.Points = { { -60.0, -50.0, -60.0 }, { 60.0, -50.0, -60.0 }, { 60.0, -50.0, 60.0 },
+    { -60.0, -50.0, 60.0 } };
+  floor.Add({ 0, 1, 2 });
+  floor.Add({ 0, 2, 3 });
+  const Drawn drawn = Draw(geometry, floor, 0.05 * Pi / 180.0, floor.Points.size());
+  EXPECT_EQ(drawn.Report.Divided, 2u);
+  EXPECT_EQ(drawn.Report.Mapped, 0u);
+  EXPECT_LT(drawn.Pieces.GetNumberOfCells(), 2000u); // it is seen through about 3,000 facets
 }
 
 //------------------------------------------------------------------------------

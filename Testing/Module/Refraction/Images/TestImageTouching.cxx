@@ -164,7 +164,7 @@ struct TouchingScene
     ObjectImages images(this->Geometry);
     images.SetTolerance(Tolerance);
     images.SetPoints(&o.Points[0].x, o.Points.size(), true);
-    images.PrepareUnique(o.Points.size(), meniscus::SerialLoop);
+    images.PrepareUnique(o.Points.size(), 0, meniscus::SerialLoop);
     images.SolvePoints(0, o.Points.size());
     images.FinishPoints();
     std::vector<unsigned char> isMapped(o.GetCount());
