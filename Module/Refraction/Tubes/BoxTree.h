@@ -73,6 +73,12 @@ public:
     return range;
   }
 
+  /** Bounds of the beginnings, and reciprocals of those of the directions, which are not 0. */
+  const glm::dvec3& GetLow() const { return this->Low; }
+  const glm::dvec3& GetHigh() const { return this->High; }
+  const glm::dvec3& GetInverseLow() const { return this->InverseLow; }
+  const glm::dvec3& GetInverseHigh() const { return this->InverseHigh; }
+
 private:
   glm::dvec3 Low;
   glm::dvec3 High;

@@ -231,8 +231,9 @@ inline auto FixedPointRays::MakeAxis(double offset, double slope) const -> AxisO
   const double limited = std::min(std::max(atPivot, -this->LargestOffset), this->LargestOffset);
   // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
   // axis, and as far away.
-  const bool keepsSlope = (atPivot == limited) & (std::fabs(slope) >= SmallestSlope);
-  const double kept = keepsSlope ? slope : 0.0;
+  const bool keepsSlope =
+    (std::fabs(atPivot) <= this->LargestOffset) & (std::fabs(slope) >= SmallestSlope);
+  const double kept = slope * (keepsSlope ? 1.0 : 0.0);
   AxisOfRay axis;
   axis.Offset = static_cast<std::int32_t>(limited + std::copysign(0.5, limited));
   axis.Fraction = limited - axis.Offset;
@@ -253,21 +254,22 @@ inline float FixedPointRays::FractionOf(double rest)
 /** PacketRay::SlopeRest. */
 inline float FixedPointRays::SlopeRestOf(double rest)
 {
-  return std::fabs(rest) >= SmallestSlope ? static_cast<float>(rest) : 0.0f;
+  return static_cast<float>(rest * (std::fabs(rest) >= SmallestSlope ? 1.0 : 0.0));
 }
 
 //------------------------------------------------------------------------------
 inline PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const
 {
   PacketRay ray;
+  const double fine = this->Fine ? 1.0 : 0.0;
   for (int axis = 0; axis < 2; ++axis)
   {
     const AxisOfRay made =
       this->MakeAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth));
     ray.Offset[axis] = made.Offset;
     ray.Slope[axis] = made.Slope;
-    ray.Fraction[axis] = this->Fine ? FractionOf(made.Fraction) : 0.0f;
-    ray.SlopeRest[axis] = this->Fine ? SlopeRestOf(made.SlopeRest) : 0.0f;
+    ray.Fraction[axis] = FractionOf(fine * made.Fraction);
+    ray.SlopeRest[axis] = SlopeRestOf(fine * made.SlopeRest);
   }
   ray.LengthPerDepth =
     LimitedLength(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace meniscus
@@ -86,37 +87,49 @@ struct FrameKernel
   }
 };
 
-struct LegLines
+/** Copy of the legs of which lines are computed, which stores to lines cannot change. */
+struct LineParts
 {
-  int Count;
-  const LegBlock& Legs;
-  LineBlock& Lines;
+  explicit LineParts(const LegBlock& legs)
+  {
+    std::copy_n(legs.Begin[0], 3 * LegBlock::Size, this->Begin[0]);
+    std::copy_n(legs.Step[0], 3 * LegBlock::Size, this->Step[0]);
+    std::copy_n(legs.DrawnFrom, LegBlock::Size, this->DrawnFrom);
+    std::copy_n(legs.DrawnTo, LegBlock::Size, this->DrawnTo);
+  }
+
+  double Begin[3][LegBlock::Size];
+  double Step[3][LegBlock::Size];
+  double DrawnFrom[LegBlock::Size];
+  double DrawnTo[LegBlock::Size];
 };
 
 struct LineKernel
 {
+  LineParts Legs;
   glm::dmat3 FromView;
   FixedPointRays Rays;
-  bool IsOutside;
-  double Extent;
 
-  void operator()(LegLines& block, int i) const
+  void operator()(LineBlock& lines, int i) const
   {
-    const RayLeg leg = block.Legs.Get(i);
-    LineBlock& lines = block.Lines;
-    const glm::dvec3 place = this->FromView * leg.Begin;
-    const glm::dvec3 step = this->FromView * leg.Step;
-    const FrameLine line = FrameLine::Through(place, step);
+    const LineParts& legs = this->Legs;
+    const glm::dvec3 place =
+      this->FromView * glm::dvec3(legs.Begin[0][i], legs.Begin[1][i], legs.Begin[2][i]);
+    const glm::dvec3 step =
+      this->FromView * glm::dvec3(legs.Step[0][i], legs.Step[1][i], legs.Step[2][i]);
+    // A FrameLine would be copied as a whole, which ends the use of lanes.
+    const glm::dvec2 slope(step.x / step.z, step.y / step.z);
+    const glm::dvec2 origin(place.x - place.z * slope.x, place.y - place.z * slope.y);
     for (int axis = 0; axis < 2; ++axis)
     {
-      lines.Origin[axis][i] = line.Origin[axis];
-      lines.Slope[axis][i] = line.Slope[axis];
+      lines.Origin[axis][i] = origin[axis];
+      lines.Slope[axis][i] = slope[axis];
     }
-    PacketRay ray = this->Rays.RayAlong(line.Origin, line.Slope);
-    ray.StartDepth = this->Rays.FromPivot(place.z + block.Legs.DrawnFrom[i] * step.z);
-    ray.EndDepth = this->Rays.FromPivot(place.z + block.Legs.DrawnTo[i] * step.z);
+    PacketRay ray = this->Rays.RayAlong(origin, slope);
+    ray.StartDepth = this->Rays.FromPivot(place.z + legs.DrawnFrom[i] * step.z);
+    ray.EndDepth = this->Rays.FromPivot(place.z + legs.DrawnTo[i] * step.z);
     lines.SetRay(i, ray);
-    lines.From[i] = this->IsOutside ? place.z - StartMargin : -this->Extent;
+    lines.From[i] = place.z - StartMargin;
   }
 };
 
@@ -207,8 +220,11 @@ void SetLines(const RefractionFrame& frame, LegBlock& legs, bool isOutside, Inst
 {
   lines.Count = legs.Count;
   legs.FillLanes();
-  LegLines block{ legs.Count, legs, lines };
-  RunLanes(LineKernel{ frame.FromView, frame.Rays, isOutside, frame.Extent }, set, block);
+  RunLanes(LineKernel{ LineParts(legs), frame.FromView, frame.Rays }, set, lines);
+  if (!isOutside)
+  {
+    std::fill_n(lines.From, lines.Count, -frame.Extent);
+  }
 }
 
 }

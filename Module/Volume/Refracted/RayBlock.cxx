@@ -25,7 +25,15 @@ constexpr double Rounding = 2.0 * std::numeric_limits<double>::epsilon();
 constexpr int GroupSize = 8;
 static_assert(RayBlock::Size % GroupSize == 0, "groups fill the block");
 
-struct DirectionKernel
+struct LengthKernel
+{
+  void operator()(RayBlock& rays, int i) const
+  {
+    rays.Length[i] = glm::length(rays.GetDirection(i));
+  }
+};
+
+struct InverseKernel
 {
   void operator()(RayBlock& rays, int i) const
   {
@@ -36,7 +44,6 @@ struct DirectionKernel
       rays.Inverse[axis][i] =
         1.0 / (std::fabs(component) < smallest ? std::copysign(smallest, component) : component);
     }
-    rays.Length[i] = glm::length(rays.GetDirection(i));
   }
 };
 
@@ -149,7 +156,13 @@ double RayBlock::GetFarthest() const
 //------------------------------------------------------------------------------
 void CompleteRays(InstructionSet set, RayBlock& rays)
 {
-  RunLanes(DirectionKernel(), set, rays);
+  RunLanes(LengthKernel(), set, rays);
+}
+
+//------------------------------------------------------------------------------
+void InvertDirections(InstructionSet set, RayBlock& rays)
+{
+  RunLanes(InverseKernel(), set, rays);
 }
 
 //------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ struct RayBlock
   int Count = 0;
   double Start[3][Size];
   double Direction[3][Size];
-  /** Reciprocals of the direction's components; of 1e-300 for smaller ones. */
+  /** Reciprocals of the direction's components; of 1e-300 for smaller ones: InvertDirections(). */
   double Inverse[3][Size];
   /** Length of the direction. */
   double Length[Size];
@@ -75,15 +75,17 @@ struct RayBlock
 };
 
 /**
- * Computes Inverse and Length.
- * @pre GetInstructionSets() has the set
+ * Computes Length.
+ * @pre GetInstructionSets() has the set; also for the functions that follow
  */
 void CompleteRays(InstructionSet set, RayBlock& rays);
+/** Computes Inverse. */
+void InvertDirections(InstructionSet set, RayBlock& rays);
 
 /**
  * True if any ray may meet the box; no ray that meets it is missed. Overwrites Meets. Rays are
- * tested in groups up to the first group of which a ray meets the box.
- * @pre GetInstructionSets() has the set
+ * tested in groups up to the first group of which a ray meets the box. InvertDirections() has to
+ * come before.
  */
 bool MeetsBox(const AxisBox& box, InstructionSet set, RayBlock& rays);
 

@@ -108,16 +108,18 @@ struct SightKernel
   }
 };
 
-/** Legs behind one interface, and those behind the next, if there is one. */
+/** Legs behind one interface. */
 struct EndedLegs
 {
   int Count;
-  WorldLegs& Legs;
-  const WorldLegs* Next;
+  double Place[3][RaysOfBlock];
+  double Step[3][RaysOfBlock];
+  /** Length in steps; infinite if there is no next interface. */
+  double Length[RaysOfBlock];
   /** Not 0 if a further leg of the ray may meet the mesh. */
-  std::int64_t (&Stays)[RaysOfBlock];
+  std::int64_t Stays[RaysOfBlock];
   /** Not 0 if this leg may meet it. */
-  std::int64_t (&Meets)[RaysOfBlock];
+  std::int64_t Meets[RaysOfBlock];
 };
 
 /** Ends rays behind which there is nothing of the mesh. */
@@ -148,14 +150,17 @@ struct EndKernel
   }
   void operator()(EndedLegs& rays, int i) const
   {
-    const auto ray = static_cast<std::size_t>(i);
-    const glm::dvec3 step = rays.Legs.GetStep(ray);
-    const double end = (rays.Next ? rays.Next->Depth[i] : Infinity) - rays.Legs.Depth[i];
-    const bool meets = rays.Legs.GoesOn(ray) & this->MeetsMesh(rays.Legs.GetPlace(ray), step, end);
+    const glm::dvec3 place(rays.Place[0][i], rays.Place[1][i], rays.Place[2][i]);
+    const glm::dvec3 step(rays.Step[0][i], rays.Step[1][i], rays.Step[2][i]);
+    const bool goesOn = (step.x != 0.0) | (step.y != 0.0) | (step.z != 0.0);
+    const bool meets = goesOn & this->MeetsMesh(place, step, rays.Length[i]);
     const bool stays = (rays.Stays[i] != 0) | meets;
     rays.Stays[i] = stays ? 1 : 0;
     rays.Meets[i] = meets ? 1 : 0;
-    rays.Legs.SetStep(ray, stays ? step : glm::dvec3(0.0));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Step[axis][i] = stays ? step[axis] : 0.0;
+    }
   }
 };
 
@@ -270,6 +275,8 @@ struct RefractedRayStack::Block
   RayBlock Lanes;
   /** Normals at these intersections. */
   double Normals[3][RaysOfBlock] = {};
+  /** Facets that the rays may meet. */
+  BundleFacets Facets;
 
   /** Patches that earlier blocks of the tile met; a new patch takes the place of an older one. */
   struct KeptPatch
@@ -343,7 +350,7 @@ void RefractedRayStack::Build(
   }
   this->Untraced.resize(tiles);
   const StackVisibility sight(
-    this->Interfaces, { this->MeshCenter, this->MeshHalf }, this->Of.Center);
+    this->Interfaces, { this->MeshCenter, this->MeshHalf }, this->Of.Center, this->Set);
   std::vector<TileSum> sums(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
@@ -430,7 +437,9 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVis
 {
   TileSum sum;
   const glm::ivec2 first = this->FirstPixel(tile);
-  const bool mayShow = sight.MayShowMesh(this->CornersOf(first, TileSize));
+  BundleFacets all;
+  BundleFacets ofTile;
+  const bool mayShow = sight.MayShowMesh(this->CornersOf(first, TileSize), all, ofTile);
   for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
     this->Rays[k].ChangeTile(tile).assign(
@@ -440,11 +449,12 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile, const StackVis
   TileSquares& untraced = this->Untraced[static_cast<std::size_t>(tile)];
   untraced = 0;
   Block block(this->Interfaces.size());
+  block.Facets = ofTile;
   for (int number = 0; number < BlocksOfTile; ++number)
   {
     const glm::ivec2 pixel = first + FirstOfBlock(number);
     this->StartBlock(pixel, block);
-    if (mayShow && sight.MayShowMesh(this->CornersOf(pixel, BlockSize)))
+    if (mayShow && sight.MayShowMesh(this->CornersOf(pixel, BlockSize), ofTile, block.Facets))
     {
       this->TraceBlock(this->Interfaces.size(), block, sum.Rays);
       this->EndRaysBesideMesh(block);
@@ -566,21 +576,29 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
     }
   };
   double farthest = Infinity;
-  interface.Tree->GetBoxes().Visit(
-    lanes.GetTube(first), farthest,
-    [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
-    [&](std::int32_t facet, const TubeRange&)
-    {
-      const PatchIntersector& tracer =
-        block.GetTracer(interface, number, facet, rayLength, this->Set);
-      isNearer = false;
-      sums.Undecided -= tracer.GetNumberOfUndecidedRays();
-      tracer.Meet(lanes, keepNearest);
-      sums.Undecided += tracer.GetNumberOfUndecidedRays();
-      // Parameters of the tube count from its beginning.
-      farthest = isNearer ? lanes.GetFarthest() - first : farthest;
-      return farthest;
-    });
+  const auto meet = [&](std::int32_t facet, const TubeRange&)
+  {
+    const PatchIntersector& tracer =
+      block.GetTracer(interface, number, facet, rayLength, this->Set);
+    isNearer = false;
+    sums.Undecided -= tracer.GetNumberOfUndecidedRays();
+    tracer.Meet(lanes, keepNearest);
+    sums.Undecided += tracer.GetNumberOfUndecidedRays();
+    // Parameters of the tube count from its beginning.
+    farthest = isNearer ? lanes.GetFarthest() - first : farthest;
+    return farthest;
+  };
+  if (FacetBoxes* facets = block.Facets.Find(number))
+  {
+    VisitBoxesNearFirst(lanes.GetTube(first), this->Set, *facets, meet);
+  }
+  else
+  {
+    InvertDirections(this->Set, lanes);
+    interface.Tree->GetBoxes().Visit(
+      lanes.GetTube(first), farthest,
+      [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); }, meet);
+  }
   for (int lane = 0; lane < lanes.Count && number > 0; ++lane)
   {
     if (lanes.Last[lane] == Infinity)
@@ -617,17 +635,24 @@ void RefractedRayStack::RefractBlock(std::size_t number, Block& block, Counts& s
 /** Ends rays at the last interface behind which they may meet the mesh. */
 void RefractedRayStack::EndRaysBesideMesh(Block& block) const
 {
-  std::int64_t stays[RaysOfBlock] = {};
-  std::int64_t meets[RaysOfBlock];
   const EndKernel kernel{ this->MeshCenter, this->MeshHalf };
+  EndedLegs rays;
+  rays.Count = block.Count;
+  std::fill_n(rays.Stays, RaysOfBlock, 0);
   for (std::size_t k = block.Legs.size() - 1; k > 0; --k)
   {
     WorldLegs& legs = block.Legs[k];
-    EndedLegs rays{ block.Count, legs, k + 1 < block.Legs.size() ? &block.Legs[k + 1] : nullptr,
-      stays, meets };
+    const double* next = k + 1 < block.Legs.size() ? block.Legs[k + 1].Depth : nullptr;
+    for (std::size_t ray = 0; ray < RaysOfBlock; ++ray)
+    {
+      rays.Length[ray] = next ? next[ray] - legs.Depth[ray] : Infinity;
+    }
+    std::copy_n(legs.Place[0], 3 * RaysOfBlock, rays.Place[0]);
+    std::copy_n(legs.Step[0], 3 * RaysOfBlock, rays.Step[0]);
     RunLanes(kernel, this->Set, rays);
+    std::copy_n(rays.Step[0], 3 * RaysOfBlock, legs.Step[0]);
     legs.MayShow =
-      std::any_of(meets, meets + block.Count, [](std::int64_t ray) { return ray != 0; });
+      std::any_of(rays.Meets, rays.Meets + block.Count, [](std::int64_t ray) { return ray != 0; });
   }
 }
 

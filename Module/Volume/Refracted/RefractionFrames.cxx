@@ -3,6 +3,8 @@
 #include "Volume/Refracted/RefractionFrames.h"
 
 #include "Refraction/Membrane/HeightField.h"
+#include "Simd/InstructionSets.h"
+#include "Simd/LaneLoop.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace meniscus
 {
@@ -58,6 +61,29 @@ RefractionFrame MakeFrame(
   return frame;
 }
 
+/** Steps of the rays of a square of pixels. */
+struct SquareSteps
+{
+  static constexpr int Size = RefractedRayTiles::SquareSize * RefractedRayTiles::SquareSize;
+
+  int Count;
+  double Step[3][Size];
+  /** Index of the ray's frame. */
+  std::int64_t Frame[Size];
+};
+
+/** Loop body for one ray. */
+struct FrameKernel
+{
+  glm::dmat3 Axes;
+
+  void operator()(SquareSteps& steps, int i) const
+  {
+    const glm::dvec3 step(steps.Step[0][i], steps.Step[1][i], steps.Step[2][i]);
+    steps.Frame[i] = RefractionFrames::IndexAlong(this->Axes, step);
+  }
+};
+
 /** Mean of the points where rays of the tiles' middles are refracted, in the view. */
 glm::dvec3 MeanSightPoint(const RayLegs& legs)
 {
@@ -100,16 +126,27 @@ SurfaceLighting RefractionFrame::Turn(const SurfaceLighting& lighting) const
 /** Returns a bit per frame that a ray of the square needs. */
 unsigned int RefractionFrames::FindNeeded(const RefractedRay* rays, int square) const
 {
-  unsigned int needed = 0;
-  const int firstRow = RefractedRayTiles::RowOfSquare(square);
-  const int firstColumn = RefractedRayTiles::ColumnOfSquare(square);
-  for (int row = firstRow; row < firstRow + RefractedRayTiles::SquareSize; ++row)
+  constexpr int size = RefractedRayTiles::SquareSize;
+  const RefractedRay* first = rays +
+    RefractedRayTiles::RowOfSquare(square) * RefractedRayTiles::TileSize +
+    RefractedRayTiles::ColumnOfSquare(square);
+  SquareSteps steps;
+  steps.Count = SquareSteps::Size;
+  for (int i = 0; i < SquareSteps::Size; ++i)
   {
-    const RefractedRay* first = rays + row * RefractedRayTiles::TileSize + firstColumn;
-    for (const RefractedRay* ray = first; ray != first + RefractedRayTiles::SquareSize; ++ray)
+    const RefractedRay& ray = first[i / size * RefractedRayTiles::TileSize + i % size];
+    for (int axis = 0; axis < 3; ++axis)
     {
-      needed |= ray->GoesOn() ? 1u << this->IndexOf(ray->Step) : 0u;
+      steps.Step[axis][i] = ray.Step[axis];
     }
+  }
+  RunLanes(FrameKernel{ this->Axes }, BestInstructionSet(), steps);
+  unsigned int needed = 0;
+  for (int i = 0; i < SquareSteps::Size; ++i)
+  {
+    const bool goesOn =
+      (steps.Step[0][i] != 0.0) | (steps.Step[1][i] != 0.0) | (steps.Step[2][i] != 0.0);
+    needed |= (goesOn ? 1u : 0u) << steps.Frame[i];
   }
   return needed;
 }

@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -73,10 +74,12 @@ public:
   void Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop);
 
   /** Index of the frame for a ray of that direction. */
-  int IndexOf(const glm::dvec3& step) const
+  int IndexOf(const glm::dvec3& step) const { return IndexAlong(this->Axes, step); }
+  /** The same for frames along the axes of another cube. */
+  static int IndexAlong(const glm::dmat3& axes, const glm::dvec3& step)
   {
-    const glm::dvec3 along = step * this->Axes;
-    const glm::dvec3 size = glm::abs(along);
+    const glm::dvec3 along = step * axes;
+    const glm::dvec3 size(std::fabs(along.x), std::fabs(along.y), std::fabs(along.z));
     // In the order of the frames' axes, so that the axis of the mean direction is preferred.
     const bool isZ = (size.z >= size.x) & (size.z >= size.y);
     const bool isX = size.x >= size.y;

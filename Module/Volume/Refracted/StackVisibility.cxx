@@ -37,9 +37,11 @@ DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
 /**
  * @param facing 1 if rays only meet the surface along its normals, -1 if only against them, 0 if
  *   from both sides.
+ * @param within facets among which are those that the rays may meet; null for all.
+ * @param facets those that they may meet are appended.
  */
-StackVisibility::Meeting StackVisibility::Meet(
-  const StackedInterface& interface, const TubeBounds& tube, double facing) const
+StackVisibility::Meeting StackVisibility::Meet(const StackedInterface& interface,
+  const TubeBounds& tube, double facing, FacetBoxes* within, FacetBoxes& facets) const
 {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
@@ -48,27 +50,36 @@ StackVisibility::Meeting StackVisibility::Meet(
   shifted.StartLow += toSurface;
   shifted.StartHigh += toSurface;
   Meeting meeting;
-  interface.Tree->GetBoxes().Visit(shifted, anywhere,
-    [&](std::int32_t facet, const TubeRange& range)
+  const auto add = [&](std::int32_t facet, const TubeRange& range)
+  {
+    const PatchTree::PatchBox& patch = interface.Tree->GetPatch(facet);
+    const CosineBounds cosine = BoundCosine(sight, InBox(patch.Normals.Low, patch.Normals.High));
+    const double most = facing > 0.0 ? cosine.Most : -cosine.Least;
+    if (facing == 0.0 || most > 0.0)
     {
-      const PatchTree::PatchBox& patch = interface.Tree->GetPatch(facet);
-      const CosineBounds cosine = BoundCosine(sight, InBox(patch.Normals.Low, patch.Normals.High));
-      const double most = facing > 0.0 ? cosine.Most : -cosine.Least;
-      if (facing == 0.0 || most > 0.0)
-      {
-        const AxisBox part = BoundPart(shifted, range);
-        meeting.Exists = true;
-        meeting.Places.Add({ glm::max(part.Low, patch.Places.Low) - toSurface,
-          glm::min(part.High, patch.Places.High) - toSurface });
-        meeting.Normals.Add(patch.Normals);
-      }
-      return anywhere;
-    });
+      const AxisBox part = BoundPart(shifted, range);
+      meeting.Exists = true;
+      meeting.Places.Add({ glm::max(part.Low, patch.Places.Low) - toSurface,
+        glm::min(part.High, patch.Places.High) - toSurface });
+      meeting.Normals.Add(patch.Normals);
+      facets.Add(facet, patch.Places);
+    }
+    return anywhere;
+  };
+  if (within)
+  {
+    VisitBoxes(shifted, this->Set, *within, add);
+  }
+  else
+  {
+    interface.Tree->GetBoxes().Visit(shifted, anywhere, add);
+  }
   return meeting;
 }
 
 //------------------------------------------------------------------------------
-bool StackVisibility::MayShowMesh(const CornerRays& rays) const
+bool StackVisibility::MayShowMesh(
+  const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const
 {
   const auto& along = rays.Directions;
   DirectionBox sight =
@@ -76,22 +87,22 @@ bool StackVisibility::MayShowMesh(const CornerRays& rays) const
   TubeBounds tube =
     BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
   double medium = 0.0;
+  bool mayShow = false;
+  facets.Clear();
   for (std::size_t k = 0; k < this->Interfaces.size() && tube.IsValid(); ++k)
   {
-    if (this->Mesh.Meets(tube))
-    {
-      return true;
-    }
+    mayShow = mayShow || this->Mesh.Meets(tube);
     const StackedInterface& interface = this->Interfaces[k];
     if (k > 0 && medium != interface.Exterior && medium != interface.Interior)
     {
-      return false;
+      return mayShow;
     }
     const double facing = medium == interface.Exterior ? -1.0 : 1.0;
-    const Meeting meeting = this->Meet(interface, tube, k == 0 ? 0.0 : facing);
+    const Meeting meeting =
+      this->Meet(interface, tube, k == 0 ? 0.0 : facing, within.Find(k), facets.Append());
     if (!meeting.Exists)
     {
-      return false;
+      return mayShow;
     }
     DirectionBox normal = InBox(meeting.Normals.Low, meeting.Normals.High);
     const CosineBounds cosine = BoundCosine(sight, normal);
@@ -109,7 +120,7 @@ bool StackVisibility::MayShowMesh(const CornerRays& rays) const
     medium = behind;
   }
   // Without valid bounds all rays are totally reflected.
-  return tube.IsValid() && this->Mesh.Meets(tube);
+  return mayShow || (tube.IsValid() && this->Mesh.Meets(tube));
 }
 
 }

@@ -5,6 +5,8 @@
 
 #include "Refraction/Tubes/RayTubeTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Refracted/FacetBoxes.h"
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Volume/Refracted/StackedInterface.h"
 
@@ -30,18 +32,21 @@ public:
    * @param origin place in world coordinates that sight rays are relative to.
    */
   StackVisibility(const std::vector<StackedInterface>& interfaces, const VisibilityBounds& mesh,
-    const glm::dvec3& origin)
+    const glm::dvec3& origin, InstructionSet set)
     : Interfaces(interfaces)
     , Mesh(mesh)
     , Origin(origin)
+    , Set(set)
   {
   }
 
   /**
    * False if no ray of a rectangle of pixels reaches the bounds of the mesh, on any of its legs.
    * @param rays starts at the depth from which on geometry is seen, and directions.
+   * @param within facets for a bundle that holds this one; may be empty.
+   * @param facets is set to those for this bundle.
    */
-  bool MayShowMesh(const CornerRays& rays) const;
+  bool MayShowMesh(const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const;
 
 private:
   /** Bounds of the intersections of the rays of a tube with a surface. */
@@ -51,11 +56,13 @@ private:
     AxisBox Places;
     AxisBox Normals;
   };
-  Meeting Meet(const StackedInterface& interface, const TubeBounds& tube, double facing) const;
+  Meeting Meet(const StackedInterface& interface, const TubeBounds& tube, double facing,
+    FacetBoxes* within, FacetBoxes& facets) const;
 
   const std::vector<StackedInterface>& Interfaces;
   VisibilityBounds Mesh;
   glm::dvec3 Origin;
+  InstructionSet Set;
 };
 
 }

@@ -60,7 +60,7 @@ TEST(RayBlock, NoRayMissesItsBox)
       rays.Add(start, target - start, 0.0, 0.0);
       for (const InstructionSet set : GetInstructionSets())
       {
-        CompleteRays(set, rays);
+        InvertDirections(set, rays);
         meets += MeetsBox(box, set, rays) ? 1 : 0;
         EXPECT_FALSE(MeetsBox(away, set, rays));
       }
