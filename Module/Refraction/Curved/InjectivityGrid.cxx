@@ -34,36 +34,6 @@ constexpr int MostSteps = 12;
 // a coarser level.
 constexpr int MostCells = 3;
 
-/** Refracted ray at a place of a patch. It meets the plane at height z in base - z slope. */
-struct SlopedRay
-{
-  glm::dvec2 Base;
-  glm::dvec2 Slope;
-  double Height;
-};
-
-bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& frame,
-  const Media& media, SlopedRay& ray)
-{
-  const PatchPoint at = patch.Evaluate(b);
-  const double length = glm::length(at.Normal);
-  if (!(length > CurvedPatch::ShortestNormal))
-  {
-    return false;
-  }
-  const RefractionRay refracted =
-    media.GetRay(glm::normalize(at.Position - media.Eye), at.Normal / length);
-  const double drop = -frame.GetHeight(refracted.Direction);
-  if (refracted.Kind != RayKind::Refracted || !(drop > 0.0))
-  {
-    return false;
-  }
-  ray.Height = frame.GetHeight(at.Position);
-  ray.Slope = frame.Project(refracted.Direction) / drop;
-  ray.Base = frame.Project(at.Position) + ray.Height * ray.Slope;
-  return true;
-}
-
 /**
  * Derivatives along the plane's axes of a Bezier triangle of second degree, at its three corners.
  */
@@ -161,6 +131,34 @@ bool Covers(
 
 }
 
+/** Refracted ray at a place of a patch. It meets the plane at height z in base - z slope. */
+struct InjectivityGrid::SlopedRay
+{
+  glm::dvec2 Base;
+  glm::dvec2 Slope;
+  double Height;
+  bool IsThere; ///< false: no ray, or one that does not go down; the other members are not set
+};
+
+//------------------------------------------------------------------------------
+InjectivityGrid::SlopedRay InjectivityGrid::MakeRay(const PatchPoint& at, const Media& media) const
+{
+  SlopedRay ray;
+  const double length = glm::length(at.Normal);
+  const RefractionRay refracted =
+    media.GetRay(glm::normalize(at.Position - media.Eye), at.Normal / length);
+  const double drop = -this->Frame.GetHeight(refracted.Direction);
+  ray.IsThere =
+    length > CurvedPatch::ShortestNormal && refracted.Kind == RayKind::Refracted && drop > 0.0;
+  if (ray.IsThere)
+  {
+    ray.Height = this->Frame.GetHeight(at.Position);
+    ray.Slope = this->Frame.Project(refracted.Direction) / drop;
+    ray.Base = this->Frame.Project(at.Position) + ray.Height * ray.Slope;
+  }
+  return ray;
+}
+
 //------------------------------------------------------------------------------
 InjectivityGrid::Cell InjectivityGrid::MakeEmpty()
 {
@@ -186,27 +184,24 @@ void InjectivityGrid::Merge(Cell& cell, const Cell& other)
 // Where a place of the patch has no refracted ray, slopes are unbounded and the cell proves
 // nothing.
 InjectivityGrid::Cell InjectivityGrid::Judge(
-  const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const
+  const CurvedPatch& patch, const std::array<SlopedRay, 6>& rays) const
 {
-  constexpr std::array<glm::dvec2, 6> places = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0),
-    glm::dvec2(0.0, 1.0), glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
   std::array<glm::dvec2, 6> base;
   std::array<glm::dvec2, 6> slope;
   Cell cell = MakeEmpty();
   for (std::size_t i = 0; i < 6; ++i)
   {
-    SlopedRay ray;
-    if (!MakeRay(patch, places[i], frame, media, ray))
+    if (!rays[i].IsThere)
     {
       cell.Low.fill(std::numeric_limits<float>::lowest());
       cell.High.fill(std::numeric_limits<float>::max());
       cell.Slabs = 0;
       return cell;
     }
-    base[i] = ray.Base;
-    slope[i] = ray.Slope;
-    cell.Low[2] = std::min(cell.Low[2], RoundDown(ray.Height - this->Bulge));
-    cell.High[2] = std::max(cell.High[2], RoundUp(ray.Height + this->Bulge));
+    base[i] = rays[i].Base;
+    slope[i] = rays[i].Slope;
+    cell.Low[2] = std::min(cell.Low[2], RoundDown(rays[i].Height - this->Bulge));
+    cell.High[2] = std::max(cell.High[2], RoundUp(rays[i].Height + this->Bulge));
   }
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -222,16 +217,21 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
       cell.High[i] = std::max(cell.High[i], RoundUp(high));
     }
   }
-  const glm::dmat2 sides(frame.Project(patch.Corner[1] - patch.Corner[0]),
-    frame.Project(patch.Corner[2] - patch.Corner[0]));
+  const glm::dmat2 sides(this->Frame.Project(patch.Corner[1] - patch.Corner[0]),
+    this->Frame.Project(patch.Corner[2] - patch.Corner[0]));
   const glm::dmat2 inverse = glm::inverse(sides);
   const CornerDerivatives baseBy = Differentiate(base, inverse);
   const CornerDerivatives slopeBy = Differentiate(slope, inverse);
-  bool before = FindMargin(baseBy, slopeBy, this->LowHeight) > 0.0;
+  const auto holdsAt = [this, &baseBy, &slopeBy](int slab)
+  { return FindMargin(baseBy, slopeBy, this->LowHeight + slab * this->SlabHeight) > 0.0; };
+  bool before = holdsAt(0);
+  if (before && holdsAt(Slabs))
+  {
+    return cell; // and in all slabs between
+  }
   for (int i = 0; i < Slabs; ++i)
   {
-    const bool after =
-      FindMargin(baseBy, slopeBy, this->LowHeight + (i + 1) * this->SlabHeight) > 0.0;
+    const bool after = holdsAt(i + 1);
     cell.Slabs = static_cast<std::uint8_t>(
       before && after ? cell.Slabs : cell.Slabs & ~(1u << static_cast<unsigned>(i)));
     before = after;
@@ -307,22 +307,48 @@ void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patch
   {
     return; // seen along its surface
   }
-  std::vector<Cell> judged(membrane.GetFacets().size());
-  loop(judged.size(),
-    [this, &patches, &frame, &media, &judged](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        judged[i] = this->Judge(patches.GetPatch(static_cast<std::int32_t>(i)), frame, media);
-      }
-    });
-  this->CollectFacets(membrane, judged);
+  this->CollectFacets(membrane, this->JudgeAll(membrane, patches, media, loop));
   if (!isConvexField)
   {
     this->RejectBorders(membrane, patches);
     this->RejectFolds(membrane);
   }
   this->BuildCoarserLevels();
+}
+
+//------------------------------------------------------------------------------
+// The rays at the vertices are those at the corners of all patches that meet there.
+std::vector<InjectivityGrid::Cell> InjectivityGrid::JudgeAll(const Membrane& membrane,
+  const CurvedPatches& patches, const Media& media, const RangeLoop& loop) const
+{
+  std::vector<SlopedRay> atVertices(membrane.GetPositions().size());
+  loop(atVertices.size(),
+    [this, &membrane, &media, &atVertices](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        atVertices[i] =
+          this->MakeRay({ membrane.GetPositions()[i], membrane.GetNormals()[i] }, media);
+      }
+    });
+  std::vector<Cell> judged(membrane.GetFacets().size());
+  loop(judged.size(),
+    [this, &membrane, &patches, &media, &atVertices, &judged](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
+        const Membrane::Facet& f = membrane.GetFacets()[i];
+        const auto atVertex = [&atVertices, &f](std::size_t k)
+        { return atVertices[static_cast<std::size_t>(f[k])]; };
+        judged[i] = this->Judge(patch,
+          { atVertex(0), atVertex(1), atVertex(2),
+            this->MakeRay(patch.EvaluateEdge(0, 0.5, 0.5), media),
+            this->MakeRay(patch.EvaluateEdge(1, 0.5, 0.5), media),
+            this->MakeRay(patch.EvaluateEdge(2, 0.5, 0.5), media) });
+      }
+    });
+  return judged;
 }
 
 //------------------------------------------------------------------------------

@@ -79,7 +79,12 @@ private:
 
   static Cell MakeEmpty();
   static void Merge(Cell& cell, const Cell& other);
-  Cell Judge(const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const;
+  struct SlopedRay;
+  SlopedRay MakeRay(const PatchPoint& at, const Media& media) const;
+  /** Judges a patch by its rays at the corners and in the middles of the edges opposite to them. */
+  Cell Judge(const CurvedPatch& patch, const std::array<SlopedRay, 6>& rays) const;
+  std::vector<Cell> JudgeAll(const Membrane& membrane, const CurvedPatches& patches,
+    const Media& media, const RangeLoop& loop) const;
   void FitGrid(const Membrane& membrane);
   void CollectFacets(const Membrane& membrane, const std::vector<Cell>& judged);
   void RejectBorders(const Membrane& membrane, const CurvedPatches& patches);
