@@ -4,15 +4,20 @@
 
 #include "MembraneScene.h"
 
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
+#include <vtkReverseSense.h>
+#include <vtkSphereSource.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -48,6 +53,33 @@ void SetMembrane(vtkTetrahedraRayCastMapper* mapper, const NamedMembrane& membra
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Cap of 25 degrees of a sphere, around the axis y at the height `rim`, with normals up.
+ * @param side 1: above the rim, -1: below it
+ */
+vtkSmartPointer<vtkPolyData> MakeCap(double radius, double rim, double side)
+{
+  constexpr double angle = 25.0;
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(72);
+  sphere->SetPhiResolution(24);
+  sphere->SetEndPhi(angle);
+  vtkNew<vtkTransform> up;
+  up->Translate(0.0, rim - side * radius * std::cos(vtkMath::RadiansFromDegrees(angle)), 0.0);
+  up->RotateX(-90.0 * side);
+  vtkNew<vtkTransformPolyDataFilter> mover;
+  mover->SetTransform(up);
+  mover->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkReverseSense> reverse;
+  reverse->ReverseNormalsOn();
+  reverse->SetInputConnection(mover->GetOutputPort());
+  vtkAlgorithm* last = side > 0.0 ? static_cast<vtkAlgorithm*>(mover) : reverse;
+  last->Update();
+  return vtkPolyData::SafeDownCast(last->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
 // As long and wide as is visible in the images from elevations of 35 degrees and more.
 std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
 {
@@ -59,28 +91,32 @@ std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
   vtkNew<vtkTransform> toCenter;
   toCenter->Translate(
     0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5]));
-  const auto placed = [&toCenter](const test::MembraneCase& membrane)
+  const auto placed = [&toCenter](vtkPolyData* surface)
   {
     vtkNew<vtkTransformPolyDataFilter> mover;
     mover->SetTransform(toCenter);
-    mover->SetInputData(membrane.Mesh);
+    mover->SetInputData(surface);
     mover->Update();
     return vtkSmartPointer<vtkPolyData>(mover->GetOutput());
   };
   const auto plane = [&](double height)
-  { return placed(test::MakePlaneCase(top + height * diagonal, half, 2)); };
-  const auto waves = placed(test::MakeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100));
+  { return placed(test::MakePlaneCase(top + height * diagonal, half, 2).Mesh); };
+  const auto waves =
+    placed(test::MakeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100).Mesh);
+  const auto cap = [&](double side)
+  { return placed(MakeCap(2.0 * diagonal, top + 0.25 * diagonal, side)); };
   return { { "none", {}, {} }, { "plane above, 8 facets", { plane(0.0) }, { 1.0, 1.333 } },
-    { "plane through the middle, 8 facets", { placed(test::MakePlaneCase(0.0, half, 2)) },
+    { "plane through the middle, 8 facets", { placed(test::MakePlaneCase(0.0, half, 2).Mesh) },
       { 1.0, 1.333 } },
-    { "dome, 3,200 facets", { placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40)) },
+    { "dome, 3,200 facets", { placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40).Mesh) },
       { 1.0, 1.333 } },
     { NameOfWaves, { waves }, { 1.0, 1.333 } },
     { "pane above, 2 x 8 facets", { plane(0.05), plane(0.0) }, { 1.0, 1.5, 1.0 } },
     { "three planes above, 3 x 8 facets", { plane(0.1), plane(0.05), plane(0.0) },
       { 1.0, 1.5, 1.0, 1.333 } },
     { "pane over waves, 20,016 facets", { plane(0.1), plane(0.05), waves },
-      { 1.0, 1.5, 1.0, 1.333 } } };
+      { 1.0, 1.5, 1.0, 1.333 } },
+    { "magnifying lens, 6,480 facets", { cap(1.0), cap(-1.0) }, { 1.0, 1.5, 1.0 } } };
 }
 
 } // anonymous namespace
