@@ -55,7 +55,7 @@ std::vector<ReferenceImage> RenderReference(const reference::ReferenceRayIntegra
   const std::vector<reference::ReferenceTransferFunction>& functions);
 
 /** Largest difference between image and reference that counts as equal in float. */
-constexpr double FloatTolerance = 5e-5;
+constexpr double FloatTolerance = 1e-4;
 
 /**
  * Distance, relative to a mesh's diagonal, by which float rounding of the vertices moves the mesh:
