@@ -212,15 +212,6 @@ void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet se
 void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
- * Sets PatchX, PatchY and Behind to places near the intersections of the rays and the patch, from X
- * and Y. Rays is SightRays or FreeRays.
- * @param size length of the facet's longest edge.
- */
-template <class Rays>
-void StartNearPatch(const CurvedPatch& patch, const FacetPlane& plane, double size,
-  const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
-
-/**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
  * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
  * @param scale a depth of about the size of the facet.

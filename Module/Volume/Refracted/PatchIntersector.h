@@ -271,7 +271,9 @@ void PatchIntersector::MeetCurved(
     }
     lanes.Keep(lanes.Count++, i);
   }
-  StartNearPatch(this->Patch, this->Plane, this->Size, rays, this->Set, lanes);
+  std::copy_n(lanes.X, lanes.Count, lanes.PatchX);
+  std::copy_n(lanes.Y, lanes.Count, lanes.PatchY);
+  std::fill_n(lanes.Behind, lanes.Count, 0.0);
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
     StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);
