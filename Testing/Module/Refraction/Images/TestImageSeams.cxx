@@ -302,8 +302,8 @@ INSTANTIATE_TEST_SUITE_P(EdgeOn, RefractionSeams,
 // A triangle is seen edge-on, and the strip beyond that place ends in the same sub-cell.
 INSTANTIATE_TEST_SUITE_P(StripEndsInside, RefractionSeams, ::testing::Values(566, 851));
 
-// The rays at the corners of a sub-cell next to a caustic pass beside a triangle that those between
-// them meet.
+// A sub-cell next to a caustic: the rays at its corners miss the triangle, and rays between them
+// meet it.
 INSTANTIATE_TEST_SUITE_P(NextToCaustics, RefractionSeams, ::testing::Values(698, 986));
 
 // A side between two facets that is straight at its middle but not at a quarter.
