@@ -102,12 +102,11 @@ public:
     }
   }
 
-  /** True position behind one interface, after the points that are recorded in `memory`. */
-  meniscus::StackTruePosition FindOne(
-    const glm::dvec3& seen, meniscus::TruePositions::Memory& memory) const
+  /** True position behind one interface, after the points of `chain`. */
+  meniscus::StackTruePosition FindOne(const glm::dvec3& seen, meniscus::CrossingChain& chain) const
   {
     const glm::dvec3 eye = this->Eyes.Get(0);
-    meniscus::TruePosition found = this->Truth->Find(seen, memory);
+    meniscus::TruePosition found = this->Truth->Find(seen, chain);
     const bool refracted = found.State == meniscus::SeenState::Refracted;
     const double path = refracted ? this->Exterior * glm::length(found.SightPoint - eye) +
         this->Interior * glm::length(found.Position - found.SightPoint)
@@ -253,16 +252,17 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
     meniscus::SightRayTracer tracer(this->GetStack(), internals.Exterior);
-    meniscus::TruePositions::Memory memory;
+    meniscus::StackChain chains;
+    meniscus::CrossingChain chain;
     for (vtkIdType i = begin; i < end; ++i)
     {
       glm::dvec3 seen;
       input->GetPoint(i, &seen.x);
       const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
-        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen)
+        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen, &chains)
         : (internals.HasStack
-              ? meniscus::FindTruePosition(tracer.GetStack(), internals.Exterior, seen)
-              : internals.FindOne(seen, memory));
+              ? meniscus::FindTruePosition(tracer.GetStack(), internals.Exterior, seen, &chains)
+              : internals.FindOne(seen, chain));
       arrays.Positions->SetTypedTuple(i, &found.Position.x);
       arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
       arrays.States->SetValue(i, static_cast<unsigned char>(found.State));

@@ -10,6 +10,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/SteepDirections.h"
 #include "Refraction/Curved/TruePositions.h"
+#include "Refraction/Stack/StackInverse.h"
 #include "Refraction/Stack/StackSolver.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
@@ -192,11 +193,11 @@ std::vector<double> MakeGridPoints()
   return points;
 }
 
-/** One image of each point of a grid behind wavy surfaces; Arg is their number. */
-void SolveThroughInterfaces(benchmark::State& state)
+/** Wavy surfaces below each other. */
+std::vector<StackInterface> MakeInterfaces(std::int64_t number)
 {
   std::vector<StackInterface> interfaces;
-  for (int i = 0; i < state.range(0); ++i)
+  for (int i = 0; i < number; ++i)
   {
     reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, 2.0 + i, 3.0);
     waves.Translate(glm::dvec3(0.0, -15.0 * i, 0.0));
@@ -204,6 +205,13 @@ void SolveThroughInterfaces(benchmark::State& state)
     surface->SetMembrane(waves.AsInput());
     interfaces.push_back({ surface, { 1.0 + 0.2 * i, 1.2 + 0.2 * i } });
   }
+  return interfaces;
+}
+
+/** One image of each point of a grid behind wavy surfaces; Arg is their number. */
+void SolveThroughInterfaces(benchmark::State& state)
+{
+  const std::vector<StackInterface> interfaces = MakeInterfaces(state.range(0));
   const glm::dvec3 eye(20.0, 300.0, 10.0);
   CurvedMembraneSolver one;
   StackSolver several;
@@ -249,15 +257,40 @@ void FindTruePositions(benchmark::State& state)
   const std::size_t count = points.size() / 3;
   for (auto step : state)
   {
-    TruePositions::Memory memory;
+    CrossingChain chain;
     for (std::size_t i = 0; i < count; ++i)
     {
       if (i % TruePositions::Chain == 0)
       {
-        memory = TruePositions::Memory();
+        chain.Forget();
       }
       const double* p = points.data() + 3 * i;
-      benchmark::DoNotOptimize(truth.Find({ p[0], p[1], p[2] }, memory));
+      benchmark::DoNotOptimize(truth.Find({ p[0], p[1], p[2] }, chain));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+}
+
+/** True positions of the points of a grid behind wavy surfaces; Arg is their number. */
+void FindTruePositionsThroughInterfaces(benchmark::State& state)
+{
+  StackSolver solver;
+  solver.SetInterfaces(MakeInterfaces(state.range(0)));
+  solver.SetEye(glm::dvec3(20.0, 300.0, 10.0));
+  const std::vector<double> points = MakeGridPoints();
+  const std::size_t count = points.size() / 3;
+  for (auto step : state)
+  {
+    StackChain chain;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (i % TruePositions::Chain == 0)
+      {
+        chain.clear();
+      }
+      const double* p = points.data() + 3 * i;
+      benchmark::DoNotOptimize(
+        FindTruePosition(solver.GetStack(), 1.0, { p[0], p[1], p[2] }, &chain));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
@@ -285,6 +318,7 @@ BENCHMARK(VertexGradients)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveThroughInterfaces)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindTruePositions)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
+BENCHMARK(FindTruePositionsThroughInterfaces)->DenseRange(2, 3)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 
 }

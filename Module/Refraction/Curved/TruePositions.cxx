@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/TruePositions.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>
@@ -13,31 +11,6 @@
 
 namespace meniscus
 {
-namespace
-{
-
-// Patches to go through from the facet that a ray passes through, and facets on the way there. For
-// longer ways the tree is faster.
-constexpr int LongestChase = 4;
-constexpr int LongestWalk = 16;
-
-// As in PatchCrossings: the remaining error is of the order of the square of the last step.
-constexpr double LastStep = 1e-7;
-
-/** Place where a line meets a facet's plane, by Cramer's rule. */
-glm::dvec2 MeetFacet(const CurvedPatch& patch, const ObjectLine& line)
-{
-  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
-  const glm::dvec3 rest = line.Origin - patch.Corner[0];
-  const glm::dvec3 across = glm::cross(v, line.Direction);
-  const double inverse = 1.0 / glm::dot(u, across);
-  return { inverse * glm::dot(rest, across),
-    inverse * glm::dot(u, glm::cross(rest, line.Direction)) };
-}
-
-}
-
 //------------------------------------------------------------------------------
 TruePositions::TruePositions(const CurvedMembraneSolver& geometry, const SteepDirections& steep)
   : Geometry(geometry)
@@ -48,63 +21,19 @@ TruePositions::TruePositions(const CurvedMembraneSolver& geometry, const SteepDi
 }
 
 //------------------------------------------------------------------------------
-// Newton's method from the facet that the ray passes through, across patches.
-bool TruePositions::Follow(const glm::dvec3& direction, Memory& memory, PatchPoint& at) const
-{
-  const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
-  const CurvedPatches& patches = this->Geometry.GetPatches();
-  const double distance = glm::dot(memory.SightPoint - eye, direction);
-  if (!(distance > 0.0))
-  {
-    return false;
-  }
-  // The direction is scaled to the distance of the surface, so that the line's parameter there is
-  // about 1.
-  const ObjectLine ray{ eye, distance * direction };
-  glm::dvec3 target = eye + ray.Direction;
-  for (int i = 0; i < LongestChase; ++i)
-  {
-    const std::int32_t facet = patches.Walk(memory.Facet, target, direction, LongestWalk);
-    if (facet != memory.Facet)
-    {
-      memory.Facet = facet;
-      memory.Patch = patches.GetPatch(facet);
-      memory.Offset = glm::dvec2(0.0);
-    }
-    else if (i > 0)
-    {
-      return false; // beyond the border
-    }
-    const glm::dvec2 flat = MeetFacet(memory.Patch, ray);
-    glm::dvec2 b = flat + memory.Offset;
-    double l = 1.0;
-    glm::dvec3 normal;
-    if (!MeetPatch(memory.Patch, ray, LastStep, b, l, normal))
-    {
-      return false;
-    }
-    if (FindOutside(b).Least >= -PatchCrossings::Border)
-    {
-      memory.Offset = b - flat;
-      memory.SightPoint = eye + l * ray.Direction;
-      at = { memory.SightPoint + this->Geometry.GetMembrane().GetOrigin(), glm::normalize(normal) };
-      return l > 0.0 && glm::dot(normal, direction) < 0.0;
-    }
-    target = memory.Patch.GetFlatPoint(b);
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
 // Intersection with the membrane. A ray that is known to cross it once at most needs no search.
-bool TruePositions::Meet(const glm::dvec3& direction, Memory& memory, PatchPoint& at) const
+bool TruePositions::Meet(const glm::dvec3& direction, CrossingChain& chain, PatchPoint& at) const
 {
   const bool isSteep = this->Steep.Contains(direction);
-  if (isSteep && memory.Facet != CurvedPatches::NoFacet && this->Follow(direction, memory, at))
+  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
+  const CurvedPatches& patches = this->Geometry.GetPatches();
+  if (isSteep && chain.Follow(patches, this->Geometry.GetMedia().Eye, direction, at) &&
+    glm::dot(at.Normal, direction) < 0.0)
   {
+    at.Position += origin;
     return true;
   }
-  memory.Facet = CurvedPatches::NoFacet;
+  chain.Forget();
   std::int32_t facet = CurvedPatches::NoFacet;
   if (!this->Search.Find(direction, this->Eye, at, facet))
   {
@@ -112,14 +41,13 @@ bool TruePositions::Meet(const glm::dvec3& direction, Memory& memory, PatchPoint
   }
   if (isSteep)
   {
-    memory = { facet, this->Geometry.GetPatches().GetPatch(facet),
-      at.Position - this->Geometry.GetMembrane().GetOrigin(), glm::dvec2(0.0) };
+    chain.Begin(patches, facet, at.Position - origin);
   }
   return true;
 }
 
 //------------------------------------------------------------------------------
-TruePosition TruePositions::Find(const glm::dvec3& seen, Memory& memory) const
+TruePosition TruePositions::Find(const glm::dvec3& seen, CrossingChain& chain) const
 {
   const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
   const glm::dvec3 sight = seen - this->Eye;
@@ -130,7 +58,7 @@ TruePosition TruePositions::Find(const glm::dvec3& seen, Memory& memory) const
   }
   const glm::dvec3 direction = sight / distance;
   PatchPoint at;
-  if (!this->Meet(direction, memory, at))
+  if (!this->Meet(direction, chain, at))
   {
     return { seen, none, SeenState::Unrefracted };
   }

@@ -3,15 +3,14 @@
 #ifndef meniscus_Refraction_Curved_TruePositions_h
 #define meniscus_Refraction_Curved_TruePositions_h
 
+#include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Curved/SteepDirections.h"
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
-#include <cstdint>
 
 namespace meniscus
 {
@@ -49,26 +48,15 @@ public:
   /** Number of points that share a chain of warm starts, as CurvedMembraneSolver::Chain. */
   static constexpr std::size_t Chain = 512;
 
-  /** State of a chain of points: the patch that the last sight ray met. */
-  struct Memory
-  {
-    std::int32_t Facet = CurvedPatches::NoFacet;
-    CurvedPatch Patch{};
-    glm::dvec3 SightPoint{ 0.0 }; ///< relative to the membrane's origin
-    /** Distance in the patch from the place where the ray meets the flat facet. */
-    glm::dvec2 Offset{ 0.0 };
-  };
-
   /**
-   * Finds the true position of a point after the points recorded in `memory`. Neighbouring points
-   * need no search; the last bits of the result depend on the points before.
+   * Finds the true position of a point after the points of `chain`. Neighbouring points need no
+   * search; the last bits of the result depend on the points before.
    * @param seen  position in world coordinates. Points without a true position keep it.
    */
-  TruePosition Find(const glm::dvec3& seen, Memory& memory) const;
+  TruePosition Find(const glm::dvec3& seen, CrossingChain& chain) const;
 
 private:
-  bool Follow(const glm::dvec3& direction, Memory& memory, PatchPoint& at) const;
-  bool Meet(const glm::dvec3& direction, Memory& memory, PatchPoint& at) const;
+  bool Meet(const glm::dvec3& direction, CrossingChain& chain, PatchPoint& at) const;
 
   const CurvedMembraneSolver& Geometry;
   const SteepDirections& Steep;

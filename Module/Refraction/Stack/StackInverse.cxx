@@ -21,7 +21,7 @@ const glm::dvec3 None(std::numeric_limits<double>::quiet_NaN());
 
 //------------------------------------------------------------------------------
 StackTruePosition FindTruePosition(
-  const RefractionStack& stack, double medium, const glm::dvec3& seen)
+  const RefractionStack& stack, double medium, const glm::dvec3& seen, StackChain* chain)
 {
   thread_local StackSightRay ray; // kept so that its memory is reused
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
@@ -31,17 +31,17 @@ StackTruePosition FindTruePosition(
   {
     return { { seen, None, SeenState::NotFinite }, medium * distance };
   }
-  TraceSightRay(stack, medium, sight / distance, ray);
+  TraceSightRay(stack, medium, sight / distance, ray, chain);
   std::size_t leg = 0;
   return WalkSightRay(ray, seen, leg);
 }
 
 //------------------------------------------------------------------------------
 StackTruePosition FindTruePosition(
-  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen)
+  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen, StackChain* chain)
 {
   return tracer.SetEye(eye) == EyeStatus::Ready
-    ? FindTruePosition(tracer.GetStack(), tracer.GetMedium(), seen)
+    ? FindTruePosition(tracer.GetStack(), tracer.GetMedium(), seen, chain)
     : StackTruePosition{ { seen, None, SeenState::NotFinite },
         tracer.GetMedium() * glm::length(seen - eye) };
 }

@@ -28,13 +28,14 @@ struct StackTruePosition : TruePosition
  * True position of a point that is seen through a stack; as TruePositions for one surface. The
  * point may lie behind all interfaces, or between two of them if the ray goes on to the next one.
  * `medium` is the index of refraction around the eye, which a stack without links does not know.
+ * See StackPatches for `chain`.
  */
 StackTruePosition FindTruePosition(
-  const RefractionStack& stack, double medium, const glm::dvec3& seen);
+  const RefractionStack& stack, double medium, const glm::dvec3& seen, StackChain* chain = nullptr);
 
 /** The same for a point that is seen from its own eye. */
-StackTruePosition FindTruePosition(
-  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen);
+StackTruePosition FindTruePosition(SightRayTracer& tracer, const glm::dvec3& eye,
+  const glm::dvec3& seen, StackChain* chain = nullptr);
 
 /**
  * As FindTruePosition, for a traced ray. `leg` is set to the leg that the position lies on, or to

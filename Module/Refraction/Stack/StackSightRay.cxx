@@ -28,38 +28,75 @@ std::size_t GetSide(const RefractionStack::Link& link, bool behind)
 }
 
 //------------------------------------------------------------------------------
-bool StackPatches::Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
-  const glm::dvec3&, PatchPoint& at) const
+StackPatches::StackPatches(const RefractionStack& stack, StackChain* chain)
+  : Stack(stack)
+  , Chain(chain)
 {
-  const RefractionStack::Link& next = this->Stack.GetLinks()[link];
-  const glm::dvec3 from = origin - this->Stack.GetOrigin();
+  const std::vector<RefractionStack::Link>& links = stack.GetLinks();
+  if (chain && !links.empty())
+  {
+    chain->resize(std::max(chain->size(), links.back().Index + 1));
+  }
+}
+
+//------------------------------------------------------------------------------
+// The nearest crossing, relative to the surface's origin.
+bool StackPatches::Search(const RefractionStack::Link& link, std::size_t number,
+  const glm::dvec3& origin, const glm::dvec3& direction, CrossingChain* chain, PatchPoint& at) const
+{
   SurfaceCrossing crossing;
-  if (!this->Stack.FindNext(link, from, direction, crossing))
+  if (!this->Stack.FindNext(number, origin + link.Shift, direction, crossing))
   {
     return false;
   }
-  const CurvedPatch patch = next.Surface->GetPatch(crossing.Facet, !next.Passage.FromFront);
+  const CurvedPatch patch = link.Surface->GetPatch(crossing.Facet, false);
   // The direction is scaled, so that the parameter is about 1.
   const double scale = std::max(patch.GetSize(), crossing.Distance);
   double l = crossing.Distance / scale;
   glm::dvec2 b = crossing.B;
   glm::dvec3 normal;
-  if (!MeetPatch(patch, { from - next.Shift, scale * direction }, LastStep, b, l, normal))
+  if (!MeetPatch(patch, { origin, scale * direction }, LastStep, b, l, normal))
   {
     return false;
   }
   const double length = glm::length(normal);
-  at.Position = origin + l * scale * direction;
-  at.Normal = normal / length;
+  at = { origin + l * scale * direction, normal / length };
+  if (chain)
+  {
+    chain->Begin(link.Surface->GetPatches(), crossing.Facet, at.Position);
+  }
   // Written so that a NaN fails.
-  return length > CurvedPatch::ShortestNormal && glm::dot(at.Normal, direction) < 0.0;
+  return length > CurvedPatch::ShortestNormal;
 }
 
 //------------------------------------------------------------------------------
-void TraceSightRay(
-  const RefractionStack& stack, double medium, const glm::dvec3& direction, StackSightRay& ray)
+bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
+  const glm::dvec3&, PatchPoint& at) const
 {
-  const StackPatches surfaces(stack);
+  const RefractionStack::Link& link = this->Stack.GetLinks()[number];
+  const StackSurface& surface = *link.Surface;
+  const glm::dvec3 shift = this->Stack.GetOrigin() + link.Shift;
+  const double side = link.Passage.FromFront ? 1.0 : -1.0;
+  // A ray that may cross the surface again is searched for.
+  CrossingChain* chain =
+    this->Chain && surface.IsCrossedOnce(direction) ? &(*this->Chain)[link.Index] : nullptr;
+  const bool isNear = chain && chain->Follow(surface.GetPatches(), origin - shift, direction, at) &&
+    side * glm::dot(at.Normal, direction) < 0.0;
+  if (!isNear && !this->Search(link, number, origin - shift, direction, chain, at))
+  {
+    return false;
+  }
+  at.Position += shift;
+  at.Normal *= side;
+  // Written so that a NaN fails.
+  return glm::dot(at.Normal, direction) < 0.0;
+}
+
+//------------------------------------------------------------------------------
+void TraceSightRay(const RefractionStack& stack, double medium, const glm::dvec3& direction,
+  StackSightRay& ray, StackChain* chain)
+{
+  const StackPatches surfaces(stack, chain);
   const std::vector<RefractionStack::Link>& links = stack.GetLinks();
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   constexpr double endless = std::numeric_limits<double>::infinity();

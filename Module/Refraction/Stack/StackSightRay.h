@@ -7,6 +7,7 @@
 #ifndef meniscus_Refraction_Stack_StackSightRay_h
 #define meniscus_Refraction_Stack_StackSightRay_h
 
+#include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Stack/RefractionStack.h"
 
@@ -34,20 +35,28 @@ public:
     const glm::dvec3& near, PatchPoint& at) const = 0;
 };
 
+/** The crossings of a chain of neighbouring rays with the surface of each interface in a list. */
+using StackChain = std::vector<CrossingChain>;
+
 /** The patches of a stack's links. The nearest intersection counts, wherever `near` is. */
 class StackPatches : public StackSurfaces
 {
 public:
-  /** `stack` must outlive this object. */
-  explicit StackPatches(const RefractionStack& stack)
-    : Stack(stack)
-  {
-  }
+  /**
+   * `stack` must outlive this object. With a `chain`, which is empty at first and must outlive this
+   * object too, intersections near those of the ray before need no search, and the last bits of the
+   * results depend on the rays before. A chain serves one list of interfaces, with any eyes.
+   */
+  explicit StackPatches(const RefractionStack& stack, StackChain* chain = nullptr);
   bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
     const glm::dvec3& near, PatchPoint& at) const override;
 
 private:
+  bool Search(const RefractionStack::Link& link, std::size_t number, const glm::dvec3& origin,
+    const glm::dvec3& direction, CrossingChain* chain, PatchPoint& at) const;
+
   const RefractionStack& Stack;
+  StackChain* Chain;
 };
 
 /** The straight part of a sight ray in one medium. */
@@ -76,9 +85,9 @@ struct StackSightRay
   PathEnd End = PathEnd::Passed;
 };
 
-/** Traces the sight ray of a stack's eye along a unit vector. */
-void TraceSightRay(
-  const RefractionStack& stack, double medium, const glm::dvec3& direction, StackSightRay& ray);
+/** Traces the sight ray of a stack's eye along a unit vector. See StackPatches for `chain`. */
+void TraceSightRay(const RefractionStack& stack, double medium, const glm::dvec3& direction,
+  StackSightRay& ray, StackChain* chain = nullptr);
 
 /**
  * Sight rays from eyes that change. An object may be used by one thread at a time; copies are
@@ -98,9 +107,9 @@ public:
   EyeStatus SetEye(const glm::dvec3& eye);
 
   /** Traces the ray from the eye, which must be `Ready`, along a unit vector. */
-  void Trace(const glm::dvec3& direction, StackSightRay& ray) const
+  void Trace(const glm::dvec3& direction, StackSightRay& ray, StackChain* chain = nullptr) const
   {
-    TraceSightRay(this->Stack, this->Medium, direction, ray);
+    TraceSightRay(this->Stack, this->Medium, direction, ray, chain);
   }
 
   /**
