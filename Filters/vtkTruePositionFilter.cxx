@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTruePositionFilter.h"
 
+#include "Common/CoherentOrder.h"
+#include "Filters/Common/PointCoordinates.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
 #include "Filters/Membrane/RefractionScene.h"
@@ -25,6 +28,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <vector>
 
 namespace
 {
@@ -248,16 +252,20 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   const vtkIdType count = input->GetNumberOfPoints();
   PointArrays arrays(count);
   const vtkInternals& internals = *this->Internals;
+  const std::vector<double> coordinates = meniscus::CopyPoints(input);
+  const std::vector<std::uint32_t> order = meniscus::FindCoherentOrder(
+    coordinates.data(), static_cast<std::size_t>(count), meniscus::ThreadedLoop);
   // One chain.
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
     meniscus::SightRayTracer tracer(this->GetStack(), internals.Exterior);
     meniscus::StackChain chains;
     meniscus::CrossingChain chain;
-    for (vtkIdType i = begin; i < end; ++i)
+    for (vtkIdType number = begin; number < end; ++number)
     {
-      glm::dvec3 seen;
-      input->GetPoint(i, &seen.x);
+      const vtkIdType i = order.empty() ? number : order[static_cast<std::size_t>(number)];
+      const double* p = coordinates.data() + 3 * i;
+      const glm::dvec3 seen(p[0], p[1], p[2]);
       const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
         ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen, &chains)
         : (internals.HasStack

@@ -3,6 +3,7 @@
 #include "Filters/Solver/SolvedBlock.h"
 
 #include "Common/CoherentOrder.h"
+#include "Filters/Common/PointCoordinates.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,17 +13,6 @@ namespace meniscus
 {
 namespace
 {
-
-std::vector<double> CopyPoints(vtkPolyData* input)
-{
-  const vtkIdType count = input->GetNumberOfPoints();
-  std::vector<double> points(3 * static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    input->GetPoint(i, points.data() + 3 * i);
-  }
-  return points;
-}
 
 // Compared bit by bit, so that a NaN equals itself.
 bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
