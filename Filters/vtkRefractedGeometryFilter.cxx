@@ -142,7 +142,7 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
   }
   // The filter's time covers the camera's and does not change between the blocks of composite data.
   const vtkMTimeType time = self->GetMTime();
-  const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
+  const vtkTypeInt64 eye = this->Scene.GetVersion().Rays;
   if (time != this->ViewTime || eye != this->ViewEye)
   {
     this->IsViewActive =
@@ -161,7 +161,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (this->IsViewActive)
   {
     block.UpdateTopology();
-    const bool isSolved = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates();
+    const bool isSolved = block.EyeUpdate == this->Scene.GetVersion().Rays;
     if (isSolved && block.Selection.IsActive && block.ViewChange == this->Scene.GetViewChange())
     {
       return;
@@ -186,11 +186,11 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
 {
   constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
   const std::size_t count = block.Points.size() / 3;
-  if (block.EyeUpdate != this->Scene.GetNumberOfEyeUpdates() || block.All)
+  if (block.EyeUpdate != this->Scene.GetVersion().Rays || block.All)
   {
     block.All = false;
     block.Images.reset();
-    block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+    block.EyeUpdate = this->Scene.GetVersion().Rays;
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
@@ -243,7 +243,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
 {
   const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
   block.UpdateTopology();
-  const bool pointsReady = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.All;
+  const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
   if (pointsReady && block.CellsReady && block.Tolerance == tolerance &&
     block.ClosesSeams == self->CloseSeams)
   {
@@ -320,7 +320,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
       this->Count(block.Images->GetState(i));
     }
   }
-  block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+  block.EyeUpdate = this->Scene.GetVersion().Rays;
   return true;
 }
 
@@ -422,8 +422,7 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
 {
-  const meniscus::CurvedMembraneSolver& curved = this->Internals->Scene.GetCurved();
-  return curved.GetNumberOfUndecidedSearches() + curved.GetNumberOfUndecidedSides() +
+  return this->Internals->Scene.GetNumberOfUndecided() +
     this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
 }
 
@@ -454,7 +453,7 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
 {
-  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetMembrane().GetReport().Skipped());
+  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetNumberOfSkippedFacets());
 }
 
 //------------------------------------------------------------------------------
@@ -508,6 +507,9 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   this->WarnOfModes();
+  const meniscus::RefractionScene::Loan loan(this->Internals->Scene, membrane,
+    this->MembraneModel == CURVED, this->GetExactMembrane(), this->GetEyeAndIndices(),
+    this->Mode == REFLECTION);
   if (!this->UpdateMembrane(membrane))
   {
     return 1;
@@ -572,9 +574,9 @@ void vtkRefractedGeometryFilter::ReportPoints(
     vtkWarningMacro(<< failed << " of " << points
                     << " points are not finite, or too far away to be solved; they have no image.");
   }
-  if (points > failed && !hasImage && internals.WarnedOfNoImage != this->GetNumberOfPatchBuilds())
+  if (points > failed && !hasImage && internals.WarnedOfNoImage != internals.GetShapes())
   {
-    internals.WarnedOfNoImage = this->GetNumberOfPatchBuilds();
+    internals.WarnedOfNoImage = internals.GetShapes();
     vtkWarningMacro("None of the "
       << points << " points has an image. Is the eye on the side that the membrane's normals point "
       << "to, and are geometry (port 0) and membrane (port 1) at the right ports?");
@@ -608,10 +610,10 @@ void vtkRefractedGeometryFilter::ReportCells(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::ReportUndecided(vtkTypeInt64 searches)
 {
-  vtkTypeInt64& warned = this->Internals->WarnedOfUndecided;
-  if (searches > 0 && warned != this->GetNumberOfPatchBuilds())
+  vtkInternals& internals = *this->Internals;
+  if (searches > 0 && internals.WarnedOfUndecided != internals.GetShapes())
   {
-    warned = this->GetNumberOfPatchBuilds();
+    internals.WarnedOfUndecided = internals.GetShapes();
     vtkWarningMacro(<< searches << " searches for images, or for the side of a point, ended "
                     << "undecided: at a focus, or within rounding of the membrane. Images may be "
                     << "missing there.");
@@ -665,15 +667,20 @@ void vtkRefractedGeometryFilter::GetEye(double position[3])
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateEye()
+std::array<double, 5> vtkRefractedGeometryFilter::GetEyeAndIndices()
 {
   double position[3];
   this->GetEye(position);
+  return { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
+    this->GetInteriorIndexOfRefraction() };
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateEye()
+{
   meniscus::SceneMessages messages;
-  const bool ready = this->Internals->Scene.SetEye(
-    { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
-      this->GetInteriorIndexOfRefraction() },
-    messages, this->Mode == REFLECTION);
+  const bool ready =
+    this->Internals->Scene.SetEye(this->GetEyeAndIndices(), messages, this->Mode == REFLECTION);
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");
