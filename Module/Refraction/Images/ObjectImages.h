@@ -33,7 +33,7 @@ class ObjectImages : public CellImages
 {
 public:
   /** The eye and the membrane of `geometry` must not change afterwards. */
-  explicit ObjectImages(const CurvedMembraneSolver& geometry)
+  explicit ObjectImages(CurvedMembraneSolver& geometry)
     : Geometry(geometry)
   {
   }
@@ -149,8 +149,8 @@ private:
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
 
-  const CurvedMembraneSolver& Geometry;
-  InjectivityGrid Unique;
+  CurvedMembraneSolver& Geometry;
+  const InjectivityGrid* Unique = nullptr; ///< null if there is no proof; the geometry's
   double Nearest = 0.0;
   double Farthest = 0.0;
   bool MayCross = false;
