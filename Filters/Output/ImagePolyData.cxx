@@ -366,7 +366,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
   if (done)
   {
     images.MeetNeighbours(topology.Polygons.AsObject(), topology.Polygons.GetCount(),
-      isMapped.data(), closesSeams, result.WholePolygons, result.Polygons);
+      isMapped.data(), closesSeams, result.WholePolygons, result.Polygons, ThreadedLoop);
   }
   return done;
 }

@@ -470,35 +470,40 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 
 //------------------------------------------------------------------------------
 void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
   if (seams.empty())
   {
     return;
   }
-  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
+  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces, loop);
   if (closesSeams)
   {
     const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
+    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces, loop);
   }
 }
 
 //------------------------------------------------------------------------------
 void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const
+  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
-  EdgeSubdivision division(this->Geometry, this->Tolerance);
-  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces,
-    [this, &division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces, loop,
+    [this]()
     {
-      if (this->HaveOneImage(point.Source.data(), 2) &&
-        this->FindSide(point.Source.data(), 2) == Side::Behind)
+      auto division = std::make_shared<EdgeSubdivision>(this->Geometry, this->Tolerance);
+      return [this, division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
       {
-        division.MoveOntoEdge(
-          this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
-      }
+        if (this->HaveOneImage(point.Source.data(), 2) &&
+          this->FindSide(point.Source.data(), 2) == Side::Behind)
+        {
+          division->MoveOntoEdge(
+            this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
+        }
+      };
     });
 }
 
