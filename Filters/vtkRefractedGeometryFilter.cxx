@@ -238,18 +238,28 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
 }
 
 //------------------------------------------------------------------------------
+// True if all images of the block's cells are known.
+bool vtkRefractedGeometryFilter::vtkInternals::AreCellsReady(
+  vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const
+{
+  block.UpdateTopology();
+  return block.EyeUpdate == this->Scene.GetVersion().Rays && block.All && block.CellsReady &&
+    block.Tolerance == vtkMath::RadiansFromDegrees(self->AngularTolerance) &&
+    block.ClosesSeams == self->CloseSeams;
+}
+
+//------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
 {
-  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
-  block.UpdateTopology();
-  const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
-  if (pointsReady && block.CellsReady && block.Tolerance == tolerance &&
-    block.ClosesSeams == self->CloseSeams)
+  if (this->AreCellsReady(self, block))
   {
     return true;
   }
+  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
   block.CellsReady = false;
+  block.Assembly.IsReady = false;
   if (!this->SolveAllPoints(self, block, pointsReady))
   {
     return false;
@@ -382,81 +392,6 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
-{
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
-{
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::IsEyeEnclosed() const
-{
-  return this->Internals->Scene.IsEyeEnclosed();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfMembranePointsBehind() const
-{
-  return this->Internals->Scene.GetNumberOfMembranePointsBehind();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
-{
-  return this->Internals->SolvedVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
-{
-  return this->Internals->FailedSolves;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
-{
-  return this->Internals->Scene.GetNumberOfUndecided() +
-    this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
-{
-  return this->Internals->VerticesWithoutImage;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
-{
-  return this->Internals->SkippedCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledVertices() const
-{
-  return this->Internals->CulledVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
-{
-  return this->Internals->CulledCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
-{
-  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetNumberOfSkippedFacets());
-}
-
-//------------------------------------------------------------------------------
 int vtkRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -525,6 +460,8 @@ int vtkRefractedGeometryFilter::RequestData(
   block.StackUpdate = -1; // the vertices become those of one interface
   this->Internals->Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
+  // While images change in every frame, their assembly is not kept for the next one.
+  const bool isKept = all && this->Internals->AreCellsReady(this, block);
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
@@ -535,10 +472,11 @@ int vtkRefractedGeometryFilter::RequestData(
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input,
         block.Selection.IsActive ? block.Selected : block.Topology, *block.Images, block.Cells,
-        surface, options, output)
+        surface, options, block.Assembly, output)
     : meniscus::BuildVirtualPolyData(
         input, block.Vertices, block.Selection, surface, options, output);
-  block.Kept.Reuse(output);
+  block.Kept.Reuse(output, isKept ? block.Assembly.Geometry.Get() : nullptr);
+  block.Assembly.IsReady = isKept;
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);

@@ -22,6 +22,7 @@ public:
   void UpdateView(vtkRefractedGeometryFilter* self);
   void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
   bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool AreCellsReady(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const;
   bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
   bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
