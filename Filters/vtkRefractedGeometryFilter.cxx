@@ -142,7 +142,7 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
   }
   // The filter's time covers the camera's and does not change between the blocks of composite data.
   const vtkMTimeType time = self->GetMTime();
-  const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
+  const vtkTypeInt64 eye = this->Scene.GetVersion().Rays;
   if (time != this->ViewTime || eye != this->ViewEye)
   {
     this->IsViewActive =
@@ -161,7 +161,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (this->IsViewActive)
   {
     block.UpdateTopology();
-    const bool isSolved = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates();
+    const bool isSolved = block.EyeUpdate == this->Scene.GetVersion().Rays;
     if (isSolved && block.Selection.IsActive && block.ViewChange == this->Scene.GetViewChange())
     {
       return;
@@ -186,11 +186,11 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
 {
   constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
   const std::size_t count = block.Points.size() / 3;
-  if (block.EyeUpdate != this->Scene.GetNumberOfEyeUpdates() || block.All)
+  if (block.EyeUpdate != this->Scene.GetVersion().Rays || block.All)
   {
     block.All = false;
     block.Images.reset();
-    block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+    block.EyeUpdate = this->Scene.GetVersion().Rays;
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
@@ -238,18 +238,28 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
 }
 
 //------------------------------------------------------------------------------
+// True if all images of the block's cells are known.
+bool vtkRefractedGeometryFilter::vtkInternals::AreCellsReady(
+  vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const
+{
+  block.UpdateTopology();
+  return block.EyeUpdate == this->Scene.GetVersion().Rays && block.All && block.CellsReady &&
+    block.Tolerance == vtkMath::RadiansFromDegrees(self->AngularTolerance) &&
+    block.ClosesSeams == self->CloseSeams;
+}
+
+//------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
 {
-  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
-  block.UpdateTopology();
-  const bool pointsReady = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.All;
-  if (pointsReady && block.CellsReady && block.Tolerance == tolerance &&
-    block.ClosesSeams == self->CloseSeams)
+  if (this->AreCellsReady(self, block))
   {
     return true;
   }
+  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
   block.CellsReady = false;
+  block.Assembly.IsReady = false;
   if (!this->SolveAllPoints(self, block, pointsReady))
   {
     return false;
@@ -320,7 +330,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
       this->Count(block.Images->GetState(i));
     }
   }
-  block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+  block.EyeUpdate = this->Scene.GetVersion().Rays;
   return true;
 }
 
@@ -382,82 +392,6 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
-{
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
-{
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::IsEyeEnclosed() const
-{
-  return this->Internals->Scene.IsEyeEnclosed();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfMembranePointsBehind() const
-{
-  return this->Internals->Scene.GetNumberOfMembranePointsBehind();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
-{
-  return this->Internals->SolvedVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
-{
-  return this->Internals->FailedSolves;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
-{
-  const meniscus::CurvedMembraneSolver& curved = this->Internals->Scene.GetCurved();
-  return curved.GetNumberOfUndecidedSearches() + curved.GetNumberOfUndecidedSides() +
-    this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
-{
-  return this->Internals->VerticesWithoutImage;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
-{
-  return this->Internals->SkippedCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledVertices() const
-{
-  return this->Internals->CulledVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
-{
-  return this->Internals->CulledCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
-{
-  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetMembrane().GetReport().Skipped());
-}
-
-//------------------------------------------------------------------------------
 int vtkRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -508,6 +442,9 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   this->WarnOfModes();
+  const meniscus::RefractionScene::Loan loan(this->Internals->Scene, membrane,
+    this->MembraneModel == CURVED, this->GetExactMembrane(), this->GetEyeAndIndices(),
+    this->Mode == REFLECTION);
   if (!this->UpdateMembrane(membrane))
   {
     return 1;
@@ -523,6 +460,8 @@ int vtkRefractedGeometryFilter::RequestData(
   block.StackUpdate = -1; // the vertices become those of one interface
   this->Internals->Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
+  // While images change in every frame, their assembly is not kept for the next one.
+  const bool isKept = all && this->Internals->AreCellsReady(this, block);
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
@@ -533,10 +472,11 @@ int vtkRefractedGeometryFilter::RequestData(
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input,
         block.Selection.IsActive ? block.Selected : block.Topology, *block.Images, block.Cells,
-        surface, options, output)
+        surface, options, block.Assembly, output)
     : meniscus::BuildVirtualPolyData(
         input, block.Vertices, block.Selection, surface, options, output);
-  block.Kept.Reuse(output);
+  block.Kept.Reuse(output, isKept ? block.Assembly.Geometry.Get() : nullptr);
+  block.Assembly.IsReady = isKept;
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
@@ -572,9 +512,9 @@ void vtkRefractedGeometryFilter::ReportPoints(
     vtkWarningMacro(<< failed << " of " << points
                     << " points are not finite, or too far away to be solved; they have no image.");
   }
-  if (points > failed && !hasImage && internals.WarnedOfNoImage != this->GetNumberOfPatchBuilds())
+  if (points > failed && !hasImage && internals.WarnedOfNoImage != internals.GetShapes())
   {
-    internals.WarnedOfNoImage = this->GetNumberOfPatchBuilds();
+    internals.WarnedOfNoImage = internals.GetShapes();
     vtkWarningMacro("None of the "
       << points << " points has an image. Is the eye on the side that the membrane's normals point "
       << "to, and are geometry (port 0) and membrane (port 1) at the right ports?");
@@ -608,10 +548,10 @@ void vtkRefractedGeometryFilter::ReportCells(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::ReportUndecided(vtkTypeInt64 searches)
 {
-  vtkTypeInt64& warned = this->Internals->WarnedOfUndecided;
-  if (searches > 0 && warned != this->GetNumberOfPatchBuilds())
+  vtkInternals& internals = *this->Internals;
+  if (searches > 0 && internals.WarnedOfUndecided != internals.GetShapes())
   {
-    warned = this->GetNumberOfPatchBuilds();
+    internals.WarnedOfUndecided = internals.GetShapes();
     vtkWarningMacro(<< searches << " searches for images, or for the side of a point, ended "
                     << "undecided: at a focus, or within rounding of the membrane. Images may be "
                     << "missing there.");
@@ -665,15 +605,20 @@ void vtkRefractedGeometryFilter::GetEye(double position[3])
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateEye()
+std::array<double, 5> vtkRefractedGeometryFilter::GetEyeAndIndices()
 {
   double position[3];
   this->GetEye(position);
+  return { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
+    this->GetInteriorIndexOfRefraction() };
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateEye()
+{
   meniscus::SceneMessages messages;
-  const bool ready = this->Internals->Scene.SetEye(
-    { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
-      this->GetInteriorIndexOfRefraction() },
-    messages, this->Mode == REFLECTION);
+  const bool ready =
+    this->Internals->Scene.SetEye(this->GetEyeAndIndices(), messages, this->Mode == REFLECTION);
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");

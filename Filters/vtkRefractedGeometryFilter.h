@@ -98,6 +98,7 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For the camera
 
+#include <array>  // For std::array
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
@@ -414,6 +415,9 @@ public:
    * exist. Undecided searches looked for all images of a point, or for its side, and may have
    * missed some: at a focus, which shows a ring of images, or within rounding of a caustic or of
    * the membrane. They are counted each time, with one warning per shape of the membrane.
+   *
+   * Filters with the same membrane object, exact surface, eye, indices and mode share its shape and
+   * its rays. The filter that runs first after a change computes and counts them.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
@@ -475,6 +479,7 @@ private:
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
+  std::array<double, 5> GetEyeAndIndices();
   void GetEye(double position[3]);
   void ReportCells(const meniscus::VirtualPolyDataReport& report, vtkPolyData* input);
   std::string FindUnsupported();

@@ -12,6 +12,7 @@
 #include "Filters/Solver/SolvedBlock.h"
 
 #include <list>
+#include <utility>
 
 /** Scenes, solved blocks and counters of a filter. */
 class vtkRefractedGeometryFilter::vtkInternals
@@ -21,6 +22,7 @@ public:
   void UpdateView(vtkRefractedGeometryFilter* self);
   void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
   bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool AreCellsReady(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const;
   bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
   bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
@@ -31,6 +33,12 @@ public:
   bool SolveAllOfStack(
     vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
   meniscus::OutputOptions GetStackOptions(vtkRefractedGeometryFilter* self) const;
+  /** Numbers of the current shapes, of one interface and of several ones. */
+  using ShapeNumbers = std::pair<vtkTypeInt64, vtkTypeInt64>;
+  ShapeNumbers GetShapes() const
+  {
+    return { this->Scene.GetVersion().Shape, this->Stack.GetNumberOfPatchBuilds() };
+  }
 
   meniscus::RefractionScene Scene; ///< of one interface
   meniscus::StackScene Stack;      ///< of several ones
@@ -46,9 +54,9 @@ public:
   vtkMTimeType ViewTime = 0;
   vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
-  // Numbers of the membrane's builds at the last warning of each kind.
-  vtkTypeInt64 WarnedOfNoImage = -1;
-  vtkTypeInt64 WarnedOfUndecided = -1;
+  // Shapes of the last warning of each kind.
+  ShapeNumbers WarnedOfNoImage{ -1, -1 };
+  ShapeNumbers WarnedOfUndecided{ -1, -1 };
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
   bool WarnedOfParallelProjection = false;

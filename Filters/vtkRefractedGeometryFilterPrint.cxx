@@ -1,10 +1,85 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Settings and counters of vtkRefractedGeometryFilter in words.
-#include "vtkRefractedGeometryFilter.h"
+#include "Filters/vtkRefractedGeometryFilterInternals.h"
 
 #include "vtkCamera.h"
 #include "vtkImplicitFunction.h"
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
+{
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
+{
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::IsEyeEnclosed() const
+{
+  return this->Internals->Scene.IsEyeEnclosed();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfMembranePointsBehind() const
+{
+  return this->Internals->Scene.GetNumberOfMembranePointsBehind();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
+{
+  return this->Internals->SolvedVertices;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
+{
+  return this->Internals->FailedSolves;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
+{
+  return this->Internals->Scene.GetNumberOfUndecided() +
+    this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
+{
+  return this->Internals->VerticesWithoutImage;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
+{
+  return this->Internals->SkippedCells;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledVertices() const
+{
+  return this->Internals->CulledVertices;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
+{
+  return this->Internals->CulledCells;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
+{
+  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetNumberOfSkippedFacets());
+}
 
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -75,9 +75,10 @@ int vtkRefractedGeometryFilter::RequestStack(
   meniscus::OutputOptions plain = options;
   plain.VirtualNormals = false;
   const meniscus::Membrane& first = scene.GetFirstMembrane();
+  block.Assembly.IsReady = false;
   const meniscus::VirtualPolyDataReport report = all
-    ? meniscus::BuildImagePolyData(
-        input, block.Topology, *block.ImagesOfStack, block.Cells, first, plain, output)
+    ? meniscus::BuildImagePolyData(input, block.Topology, *block.ImagesOfStack, block.Cells, first,
+        plain, block.Assembly, output)
     : meniscus::BuildVirtualPolyData(input, block.Vertices, block.Selection, first, plain, output);
   if (all)
   {

@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <vector>
 
 namespace meniscus
@@ -38,6 +40,16 @@ constexpr int PictureFrames = 10;
 // Other waves, lower by one part in two million. If their points were equal, the filters would keep
 // their results.
 constexpr double OtherTime = 1e-3;
+
+// Settings that are tried, the coarsest first.
+constexpr int CoarseCells[] = { 8, 12, 16, 24, 32, 48, 64, PictureCells };
+constexpr double CoarseTolerances[] = { 0.08, 0.06, 0.04, 0.03, 0.02, 0.015, 0.01, 0.005 };
+constexpr int TriedFrames = 3;
+
+std::string NameFacets(int cells)
+{
+  return std::to_string(2 * cells * cells) + " facets";
+}
 
 testing::PoolOptics Everything()
 {
@@ -140,10 +152,10 @@ private:
   std::vector<std::uint32_t> First; ///< triangle of each part
 };
 
-TracedMesh WaterOf(const reference::HeightField& field)
+TracedMesh WaterOf(const reference::HeightField& field, int cells)
 {
   TracedMesh water;
-  const reference::MembraneMesh mesh = field.MakeMesh(PictureCells);
+  const reference::MembraneMesh mesh = field.MakeMesh(cells);
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
     water.AddPoint(mesh.Points.data() + i);
@@ -154,13 +166,13 @@ TracedMesh WaterOf(const reference::HeightField& field)
   return water;
 }
 
-void TraceWithEmbree(
-  const testing::PoolScene& scene, const testing::PoolPicture& truth, PoolPictures& result)
+PoolFigures TraceWithEmbree(
+  const testing::PoolScene& scene, const testing::PoolPicture& truth, int cells, int frames)
 {
   const PoolShader shader(scene);
   reference::HeightField other = scene.MakeField();
   other.Amplitude *= std::cos(OtherTime);
-  const TracedMesh water[2] = { WaterOf(scene.MakeField()), WaterOf(other) };
+  const TracedMesh water[2] = { WaterOf(scene.MakeField(), cells), WaterOf(other, cells) };
   RefractionTracer tracer;
   tracer.SetIndices(scene.MakeField().Exterior, scene.MakeField().Interior);
   tracer.SetMembrane(water[0]);
@@ -170,7 +182,7 @@ void TraceWithEmbree(
     camera.GetPixels() };
   std::vector<unsigned char> picture(4 * truth.Colors.size());
   std::vector<Seconds> times;
-  for (int i = 0; i < PictureFrames; ++i)
+  for (int i = 0; i < frames; ++i)
   {
     times.push_back(TimeOnce(
       [&]
@@ -179,12 +191,80 @@ void TraceWithEmbree(
         tracer.Trace(view, shader, picture.data());
       }));
   }
-  result.HasTraced = true;
-  result.TracedMs = 1e3 * MedianOf(times).Wall;
-  result.TracedPercent = PercentOff(ToColors(picture, 4), truth);
+  const Seconds frame = MedianOf(times);
+  return { NameFacets(cells), PercentOff(ToColors(picture, 4), truth), 1e3 * frame.Wall,
+    1e3 * frame.Cpu };
+}
+
+PoolFigures FindCoarsestTraced(const testing::PoolScene& scene, const testing::PoolPicture& truth)
+{
+  for (const int cells : CoarseCells)
+  {
+    if (TraceWithEmbree(scene, truth, cells, 2).Percent <= PoolPictures::AcceptedPercent)
+    {
+      return TraceWithEmbree(scene, truth, cells, PictureFrames);
+    }
+  }
+  return {};
 }
 
 #endif
+
+PoolFigures DrawWithPass(testing::PoolScene& scene, const testing::PoolPicture& truth, int frames)
+{
+  PoolFigures result;
+  std::vector<Seconds> times;
+  test::ByteImage drawn;
+  for (int i = 0; i < frames; ++i)
+  {
+    scene.MoveWater(i % 2 ? 0.0 : OtherTime);
+    times.push_back(TimeOnce([&] { drawn = scene.Draw(); }));
+  }
+  const Seconds frame = MedianOf(times);
+  result.Ms = 1e3 * frame.Wall;
+  result.CpuMs = 1e3 * frame.Cpu;
+  result.Percent = PercentOff(ToColors(drawn.Rgb, 3), truth);
+  return result;
+}
+
+PoolFigures DrawCoarsely(const testing::PoolPicture& truth, int cells, double tolerance, int frames)
+{
+  testing::PoolScene scene(cells);
+  scene.SetOptics(Everything());
+  scene.SetAccuracy(true, tolerance);
+  PoolFigures result = DrawWithPass(scene, truth, frames);
+  std::ostringstream text;
+  text << NameFacets(cells) << ", tolerance " << tolerance << " degrees";
+  result.SetUp = text.str();
+  return result;
+}
+
+// The cheapest of several tolerances, each with the coarsest membrane that reaches the error.
+PoolFigures FindCoarsestPass(const testing::PoolPicture& truth)
+{
+  double least = std::numeric_limits<double>::max();
+  int chosen = PictureCells;
+  double chosenTolerance = CoarseTolerances[0];
+  for (const double tolerance : CoarseTolerances)
+  {
+    for (const int cells : CoarseCells)
+    {
+      if (DrawCoarsely(truth, cells, tolerance, 2).Percent > PoolPictures::AcceptedPercent)
+      {
+        continue;
+      }
+      const double ms = DrawCoarsely(truth, cells, tolerance, TriedFrames).CpuMs;
+      if (ms < least)
+      {
+        least = ms;
+        chosen = cells;
+        chosenTolerance = tolerance;
+      }
+      break;
+    }
+  }
+  return DrawCoarsely(truth, chosen, chosenTolerance, PictureFrames);
+}
 
 } // anonymous namespace
 
@@ -232,17 +312,13 @@ PoolPictures ComparePool()
   scene.SetOptics(Everything());
   const testing::PoolPicture truth = scene.Trace();
   PoolPictures result;
-  std::vector<Seconds> times;
-  test::ByteImage drawn;
-  for (int i = 0; i < PictureFrames; ++i)
-  {
-    scene.MoveWater(i % 2 ? 0.0 : OtherTime);
-    times.push_back(TimeOnce([&] { drawn = scene.Draw(); }));
-  }
-  result.PassMs = 1e3 * MedianOf(times).Wall;
-  result.PassPercent = PercentOff(ToColors(drawn.Rgb, 3), truth);
+  result.Pass = DrawWithPass(scene, truth, PictureFrames);
+  result.Pass.SetUp = NameFacets(PictureCells) + ", default tolerance";
+  result.CoarsePass = FindCoarsestPass(truth);
 #ifdef MENISCUS_HAS_EMBREE
-  TraceWithEmbree(scene, truth, result);
+  result.HasTraced = true;
+  result.Traced = TraceWithEmbree(scene, truth, PictureCells, PictureFrames);
+  result.CoarseTraced = FindCoarsestTraced(scene, truth);
 #endif
   return result;
 }

@@ -23,17 +23,27 @@ struct PassFrames
 };
 std::vector<PassFrames> MeasurePass();
 
+/** One way to draw the pool with textures, Fresnel, a sky and attenuation, with new waves. */
+struct PoolFigures
+{
+  std::string SetUp;
+  double Percent = 0.0; ///< pixels of the water off by more than 8/255, against the exact waves
+  double Ms = 0.0;      ///< time of a frame
+  double CpuMs = 0.0;   ///< processor time of a frame
+};
+
 /**
- * Percentage of the water's pixels that differ by more than 8/255 from rays through the exact
- * waves, and the time of an image: by the pass, and by an Embree tracer with the same textures,
- * Fresnel, sky and attenuation.
+ * The pool by the pass and by an Embree tracer: with a fine membrane and the default tolerance, and
+ * each with the cheapest settings whose error is below `AcceptedPercent`.
  */
 struct PoolPictures
 {
-  double PassPercent = 0.0;
-  double PassMs = 0.0;
-  double TracedPercent = 0.0;
-  double TracedMs = 0.0;
+  static constexpr double AcceptedPercent = 0.1;
+
+  PoolFigures Pass;
+  PoolFigures Traced;
+  PoolFigures CoarsePass;
+  PoolFigures CoarseTraced;
   bool HasTraced = false; ///< built with Embree
 };
 PoolPictures ComparePool();

@@ -230,11 +230,17 @@ private:
   static std::string MakePool()
   {
     const PoolPictures pictures = ComparePool();
-    return "pass " + MakeNumber(pictures.PassPercent, 2) + " % in " +
-      MakeNumber(pictures.PassMs, 3) + " ms, new waves; " +
-      (pictures.HasTraced ? "Embree " + MakeNumber(pictures.TracedPercent, 2) + " % in " +
-            MakeNumber(pictures.TracedMs, 3) + " ms"
-                          : std::string("built without Embree"));
+    const auto describe = [](const char* name, const PoolFigures& figures)
+    {
+      return name + (", " + figures.SetUp) + ": " + MakeNumber(figures.Percent, 2) + " % in " +
+        MakeNumber(figures.Ms, 3) + " ms (" + MakeNumber(figures.CpuMs, 3) + " ms CPU)";
+    };
+    return "new waves. Default tolerance: " + describe("pass", pictures.Pass) +
+      (pictures.HasTraced ? "; " + describe("Embree", pictures.Traced) : "") +
+      ". Coarsest settings below " + MakeNumber(PoolPictures::AcceptedPercent) +
+      " %: " + describe("pass", pictures.CoarsePass) +
+      (pictures.HasTraced ? "; " + describe("Embree", pictures.CoarseTraced)
+                          : std::string("; built without Embree"));
   }
 
   static std::string GetRaces()

@@ -19,71 +19,127 @@
 namespace meniscus
 {
 
+namespace
+{
+
+MembraneOrigin MakeOrigin(vtkPolyData* membrane, bool curved, vtkImplicitFunction* function)
+{
+  return { membrane, GetMembraneTime(membrane), function, function ? function->GetMTime() : 0,
+    curved };
+}
+
+}
+
+//------------------------------------------------------------------------------
+RefractionScene::RefractionScene()
+  : Prepared(std::make_shared<PreparedMembrane>())
+{
+}
+
+//------------------------------------------------------------------------------
+RefractionScene::Loan::Loan(RefractionScene& scene, vtkPolyData* membrane, bool curved,
+  vtkImplicitFunction* function, const Eye& eye, bool reflects)
+  : Scene(scene)
+{
+  scene.Prepared = BorrowMembrane(
+    scene.Prepared, scene.Version, MakeOrigin(membrane, curved, function), { eye, reflects });
+  scene.HasLoan = true;
+  scene.UndecidedBefore = scene.CountUndecided();
+}
+
+//------------------------------------------------------------------------------
+RefractionScene::Loan::~Loan()
+{
+  this->Scene.Undecided = this->Scene.GetNumberOfUndecided();
+  this->Scene.HasLoan = false;
+  ReturnMembrane(*this->Scene.Prepared);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 RefractionScene::CountUndecided() const
+{
+  const CurvedMembraneSolver& solver = this->Prepared->Curved;
+  return solver.GetNumberOfUndecidedSearches() + solver.GetNumberOfUndecidedSides();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 RefractionScene::GetNumberOfUndecided() const
+{
+  return this->Undecided + (this->HasLoan ? this->CountUndecided() - this->UndecidedBefore : 0);
+}
+
 //------------------------------------------------------------------------------
 bool RefractionScene::SetMembrane(
   vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
 {
-  const vtkMTimeType membraneTime = GetMembraneTime(membrane);
-  const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
-  const bool known = this->MembraneReady && this->Curves == curved;
-  if (known && this->MembraneSource == membrane && this->MembraneTime == membraneTime &&
-    this->Function == function && this->FunctionTime == functionTime)
+  PreparedMembrane& prepared = *this->Prepared;
+  const MembraneOrigin origin = MakeOrigin(membrane, curved, function);
+  const bool known = prepared.HasShape && prepared.Origin.Curves == curved;
+  if (!known || !(prepared.Origin == origin))
+  {
+    MembraneArrays arrays = ExtractMembrane(membrane);
+    const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
+    const bool isOfOtherModel = prepared.Origin.Curves != curved;
+    prepared.Origin = origin;
+    if (!known || !(arrays == prepared.Arrays))
+    {
+      if (isOfOtherModel)
+      {
+        prepared.Flat = FlatMembraneSolver();
+        prepared.Curved.Clear();
+      }
+      prepared.Arrays = std::move(arrays);
+      prepared.Lost = lost;
+      const MembraneInput input = prepared.Arrays.AsInput();
+      prepared.Status =
+        curved ? prepared.Curved.SetMembrane(input, FacetLoop) : prepared.Flat.SetMembrane(input);
+      prepared.HasShape = prepared.Status == MembraneStatus::Ready;
+      prepared.HasRays = false;
+      prepared.Version.Shape = MembraneVersion::MakeNumber();
+      ++this->PatchBuilds;
+    }
+  }
+  if (this->Version.Shape == prepared.Version.Shape)
   {
     return true;
   }
-  MembraneArrays arrays = ExtractMembrane(membrane);
-  const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
-  this->MembraneSource = membrane;
-  this->MembraneTime = membraneTime;
-  this->Function = function;
-  this->FunctionTime = functionTime;
-  if (known && arrays == this->Arrays)
-  {
-    return true;
-  }
-  this->Arrays = std::move(arrays);
-  const MembraneStatus status = this->BuildMembrane(curved);
-  this->MembraneReady = status == MembraneStatus::Ready;
-  ++this->PatchBuilds;
-  return ReportMembrane(status, this->GetMembrane().GetReport(), this->Arrays, lost, messages);
-}
-
-//------------------------------------------------------------------------------
-MembraneStatus RefractionScene::BuildMembrane(bool curved)
-{
-  if (curved != this->Curves)
-  {
-    this->Flat = FlatMembraneSolver();
-    this->Curved.Clear();
-    this->Curves = curved;
-  }
-  const MembraneInput input = this->Arrays.AsInput();
-  return curved ? this->Curved.SetMembrane(input, FacetLoop) : this->Flat.SetMembrane(input);
+  this->Version.Shape = prepared.Version.Shape;
+  this->SkippedFacets = prepared.GetMembrane().GetReport().Skipped();
+  return ReportMembrane(
+    prepared.Status, prepared.GetMembrane().GetReport(), prepared.Arrays, prepared.Lost, messages);
 }
 
 //------------------------------------------------------------------------------
 bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages, bool reflects)
 {
-  if (eye == this->Key.Values && this->PatchBuilds == this->Key.MembraneBuild &&
-    reflects == this->Key.Reflects)
+  PreparedMembrane& prepared = *this->Prepared;
+  const MembraneView view{ eye, reflects };
+  if (!prepared.HasRays || !(prepared.View == view))
   {
-    return true;
-  }
-  this->Key = EyeKey(); // stale until the update succeeds
-  const glm::dvec3 position(eye[0], eye[1], eye[2]);
-  const EyeStatus status = this->Curves
-    ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop, reflects)
-    : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
-  if (status == EyeStatus::Ready)
-  {
-    this->Key = { eye, this->PatchBuilds, reflects };
+    prepared.HasRays = false; // stale until the update succeeds
+    this->View = MembraneView();
+    const glm::dvec3 position(eye[0], eye[1], eye[2]);
+    const EyeStatus status = prepared.Origin.Curves
+      ? prepared.Curved.SetEye(position, eye[3], eye[4], FacetLoop, reflects)
+      : prepared.Flat.SetEye(position, eye[3], eye[4], FacetLoop);
+    if (status != EyeStatus::Ready)
+    {
+      messages.Error = status == EyeStatus::BadIndex ? DescribeBadIndices(eye[3], eye[4])
+                                                     : DescribeBadEye(status, position);
+      return false;
+    }
+    prepared.View = view;
+    prepared.HasRays = true;
+    prepared.Version.Rays = MembraneVersion::MakeNumber();
     ++this->EyeUpdates;
-    this->ReportEye(messages);
-    return true;
   }
-  messages.Error = status == EyeStatus::BadIndex ? DescribeBadIndices(eye[3], eye[4])
-                                                 : DescribeBadEye(status, position);
-  return false;
+  if (this->Version.Rays != prepared.Version.Rays)
+  {
+    this->Version.Rays = prepared.Version.Rays;
+    this->View = view;
+    this->ReportEye(messages);
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -92,11 +148,13 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   // The test takes a few microseconds per point. Two sheets one behind the other overlap in many
   // consecutive points.
   constexpr std::size_t mostPoints = 256;
-  const bool isEnclosed = this->Curves && this->Curved.IsClosed() && !this->Curved.FacesEye();
-  const bool reflects = this->Key.Reflects;
+  const bool isCurved = this->IsCurved();
+  const CurvedMembraneSolver& curved = this->GetCurved();
+  const bool isEnclosed = isCurved && curved.IsClosed() && !curved.FacesEye();
+  const bool reflects = this->View.Reflects;
   const auto behind = static_cast<vtkTypeInt64>(
-    this->Curves && !reflects ? this->Curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
-  const bool isNew = this->EyeReportOf != this->PatchBuilds;
+    isCurved && !reflects ? curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
+  const bool isNew = this->EyeReportOf != this->Version.Shape;
   std::ostringstream text;
   if (isEnclosed && (isNew || !this->EyeEnclosed))
   {
@@ -114,7 +172,7 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   }
   this->EyeEnclosed = isEnclosed;
   this->PointsBehind = behind;
-  this->EyeReportOf = this->PatchBuilds;
+  this->EyeReportOf = this->Version.Shape;
   messages.Warning = text.str();
 }
 
@@ -126,26 +184,39 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
   // Rounding of a sum of three products of coordinates, with planes that are computed from two
   // matrices.
   constexpr double rounding = 1e-12;
+  const auto getBulge = [this](std::size_t facet)
+  {
+    return this->IsCurved()
+      ? BoundBulge(this->GetCurved().GetPatches().GetPatch(static_cast<std::int32_t>(facet)))
+      : 0.0;
+  };
+  std::vector<double> reaches;
+  std::vector<double> heights; // above all planes, vertex by vertex
+  for (const glm::dvec3& position : membrane.GetPositions())
+  {
+    const glm::dvec3 point = position + membrane.GetOrigin();
+    reaches.push_back(glm::length(point));
+    for (const ViewPlane& plane : planes)
+    {
+      heights.push_back(glm::dot(plane.Normal, point) + plane.Offset);
+    }
+  }
   std::vector<bool> inView(facets.size(), true);
   bool any = false;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    const double bulge = this->Curves
-      ? BoundBulge(this->Curved.GetPatches().GetPatch(static_cast<std::int32_t>(i)))
-      : 0.0;
-    for (const ViewPlane& plane : planes)
+    for (std::size_t k = 0; k < planes.size() && inView[i]; ++k)
     {
       double most = std::numeric_limits<double>::lowest();
-      double reach = std::fabs(plane.Offset);
+      double reach = std::fabs(planes[k].Offset);
       for (const std::int32_t vertex : facets[i])
       {
-        const glm::dvec3 point =
-          membrane.GetPositions()[static_cast<std::size_t>(vertex)] + membrane.GetOrigin();
-        most = std::max(most, glm::dot(plane.Normal, point) + plane.Offset);
-        reach = std::max(reach, glm::length(point));
+        const auto v = static_cast<std::size_t>(vertex);
+        most = std::max(most, heights[v * planes.size() + k]);
+        reach = std::max(reach, reaches[v]);
       }
       // With NaN nothing is known, so the facet counts as in view.
-      inView[i] = inView[i] && !(most < -bulge - rounding * reach);
+      inView[i] = !(most < -rounding * reach && most < -getBulge(i) - rounding * reach);
     }
     any = any || !inView[i];
   }
@@ -160,12 +231,12 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
 //------------------------------------------------------------------------------
 bool RefractionScene::MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const
 {
-  if (this->Curves)
+  if (this->IsCurved())
   {
-    return this->Curved.MayShow(low, high, this->FacetsInView);
+    return this->GetCurved().MayShow(low, high, this->FacetsInView);
   }
   const glm::dvec3 half = 0.5 * high - 0.5 * low;
-  return this->Flat.MayShow(
+  return this->GetFlat().MayShow(
     0.5 * low + 0.5 * high, std::max({ half.x, half.y, half.z }), this->FacetsInView);
 }
 
@@ -173,13 +244,13 @@ bool RefractionScene::MayBeInView(const glm::dvec3& low, const glm::dvec3& high)
 void RefractionScene::Solve(
   const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const
 {
-  if (this->Curves)
+  if (this->IsCurved())
   {
-    this->Curved.Solve(points, from, to, vertices);
+    this->GetCurved().Solve(points, from, to, vertices);
   }
   else
   {
-    this->Flat.Solve(points, from, to, vertices);
+    this->GetFlat().Solve(points, from, to, vertices);
   }
 }
 

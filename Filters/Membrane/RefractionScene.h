@@ -4,14 +4,12 @@
 #define meniscus_Filters_Membrane_RefractionScene_h
 
 #include "Filters/Membrane/MembraneMessages.h"
-#include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Filters/Membrane/PreparedMembrane.h"
 
 #include "vtkType.h"
-#include "vtkWeakPointer.h"
 
-#include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 class vtkImplicitFunction;
@@ -30,7 +28,8 @@ struct ViewPlane
 /**
  * A membrane, an eye and two media: the state that all filters of refraction share. The kernel's
  * geometry is kept as long as the underlying values do not change, whatever the modification times
- * are.
+ * are. Scenes that are set while a Loan exists have one membrane together if their values are the
+ * same; others have their own.
  */
 class RefractionScene
 {
@@ -40,6 +39,28 @@ public:
    * refraction.
    */
   using Eye = std::array<double, 5>;
+
+  RefractionScene();
+  RefractionScene(const RefractionScene&) = delete;
+  RefractionScene& operator=(const RefractionScene&) = delete;
+
+  /**
+   * Use of a membrane that other scenes may have prepared, see BorrowMembrane(). Call SetMembrane()
+   * and SetEye() with the same values afterwards. The scene must not solve, nor return its solvers,
+   * without a loan from then on.
+   */
+  class Loan
+  {
+  public:
+    Loan(RefractionScene& scene, vtkPolyData* membrane, bool curved, vtkImplicitFunction* function,
+      const Eye& eye, bool reflects);
+    ~Loan();
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+
+  private:
+    RefractionScene& Scene;
+  };
 
   /**
    * Sets the membrane; with a function, its points are moved onto the function's zero set. Returns
@@ -56,7 +77,7 @@ public:
    */
   bool SetEye(const Eye& eye, SceneMessages& messages, bool reflects = false);
 
-  const Eye& GetEye() const { return this->Key.Values; }
+  const Eye& GetEye() const { return this->View.Eye; }
 
   /** Computes one image of each point (x, y, z each) in [from, to). */
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
@@ -71,53 +92,47 @@ public:
   /** True if a part of the box may be seen through a facet in view, or without the membrane. */
   bool MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const;
 
-  bool IsCurved() const { return this->Curves; }
-  const Membrane& GetMembrane() const
-  {
-    return this->Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
-  }
+  bool IsCurved() const { return this->Prepared->Origin.Curves; }
+  const Membrane& GetMembrane() const { return this->Prepared->GetMembrane(); }
   /** Solver that holds the membrane if IsCurved is true; otherwise it is empty. */
-  CurvedMembraneSolver& GetCurved() { return this->Curved; }
-  const CurvedMembraneSolver& GetCurved() const { return this->Curved; }
-  const FlatMembraneSolver& GetFlat() const { return this->Flat; }
+  CurvedMembraneSolver& GetCurved() { return this->Prepared->Curved; }
+  const CurvedMembraneSolver& GetCurved() const { return this->Prepared->Curved; }
+  const FlatMembraneSolver& GetFlat() const { return this->Prepared->Flat; }
 
+  /** Numbers that change with the shape, and with the rays, whichever scene prepares them. */
+  const MembraneVersion& GetVersion() const { return this->Version; }
+  /** Counters of the shapes and rays that this scene has prepared. */
   vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
   /** Results for the current eye and curved membrane. */
   bool IsEyeEnclosed() const { return this->EyeEnclosed; }
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const { return this->PointsBehind; }
 
+  /** Number of the membrane's triangles that were skipped. */
+  std::size_t GetNumberOfSkippedFacets() const { return this->SkippedFacets; }
+  /** Number of this scene's searches and sides that were undecided. */
+  vtkTypeInt64 GetNumberOfUndecided() const;
+
 private:
-  /** Values on which the refracted rays depend. */
-  struct EyeKey
-  {
-    Eye Values{};
-    vtkTypeInt64 MembraneBuild = -1;
-    bool Reflects = false;
-  };
-
-  MembraneStatus BuildMembrane(bool curved);
   void ReportEye(SceneMessages& messages);
+  /** The solver's count, to which all of its users add. */
+  vtkTypeInt64 CountUndecided() const;
 
-  FlatMembraneSolver Flat;
-  CurvedMembraneSolver Curved;
-  bool Curves = false;
-
-  vtkWeakPointer<vtkPolyData> MembraneSource;
-  vtkMTimeType MembraneTime = 0;
-  vtkImplicitFunction* Function = nullptr; ///< used for comparison only
-  vtkMTimeType FunctionTime = 0;
-  MembraneArrays Arrays;
-  bool MembraneReady = false;
-  EyeKey Key;
+  std::shared_ptr<PreparedMembrane> Prepared;
+  MembraneVersion Version; ///< of the membrane when this scene used it last
+  MembraneView View;
   std::vector<bool> FacetsInView;
   vtkTypeInt64 ViewChange = 0;
 
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;
+  std::size_t SkippedFacets = 0;
+  bool HasLoan = false;
+  vtkTypeInt64 Undecided = 0;       ///< until the last loan
+  vtkTypeInt64 UndecidedBefore = 0; ///< count of the solver at the beginning of the loan
   bool EyeEnclosed = false;
   vtkTypeInt64 PointsBehind = 0;
-  vtkTypeInt64 EyeReportOf = -1; ///< build number of the membrane for which the warnings were given
+  vtkTypeInt64 EyeReportOf = -1; ///< number of the shape for which the warnings were given
 };
 
 }

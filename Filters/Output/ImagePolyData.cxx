@@ -121,45 +121,73 @@ class Builder
 {
 public:
   Builder(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
-    const AllImages& cells, const Membrane& membrane, vtkPolyData* output)
+    const AllImages& cells, ImageAssembly& assembly, vtkPolyData* output)
     : Input(input)
     , Topology(topology)
     , Images(images)
     , Cells(cells)
-    , Surface(membrane)
+    , Assembly(assembly)
     , Output(output)
   {
   }
 
-  VirtualPolyDataReport Run(const OutputOptions& options)
+  /** Makes all that does not depend on arrays of the input. */
+  void Assemble(const Membrane& membrane, const OutputOptions& options)
   {
-    this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
-    this->ListPointsWithoutImage();
+    this->Assembly.Points.clear();
+    this->Assembly.Origins.clear();
+    this->Assembly.PointSources.clear();
+    this->Assembly.CellSources.clear();
+    this->Assembly.Report = VirtualPolyDataReport();
     this->TakePoints(this->Images.GetPointImages());
     const vtkIdType firstOfLines = this->TakePoints(this->Cells.Lines.Points);
     const vtkIdType firstOfPolygons = this->TakePoints(this->Cells.Polygons.Points);
-    this->MakeVertices();
-    this->MakeCells(this->Cells.WholeLines, this->Cells.Lines, firstOfLines, false, this->Lines);
-    this->MakeCells(this->Cells.WholePolygons, this->Cells.Polygons, firstOfPolygons,
-      options.Reflects, this->Polygons);
-    this->Output->SetVerts(this->Vertices);
-    this->Output->SetLines(this->Lines);
-    this->Output->SetPolys(this->Polygons);
+    vtkPolyData* geometry = this->Assembly.Geometry;
+    geometry->Initialize();
+    std::vector<signed char> orientations;
+    vtkNew<vtkCellArray> vertices;
+    this->MakeVertices(vertices, orientations);
+    vtkNew<vtkCellArray> lines;
+    this->AddCells(this->Cells.WholeLines, 0, false, lines, orientations);
+    this->AddCells(this->Cells.Lines, firstOfLines, false, lines, orientations);
+    vtkNew<vtkCellArray> polygons;
+    this->AddCells(this->Cells.WholePolygons, 0, options.Reflects, polygons, orientations);
+    this->AddCells(this->Cells.Polygons, firstOfPolygons, options.Reflects, polygons, orientations);
+    geometry->SetVerts(vertices);
+    geometry->SetLines(lines);
+    geometry->SetPolys(polygons);
+    MakePoints(
+      this->Input, this->Assembly.Points, this->Assembly.PointSources, membrane, options, geometry);
+    MakeCellArrays(this->Assembly.CellSources, orientations, geometry);
+    this->Assembly.Report.BrokenCells = this->Topology.BrokenCells;
+    this->Assembly.Report.SkippedCells += this->Cells.CellsWithoutImage;
+    this->Assembly.Options = options;
+    this->Assembly.IsReady = true;
+  }
 
-    this->InterpolatePointArrays();
-    MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
+  VirtualPolyDataReport Run()
+  {
+    vtkPolyData* geometry = this->Assembly.Geometry;
+    const OutputOptions& options = this->Assembly.Options;
+    this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
+    this->ListPointsWithoutImage();
+    this->Output->SetPoints(geometry->GetPoints());
+    this->Output->SetVerts(geometry->GetVerts());
+    this->Output->SetLines(geometry->GetLines());
+    this->Output->SetPolys(geometry->GetPolys());
+    VirtualPolyDataReport report = this->Assembly.Report;
+    this->InterpolatePointArrays(report);
+    AddArrays(geometry->GetPointData(), this->Output->GetPointData());
     if (NeedsTruePoints(options))
     {
-      UseTruePoints(this->Points, this->FindTruePoints(), options, this->Output);
+      UseTruePoints(this->Assembly.Points, this->FindTruePoints(), options, this->Output);
     }
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType cells = this->Input->GetNumberOfCells();
-    this->Report.ArraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
-    CopyTuples(fitting, cells, this->CellSources, this->Output->GetCellData());
-    MakeCellArrays(this->CellSources, this->Orientations, this->Output);
-    this->Report.BrokenCells = this->Topology.BrokenCells;
-    this->Report.SkippedCells += this->Cells.CellsWithoutImage;
-    return this->Report;
+    report.ArraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
+    CopyTuples(fitting, cells, this->Assembly.CellSources, this->Output->GetCellData());
+    AddArrays(geometry->GetCellData(), this->Output->GetCellData());
+    return report;
   }
 
 private:
@@ -178,21 +206,30 @@ private:
     this->Output->GetFieldData()->AddArray(without);
   }
 
+  static void AddArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to)
+  {
+    for (int k = 0; k < from->GetNumberOfArrays(); ++k)
+    {
+      to->AddArray(from->GetAbstractArray(k));
+    }
+  }
+
   // Returns the index of the first one.
   vtkIdType TakePoints(const std::vector<ImagePoint>& points)
   {
-    const std::size_t first = this->Points.size();
-    this->Points.resize(first + points.size());
-    this->PointSources.resize(first + points.size());
-    this->Origins.resize(first + points.size());
+    ImageAssembly& assembly = this->Assembly;
+    const std::size_t first = assembly.Points.size();
+    assembly.Points.resize(first + points.size());
+    assembly.PointSources.resize(first + points.size());
+    assembly.Origins.resize(first + points.size());
     PointLoop(points.size(),
-      [this, &points, first](std::size_t begin, std::size_t end)
+      [&assembly, &points, first](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->Points[first + i] = &points[i].Vertex;
-          this->PointSources[first + i] = points[i].GetSource();
-          this->Origins[first + i] = &points[i];
+          assembly.Points[first + i] = &points[i].Vertex;
+          assembly.PointSources[first + i] = points[i].GetSource();
+          assembly.Origins[first + i] = &points[i];
         }
       });
     return static_cast<vtkIdType>(first);
@@ -201,8 +238,8 @@ private:
   std::vector<glm::dvec3> FindTruePoints() const
   {
     std::vector<glm::dvec3> points;
-    points.reserve(this->Origins.size());
-    for (const ImagePoint* origin : this->Origins)
+    points.reserve(this->Assembly.Origins.size());
+    for (const ImagePoint* origin : this->Assembly.Origins)
     {
       glm::dvec3 sum(0.0);
       for (std::size_t k = 0; k < origin->GetNumberOfSources(); ++k)
@@ -216,7 +253,7 @@ private:
     return points;
   }
 
-  void MakeVertices()
+  void MakeVertices(vtkCellArray* vertices, std::vector<signed char>& orientations)
   {
     // Images of the same point are consecutive.
     std::vector<vtkIdType> first(static_cast<std::size_t>(this->Input->GetNumberOfPoints()) + 1, 0);
@@ -228,25 +265,19 @@ private:
     for (std::size_t i = 0; i < cells.GetCount(); ++i)
     {
       const auto point = static_cast<std::size_t>(cells.Connectivity[i]);
-      this->Report.SkippedCells += first[point] == first[point + 1];
+      this->Assembly.Report.SkippedCells += first[point] == first[point + 1];
       for (vtkIdType id = first[point]; id < first[point + 1]; ++id)
       {
-        this->Vertices->InsertNextCell(1, &id);
-        this->CellSources.push_back(cells.Ids[i]);
-        this->Orientations.push_back(this->Points[static_cast<std::size_t>(id)]->Orientation);
+        vertices->InsertNextCell(1, &id);
+        this->Assembly.CellSources.push_back(cells.Ids[i]);
+        orientations.push_back(this->Assembly.Points[static_cast<std::size_t>(id)]->Orientation);
       }
     }
   }
 
-  void MakeCells(const ImageMesh& whole, const ImageMesh& pieces, vtkIdType firstOfPieces,
-    bool areReversed, vtkCellArray* cells)
-  {
-    this->AddCells(whole, 0, areReversed, cells);
-    this->AddCells(pieces, firstOfPieces, areReversed, cells);
-  }
-
   // Mirror images of polygons have the reversed winding.
-  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, bool areReversed, vtkCellArray* cells)
+  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, bool areReversed, vtkCellArray* cells,
+    std::vector<signed char>& orientations)
   {
     vtkNew<vtkIdList> ids;
     std::int64_t begin = 0;
@@ -259,30 +290,34 @@ private:
         ids->InsertNextId(firstPoint + mesh.Connectivity[static_cast<std::size_t>(at)]);
       }
       cells->InsertNextCell(ids);
-      this->CellSources.push_back(mesh.SourceCells[i]);
-      this->Orientations.push_back(mesh.Orientations[i]);
+      this->Assembly.CellSources.push_back(mesh.SourceCells[i]);
+      orientations.push_back(mesh.Orientations[i]);
       begin = mesh.Ends[i];
     }
   }
 
-  void InterpolatePointArrays()
+  void InterpolatePointArrays(VirtualPolyDataReport& report)
   {
+    const std::vector<const ImagePoint*>& origins = this->Assembly.Origins;
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType points = this->Input->GetNumberOfPoints();
-    this->Report.ArraysOfWrongSize +=
-      TakeFittingArrays(this->Input->GetPointData(), points, fitting);
+    report.ArraysOfWrongSize += TakeFittingArrays(this->Input->GetPointData(), points, fitting);
     vtkPointData* to = this->Output->GetPointData();
     const bool copiesOnly = this->Cells.Lines.Points.empty() && this->Cells.Polygons.Points.empty();
     if (copiesOnly)
     {
-      CopyTuples(fitting, points, this->PointSources, to);
+      CopyTuples(fitting, points, this->Assembly.PointSources, to);
       return;
     }
-    to->InterpolateAllocate(fitting, static_cast<vtkIdType>(this->Points.size()));
-    vtkNew<vtkIdList> ids;
-    for (std::size_t i = 0; i < this->Origins.size(); ++i)
+    if (fitting->GetNumberOfArrays() == 0)
     {
-      const ImagePoint& point = *this->Origins[i];
+      return;
+    }
+    to->InterpolateAllocate(fitting, static_cast<vtkIdType>(origins.size()));
+    vtkNew<vtkIdList> ids;
+    for (std::size_t i = 0; i < origins.size(); ++i)
+    {
+      const ImagePoint& point = *origins[i];
       double weights[3];
       ids->Reset();
       for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
@@ -310,10 +345,10 @@ private:
       const auto copy = vtk::TakeSmartPointer(from->NewInstance());
       copy->SetName(from->GetName());
       copy->SetNumberOfComponents(from->GetNumberOfComponents());
-      copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Origins.size()));
-      for (std::size_t i = 0; i < this->Origins.size(); ++i)
+      copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Assembly.Origins.size()));
+      for (std::size_t i = 0; i < this->Assembly.Origins.size(); ++i)
       {
-        copy->SetTuple(static_cast<vtkIdType>(i), this->Origins[i]->Source[0], from);
+        copy->SetTuple(static_cast<vtkIdType>(i), this->Assembly.Origins[i]->Source[0], from);
       }
       to->AddArray(copy);
     }
@@ -323,17 +358,8 @@ private:
   const ObjectTopology& Topology;
   const CellImages& Images;
   const AllImages& Cells;
-  const Membrane& Surface;
+  ImageAssembly& Assembly;
   vtkPolyData* Output;
-  std::vector<const VirtualVertex*> Points;
-  std::vector<const ImagePoint*> Origins;
-  std::vector<vtkIdType> PointSources;
-  std::vector<vtkIdType> CellSources;
-  std::vector<signed char> Orientations;
-  vtkNew<vtkCellArray> Vertices;
-  vtkNew<vtkCellArray> Lines;
-  vtkNew<vtkCellArray> Polygons;
-  VirtualPolyDataReport Report;
 };
 
 }
@@ -366,7 +392,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
   if (done)
   {
     images.MeetNeighbours(topology.Polygons.AsObject(), topology.Polygons.GetCount(),
-      isMapped.data(), closesSeams, result.WholePolygons, result.Polygons);
+      isMapped.data(), closesSeams, result.WholePolygons, result.Polygons, ThreadedLoop);
   }
   return done;
 }
@@ -374,9 +400,15 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
 //------------------------------------------------------------------------------
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
   const CellImages& images, const AllImages& cells, const Membrane& membrane,
-  const OutputOptions& options, vtkPolyData* output)
+  const OutputOptions& options, ImageAssembly& assembly, vtkPolyData* output)
 {
-  return Builder(input, topology, images, cells, membrane, output).Run(options);
+  Builder builder(input, topology, images, cells, assembly, output);
+  if (!assembly.IsReady || !(assembly.Options == options) ||
+    assembly.Geometry->GetPoints()->GetDataType() != GetPointType(input, options.PointsPrecision))
+  {
+    builder.Assemble(membrane, options);
+  }
+  return builder.Run();
 }
 
 }

@@ -7,13 +7,13 @@
 #include "Filters/Output/VirtualPolyData.h"
 #include "Refraction/Images/CellImages.h"
 
+#include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkType.h"
 
 #include <cstdint>
 #include <functional>
 #include <vector>
-
-class vtkPolyData;
 
 namespace meniscus
 {
@@ -43,12 +43,30 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
   bool closesSeams, const ProgressLoop& loop, AllImages& result);
 
 /**
+ * Points, cells and additional arrays of an output, and where they come from: all that depends on
+ * the images and the options, but not on arrays of the input.
+ */
+struct ImageAssembly
+{
+  bool IsReady = false; ///< set to false when images or cells change
+  OutputOptions Options;
+  std::vector<const VirtualVertex*> Points;
+  std::vector<const ImagePoint*> Origins;
+  std::vector<vtkIdType> PointSources;
+  std::vector<vtkIdType> CellSources;
+  vtkNew<vtkPolyData> Geometry;
+  VirtualPolyDataReport Report;
+};
+
+/**
  * Fills `output` with all images and with the arrays of vtkRefractedGeometryFilter. Arrays of the
- * input are interpolated at new points.
+ * input are interpolated at new points. `assembly` is made unless it is ready for the same options;
+ * it may be used as long as `images` and `cells` exist. Consumers must not see its objects if it is
+ * kept, see KeptOutput::Reuse().
  */
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
   const CellImages& images, const AllImages& cells, const Membrane& membrane,
-  const OutputOptions& options, vtkPolyData* output);
+  const OutputOptions& options, ImageAssembly& assembly, vtkPolyData* output);
 
 }
 

@@ -6,8 +6,10 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <cstring>
@@ -61,10 +63,54 @@ void ReuseArrays(vtkDataSetAttributes* last, vtkDataSetAttributes* output)
   }
 }
 
+template <typename Object>
+vtkSmartPointer<Object> Copy(Object* from)
+{
+  auto copy = vtk::TakeSmartPointer(from->NewInstance());
+  copy->DeepCopy(from);
+  return copy;
+}
+
+void CopyArrays(vtkDataSetAttributes* owned, vtkDataSetAttributes* output)
+{
+  for (int k = 0; k < owned->GetNumberOfArrays(); ++k)
+  {
+    vtkDataArray* array = owned->GetArray(k);
+    if (array && output->GetArray(array->GetName()) == array)
+    {
+      output->AddArray(Copy(array));
+    }
+  }
+}
+
+void CopyOwned(vtkPolyData* owned, vtkPolyData* output)
+{
+  if (output->GetPoints() == owned->GetPoints())
+  {
+    vtkNew<vtkPoints> points;
+    points->SetData(Copy(owned->GetPoints()->GetData()));
+    output->SetPoints(points);
+  }
+  if (output->GetVerts() == owned->GetVerts())
+  {
+    output->SetVerts(Copy(owned->GetVerts()));
+  }
+  if (output->GetLines() == owned->GetLines())
+  {
+    output->SetLines(Copy(owned->GetLines()));
+  }
+  if (output->GetPolys() == owned->GetPolys())
+  {
+    output->SetPolys(Copy(owned->GetPolys()));
+  }
+  CopyArrays(owned->GetPointData(), output->GetPointData());
+  CopyArrays(owned->GetCellData(), output->GetCellData());
+}
+
 }
 
 //------------------------------------------------------------------------------
-void KeptOutput::Reuse(vtkPolyData* output)
+void KeptOutput::Reuse(vtkPolyData* output, vtkPolyData* owned)
 {
   vtkPoints* points = output->GetPoints();
   vtkPoints* kept = this->Last->GetPoints();
@@ -86,6 +132,10 @@ void KeptOutput::Reuse(vtkPolyData* output)
   }
   ReuseArrays(this->Last->GetPointData(), output->GetPointData());
   ReuseArrays(this->Last->GetCellData(), output->GetCellData());
+  if (owned)
+  {
+    CopyOwned(owned, output);
+  }
   this->Last->ShallowCopy(output);
 }
 

@@ -17,8 +17,12 @@ namespace meniscus
 class KeptOutput
 {
 public:
-  /** Replaces points, cells and arrays of `output`, and keeps the result. */
-  void Reuse(vtkPolyData* output);
+  /**
+   * Replaces points, cells and arrays of `output`, and keeps the result. Those of `owned` that the
+   * output still has afterwards are copied: consumers must not see them, since they may write to
+   * the output in place.
+   */
+  void Reuse(vtkPolyData* output, vtkPolyData* owned = nullptr);
 
 private:
   vtkNew<vtkPolyData> Last;

@@ -22,9 +22,18 @@
 
 namespace meniscus
 {
-namespace
-{
 
+//------------------------------------------------------------------------------
+bool OutputOptions::operator==(const OutputOptions& other) const
+{
+  return this->PointsPrecision == other.PointsPrecision && this->Schlick == other.Schlick &&
+    this->VirtualNormals == other.VirtualNormals && this->TrueGeometry == other.TrueGeometry &&
+    this->Reflects == other.Reflects && this->IsLightAtEye == other.IsLightAtEye &&
+    this->Light == other.Light && this->Eye == other.Eye && this->Exterior == other.Exterior &&
+    this->Interior == other.Interior;
+}
+
+//------------------------------------------------------------------------------
 int GetPointType(vtkPolyData* input, int precision)
 {
   if (precision == vtkAlgorithm::DEFAULT_PRECISION)
@@ -33,8 +42,6 @@ int GetPointType(vtkPolyData* input, int precision)
                                                                                  : VTK_FLOAT;
   }
   return precision == vtkAlgorithm::DOUBLE_PRECISION ? VTK_DOUBLE : VTK_FLOAT;
-}
-
 }
 
 //------------------------------------------------------------------------------

@@ -42,7 +42,12 @@ struct OutputOptions
   glm::dvec3 Eye{ 0.0 };
   double Exterior = 1.0;
   double Interior = 1.0;
+
+  bool operator==(const OutputOptions& other) const;
 };
+
+/** Type of the output's points: that of the input's, or the requested precision. */
+int GetPointType(vtkPolyData* input, int precision);
 
 /**
  * Creates the output points, in the requested precision, and the additional point arrays. `sources`

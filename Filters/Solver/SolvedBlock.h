@@ -68,6 +68,7 @@ struct SolvedBlock
   ObjectTopology Selected; ///< the cells in view
   std::unique_ptr<ObjectImages> Images;
   AllImages Cells;
+  ImageAssembly Assembly; ///< of `Images` and `Cells`
 
   /** Used with several interfaces only; with one image per point, `Vertices` has the images. */
   vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved

@@ -302,7 +302,7 @@ void FuzzObject::Map(const CellImages& images, bool closesSeams) const
   std::vector<unsigned char> isMapped(polygons, 0);
   const ObjectCells cells{ this->PolygonEnds.data(), this->Polygons.data() };
   images.MapPolygons(cells, this->Names.data(), 0, polygons, split, pieces, whole, isMapped.data());
-  images.MeetNeighbours(cells, polygons, isMapped.data(), closesSeams, whole, pieces);
+  images.MeetNeighbours(cells, polygons, isMapped.data(), closesSeams, whole, pieces, SerialLoop);
   check(pieces, whole);
 }
 

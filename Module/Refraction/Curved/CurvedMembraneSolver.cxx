@@ -33,6 +33,9 @@ constexpr double FirstReach = 1.5;
 // the patch's size: they lie on a common edge and differ by the error of Newton's method only.
 constexpr double SamePlace = 1e-6;
 
+// Depth below the membrane's top, in units of its radius, from which on objects share a grid.
+constexpr double SmallestDepth = 0x1p-10;
+
 constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
 
 }
@@ -100,6 +103,7 @@ void CurvedMembraneSolver::FindAxis()
   this->Frame = HeightFrame(this->Axis);
   this->RayFrame = this->Frame;
   this->FieldReady = false;
+  this->Grids.clear();
   this->ConvexField = false;
   this->LargestBulge = 0.0;
   this->Lowest = std::numeric_limits<double>::max();
@@ -126,6 +130,26 @@ void CurvedMembraneSolver::PrepareField()
     this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
     this->FieldReady = true;
   }
+}
+
+//------------------------------------------------------------------------------
+const InjectivityGrid& CurvedMembraneSolver::PrepareGrid(double lowest, const RangeLoop& loop)
+{
+  // The rounding error of a height is a few roundings of its coordinates.
+  const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
+    (std::fabs(lowest) + glm::length(this->Surface.GetOrigin()) + this->Surface.GetRadius());
+  const double top = (this->Optics.Reflects ? -this->Lowest : this->Highest) + slack;
+  const double radii = (top - (lowest - slack)) / this->Surface.GetRadius();
+  int exponent = 0;
+  std::frexp(std::max(radii, SmallestDepth), &exponent);
+  const auto [place, isNew] = this->Grids.try_emplace(exponent);
+  InjectivityGrid& grid = place->second;
+  if (isNew)
+  {
+    grid.Build(this->Surface, this->Patches, this->RayFrame, this->ConvexField, this->LargestBulge,
+      this->Optics, top - std::ldexp(this->Surface.GetRadius(), exponent), top, loop);
+  }
+  return grid;
 }
 
 //------------------------------------------------------------------------------
@@ -234,6 +258,7 @@ void CurvedMembraneSolver::Clear()
   this->Surface = Membrane();
   this->Patches = CurvedPatches();
   this->Tree = RayTubeTree();
+  this->Grids.clear();
   this->SidesReady = false;
   this->SidesAboveReady = false;
 }
@@ -249,6 +274,7 @@ EyeStatus CurvedMembraneSolver::SetEye(
   }
   this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior, reflects };
   this->RayFrame = reflects ? HeightFrame(-this->Axis) : this->Frame;
+  this->Grids.clear();
   if (reflects)
   {
     this->PrepareSides();

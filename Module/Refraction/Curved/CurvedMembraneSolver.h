@@ -12,6 +12,7 @@
 #define meniscus_Refraction_Curved_CurvedMembraneSolver_h
 
 #include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Curved/MembraneSides.h"
 #include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/SightFollower.h"
@@ -25,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace meniscus
@@ -120,6 +122,13 @@ public:
   const HeightFrame& GetFrame() const { return this->RayFrame; }
   bool HasConvexField() const { return this->ConvexField; }
   /** @} */
+  /**
+   * Grid for points down to the height `lowest` along GetFrame(), in local coordinates. It reaches
+   * from the top of the membrane down by its radius, multiplied by a power of two, so that objects
+   * in similar depths share one, whichever comes first. It is kept until the shape or the eye
+   * changes. Needs PrepareField.
+   */
+  const InjectivityGrid& PrepareGrid(double lowest, const RangeLoop& loop);
   /** Largest distance of a patch from its flat facet. */
   double GetLargestBulge() const { return this->LargestBulge; }
 
@@ -298,6 +307,7 @@ private:
   HeightFrame RayFrame;
   bool FieldReady = false;
   bool ConvexField = false;
+  std::map<int, InjectivityGrid> Grids; ///< by the exponent of the depth
   double LargestBulge = 0.0;
   double Lowest = 0.0;
   double Highest = 0.0;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace meniscus
@@ -177,7 +178,7 @@ void InjectivityGrid::Merge(Cell& cell, const Cell& other)
     cell.Low[i] = std::min(cell.Low[i], other.Low[i]);
     cell.High[i] = std::max(cell.High[i], other.High[i]);
   }
-  cell.Slabs = static_cast<std::uint8_t>(cell.Slabs & other.Slabs);
+  cell.Slabs = cell.Slabs & other.Slabs;
 }
 
 //------------------------------------------------------------------------------
@@ -222,21 +223,45 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
   const glm::dmat2 inverse = glm::inverse(sides);
   const CornerDerivatives baseBy = Differentiate(base, inverse);
   const CornerDerivatives slopeBy = Differentiate(slope, inverse);
-  const auto holdsAt = [this, &baseBy, &slopeBy](int slab)
-  { return FindMargin(baseBy, slopeBy, this->LowHeight + slab * this->SlabHeight) > 0.0; };
-  bool before = holdsAt(0);
-  if (before && holdsAt(Slabs))
+  const auto holdsAt = [this, &baseBy, &slopeBy](int border)
+  { return FindMargin(baseBy, slopeBy, this->LowHeight + border * this->SlabHeight) > 0.0; };
+  const bool holdsBelow = holdsAt(0);
+  const bool holdsAbove = holdsAt(Slabs);
+  if (holdsBelow && holdsAbove)
   {
-    return cell; // and in all slabs between
+    return cell; // and in all slabs between, since the margin is concave
   }
-  for (int i = 0; i < Slabs; ++i)
+  // The borders at which it holds are consecutive, and begin to hold where the rays do.
+  const double own =
+    this->SlabHeight > 0.0 ? (rays[0].Height - this->LowHeight) / this->SlabHeight : 0.0;
+  const int first = static_cast<int>(std::lround(std::clamp(own, 0.0, double{ Slabs })));
+  if (!holdsAt(first))
   {
-    const bool after = holdsAt(i + 1);
-    cell.Slabs = static_cast<std::uint8_t>(
-      before && after ? cell.Slabs : cell.Slabs & ~(1u << static_cast<unsigned>(i)));
-    before = after;
+    cell.Slabs = 0;
+    return cell;
   }
+  // The last border on the way from `holds` to `fails` at which it holds.
+  const auto findEnd = [&holdsAt](int holds, int fails)
+  {
+    while (std::abs(fails - holds) > 1)
+    {
+      const int middle = (holds + fails) / 2;
+      (holdsAt(middle) ? holds : fails) = middle;
+    }
+    return holds;
+  };
+  cell.Slabs = MakeSlabs(
+    holdsBelow ? 0 : findEnd(first, 0), holdsAbove ? int{ Slabs } : findEnd(first, Slabs));
   return cell;
+}
+
+//------------------------------------------------------------------------------
+// Slabs between two borders, as bits.
+std::uint64_t InjectivityGrid::MakeSlabs(int low, int high)
+{
+  const auto below = [](int border)
+  { return border == Slabs ? AllSlabs : (std::uint64_t{ 1 } << border) - 1u; };
+  return below(high) & ~below(low);
 }
 
 //------------------------------------------------------------------------------
@@ -460,7 +485,7 @@ InjectivityGrid::Cell InjectivityGrid::Collect(const Box& box) const
 
 //------------------------------------------------------------------------------
 // Slabs that the heights touch, as bits; 0 if some of the heights lie in no slab.
-std::uint8_t InjectivityGrid::FindSlabs(double low, double high) const
+std::uint64_t InjectivityGrid::FindSlabs(double low, double high) const
 {
   const double top = this->LowHeight + Slabs * this->SlabHeight;
   if (!(low >= this->LowHeight && high <= top))
@@ -471,11 +496,9 @@ std::uint8_t InjectivityGrid::FindSlabs(double low, double high) const
   {
     const double slab =
       this->SlabHeight > 0.0 ? (height - this->LowHeight) / this->SlabHeight : 0.0;
-    return static_cast<unsigned>(std::clamp(slab, 0.0, Slabs - 1.0));
+    return static_cast<int>(std::clamp(slab, 0.0, Slabs - 1.0));
   };
-  const unsigned below = (1u << index(low)) - 1u;
-  const unsigned through = (2u << index(high)) - 1u;
-  return static_cast<std::uint8_t>(through & ~below);
+  return MakeSlabs(index(low), index(high) + 1);
 }
 
 //------------------------------------------------------------------------------
@@ -492,7 +515,7 @@ bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& hi
     glm::dot(glm::abs(this->Frame.First), half), glm::dot(glm::abs(this->Frame.Second), half));
   const double height = this->Frame.GetHeight(middle);
   const double rise = glm::dot(glm::abs(this->Frame.Axis), half);
-  const std::uint8_t slabs = this->FindSlabs(height - rise, height + rise);
+  const std::uint64_t slabs = this->FindSlabs(height - rise, height + rise);
   if (slabs == 0)
   {
     return false;

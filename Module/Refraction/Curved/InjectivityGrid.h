@@ -57,8 +57,8 @@ public:
   bool HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& high) const;
 
 private:
-  static constexpr int Slabs = 8;
-  static constexpr std::uint8_t AllSlabs = 0xff;
+  static constexpr int Slabs = 64;
+  static constexpr std::uint64_t AllSlabs = ~std::uint64_t{ 0 };
 
   /**
    * Bounds of the patches over a cell of the grid, and the slabs in which all of them are
@@ -68,7 +68,7 @@ private:
   {
     std::array<float, 3> Low; ///< slope, slope, height
     std::array<float, 3> High;
-    std::uint8_t Slabs;
+    std::uint64_t Slabs;
   };
   struct Box
   {
@@ -95,7 +95,8 @@ private:
   void VisitCells(const std::array<glm::dvec2, N>& places, Visitor&& visit);
   int FindIndex(double place, int axis) const;
   Cell Collect(const Box& box) const;
-  std::uint8_t FindSlabs(double low, double high) const;
+  static std::uint64_t MakeSlabs(int low, int high);
+  std::uint64_t FindSlabs(double low, double high) const;
 
   HeightFrame Frame;
   double LowHeight = 0.0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/PatchCrossings.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,11 +22,6 @@ constexpr int NewtonSteps = 12;
 // Newton's method converges quadratically: the remaining error is the square of the last step, in
 // units of the part.
 constexpr double LastStep = 1e-7;
-
-double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 constexpr double Largest(const std::array<double, 3>& values)
 {

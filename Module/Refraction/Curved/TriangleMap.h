@@ -5,6 +5,8 @@
 #ifndef meniscus_Refraction_Curved_TriangleMap_h
 #define meniscus_Refraction_Curved_TriangleMap_h
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -15,11 +17,6 @@
 
 namespace meniscus
 {
-
-inline double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 /** Values, or control points, at the corners and then at the middles of the opposite edges. */
 using TriangleMap = std::array<glm::dvec2, 6>;

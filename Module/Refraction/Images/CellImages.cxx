@@ -46,7 +46,7 @@ MappedTriangle CellImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) 
 //------------------------------------------------------------------------------
 void CellImages::CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells,
   std::size_t count, const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole,
-  ImageMesh& pieces) const
+  ImageMesh& pieces, const RangeLoop& loop) const
 {
   bool hasDiagonals = false;
   for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
@@ -56,7 +56,7 @@ void CellImages::CloseSeams(const std::vector<Seam>& seams, const ObjectCells& c
   SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
   closure.Collect(pieces, pieces.Points, false);
   closure.Collect(whole, this->Images, true);
-  closure.Close(pieces);
+  closure.Close(pieces, loop);
 }
 
 }

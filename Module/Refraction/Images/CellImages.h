@@ -3,6 +3,7 @@
 #ifndef meniscus_Refraction_Images_CellImages_h
 #define meniscus_Refraction_Images_CellImages_h
 
+#include "Common/RangeLoop.h"
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/ObjectPrimitive.h"
 
@@ -90,11 +91,12 @@ public:
    * Call this after all polygons have been mapped to `pieces` and `whole`. Moves the ends of
    * polygons that have been mapped from the membrane (`isMapped`) onto the common sides as their
    * neighbours draw them: as straight pieces, which may be off by the tolerance. With
-   * `closesSeams`, also closes the seams between them.
+   * `closesSeams`, also closes the seams between them. The result does not depend on the threads
+   * of `loop`, whose ranges are of blocks of work.
    */
   virtual void MeetNeighbours(const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole,
-    ImageMesh& pieces) const = 0;
+    const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+    const RangeLoop& loop) const = 0;
 
 protected:
   /** Takes over an object's points (x, y, z each; borrowed), none of them solved. */
@@ -122,8 +124,8 @@ protected:
   MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
   /** Closes the seams of the mapped polygons, seen from `eye` in world coordinates. */
   void CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole,
-    ImageMesh& pieces) const;
+    const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole, ImageMesh& pieces,
+    const RangeLoop& loop) const;
 
   double Tolerance = 0.0; ///< angle in radians at the eye
   const double* Points = nullptr;

@@ -85,6 +85,22 @@ EdgeSubdivision::Middle& EdgeSubdivision::FindEntry(const glm::dvec3& point)
 }
 
 //------------------------------------------------------------------------------
+// Searches for an image that is many facets from the sight points of the ends, where Newton's
+// method loses it. A point with several images gets none.
+void EdgeSubdivision::SearchIfLost(const glm::dvec3& point, VirtualVertex& image)
+{
+  if (image.State == ImageState::Found)
+  {
+    return;
+  }
+  this->Geometry.FindImages(point, this->Searched);
+  if (this->Searched.size() == 1)
+  {
+    image = this->Searched.front();
+  }
+}
+
+//------------------------------------------------------------------------------
 const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
   const glm::dvec3& b, const VirtualVertex& imageOfB)
 {
@@ -96,6 +112,7 @@ const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const Virt
     middle.Owner = this->Number;
     middle.Point = point;
     middle.Vertex = this->Geometry.SolveBetween(point, *ends.Image[0], *ends.Image[1]);
+    this->SearchIfLost(point, middle.Vertex);
   }
   return middle.Vertex;
 }
@@ -104,11 +121,15 @@ const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const Virt
 // Solves the middles that are not stored, side by side. Images of ends must not be stored ones.
 void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
 {
-  std::array<CurvedMembraneSolver::PointBetween, CurvedMembraneSolver::MostBetween> open;
+  std::array<CurvedMembraneSolver::PointBetween, CurvedMembraneSolver::MostBetween> open{};
   std::size_t size = 0;
   const auto solve = [this, &open, &size]()
   {
     this->Geometry.SolveAllBetween(open.data(), size);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      this->SearchIfLost(open[i].Point, *open[i].Image);
+    }
     size = 0;
   };
   for (std::size_t i = 0; i < count; ++i)

@@ -130,6 +130,7 @@ private:
   Middle& FindEntry(const glm::dvec3& point);
   const VirtualVertex& FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
     const glm::dvec3& b, const VirtualVertex& imageOfB);
+  void SearchIfLost(const glm::dvec3& point, VirtualVertex& image);
   void PrepareMiddles(const Ends* ends, std::size_t count);
   void PrepareLevel();
   enum class Shape
@@ -168,6 +169,7 @@ private:
   std::vector<NodeIds> Level;
   std::vector<NodeIds> NextLevel;
   std::vector<Ends> LevelSides;
+  std::vector<VirtualVertex> Searched; ///< kept so that its memory is reused
   std::vector<Edge> Edges; ///< the size is a power of two; at most half of the entries belong to
                            ///< this round
   std::size_t EdgeCount = 0;

@@ -19,9 +19,10 @@ namespace
 constexpr std::size_t FacetsPerPoint = 3;
 
 // Mapping cells from the membrane makes about two pieces for each facet that they may be seen
-// through, and four for each cell. Each piece costs at least twice as much as testing a facet.
-constexpr std::size_t FacetsPerFacetInReach = 4;
-constexpr std::size_t FacetsPerCell = 8;
+// through, and four for each cell. Each piece costs as much as testing twenty facets; dividing the
+// cells costs half of that.
+constexpr std::size_t FacetsPerFacetInReach = 20;
+constexpr std::size_t FacetsPerCell = 40;
 
 // A triangle is halved this often at most to prove that its points have one image each.
 constexpr int MostHalvings = 6;
@@ -92,15 +93,9 @@ void ObjectImages::PrepareUnique(std::size_t wanted, std::size_t cells, const Ra
   const Extent extent = this->FindExtent();
   if (extent.Lowest <= extent.Highest && this->IsProofWorthwhile(extent, wanted, cells))
   {
-    const HeightFrame& frame = this->Geometry.GetFrame();
-    const double origin = frame.GetHeight(this->Geometry.GetMembrane().GetOrigin());
-    // The rounding error of a point's height is a few roundings of its coordinates.
-    const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
-      (std::fabs(extent.Lowest) + std::fabs(extent.Highest) + std::fabs(origin) +
-        this->Geometry.GetMembrane().GetRadius());
-    this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
-      this->Geometry.HasConvexField(), this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(),
-      extent.Lowest - origin - slack, extent.Highest - origin + slack, loop);
+    const double origin =
+      this->Geometry.GetFrame().GetHeight(this->Geometry.GetMembrane().GetOrigin());
+    this->Unique = &this->Geometry.PrepareGrid(extent.Lowest - origin, loop);
   }
 }
 
@@ -108,7 +103,7 @@ void ObjectImages::PrepareUnique(std::size_t wanted, std::size_t cells, const Ra
 // True if no point of the points' bounding box has several images.
 bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
 {
-  if (this->Unique.IsEmpty())
+  if (!this->Unique)
   {
     return false;
   }
@@ -121,7 +116,7 @@ bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
     high = glm::max(high, point);
   }
   const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
-  return this->Unique.HoldsAtMostOne(low - origin, high - origin);
+  return this->Unique->HoldsAtMostOne(low - origin, high - origin);
 }
 
 //------------------------------------------------------------------------------
@@ -130,7 +125,7 @@ bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
 bool ObjectImages::IsUniqueTriangle(const std::array<glm::dvec3, 3>& corners, int halvings) const
 {
   const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
-  if (this->Unique.HoldsAtMostOne(glm::min(glm::min(corners[0], corners[1]), corners[2]) - origin,
+  if (this->Unique->HoldsAtMostOne(glm::min(glm::min(corners[0], corners[1]), corners[2]) - origin,
         glm::max(glm::max(corners[0], corners[1]), corners[2]) - origin))
   {
     return true;
@@ -157,7 +152,7 @@ bool ObjectImages::IsUniqueTriangle(const std::array<glm::dvec3, 3>& corners, in
 bool ObjectImages::MayBeDivided(
   const std::int64_t* ids, const std::vector<std::int64_t>& triangles) const
 {
-  bool isUnique = this->Geometry.HasConvexField() && !this->Unique.IsEmpty();
+  bool isUnique = this->Geometry.HasConvexField() && this->Unique;
   for (std::size_t k = 0; k + 2 < triangles.size() && isUnique; k += 3)
   {
     isUnique = this->IsUniqueTriangle(
@@ -475,35 +470,40 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 
 //------------------------------------------------------------------------------
 void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
   if (seams.empty())
   {
     return;
   }
-  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
+  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces, loop);
   if (closesSeams)
   {
     const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
+    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces, loop);
   }
 }
 
 //------------------------------------------------------------------------------
 void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const
+  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
-  EdgeSubdivision division(this->Geometry, this->Tolerance);
-  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces,
-    [this, &division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces, loop,
+    [this]()
     {
-      if (this->HaveOneImage(point.Source.data(), 2) &&
-        this->FindSide(point.Source.data(), 2) == Side::Behind)
+      auto division = std::make_shared<EdgeSubdivision>(this->Geometry, this->Tolerance);
+      return [this, division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
       {
-        division.MoveOntoEdge(
-          this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
-      }
+        if (this->HaveOneImage(point.Source.data(), 2) &&
+          this->FindSide(point.Source.data(), 2) == Side::Behind)
+        {
+          division->MoveOntoEdge(
+            this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
+        }
+      };
     });
 }
 

@@ -33,7 +33,7 @@ class ObjectImages : public CellImages
 {
 public:
   /** The eye and the membrane of `geometry` must not change afterwards. */
-  explicit ObjectImages(const CurvedMembraneSolver& geometry)
+  explicit ObjectImages(CurvedMembraneSolver& geometry)
     : Geometry(geometry)
   {
   }
@@ -85,7 +85,8 @@ public:
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
     unsigned char* isMapped) const override;
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const override;
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+    const RangeLoop& loop) const override;
 
 private:
   enum class Side
@@ -145,12 +146,13 @@ private:
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
   void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const;
+    const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
+    const RangeLoop& loop) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
 
-  const CurvedMembraneSolver& Geometry;
-  InjectivityGrid Unique;
+  CurvedMembraneSolver& Geometry;
+  const InjectivityGrid* Unique = nullptr; ///< null if there is no proof; the geometry's
   double Nearest = 0.0;
   double Farthest = 0.0;
   bool MayCross = false;

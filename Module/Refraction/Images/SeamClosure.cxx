@@ -20,6 +20,9 @@ namespace
 // places, and a mapped one may have been moved by two.
 constexpr double Widest = 4.0;
 
+// Number of seams that a thread closes at once: tens of microseconds of work.
+constexpr std::size_t SeamsPerBlock = 32;
+
 auto GetKey(const ImagePoint& point)
 {
   const glm::dvec3& p = point.Vertex.Position;
@@ -201,7 +204,7 @@ void SeamClosure::AddPart(
 }
 
 //------------------------------------------------------------------------------
-void SeamClosure::Close(ImageMesh& mesh)
+void SeamClosure::Close(ImageMesh& mesh, const RangeLoop& loop)
 {
   Parts order;
   order.reserve(this->All.size());
@@ -212,12 +215,29 @@ void SeamClosure::Close(ImageMesh& mesh)
   const auto isBefore = [](const Part* a, const Part* b)
   { return std::tie(a->Low, a->High) < std::tie(b->Low, b->High); };
   std::stable_sort(order.begin(), order.end(), isBefore);
-  Parts open;
+  std::vector<Parts::iterator> firsts; // of each seam
   for (auto begin = order.begin(); begin != order.end();)
   {
-    const auto end = std::upper_bound(begin, order.end(), *begin, isBefore);
-    this->CloseSeam({ begin, end }, open, mesh);
-    begin = end;
+    firsts.push_back(begin);
+    begin = std::upper_bound(begin, order.end(), *begin, isBefore);
+  }
+  const std::size_t count = firsts.size();
+  firsts.push_back(order.end());
+  std::vector<Closed> blocks((count + SeamsPerBlock - 1) / SeamsPerBlock);
+  loop(blocks.size(),
+    [this, &firsts, &blocks, count](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin * SeamsPerBlock; i < std::min(end * SeamsPerBlock, count); ++i)
+      {
+        Closed& block = blocks[i / SeamsPerBlock];
+        this->CloseSeam({ firsts[i], firsts[i + 1] }, block.Open, block.Mesh);
+      }
+    });
+  Parts open;
+  for (const Closed& block : blocks)
+  {
+    open.insert(open.end(), block.Open.begin(), block.Open.end());
+    mesh.Append(block.Mesh);
   }
   const std::vector<Part> sides = this->FindFreeSides(open, mesh);
   for (const Part& side : sides)

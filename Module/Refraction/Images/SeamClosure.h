@@ -17,6 +17,7 @@
 #ifndef meniscus_Refraction_Images_SeamClosure_h
 #define meniscus_Refraction_Images_SeamClosure_h
 
+#include "Common/RangeLoop.h"
 #include "Refraction/Images/CellImages.h"
 
 #include <glm/vec3.hpp>
@@ -70,11 +71,13 @@ std::vector<Seam> FindSeams(
 /**
  * Calls `visit(low, high, place, point)` for each point of `pieces` on a seam that a polygon shares
  * which has not been mapped. `place` is the point's parameter from 0 at the end with the lower
- * index, whichever has the larger weight, so that all copies of a point get the same.
+ * index, whichever has the larger weight, so that all copies of a point get the same. Blocks of
+ * points are visited on the threads of `loop`, each by a function from `makeVisit()`.
  */
-template <typename Visit>
+template <typename MakeVisit>
 void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& cells,
-  std::size_t count, const unsigned char* isMapped, ImageMesh& pieces, const Visit& visit)
+  std::size_t count, const unsigned char* isMapped, ImageMesh& pieces, const RangeLoop& loop,
+  const MakeVisit& makeVisit)
 {
   const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
   {
@@ -92,19 +95,28 @@ void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& 
         isCommon[static_cast<std::size_t>(at)] = 1;
       }
     });
-  for (ImagePoint& point : pieces.Points)
-  {
-    if (point.GetNumberOfSources() != 2)
+  // Tens of microseconds of work, if a few of the points are on such seams.
+  constexpr std::size_t size = 2048;
+  const std::size_t points = pieces.Points.size();
+  loop((points + size - 1) / size,
+    [&pieces, &find, &isCommon, &makeVisit, points](std::size_t begin, std::size_t end)
     {
-      continue;
-    }
-    const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
-    const std::ptrdiff_t at = find({ point.Source[low], point.Source[1 - low], 0 });
-    if (at >= 0 && isCommon[static_cast<std::size_t>(at)])
-    {
-      visit(point.Source[low], point.Source[1 - low], point.Weight[1 - low], point);
-    }
-  }
+      const auto visit = makeVisit();
+      for (std::size_t i = begin * size; i < std::min(end * size, points); ++i)
+      {
+        ImagePoint& point = pieces.Points[i];
+        if (point.GetNumberOfSources() != 2)
+        {
+          continue;
+        }
+        const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
+        const std::ptrdiff_t at = find({ point.Source[low], point.Source[1 - low], 0 });
+        if (at >= 0 && isCommon[static_cast<std::size_t>(at)])
+        {
+          visit(point.Source[low], point.Source[1 - low], point.Weight[1 - low], point);
+        }
+      }
+    });
 }
 
 class SeamClosure
@@ -124,8 +136,11 @@ public:
    */
   void Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole);
 
-  /** Adds the missing cells. `mesh` may be one of the collected meshes. */
-  void Close(ImageMesh& mesh);
+  /**
+   * Adds the missing cells, in an order that does not depend on the threads of `loop`. `mesh` may
+   * be one of the collected meshes.
+   */
+  void Close(ImageMesh& mesh, const RangeLoop& loop);
 
 private:
   /**
@@ -143,6 +158,12 @@ private:
     bool IsWhole; ///< side of a polygon that is drawn unchanged
   };
   using Parts = std::vector<const Part*>;
+  /** Results of a block of seams: cells, and parts that belong to no loop. */
+  struct Closed
+  {
+    ImageMesh Mesh;
+    Parts Open;
+  };
 
   void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b,
     bool isWhole);

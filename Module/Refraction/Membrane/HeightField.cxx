@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/HeightField.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,11 +12,6 @@ namespace meniscus
 {
 namespace
 {
-
-double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 /** Border as a list: for each of its vertices the next one, -1 for others. */
 class Border

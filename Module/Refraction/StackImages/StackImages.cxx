@@ -189,7 +189,8 @@ bool StackImages::ClipTriangles(
 
 //------------------------------------------------------------------------------
 void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
   if (seams.empty())
@@ -197,18 +198,19 @@ void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
     return;
   }
   const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
-  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces,
-    [this, &eye](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+  const auto move = [this, &eye](
+                      std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+  {
+    if (this->GetNumberOfImages(static_cast<std::size_t>(low)) == 1 &&
+      this->GetNumberOfImages(static_cast<std::size_t>(high)) == 1)
     {
-      if (this->GetNumberOfImages(static_cast<std::size_t>(low)) == 1 &&
-        this->GetNumberOfImages(static_cast<std::size_t>(high)) == 1)
-      {
-        this->MoveOntoEdge(this->GetFirstImage(low), this->GetFirstImage(high), place, eye, point);
-      }
-    });
+      this->MoveOntoEdge(this->GetFirstImage(low), this->GetFirstImage(high), place, eye, point);
+    }
+  };
+  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces, loop, [&move]() { return move; });
   if (closesSeams)
   {
-    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces);
+    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces, loop);
   }
 }
 

@@ -48,7 +48,8 @@ public:
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
     unsigned char* isMapped) const override;
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const override;
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+    const RangeLoop& loop) const override;
 
 private:
   /** A triangle of a polygon, and the parts of it that are seen. */

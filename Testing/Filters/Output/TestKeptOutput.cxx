@@ -5,6 +5,7 @@
 #include "RefractedGeometryTestHelpers.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -15,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -146,6 +148,84 @@ TEST_P(KeptOutputs, NamesOfComponentsAndKeysAreThoseOfTheInput)
 INSTANTIATE_TEST_SUITE_P(Kinds, KeptOutputs,
   ::testing::Values("FirstImage", "AllImages", "Interfaces"),
   [](const auto& kind) { return std::string(kind.param); });
+
+//------------------------------------------------------------------------------
+void ExpectSameArrays(vtkDataSetAttributes* found, vtkDataSetAttributes* expected)
+{
+  ASSERT_EQ(found->GetNumberOfArrays(), expected->GetNumberOfArrays());
+  for (int k = 0; k < expected->GetNumberOfArrays(); ++k)
+  {
+    vtkDataArray* a = found->GetArray(k);
+    vtkDataArray* b = expected->GetArray(k);
+    ASSERT_STREQ(a->GetName(), b->GetName());
+    ASSERT_EQ(a->GetDataType(), b->GetDataType());
+    ASSERT_EQ(a->GetNumberOfValues(), b->GetNumberOfValues());
+    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < a->GetNumberOfComponents(); ++c)
+      {
+        ASSERT_EQ(a->GetComponent(i, c), b->GetComponent(i, c)) << a->GetName();
+      }
+    }
+  }
+}
+
+// While nothing but arrays of the input changes, the rest of the output is kept. Each setting that
+// it depends on makes it new.
+TEST(KeptAssembly, IsThatOfTheCurrentSettings)
+{
+  const auto grid = MakeGrid(9, 80.0, -50.0);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    normals->InsertNextTuple3(0.1, 1.0, 0.0);
+  }
+  grid->GetPointData()->SetNormals(normals);
+  const auto water = MakeFlatMembrane();
+  const auto make = [&grid, &water]()
+  {
+    auto filter = MakeFilter(grid, water);
+    filter->SetMembraneModelToCurved();
+    filter->SetImagesToAllImages();
+    filter->SetAngularTolerance(0.001);
+    return filter;
+  };
+  const std::vector<std::function<void(Filter*)>> changes = { [](Filter*) {},
+    [](Filter* filter) { filter->SetReflectanceModel(Filter::SCHLICK); },
+    [](Filter* filter) { filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION); },
+    [](Filter* filter) { filter->SetTrueGeometry(true); },
+    [](Filter* filter) { filter->SetVirtualNormals(true); },
+    [](Filter* filter) { filter->SetLightDirection(0.3, 1.0, 0.0); },
+    [](Filter* filter) { filter->SetAngularTolerance(0.05); },
+    [](Filter* filter) { filter->SetEyePosition(0.0, 200.0, 0.0); },
+    [](Filter* filter) { filter->SetInteriorIndexOfRefraction(1.5); } };
+  const auto kept = make();
+  for (std::size_t last = 0; last < changes.size(); ++last)
+  {
+    changes[last](kept);
+    for (int run = 0; run < 3; ++run)
+    {
+      SetColors(grid, 100.0 * static_cast<double>(last) + run);
+      kept->Update();
+    }
+    const auto fresh = make();
+    for (std::size_t k = 0; k <= last; ++k)
+    {
+      changes[k](fresh);
+    }
+    fresh->Update();
+    vtkPolyData* found = kept->GetOutput();
+    vtkPolyData* expected = fresh->GetOutput();
+    ASSERT_GT(expected->GetNumberOfPolys(), 0);
+    ASSERT_EQ(found->GetPoints()->GetDataType(), expected->GetPoints()->GetDataType()) << last;
+    ASSERT_EQ(found->GetNumberOfPoints(), expected->GetNumberOfPoints()) << last;
+    ASSERT_EQ(found->GetNumberOfPolys(), expected->GetNumberOfPolys()) << last;
+    ExpectSameArrays(found->GetPointData(), expected->GetPointData());
+    ExpectSameArrays(found->GetCellData(), expected->GetCellData());
+  }
+}
 
 // The object's normals stay the normals of the image.
 TEST(KeptOutput, RolesOfArraysStay)

@@ -153,6 +153,80 @@ TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
 }
 
 //------------------------------------------------------------------------------
+// Objects in similar depths have one grid, which does not depend on the order of requests.
+TEST(RefractionUnique, ObjectsInSimilarDepthsShareAGrid)
+{
+  const UniqueCase& waves = Cases[2];
+  const MembraneMesh mesh = waves.Field.MakeMesh(waves.Cells);
+  CurvedMembraneSolver first;
+  CurvedMembraneSolver second;
+  for (CurvedMembraneSolver* geometry : { &first, &second })
+  {
+    Set(*geometry, mesh, waves.Eye);
+    geometry->PrepareField();
+  }
+  const auto prepare = [](CurvedMembraneSolver& geometry, double height)
+  {
+    const double origin = geometry.GetFrame().GetHeight(geometry.GetMembrane().GetOrigin());
+    return &geometry.PrepareGrid(height - origin, meniscus::SerialLoop);
+  };
+  const InjectivityGrid* shallow = prepare(first, -130.0);
+  EXPECT_EQ(prepare(first, -180.0), shallow);
+  const InjectivityGrid* deep = prepare(first, -400.0);
+  EXPECT_NE(deep, shallow);
+  EXPECT_EQ(prepare(first, -130.0), shallow);
+  const InjectivityGrid* deepOfSecond = prepare(second, -400.0);
+  const InjectivityGrid* shallowOfSecond = prepare(second, -180.0);
+  Random random(7);
+  const glm::dvec3 origin = first.GetMembrane().GetOrigin();
+  int unique = 0;
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 low =
+      random.Point(glm::dvec3(-80.0, -178.0, -80.0), glm::dvec3(80.0, -45.0, 80.0)) - origin;
+    const glm::dvec3 high = low + glm::dvec3(random(0.0, 2.0));
+    unique += shallow->HoldsAtMostOne(low, high);
+    EXPECT_EQ(shallow->HoldsAtMostOne(low, high), shallowOfSecond->HoldsAtMostOne(low, high));
+    EXPECT_EQ(deep->HoldsAtMostOne(low, high), deepOfSecond->HoldsAtMostOne(low, high));
+  }
+  EXPECT_GT(unique, 50);
+  EXPECT_LT(unique, 450);
+}
+
+// A new eye needs a new grid.
+TEST(RefractionUnique, GridsBelongToTheirEye)
+{
+  const UniqueCase& waves = Cases[2];
+  const MembraneMesh mesh = waves.Field.MakeMesh(waves.Cells);
+  const glm::dvec3 eyes[2] = { waves.Eye, { 150.0, 120.0, 10.0 } };
+  CurvedMembraneSolver moved;
+  Set(moved, mesh, eyes[0]);
+  moved.PrepareField();
+  moved.PrepareGrid(-220.0, meniscus::SerialLoop);
+  ASSERT_EQ(moved.SetEye(eyes[1], 1.0, 1.333), EyeStatus::Ready);
+  CurvedMembraneSolver fresh;
+  Set(fresh, mesh, eyes[1]);
+  fresh.PrepareField();
+  const InjectivityGrid& found = moved.PrepareGrid(-220.0, meniscus::SerialLoop);
+  const InjectivityGrid& expected = fresh.PrepareGrid(-220.0, meniscus::SerialLoop);
+  CurvedMembraneSolver before;
+  Set(before, mesh, eyes[0]);
+  before.PrepareField();
+  const InjectivityGrid& old = before.PrepareGrid(-220.0, meniscus::SerialLoop);
+  Random random(11);
+  int different = 0;
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 low =
+      random.Point(glm::dvec3(-80.0, -200.0, -80.0), glm::dvec3(80.0, -45.0, 80.0));
+    const glm::dvec3 high = low + glm::dvec3(random(0.0, 2.0));
+    EXPECT_EQ(found.HoldsAtMostOne(low, high), expected.HoldsAtMostOne(low, high));
+    different += found.HoldsAtMostOne(low, high) != old.HoldsAtMostOne(low, high);
+  }
+  EXPECT_GT(different, 10);
+}
+
+//------------------------------------------------------------------------------
 // A sheet of triangles, given by rows of heights over a grid, with holes.
 namespace
 {

@@ -91,7 +91,8 @@ struct Drawn
 };
 
 Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double tolerance,
-  std::size_t wanted = std::numeric_limits<std::uint32_t>::max())
+  std::size_t wanted = std::numeric_limits<std::uint32_t>::max(),
+  const meniscus::RangeLoop& loop = meniscus::SerialLoop)
 {
   geometry.PrepareField();
   geometry.PrepareSides();
@@ -108,7 +109,7 @@ Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double toleranc
   drawn.Report = images.MapPolygons(cells, object.Names.data(), 0, object.Names.size(), nullptr,
     drawn.Pieces, drawn.Whole, isMapped.data());
   images.MeetNeighbours(
-    cells, object.Names.size(), isMapped.data(), true, drawn.Whole, drawn.Pieces);
+    cells, object.Names.size(), isMapped.data(), true, drawn.Whole, drawn.Pieces, loop);
   drawn.Points = images.GetPointImages();
   return drawn;
 }
@@ -441,6 +442,38 @@ TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
   ASSERT_GT(drawn.Report.Mapped, 150u);
   // One part in front and one to four behind: triangles are smaller than facets.
   EXPECT_LT(drawn.Pieces.GetNumberOfCells(), 6 * drawn.Report.Mapped);
+}
+
+//------------------------------------------------------------------------------
+// Seams are closed in blocks of work, in any order.
+TEST(RefractionSeamsThreads, ResultsDoNotDependOnTheOrderOfBlocks)
+{
+  const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
+  CurvedMembraneSolver geometry;
+  geometry.SetMembrane(field.MakeMesh(64).AsInput());
+  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
+  const Object ball = MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);
+  const double tolerance = 0.005 * Pi / 180.0;
+  const std::size_t all = std::numeric_limits<std::uint32_t>::max();
+  std::size_t blocks = 0;
+  const Drawn forward = Draw(geometry, ball, tolerance, all);
+  const Drawn backward = Draw(geometry, ball, tolerance, all,
+    [&blocks](std::size_t count, const meniscus::RangeBody& body)
+    {
+      blocks = std::max(blocks, count);
+      for (std::size_t i = count; i > 0; --i)
+      {
+        body(i - 1, i);
+      }
+    });
+  EXPECT_GT(blocks, 2u);
+  ASSERT_EQ(forward.Pieces.Connectivity, backward.Pieces.Connectivity);
+  EXPECT_EQ(forward.Pieces.Ends, backward.Pieces.Ends);
+  EXPECT_EQ(forward.Pieces.SourceCells, backward.Pieces.SourceCells);
+  for (std::size_t i = 0; i < forward.Pieces.Points.size(); ++i)
+  {
+    EXPECT_EQ(forward.Pieces.Points[i].Vertex.Position, backward.Pieces.Points[i].Vertex.Position);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -171,7 +171,8 @@ struct TouchingScene
     const meniscus::ObjectCells cells{ offsets.data(), o.Connectivity.data() };
     o.Report = images.MapPolygons(
       cells, names.data(), 0, o.GetCount(), nullptr, o.Pieces, o.Whole, isMapped.data());
-    images.MeetNeighbours(cells, o.GetCount(), isMapped.data(), true, o.Whole, o.Pieces);
+    images.MeetNeighbours(
+      cells, o.GetCount(), isMapped.data(), true, o.Whole, o.Pieces, meniscus::SerialLoop);
     o.PointImages = images.GetPointImages();
   }
 };

@@ -123,7 +123,8 @@ void Object::Map(const StackSolver& solver, double tolerance)
   { t.clear(); };
   this->Report = images.MapPolygons(cells, names.data(), 0, this->GetCount(), noPolygons,
     this->Pieces, this->Whole, isMapped.data());
-  images.MeetNeighbours(cells, this->GetCount(), isMapped.data(), true, this->Whole, this->Pieces);
+  images.MeetNeighbours(
+    cells, this->GetCount(), isMapped.data(), true, this->Whole, this->Pieces, SerialLoop);
   this->PointImages = images.GetPointImages();
 }
 

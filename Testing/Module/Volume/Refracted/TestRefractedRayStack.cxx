@@ -74,6 +74,15 @@ struct StackedSphere
   }
 };
 
+/** View whose rays are traced wherever they go. */
+RefractedRayField::View LookAtAll(
+  const glm::dvec3& eye, const glm::dvec3& target, double width, bool isParallel)
+{
+  RefractedRayField::View view = LookAt(eye, target, width, isParallel, Size);
+  SetMesh(view, Everywhere);
+  return view;
+}
+
 RayLegs LegsOf(const RefractedRayStack& stack, const RefractedRayField::View& view)
 {
   std::vector<const RefractedRayTiles*> list;
@@ -163,9 +172,8 @@ TEST(RefractedRayStack, OneInterfaceIsThatOfTheField)
         const double side = i % 4 == 3 ? -1.0 : 1.0;
         const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
         RefractedRayField::View view =
-          LookAt(eye, random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1)),
-            random(0.5, 3.0), i % 3 == 0, Size);
-        SetMesh(view, Everywhere);
+          LookAtAll(eye, random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1)),
+            random(0.5, 3.0), i % 3 == 0);
         view.Exterior = 1.0;
         view.Interior = 1.4;
         RefractedRayField field;
@@ -201,8 +209,7 @@ TEST(RefractedRayStack, PaneIsTheClosedForm)
   for (const bool parallel : { false, true })
   {
     RefractedRayField::View view =
-      LookAt(glm::dvec3(0.9, 0.6, 2.5), glm::dvec3(0.1, 0.0, 0.0), 1.2, parallel, Size);
-    SetMesh(view, Everywhere);
+      LookAtAll(glm::dvec3(0.9, 0.6, 2.5), glm::dvec3(0.1, 0.0, 0.0), 1.2, parallel);
     RefractedRayStack stack;
     stack.Build({ front.Between(1.0, 1.5), back.Between(1.5, 1.0) }, view);
     const RayLegs legs = LegsOf(stack, view);
@@ -244,8 +251,7 @@ TEST(RefractedRayStack, BallIsEnteredAndLeft)
     {
       const glm::dvec3 eye =
         random(1.2, 5.0) * glm::normalize(random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)));
-      RefractedRayField::View view = LookAt(eye, glm::dvec3(0.0), 2.5, false, Size);
-      SetMesh(view, Everywhere);
+      RefractedRayField::View view = LookAtAll(eye, glm::dvec3(0.0), 2.5, false);
       RefractedRayStack stack;
       stack.Build({ sphere.Between(1.0, index), sphere.Between(1.0, index) }, view);
       const RayLegs legs = LegsOf(stack, view);
@@ -331,9 +337,7 @@ TEST(RefractedRayStack, ConcentricDomeKeepsDirections)
     MembraneStatus::Ready);
   patches.Build(surface, SerialLoop);
   tree.Build(surface, patches, SerialLoop);
-  RefractedRayField::View view =
-    LookAt(glm::dvec3(0.0), glm::dvec3(0.3, 0.4, -1.0), 1.8, false, Size);
-  SetMesh(view, Everywhere);
+  RefractedRayField::View view = LookAtAll(glm::dvec3(0.0), glm::dvec3(0.3, 0.4, -1.0), 1.8, false);
   // Air, glass, water; the normals point outwards.
   RefractedRayStack stack;
   stack.Build({ inner.Between(1.5, 1.0), InterfaceOf(surface, patches, tree, 1.333, 1.5) }, view);
@@ -360,8 +364,7 @@ TEST(RefractedRayStack, RaysThatMissAnInterfaceAreCounted)
   // A sheet that is seen through one half of the first one.
   const StackedSheet back([](double, double) { return -1.5; }, 4);
   RefractedRayField::View view =
-    LookAt(glm::dvec3(1.2, 0.0, 2.0), glm::dvec3(0.0, 0.0, 0.1), 2.3, false, Size);
-  SetMesh(view, Everywhere);
+    LookAtAll(glm::dvec3(1.2, 0.0, 2.0), glm::dvec3(0.0, 0.0, 0.1), 2.3, false);
   RefractedRayStack stack;
   stack.Build({ front.Between(1.0, 1.5), back.Between(1.5, 1.0) }, view);
   const RayLegs legs = LegsOf(stack, view);
@@ -400,9 +403,7 @@ TEST(RefractedRayStack, TotalReflectionEndsRays)
 {
   const StackedSheet front([](double, double) { return 2.0; }, 2);
   const StackedSheet oblique([](double x, double) { return x; }, 3);
-  RefractedRayField::View view =
-    LookAt(glm::dvec3(0.0, 0.0, 4.0), glm::dvec3(0.0), 1.8, true, Size);
-  SetMesh(view, Everywhere);
+  RefractedRayField::View view = LookAtAll(glm::dvec3(0.0, 0.0, 4.0), glm::dvec3(0.0), 1.8, true);
   RefractedRayStack stack;
   // The critical angle is 41.8 degrees for 1.5 and 48.8 degrees for 1.33.
   for (const double index : { 1.5, 1.33 })
@@ -429,9 +430,7 @@ TEST(RefractedRayStack, RaysComeFromTheSideOfTheirMedium)
 {
   const StackedSheet front([](double, double) { return 0.1; }, 2);
   const StackedSheet back([](double, double) { return -0.3; }, 3);
-  RefractedRayField::View view =
-    LookAt(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 0.8, false, Size);
-  SetMesh(view, Everywhere);
+  RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 0.8, false);
   const auto countMissing = [&](double exterior, double interior)
   {
     RefractedRayStack stack;
@@ -559,9 +558,7 @@ TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
   const StackedSheet front(Shapes[2], 12);
   const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
   const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
-  RefractedRayField::View view =
-    LookAt(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false, Size);
-  SetMesh(view, Everywhere);
+  RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false);
   RefractedRayStack forward;
   forward.Build(pane, view);
   RefractedRayStack backward;

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A membrane that is ready for solving, and a list of them, so that scenes with the same membrane,
+ * eye and indices of refraction prepare one of them together.
+ */
+#ifndef meniscus_Filters_Membrane_PreparedMembrane_h
+#define meniscus_Filters_Membrane_PreparedMembrane_h
+
+#include "Filters/Membrane/MembraneExtraction.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
+
+#include "vtkType.h"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+class vtkImplicitFunction;
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/**
+ * Objects that a membrane is read from, and their modification times. The objects are compared
+ * only: one that is created at the address of a deleted one has a later time.
+ */
+struct MembraneOrigin
+{
+  const vtkPolyData* Source = nullptr;
+  vtkMTimeType SourceTime = 0;
+  const vtkImplicitFunction* Function = nullptr;
+  vtkMTimeType FunctionTime = 0;
+  bool Curves = false;
+
+  bool operator==(const MembraneOrigin& other) const;
+};
+
+/** Values on which the rays behind a membrane depend. */
+struct MembraneView
+{
+  /** Position of the eye in world coordinates, exterior and interior index of refraction. */
+  std::array<double, 5> Eye{};
+  bool Reflects = false;
+
+  bool operator==(const MembraneView& other) const
+  {
+    return this->Eye == other.Eye && this->Reflects == other.Reflects;
+  }
+};
+
+/** Numbers of a shape and of its rays. No two of them in a process are equal. */
+struct MembraneVersion
+{
+  vtkTypeInt64 Shape = -1;
+  vtkTypeInt64 Rays = -1;
+
+  bool operator==(const MembraneVersion& other) const
+  {
+    return this->Shape == other.Shape && this->Rays == other.Rays;
+  }
+  /** A number that was not given before. May be called from any thread. */
+  static vtkTypeInt64 MakeNumber();
+};
+
+/** Solvers of a membrane, and the values that they were prepared from. */
+struct PreparedMembrane
+{
+  MembraneOrigin Origin;
+  MembraneArrays Arrays;
+  std::size_t Lost = 0; ///< number of points that could not be moved to the exact surface
+  MembraneStatus Status = MembraneStatus::Empty;
+  bool HasShape = false;
+  MembraneView View;
+  bool HasRays = false;
+  MembraneVersion Version;
+  FlatMembraneSolver Flat;
+  CurvedMembraneSolver Curved;
+  /** Read and written by the functions below only. */
+  bool IsListed = false;
+  bool IsBorrowed = false;
+
+  const Membrane& GetMembrane() const
+  {
+    return this->Origin.Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
+  }
+};
+
+/**
+ * Membrane with these values for a scene that has used `own`, as it was at the version `last`:
+ * `own`, one that another scene has prepared, or one to be prepared. The latter is `own`, even if
+ * other scenes use it, so that an animated membrane is updated once for all of them. It is a new
+ * one if another scene has changed `own` in the meantime, or has it from the same object while this
+ * scene goes to another.
+ *
+ * Until ReturnMembrane() nobody else borrows it. Scenes that work at the same time therefore have
+ * membranes of their own, and none waits for another. May be called from any thread.
+ */
+std::shared_ptr<PreparedMembrane> BorrowMembrane(const std::shared_ptr<PreparedMembrane>& own,
+  const MembraneVersion& last, const MembraneOrigin& origin, const MembraneView& view);
+void ReturnMembrane(PreparedMembrane& membrane);
+
+}
+
+#endif
