@@ -106,6 +106,34 @@ struct FacetPlane
   }
 };
 
+/** State of the search for the intersection of a ray and a patch, after a step. */
+struct PatchSearch
+{
+  enum : std::int64_t
+  {
+    /** Another step is needed. */
+    GoesOn,
+    /** The ray meets the patch. */
+    Meets,
+    /** It meets the surface that continues the patch, close to the patch. */
+    Misses,
+    /** It meets that surface elsewhere, which does not exclude an intersection with the patch. */
+    EndsOutside,
+    /** Newton's method does not converge to a place near the facet. */
+    Fails
+  };
+};
+
+struct PatchSearchLimits
+{
+  /** Length of the last step, as PatchIntersectionBatch::Move. */
+  double LastStep;
+  /** Distance of a ray that meets a patch from its facet, in barycentric coordinates. */
+  double Border;
+  /** The same for places close to the patch. */
+  double Reach;
+};
+
 /** Arrays of the data of each ray. */
 struct PatchIntersectionBatch
 {
@@ -133,6 +161,8 @@ struct PatchIntersectionBatch
   double Behind[Size];
   /** Length of Newton's last step, in barycentric coordinates and scaled depth. */
   double Move[Size];
+  /** Result of FindStates(): PatchSearch. */
+  std::int64_t State[Size];
   /**
    * Normal of the patch, not normalised; after Refract(), the step along the refracted ray per unit
    * of depth.
@@ -212,6 +242,15 @@ void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet se
 void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
+ * Sets PatchX, PatchY and Behind to places near the intersections of the rays and the patch, from X
+ * and Y. Rays is SightRays or FreeRays.
+ * @param size length of the facet's longest edge.
+ */
+template <class Rays>
+void StartNearPatch(const CurvedPatch& patch, const FacetPlane& plane, double size,
+  const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+
+/**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
  * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
  * @param scale a depth of about the size of the facet.
@@ -219,6 +258,13 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 template <class Rays>
 void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
   typename Rays::Batch& lanes);
+
+/**
+ * Computes State after a step of Newton's method.
+ * @param scale as for StepToPatch().
+ */
+void FindStates(
+  const PatchSearchLimits& limits, double scale, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
  * Applies Snell's law with Normal, from either side. The step is the way along the refracted ray

@@ -20,10 +20,9 @@ constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 }
 
 //------------------------------------------------------------------------------
-bool VisibilityBounds::Meets(const TubeBounds& tube) const
+bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
 {
   double first = 0.0;
-  double last = std::numeric_limits<double>::infinity();
   const auto constrain = [&first, &last](double offset, double rate)
   {
     // offset + t rate >= 0

@@ -100,49 +100,71 @@ struct ReachKernel
   }
 };
 
+/**
+ * Finds the extremes of `count` > 0 numbers; of every eighth of them first, since these loops run
+ * on several lanes at a time.
+ */
+template <typename Value>
+void FindExtremes(int count, const Value& valueOf, double& lowest, double& highest)
+{
+  constexpr int width = 8;
+  double low[width];
+  double high[width];
+  std::fill_n(low, width, valueOf(0));
+  std::fill_n(high, width, valueOf(0));
+  const auto add = [&](int i, int lane)
+  {
+    const double value = valueOf(i);
+    low[lane] = std::min(low[lane], value);
+    high[lane] = std::max(high[lane], value);
+  };
+  int i = 0;
+  for (; i + width <= count; i += width)
+  {
+    for (int lane = 0; lane < width; ++lane)
+    {
+      add(i + lane, lane);
+    }
+  }
+  for (; i < count; ++i)
+  {
+    add(i, 0);
+  }
+  lowest = *std::min_element(low, low + width);
+  highest = *std::max_element(high, high + width);
+}
+
 }
 
 //------------------------------------------------------------------------------
-// The extremes of every eighth number first: these loops run on several lanes at a time.
 TubeBounds RayBlock::GetTube(double first) const
 {
-  constexpr int width = 8;
   TubeBounds tube;
   for (int axis = 0; axis < 3; ++axis)
   {
-    double low[2][width];
-    double high[2][width];
-    for (int lane = 0; lane < width; ++lane)
-    {
-      const double direction = this->Direction[axis][0];
-      low[0][lane] = high[0][lane] = this->Start[axis][0] + first * direction;
-      low[1][lane] = high[1][lane] = direction;
-    }
-    const auto add = [&](int ray, int lane)
-    {
-      const double direction = this->Direction[axis][ray];
-      const double start = this->Start[axis][ray] + first * direction;
-      low[0][lane] = std::min(low[0][lane], start);
-      high[0][lane] = std::max(high[0][lane], start);
-      low[1][lane] = std::min(low[1][lane], direction);
-      high[1][lane] = std::max(high[1][lane], direction);
-    };
-    int ray = 0;
-    for (; ray + width <= this->Count; ray += width)
-    {
-      for (int lane = 0; lane < width; ++lane)
-      {
-        add(ray + lane, lane);
-      }
-    }
-    for (; ray < this->Count; ++ray)
-    {
-      add(ray, 0);
-    }
-    tube.StartLow[axis] = *std::min_element(low[0], low[0] + width);
-    tube.StartHigh[axis] = *std::max_element(high[0], high[0] + width);
-    tube.DirectionLow[axis] = *std::min_element(low[1], low[1] + width);
-    tube.DirectionHigh[axis] = *std::max_element(high[1], high[1] + width);
+    const double* starts = this->Start[axis];
+    const double* directions = this->Direction[axis];
+    FindExtremes(
+      this->Count, [=](int ray) { return starts[ray] + first * directions[ray]; },
+      tube.StartLow[axis], tube.StartHigh[axis]);
+    FindExtremes(
+      this->Count, [=](int ray) { return directions[ray]; }, tube.DirectionLow[axis],
+      tube.DirectionHigh[axis]);
+  }
+  return tube;
+}
+
+//------------------------------------------------------------------------------
+TubeBounds RayBlock::GetUnitTube(double first) const
+{
+  TubeBounds tube = this->GetTube(first);
+  const double* lengths = this->Length;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* directions = this->Direction[axis];
+    FindExtremes(
+      this->Count, [=](int ray) { return directions[ray] / lengths[ray]; }, tube.DirectionLow[axis],
+      tube.DirectionHigh[axis]);
   }
   return tube;
 }

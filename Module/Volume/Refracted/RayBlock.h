@@ -70,6 +70,8 @@ struct RayBlock
   }
   /** Bounds of the rays from the depth `first` on. */
   TubeBounds GetTube(double first) const;
+  /** The same tube about directions of unit length. CompleteRays() has to come before. */
+  TubeBounds GetUnitTube(double first) const;
   /** The largest of Last. */
   double GetFarthest() const;
 };
