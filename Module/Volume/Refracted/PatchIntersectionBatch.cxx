@@ -49,61 +49,20 @@ struct NormalKernel
   }
 };
 
-/** A quadratic polynomial of the barycentric coordinates, in the form of the normals of a patch. */
-struct BarycentricForm
-{
-  float Corner[3];
-  float Bend[3];
-
-  /** The component along `axis` of the normals of a patch. */
-  BarycentricForm(const CurvedPatch& patch, const glm::dvec3& axis)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      this->Corner[k] = static_cast<float>(glm::dot(patch.Normal[k], axis));
-      this->Bend[k] = static_cast<float>(glm::dot(patch.Bend[k], axis));
-    }
-  }
-  /** @param products of the coordinates of the ends of each edge. */
-  float At(float c, float x, float y, const float (&products)[3]) const
-  {
-    return c * this->Corner[0] + x * this->Corner[1] + y * this->Corner[2] +
-      products[0] * this->Bend[0] + products[1] * this->Bend[1] + products[2] * this->Bend[2];
-  }
-};
-
-/**
- * Steps from the facet's plane to the patch with the derivatives of the plane, in single precision
- * and with normals whose length counts as 1. On a patch that is nearly flat, the first step of
- * Newton's method is then so short that it is the last one.
- */
 template <class RayType>
 struct StartKernel
 {
-  StartKernel(const CurvedPatch& patch, const FacetPlane& plane, double size, const RayType& rays)
-    : Rays(rays)
-    , Up(plane.Normal / glm::length(plane.Normal))
-    , ByX(size * plane.ByX)
-    , ByY(size * plane.ByY)
-    , Size(size)
-    , UpForm(patch, this->Up)
-    , XForm(patch, this->ByX)
-    , YForm(patch, this->ByY)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      this->Symmetric[k] = static_cast<float>(patch.Symmetric[k] / size);
-      this->Asymmetric[k] = static_cast<float>(patch.Asymmetric[k] / size);
-    }
-  }
+  PatchStart Start;
+  RayType Rays;
 
   void operator()(typename RayType::Batch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
+    const PatchStart& start = this->Start;
+    const glm::vec3 direction(this->Rays.DirectionOf(lanes, i));
     // Per height above the plane; lengths are in units of the facet's size.
-    const double perHeight = 1.0 / glm::dot(this->Up, direction);
-    const auto rayByX = static_cast<float>(perHeight * glm::dot(this->ByX, direction));
-    const auto rayByY = static_cast<float>(perHeight * glm::dot(this->ByY, direction));
+    const float perHeight = 1.0f / glm::dot(start.Up, direction);
+    const float rayByX = perHeight * glm::dot(start.ByX, direction);
+    const float rayByY = perHeight * glm::dot(start.ByY, direction);
     const auto flatX = static_cast<float>(lanes.X[i]);
     const auto flatY = static_cast<float>(lanes.Y[i]);
     float x = flatX;
@@ -113,36 +72,24 @@ struct StartKernel
     {
       const float c = 1.0f - x - y;
       const float products[3] = { x * y, y * c, c * x };
-      const float shift = products[0] * (this->Symmetric[0] + this->Asymmetric[0] * (x - y)) +
-        products[1] * (this->Symmetric[1] + this->Asymmetric[1] * (y - c)) +
-        products[2] * (this->Symmetric[2] + this->Asymmetric[2] * (c - x));
-      height = shift * this->UpForm.At(c, x, y, products);
-      const float besideX = shift * this->XForm.At(c, x, y, products);
-      const float besideY = shift * this->YForm.At(c, x, y, products);
+      const float shift = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
+        products[1] * (start.Symmetric[1] + start.Asymmetric[1] * (y - c)) +
+        products[2] * (start.Symmetric[2] + start.Asymmetric[2] * (c - x));
+      height = shift * start.AlongUp.At(c, x, y, products);
+      const float besideX = shift * start.AlongX.At(c, x, y, products);
+      const float besideY = shift * start.AlongY.At(c, x, y, products);
       x = flatX + (height * rayByX - besideX);
       y = flatY + (height * rayByY - besideY);
     }
     // Otherwise the patch is far from flat for this ray.
     const bool isNear = (std::fabs(x - flatX) < Farthest) & (std::fabs(y - flatY) < Farthest);
-    const double used = isNear ? 1.0 : 0.0;
-    lanes.PatchX[i] = lanes.X[i] + used * static_cast<double>(x - flatX);
-    lanes.PatchY[i] = lanes.Y[i] + used * static_cast<double>(y - flatY);
-    lanes.Behind[i] = used * (static_cast<double>(height) * perHeight * this->Size);
+    lanes.PatchX[i] = lanes.X[i] + static_cast<double>(isNear ? x - flatX : 0.0f);
+    lanes.PatchY[i] = lanes.Y[i] + static_cast<double>(isNear ? y - flatY : 0.0f);
+    lanes.Behind[i] = start.Size * static_cast<double>(isNear ? height * perHeight : 0.0f);
   }
 
   static constexpr int Steps = 2;
   static constexpr float Farthest = 0.25f;
-
-  RayType Rays;
-  glm::dvec3 Up;
-  glm::dvec3 ByX;
-  glm::dvec3 ByY;
-  double Size;
-  BarycentricForm UpForm;
-  BarycentricForm XForm;
-  BarycentricForm YForm;
-  float Symmetric[3];
-  float Asymmetric[3];
 };
 
 template <class RayType>
@@ -268,11 +215,38 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 }
 
 //------------------------------------------------------------------------------
-template <class Rays>
-void StartNearPatch(const CurvedPatch& patch, const FacetPlane& plane, double size,
-  const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
+PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size)
+  : Size(size)
+  , Up(plane.Normal / glm::length(plane.Normal))
+  , ByX(size * plane.ByX)
+  , ByY(size * plane.ByY)
 {
-  RunLanes(StartKernel<Rays>(patch, plane, size, rays), set, lanes);
+  const auto formAlong = [&patch](const glm::dvec3& axis)
+  {
+    Form form;
+    for (int k = 0; k < 3; ++k)
+    {
+      form.Corner[k] = static_cast<float>(glm::dot(patch.Normal[k], axis));
+      form.Bend[k] = static_cast<float>(glm::dot(patch.Bend[k], axis));
+    }
+    return form;
+  };
+  this->AlongUp = formAlong(glm::normalize(plane.Normal));
+  this->AlongX = formAlong(size * plane.ByX);
+  this->AlongY = formAlong(size * plane.ByY);
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Symmetric[k] = static_cast<float>(patch.Symmetric[k] / size);
+    this->Asymmetric[k] = static_cast<float>(patch.Asymmetric[k] / size);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Rays>
+void StartNearPatch(
+  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
+{
+  RunLanes(StartKernel<Rays>{ start, rays }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -297,10 +271,9 @@ void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::
   RunLanes(RefractKernel<Rays>{ rays, ratio }, set, lanes);
 }
 
-template void StartNearPatch(const CurvedPatch&, const FacetPlane&, double, const SightRays&,
-  InstructionSet, PatchIntersectionBatch&);
 template void StartNearPatch(
-  const CurvedPatch&, const FacetPlane&, double, const FreeRays&, InstructionSet, FreeRayBatch&);
+  const PatchStart&, const SightRays&, InstructionSet, PatchIntersectionBatch&);
+template void StartNearPatch(const PatchStart&, const FreeRays&, InstructionSet, FreeRayBatch&);
 template void StepToPatch(
   const CurvedPatch&, const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
 template void StepToPatch(

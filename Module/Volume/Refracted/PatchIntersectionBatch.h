@@ -242,13 +242,50 @@ void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet se
 void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
+ * Coefficients of a patch in single precision, for steps from the facet's plane to the patch with
+ * the derivatives of the plane. Lengths are in units of the facet's size, and the length of normals
+ * counts as 1. On a patch that is nearly flat, the first step of Newton's method is then so short
+ * that it is the last one.
+ */
+struct PatchStart
+{
+  /** A component of the normals: a quadratic polynomial of the barycentric coordinates. */
+  struct Form
+  {
+    float Corner[3];
+    float Bend[3];
+
+    /** @param products of the coordinates of the ends of each edge. */
+    float At(float c, float x, float y, const float (&products)[3]) const
+    {
+      return c * this->Corner[0] + x * this->Corner[1] + y * this->Corner[2] +
+        products[0] * this->Bend[0] + products[1] * this->Bend[1] + products[2] * this->Bend[2];
+    }
+  };
+
+  PatchStart() = default;
+  /** @param size length of the facet's longest edge. */
+  PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size);
+
+  double Size;
+  /** The plane's unit normal, and the gradients of the barycentric coordinates. */
+  glm::vec3 Up;
+  glm::vec3 ByX;
+  glm::vec3 ByY;
+  Form AlongUp;
+  Form AlongX;
+  Form AlongY;
+  float Symmetric[3];
+  float Asymmetric[3];
+};
+
+/**
  * Sets PatchX, PatchY and Behind to places near the intersections of the rays and the patch, from X
  * and Y. Rays is SightRays or FreeRays.
- * @param size length of the facet's longest edge.
  */
 template <class Rays>
-void StartNearPatch(const CurvedPatch& patch, const FacetPlane& plane, double size,
-  const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+void StartNearPatch(
+  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and

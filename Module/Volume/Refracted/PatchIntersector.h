@@ -144,6 +144,7 @@ private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(PatchIntersectionBatch& lanes) const;
   const PatchReach& GetReach() const;
+  const PatchStart& GetStart() const;
   PatchReach BoundReach() const;
   FreeRayBatch SiftNear(RayBlock& rays) const;
   template <class Rays, typename Visit>
@@ -203,9 +204,11 @@ private:
    */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
-  /** Computed when it is needed first. */
+  /** Computed when they are needed first. */
   mutable PatchReach Reach;
   mutable bool HasReach = false;
+  mutable PatchStart Start;
+  mutable bool HasStart = false;
   mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };
@@ -290,7 +293,7 @@ void PatchIntersector::MeetCurved(
   const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
   this->MeetSteep(rays, matters, lanes, visit);
-  StartNearPatch(this->Patch, this->Plane, this->Size, rays, this->Set, lanes);
+  StartNearPatch(this->GetStart(), rays, this->Set, lanes);
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
     StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);

@@ -101,72 +101,52 @@ struct ReachKernel
 };
 
 /**
- * Finds the extremes of `count` > 0 numbers; of every eighth of them first, since these loops run
- * on several lanes at a time.
+ * Extremes of the numbers of rays, one for each lane of a group: beginnings, directions and unit
+ * directions.
  */
-template <typename Value>
-void FindExtremes(int count, const Value& valueOf, double& lowest, double& highest)
+struct TubeGroup
 {
-  constexpr int width = 8;
-  double low[width];
-  double high[width];
-  std::fill_n(low, width, valueOf(0));
-  std::fill_n(high, width, valueOf(0));
-  const auto add = [&](int i, int lane)
+  static constexpr int Numbers = 9;
+
+  explicit TubeGroup(const RayBlock& rays)
+    : Rays(rays)
   {
-    const double value = valueOf(i);
-    low[lane] = std::min(low[lane], value);
-    high[lane] = std::max(high[lane], value);
-  };
-  int i = 0;
-  for (; i + width <= count; i += width)
+    std::fill_n(this->Low[0], Numbers * GroupSize, std::numeric_limits<double>::max());
+    std::fill_n(this->High[0], Numbers * GroupSize, std::numeric_limits<double>::lowest());
+  }
+
+  const RayBlock& Rays;
+  int First = 0;
+  int Count = GroupSize;
+  double Low[Numbers][GroupSize];
+  double High[Numbers][GroupSize];
+};
+
+struct TubeKernel
+{
+  /** Depth at which the tube begins. */
+  double First;
+
+  void operator()(TubeGroup& group, int i) const
   {
-    for (int lane = 0; lane < width; ++lane)
+    const RayBlock& rays = group.Rays;
+    const int ray = group.First + i;
+    const double perLength = 1.0 / rays.Length[ray];
+    for (int axis = 0; axis < 3; ++axis)
     {
-      add(i + lane, lane);
+      const double direction = rays.Direction[axis][ray];
+      const double start = rays.Start[axis][ray] + this->First * direction;
+      const double unit = direction * perLength;
+      group.Low[axis][i] = std::min(group.Low[axis][i], start);
+      group.High[axis][i] = std::max(group.High[axis][i], start);
+      group.Low[3 + axis][i] = std::min(group.Low[3 + axis][i], direction);
+      group.High[3 + axis][i] = std::max(group.High[3 + axis][i], direction);
+      group.Low[6 + axis][i] = std::min(group.Low[6 + axis][i], unit);
+      group.High[6 + axis][i] = std::max(group.High[6 + axis][i], unit);
     }
   }
-  for (; i < count; ++i)
-  {
-    add(i, 0);
-  }
-  lowest = *std::min_element(low, low + width);
-  highest = *std::max_element(high, high + width);
-}
+};
 
-}
-
-//------------------------------------------------------------------------------
-TubeBounds RayBlock::GetTube(double first) const
-{
-  TubeBounds tube;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double* starts = this->Start[axis];
-    const double* directions = this->Direction[axis];
-    FindExtremes(
-      this->Count, [=](int ray) { return starts[ray] + first * directions[ray]; },
-      tube.StartLow[axis], tube.StartHigh[axis]);
-    FindExtremes(
-      this->Count, [=](int ray) { return directions[ray]; }, tube.DirectionLow[axis],
-      tube.DirectionHigh[axis]);
-  }
-  return tube;
-}
-
-//------------------------------------------------------------------------------
-TubeBounds RayBlock::GetUnitTube(double first) const
-{
-  TubeBounds tube = this->GetTube(first);
-  const double* lengths = this->Length;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double* directions = this->Direction[axis];
-    FindExtremes(
-      this->Count, [=](int ray) { return directions[ray] / lengths[ray]; }, tube.DirectionLow[axis],
-      tube.DirectionHigh[axis]);
-  }
-  return tube;
 }
 
 //------------------------------------------------------------------------------
@@ -178,7 +158,39 @@ double RayBlock::GetFarthest() const
 //------------------------------------------------------------------------------
 void CompleteRays(InstructionSet set, RayBlock& rays)
 {
+  for (int i = rays.Count; i % GroupSize != 0; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Start[axis][i] = rays.Start[axis][0];
+      rays.Direction[axis][i] = rays.Direction[axis][0];
+    }
+  }
   RunLanes(LengthKernel(), set, rays);
+}
+
+//------------------------------------------------------------------------------
+RayTubes FindTubes(double first, InstructionSet set, const RayBlock& rays)
+{
+  TubeGroup group(rays);
+  for (; group.First < rays.Count; group.First += GroupSize)
+  {
+    RunLanes(TubeKernel{ first }, set, group);
+  }
+  double low[TubeGroup::Numbers];
+  double high[TubeGroup::Numbers];
+  for (int k = 0; k < TubeGroup::Numbers; ++k)
+  {
+    low[k] = *std::min_element(group.Low[k], group.Low[k] + GroupSize);
+    high[k] = *std::max_element(group.High[k], group.High[k] + GroupSize);
+  }
+  RayTubes tubes;
+  tubes.ByDepth = { { low[0], low[1], low[2] }, { high[0], high[1], high[2] },
+    { low[3], low[4], low[5] }, { high[3], high[4], high[5] } };
+  tubes.ByLength = tubes.ByDepth;
+  tubes.ByLength.DirectionLow = { low[6], low[7], low[8] };
+  tubes.ByLength.DirectionHigh = { high[6], high[7], high[8] };
+  return tubes;
 }
 
 //------------------------------------------------------------------------------

@@ -262,7 +262,7 @@ bool RefractedRayStack::MayShowMesh(const StackVisibility& sight, StackBlock& bl
   {
     return true; // all rays have ended
   }
-  TubeBounds tube = lanes.GetUnitTube(0.0);
+  TubeBounds tube = block.Tubes.ByLength;
   const glm::dvec3 toSurface = this->ToSurface(1);
   tube.StartLow -= toSurface;
   tube.StartHigh -= toSurface;
@@ -331,13 +331,13 @@ void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Cou
   };
   if (FacetBoxes* facets = block.FindFacets(number))
   {
-    VisitBoxesNearFirst(lanes.GetTube(first), this->Set, *facets, meet);
+    VisitBoxesNearFirst(block.Tubes.ByDepth, this->Set, *facets, meet);
   }
   else
   {
     InvertDirections(this->Set, lanes);
     interface.Tree->GetBoxes().Visit(
-      lanes.GetTube(first), farthest,
+      block.Tubes.ByDepth, farthest,
       [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); }, meet);
   }
   for (int lane = 0; lane < lanes.Count && number > 0; ++lane)
@@ -361,6 +361,9 @@ void RefractedRayStack::StoreBlock(const StackBlock& block, int tile, int number
     double steps[3][StackBlock::Size];
     block.FindFrameSteps(k + 1, this->WorldToFrame, steps);
     bool goesOn = false;
+    // The sums stay in registers while rays are stored.
+    glm::dvec3 directions = sum.Directions;
+    AxisBox bounds = sum.Steps;
     for (int i = 0; i < block.Count; ++i)
     {
       RefractedRay& ray = rays[static_cast<std::size_t>(block.Pixels[static_cast<std::size_t>(i)])];
@@ -372,11 +375,14 @@ void RefractedRayStack::StoreBlock(const StackBlock& block, int tile, int number
       ray = { legs.Depth[i], { steps[0][i], steps[1][i], steps[2][i] } };
       if (legs.GoesOn(i))
       {
-        sum.Directions += ray.Step;
-        sum.Steps.Add({ ray.Step, ray.Step });
+        const glm::dvec3 step(steps[0][i], steps[1][i], steps[2][i]);
+        directions += step;
+        bounds.Add({ step, step });
         goesOn = true;
       }
     }
+    sum.Directions = directions;
+    sum.Steps = bounds;
     this->Rays[k].AddSquare(tile, number, goesOn, legs.MayShow);
   }
 }

@@ -263,6 +263,7 @@ void StackBlock::SetLanes(
     }
   }
   CompleteRays(this->Set, lanes);
+  this->Tubes = FindTubes(first, this->Set, lanes);
 }
 
 //------------------------------------------------------------------------------

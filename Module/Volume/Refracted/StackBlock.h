@@ -136,6 +136,8 @@ struct StackBlock
   /** Depths of the intersections with the first interface; infinite without one. */
   double Sights[Size];
   StackLanes Lanes;
+  /** Bounds of the lanes. */
+  RayTubes Tubes;
   /** Normals at the intersections of the lanes. */
   double Normals[3][Size] = {};
   /** Not 0 if the ray of a lane passes the interface. */
@@ -152,7 +154,7 @@ private:
     std::int32_t Facet;
     PatchIntersector Tracer;
   };
-  static constexpr std::uint32_t KeptPatches = 64;
+  static constexpr std::uint32_t KeptPatches = 256;
   std::vector<std::optional<KeptPatch>> Kept{ KeptPatches };
 };
 
