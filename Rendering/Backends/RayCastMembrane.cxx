@@ -166,7 +166,8 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
     this->SightOf = this->Used;
     this->SightShapes = this->GetShapeVersion();
     this->Frames.Turn(this->GetLegs(),
-      isStack ? this->Stack.GetMeanDirection() : this->Sight.GetMeanDirection(), ThreadedLoop);
+      isStack ? this->Stack.GetMeanDirection() : this->Sight.GetMeanDirection(), ThreadedLoop,
+      isStack ? this->Stack.GetStepBounds() : this->Sight.GetStepBounds());
     this->SightVersion.Bump();
   }
   return isStack ? this->Stack.IsSeen() : this->Sight.IsSeen();

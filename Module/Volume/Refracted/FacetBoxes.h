@@ -101,17 +101,23 @@ void VisitBoxesNearFirst(
   }
 }
 
-/** Facets of each interface that the rays of a bundle may meet. */
+/** Facets of some interfaces in a row that the rays of a bundle may meet. */
 class BundleFacets
 {
 public:
-  /** Forgets the facets of all interfaces. */
-  void Clear() { this->NumberOfKnown = 0; }
+  /** Forgets all facets. The next list is that of interface `first`. */
+  void Clear(std::size_t first = 0)
+  {
+    this->First = first;
+    this->NumberOfKnown = 0;
+  }
   /** Facets of interface `number`; null if they are not known, or too many. */
   FacetBoxes* Find(std::size_t number)
   {
-    const bool isKnown = number < this->NumberOfKnown && !this->Facets[number].IsFull;
-    return isKnown ? &this->Facets[number] : nullptr;
+    const std::size_t at = number - this->First;
+    const bool isKnown =
+      number >= this->First && at < this->NumberOfKnown && !this->Facets[at].IsFull;
+    return isKnown ? &this->Facets[at] : nullptr;
   }
   /** Begins the list of the next interface. */
   FacetBoxes& Append()
@@ -124,6 +130,7 @@ public:
 
 private:
   std::vector<FacetBoxes> Facets;
+  std::size_t First = 0;
   std::size_t NumberOfKnown = 0;
 };
 

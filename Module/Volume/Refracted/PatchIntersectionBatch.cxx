@@ -50,6 +50,49 @@ struct NormalKernel
 };
 
 template <class RayType>
+struct StartKernel
+{
+  PatchStart Start;
+  RayType Rays;
+
+  void operator()(typename RayType::Batch& lanes, int i) const
+  {
+    const PatchStart& start = this->Start;
+    const glm::vec3 direction(this->Rays.DirectionOf(lanes, i));
+    // Per height above the plane; lengths are in units of the facet's size.
+    const float perHeight = 1.0f / glm::dot(start.Up, direction);
+    const float rayByX = perHeight * glm::dot(start.ByX, direction);
+    const float rayByY = perHeight * glm::dot(start.ByY, direction);
+    const auto flatX = static_cast<float>(lanes.X[i]);
+    const auto flatY = static_cast<float>(lanes.Y[i]);
+    float x = flatX;
+    float y = flatY;
+    float height = 0.0f;
+    for (int step = 0; step < Steps; ++step)
+    {
+      const float c = 1.0f - x - y;
+      const float products[3] = { x * y, y * c, c * x };
+      const float shift = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
+        products[1] * (start.Symmetric[1] + start.Asymmetric[1] * (y - c)) +
+        products[2] * (start.Symmetric[2] + start.Asymmetric[2] * (c - x));
+      height = shift * start.AlongUp.At(c, x, y, products);
+      const float besideX = shift * start.AlongX.At(c, x, y, products);
+      const float besideY = shift * start.AlongY.At(c, x, y, products);
+      x = flatX + (height * rayByX - besideX);
+      y = flatY + (height * rayByY - besideY);
+    }
+    // Otherwise the patch is far from flat for this ray.
+    const bool isNear = (std::fabs(x - flatX) < Farthest) & (std::fabs(y - flatY) < Farthest);
+    lanes.PatchX[i] = lanes.X[i] + static_cast<double>(isNear ? x - flatX : 0.0f);
+    lanes.PatchY[i] = lanes.Y[i] + static_cast<double>(isNear ? y - flatY : 0.0f);
+    lanes.Behind[i] = start.Size * static_cast<double>(isNear ? height * perHeight : 0.0f);
+  }
+
+  static constexpr int Steps = 2;
+  static constexpr float Farthest = 0.25f;
+};
+
+template <class RayType>
 struct PatchKernel
 {
   CurvedPatch Patch;
@@ -79,6 +122,29 @@ struct PatchKernel
     lanes.Normal[0][i] = normal.x;
     lanes.Normal[1][i] = normal.y;
     lanes.Normal[2][i] = normal.z;
+  }
+};
+
+struct SearchKernel
+{
+  PatchSearchLimits Limits;
+  double Scale;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const double x = lanes.PatchX[i];
+    const double y = lanes.PatchY[i];
+    const double least = std::min(std::min(x, y), 1.0 - x - y);
+    const bool isNear = (std::fabs(x - lanes.X[i]) <= 1.0) & (std::fabs(y - lanes.Y[i]) <= 1.0) &
+      (std::fabs(lanes.Behind[i]) <= this->Scale);
+    const bool hasSettled = lanes.Move[i] < this->Limits.LastStep;
+    const bool isInReach = least >= -this->Limits.Reach;
+    const bool isInside = least >= -this->Limits.Border;
+    const std::int64_t going = isNear ? PatchSearch::GoesOn : PatchSearch::Fails;
+    const std::int64_t beside = isInReach ? PatchSearch::Misses : PatchSearch::EndsOutside;
+    const std::int64_t settled = isInside ? PatchSearch::Meets : beside;
+    // Not a number counts as a failure: both comparisons are false.
+    lanes.State[i] = hasSettled ? settled : going;
   }
 };
 
@@ -149,11 +215,53 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 }
 
 //------------------------------------------------------------------------------
+PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size)
+  : Size(size)
+  , Up(plane.Normal / glm::length(plane.Normal))
+  , ByX(size * plane.ByX)
+  , ByY(size * plane.ByY)
+{
+  const auto formAlong = [&patch](const glm::dvec3& axis)
+  {
+    Form form;
+    for (int k = 0; k < 3; ++k)
+    {
+      form.Corner[k] = static_cast<float>(glm::dot(patch.Normal[k], axis));
+      form.Bend[k] = static_cast<float>(glm::dot(patch.Bend[k], axis));
+    }
+    return form;
+  };
+  this->AlongUp = formAlong(glm::normalize(plane.Normal));
+  this->AlongX = formAlong(size * plane.ByX);
+  this->AlongY = formAlong(size * plane.ByY);
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Symmetric[k] = static_cast<float>(patch.Symmetric[k] / size);
+    this->Asymmetric[k] = static_cast<float>(patch.Asymmetric[k] / size);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Rays>
+void StartNearPatch(
+  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
+{
+  RunLanes(StartKernel<Rays>{ start, rays }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
 template <class Rays>
 void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
   typename Rays::Batch& lanes)
 {
   RunLanes(PatchKernel<Rays>{ patch, rays, scale }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
+void FindStates(
+  const PatchSearchLimits& limits, double scale, InstructionSet set, PatchIntersectionBatch& lanes)
+{
+  RunLanes(SearchKernel{ limits, scale }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -163,6 +271,9 @@ void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::
   RunLanes(RefractKernel<Rays>{ rays, ratio }, set, lanes);
 }
 
+template void StartNearPatch(
+  const PatchStart&, const SightRays&, InstructionSet, PatchIntersectionBatch&);
+template void StartNearPatch(const PatchStart&, const FreeRays&, InstructionSet, FreeRayBatch&);
 template void StepToPatch(
   const CurvedPatch&, const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
 template void StepToPatch(

@@ -106,6 +106,34 @@ struct FacetPlane
   }
 };
 
+/** State of the search for the intersection of a ray and a patch, after a step. */
+struct PatchSearch
+{
+  enum : std::int64_t
+  {
+    /** Another step is needed. */
+    GoesOn,
+    /** The ray meets the patch. */
+    Meets,
+    /** It meets the surface that continues the patch, close to the patch. */
+    Misses,
+    /** It meets that surface elsewhere, which does not exclude an intersection with the patch. */
+    EndsOutside,
+    /** Newton's method does not converge to a place near the facet. */
+    Fails
+  };
+};
+
+struct PatchSearchLimits
+{
+  /** Length of the last step, as PatchIntersectionBatch::Move. */
+  double LastStep;
+  /** Distance of a ray that meets a patch from its facet, in barycentric coordinates. */
+  double Border;
+  /** The same for places close to the patch. */
+  double Reach;
+};
+
 /** Arrays of the data of each ray. */
 struct PatchIntersectionBatch
 {
@@ -133,6 +161,8 @@ struct PatchIntersectionBatch
   double Behind[Size];
   /** Length of Newton's last step, in barycentric coordinates and scaled depth. */
   double Move[Size];
+  /** Result of FindStates(): PatchSearch. */
+  std::int64_t State[Size];
   /**
    * Normal of the patch, not normalised; after Refract(), the step along the refracted ray per unit
    * of depth.
@@ -212,6 +242,52 @@ void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet se
 void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
+ * Coefficients of a patch in single precision, for steps from the facet's plane to the patch with
+ * the derivatives of the plane. Lengths are in units of the facet's size, and the length of normals
+ * counts as 1. On a patch that is nearly flat, the first step of Newton's method is then so short
+ * that it is the last one.
+ */
+struct PatchStart
+{
+  /** A component of the normals: a quadratic polynomial of the barycentric coordinates. */
+  struct Form
+  {
+    float Corner[3];
+    float Bend[3];
+
+    /** @param products of the coordinates of the ends of each edge. */
+    float At(float c, float x, float y, const float (&products)[3]) const
+    {
+      return c * this->Corner[0] + x * this->Corner[1] + y * this->Corner[2] +
+        products[0] * this->Bend[0] + products[1] * this->Bend[1] + products[2] * this->Bend[2];
+    }
+  };
+
+  PatchStart() = default;
+  /** @param size length of the facet's longest edge. */
+  PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double size);
+
+  double Size;
+  /** The plane's unit normal, and the gradients of the barycentric coordinates. */
+  glm::vec3 Up;
+  glm::vec3 ByX;
+  glm::vec3 ByY;
+  Form AlongUp;
+  Form AlongX;
+  Form AlongY;
+  float Symmetric[3];
+  float Asymmetric[3];
+};
+
+/**
+ * Sets PatchX, PatchY and Behind to places near the intersections of the rays and the patch, from X
+ * and Y. Rays is SightRays or FreeRays.
+ */
+template <class Rays>
+void StartNearPatch(
+  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+
+/**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
  * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
  * @param scale a depth of about the size of the facet.
@@ -219,6 +295,13 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 template <class Rays>
 void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
   typename Rays::Batch& lanes);
+
+/**
+ * Computes State after a step of Newton's method.
+ * @param scale as for StepToPatch().
+ */
+void FindStates(
+  const PatchSearchLimits& limits, double scale, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
  * Applies Snell's law with Normal, from either side. The step is the way along the refracted ray

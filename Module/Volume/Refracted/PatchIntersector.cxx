@@ -20,10 +20,9 @@ constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 }
 
 //------------------------------------------------------------------------------
-bool VisibilityBounds::Meets(const TubeBounds& tube) const
+bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
 {
   double first = 0.0;
-  double last = std::numeric_limits<double>::infinity();
   const auto constrain = [&first, &last](double offset, double rate)
   {
     // offset + t rate >= 0
@@ -191,6 +190,17 @@ const PatchReach& PatchIntersector::GetReach() const
 }
 
 //------------------------------------------------------------------------------
+const PatchStart& PatchIntersector::GetStart() const
+{
+  if (!this->HasStart)
+  {
+    this->Start = PatchStart(this->Patch, this->Plane, this->Size);
+    this->HasStart = true;
+  }
+  return this->Start;
+}
+
+//------------------------------------------------------------------------------
 PatchReach PatchIntersector::BoundReach() const
 {
   PatchReach reach;
@@ -246,18 +256,29 @@ FreeRayBatch PatchIntersector::SiftNear(RayBlock& rays) const
     std::copy_n(rays.Slant, rays.Count, lanes.Slant);
     return lanes;
   }
+  // Without branches, since no prediction of them would hold.
+  std::int32_t near[RayBlock::Size];
+  int count = 0;
   for (int i = 0; i < rays.Count; ++i)
   {
-    if (rays.Meets[i] != 0)
-    {
-      const int lane = lanes.Count;
-      lanes.Add(i, rays.GetStart(i), rays.GetDirection(i));
-      lanes.Depth[lane] = rays.Depth[i];
-      lanes.X[lane] = rays.X[i];
-      lanes.Y[lane] = rays.Y[i];
-      lanes.Slant[lane] = rays.Slant[i];
-    }
+    near[count] = i;
+    count += rays.Meets[i] != 0 ? 1 : 0;
   }
+  for (int lane = 0; lane < count; ++lane)
+  {
+    const int i = near[lane];
+    lanes.Index[lane] = i;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Start[axis][lane] = rays.Start[axis][i];
+      lanes.Direction[axis][lane] = rays.Direction[axis][i];
+    }
+    lanes.Depth[lane] = rays.Depth[i];
+    lanes.X[lane] = rays.X[i];
+    lanes.Y[lane] = rays.Y[i];
+    lanes.Slant[lane] = rays.Slant[i];
+  }
+  lanes.Count = count;
   return lanes;
 }
 

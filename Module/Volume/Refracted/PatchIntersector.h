@@ -46,8 +46,8 @@ struct VisibilityBounds
   /** n1 / n2, for rays against the normals. */
   double Ratio = 1.0;
 
-  /** True if the box meets the tube. */
-  bool Meets(const TubeBounds& tube) const;
+  /** True if the box meets the tube up to the parameter `last`. */
+  bool Meets(const TubeBounds& tube, double last = std::numeric_limits<double>::infinity()) const;
   /**
    * True if rays may reach the box that meet the membrane within `reach` of the hull of `count`
    * points: between the eye and the membrane, or after refraction.
@@ -138,12 +138,13 @@ public:
    * to an accuracy of its square. The factor 50 is larger than the first and the second derivatives
    * of normals, which are sums of a few vectors of length 2.
    */
-  static constexpr double NormalMargin = 50.0 * (1e-8 + 1e-4 * 1e-4);
+  static constexpr double NormalMargin = 50.0 * (1e-8 + 1e-5 * 1e-5);
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(PatchIntersectionBatch& lanes) const;
   const PatchReach& GetReach() const;
+  const PatchStart& GetStart() const;
   PatchReach BoundReach() const;
   FreeRayBatch SiftNear(RayBlock& rays) const;
   template <class Rays, typename Visit>
@@ -158,6 +159,9 @@ private:
   /** True if a ray is certain to pass the patch. Rays of a block were tested before. */
   bool Passes(const SightRays& rays, const PatchIntersectionBatch& lanes, int lane) const;
   bool Passes(const FreeRays&, const FreeRayBatch&, int) const { return false; }
+  template <class Rays, typename Visit>
+  void MeetSteep(
+    const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
   template <class Rays, typename Visit>
   void MeetCurved(
     const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
@@ -174,9 +178,11 @@ private:
   static constexpr double Border = 1e-8;
   /**
    * Length of Newton's last step, in units of the facet. The remaining error is its square times
-   * the curvature of the patch, below 1e-9; the walk resolves 4e-9 of the mesh.
+   * the second derivatives of the patch and the slant of the ray, below 1e-9 for products of these
+   * up to 10; the walk resolves 4e-9 of the mesh.
    */
-  static constexpr double LastStep = 1e-4;
+  static constexpr double LastStep = 1e-5;
+  static constexpr PatchSearchLimits SearchLimits{ LastStep, Border, PatchCrossings::Reach };
   /**
    * Limit of Newton's steps. From a place on the facet the method converges quadratically;
    * otherwise MeetExactly() takes over.
@@ -198,9 +204,11 @@ private:
    */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
-  /** Computed when it is needed first. */
+  /** Computed when they are needed first. */
   mutable PatchReach Reach;
   mutable bool HasReach = false;
+  mutable PatchStart Start;
+  mutable bool HasStart = false;
   mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };
@@ -256,13 +264,19 @@ void PatchIntersector::MeetNear(
 }
 
 //------------------------------------------------------------------------------
+/** Intersects the rays that may meet the patch twice, and removes them. */
 template <class Rays, typename Visit>
-void PatchIntersector::MeetCurved(
+void PatchIntersector::MeetSteep(
   const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
-  const int all = lanes.Count;
-  lanes.Count = 0;
-  for (int i = 0; i < all; ++i)
+  const int count = lanes.Count;
+  bool isAnySteep = false;
+  for (int i = 0; i < count; ++i)
+  {
+    isAnySteep |= !(lanes.Slant[i] <= this->LargestSlant);
+  }
+  lanes.Count = isAnySteep ? 0 : count;
+  for (int i = 0; i < count && isAnySteep; ++i)
   {
     if (!(lanes.Slant[i] <= this->LargestSlant) && this->MayMeetTwice(lanes.Slant[i]))
     {
@@ -271,39 +285,37 @@ void PatchIntersector::MeetCurved(
     }
     lanes.Keep(lanes.Count++, i);
   }
-  std::copy_n(lanes.X, lanes.Count, lanes.PatchX);
-  std::copy_n(lanes.Y, lanes.Count, lanes.PatchY);
-  std::fill_n(lanes.Behind, lanes.Count, 0.0);
+}
+
+//------------------------------------------------------------------------------
+template <class Rays, typename Visit>
+void PatchIntersector::MeetCurved(
+  const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
+{
+  this->MeetSteep(rays, matters, lanes, visit);
+  StartNearPatch(this->GetStart(), rays, this->Set, lanes);
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
     StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);
+    FindStates(SearchLimits, this->Scale, this->Set, lanes);
     const int count = lanes.Count;
     lanes.Count = 0;
     for (int i = 0; i < count; ++i)
     {
-      const double outside = FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).Least;
-      if (lanes.Move[i] < LastStep && outside >= -PatchCrossings::Reach)
+      const std::int64_t state = lanes.State[i];
+      if (state == PatchSearch::Meets)
       {
-        if (outside >= -Border)
-        {
-          const glm::dvec3 normal(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
-          visit(lanes.Index[i],
-            MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
-        }
+        const glm::dvec3 normal(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
+        visit(lanes.Index[i],
+          MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
       }
-      // A root of the ray outside of the patch does not exclude another one inside.
-      else if (lanes.Move[i] < LastStep && this->Passes(rays, lanes, i))
-      {
-        continue;
-      }
-      // A ray that moves by more than a facet has diverged, and so has a ray that ends far from the
-      // patch.
-      else if (lanes.Move[i] >= LastStep && std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
-        std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 && std::fabs(lanes.Behind[i]) <= this->Scale)
+      else if (state == PatchSearch::GoesOn)
       {
         lanes.Keep(lanes.Count++, i);
       }
-      else
+      // A root of the ray outside of the patch does not exclude another one inside.
+      else if (state == PatchSearch::Fails ||
+        (state == PatchSearch::EndsOutside && !this->Passes(rays, lanes, i)))
       {
         this->MeetExactly(rays, matters, lanes, i, visit);
       }

@@ -100,51 +100,53 @@ struct ReachKernel
   }
 };
 
-}
-
-//------------------------------------------------------------------------------
-// The extremes of every eighth number first: these loops run on several lanes at a time.
-TubeBounds RayBlock::GetTube(double first) const
+/**
+ * Extremes of the numbers of rays, one for each lane of a group: beginnings, directions and unit
+ * directions.
+ */
+struct TubeGroup
 {
-  constexpr int width = 8;
-  TubeBounds tube;
-  for (int axis = 0; axis < 3; ++axis)
+  static constexpr int Numbers = 9;
+
+  explicit TubeGroup(const RayBlock& rays)
+    : Rays(rays)
   {
-    double low[2][width];
-    double high[2][width];
-    for (int lane = 0; lane < width; ++lane)
-    {
-      const double direction = this->Direction[axis][0];
-      low[0][lane] = high[0][lane] = this->Start[axis][0] + first * direction;
-      low[1][lane] = high[1][lane] = direction;
-    }
-    const auto add = [&](int ray, int lane)
-    {
-      const double direction = this->Direction[axis][ray];
-      const double start = this->Start[axis][ray] + first * direction;
-      low[0][lane] = std::min(low[0][lane], start);
-      high[0][lane] = std::max(high[0][lane], start);
-      low[1][lane] = std::min(low[1][lane], direction);
-      high[1][lane] = std::max(high[1][lane], direction);
-    };
-    int ray = 0;
-    for (; ray + width <= this->Count; ray += width)
-    {
-      for (int lane = 0; lane < width; ++lane)
-      {
-        add(ray + lane, lane);
-      }
-    }
-    for (; ray < this->Count; ++ray)
-    {
-      add(ray, 0);
-    }
-    tube.StartLow[axis] = *std::min_element(low[0], low[0] + width);
-    tube.StartHigh[axis] = *std::max_element(high[0], high[0] + width);
-    tube.DirectionLow[axis] = *std::min_element(low[1], low[1] + width);
-    tube.DirectionHigh[axis] = *std::max_element(high[1], high[1] + width);
+    std::fill_n(this->Low[0], Numbers * GroupSize, std::numeric_limits<double>::max());
+    std::fill_n(this->High[0], Numbers * GroupSize, std::numeric_limits<double>::lowest());
   }
-  return tube;
+
+  const RayBlock& Rays;
+  int First = 0;
+  int Count = GroupSize;
+  double Low[Numbers][GroupSize];
+  double High[Numbers][GroupSize];
+};
+
+struct TubeKernel
+{
+  /** Depth at which the tube begins. */
+  double First;
+
+  void operator()(TubeGroup& group, int i) const
+  {
+    const RayBlock& rays = group.Rays;
+    const int ray = group.First + i;
+    const double perLength = 1.0 / rays.Length[ray];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double direction = rays.Direction[axis][ray];
+      const double start = rays.Start[axis][ray] + this->First * direction;
+      const double unit = direction * perLength;
+      group.Low[axis][i] = std::min(group.Low[axis][i], start);
+      group.High[axis][i] = std::max(group.High[axis][i], start);
+      group.Low[3 + axis][i] = std::min(group.Low[3 + axis][i], direction);
+      group.High[3 + axis][i] = std::max(group.High[3 + axis][i], direction);
+      group.Low[6 + axis][i] = std::min(group.Low[6 + axis][i], unit);
+      group.High[6 + axis][i] = std::max(group.High[6 + axis][i], unit);
+    }
+  }
+};
+
 }
 
 //------------------------------------------------------------------------------
@@ -156,7 +158,39 @@ double RayBlock::GetFarthest() const
 //------------------------------------------------------------------------------
 void CompleteRays(InstructionSet set, RayBlock& rays)
 {
+  for (int i = rays.Count; i % GroupSize != 0; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rays.Start[axis][i] = rays.Start[axis][0];
+      rays.Direction[axis][i] = rays.Direction[axis][0];
+    }
+  }
   RunLanes(LengthKernel(), set, rays);
+}
+
+//------------------------------------------------------------------------------
+RayTubes FindTubes(double first, InstructionSet set, const RayBlock& rays)
+{
+  TubeGroup group(rays);
+  for (; group.First < rays.Count; group.First += GroupSize)
+  {
+    RunLanes(TubeKernel{ first }, set, group);
+  }
+  double low[TubeGroup::Numbers];
+  double high[TubeGroup::Numbers];
+  for (int k = 0; k < TubeGroup::Numbers; ++k)
+  {
+    low[k] = *std::min_element(group.Low[k], group.Low[k] + GroupSize);
+    high[k] = *std::max_element(group.High[k], group.High[k] + GroupSize);
+  }
+  RayTubes tubes;
+  tubes.ByDepth = { { low[0], low[1], low[2] }, { high[0], high[1], high[2] },
+    { low[3], low[4], low[5] }, { high[3], high[4], high[5] } };
+  tubes.ByLength = tubes.ByDepth;
+  tubes.ByLength.DirectionLow = { low[6], low[7], low[8] };
+  tubes.ByLength.DirectionHigh = { high[6], high[7], high[8] };
+  return tubes;
 }
 
 //------------------------------------------------------------------------------

@@ -68,17 +68,25 @@ struct RayBlock
   {
     return { this->Direction[0][i], this->Direction[1][i], this->Direction[2][i] };
   }
-  /** Bounds of the rays from the depth `first` on. */
-  TubeBounds GetTube(double first) const;
   /** The largest of Last. */
   double GetFarthest() const;
 };
 
 /**
- * Computes Length.
+ * Computes Length, and repeats a ray in the lanes that fill the last group.
  * @pre GetInstructionSets() has the set; also for the functions that follow
  */
 void CompleteRays(InstructionSet set, RayBlock& rays);
+/** Bounds of rays. */
+struct RayTubes
+{
+  /** With parameters that are depths. */
+  TubeBounds ByDepth;
+  /** With directions of unit length. */
+  TubeBounds ByLength;
+};
+/** Bounds the rays from the depth `first` on. CompleteRays() has to come before. */
+RayTubes FindTubes(double first, InstructionSet set, const RayBlock& rays);
 /** Computes Inverse. */
 void InvertDirections(InstructionSet set, RayBlock& rays);
 

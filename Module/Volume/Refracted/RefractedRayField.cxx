@@ -351,9 +351,11 @@ void RefractedRayField::Build(
   this->Seen = this->Refracted.HasRays();
   glm::dvec3 sum(0.0);
   this->UndecidedRays = 0;
+  this->StepBounds = AxisBox();
   for (const TileSum& tile : sums)
   {
     sum += tile.Directions;
+    this->StepBounds.Add(tile.Steps);
     this->UndecidedRays += tile.Undecided;
   }
   sum = this->WorldToFrame * sum;
@@ -486,7 +488,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
     }
   }
   const TileSquares goingOn =
-    this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum.Directions);
+    this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum);
   this->Refracted.SetSquares(tile, goingOn, goingOn);
   return sum;
 }
@@ -494,12 +496,10 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
 //------------------------------------------------------------------------------
 /**
  * Returns the squares with refracted rays.
- * @param directions sum to which the steps along the refracted rays are added, in world
- *   coordinates.
+ * @param sum gets the steps along the refracted rays.
  */
 TileSquares RefractedRayField::RefractTile(const PixelRays& tile,
-  const std::vector<MembraneHit>& hits, std::vector<RefractedRay>& rays,
-  glm::dvec3& directions) const
+  const std::vector<MembraneHit>& hits, std::vector<RefractedRay>& rays, TileSum& sum) const
 {
   TileSquares goingOn = 0;
   const auto bend = [&](PatchIntersectionBatch& lanes)
@@ -510,9 +510,11 @@ TileSquares RefractedRayField::RefractTile(const PixelRays& tile,
       if (lanes.Refracted[i] != 0.0)
       {
         const glm::dvec3 step(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
-        rays[static_cast<std::size_t>(lanes.Index[i])].Step = this->WorldToFrame * step;
+        const glm::dvec3 inFrame = this->WorldToFrame * step;
+        rays[static_cast<std::size_t>(lanes.Index[i])].Step = inFrame;
         goingOn = static_cast<TileSquares>(goingOn | RefractedRayTiles::SquareOf(lanes.Index[i]));
-        directions += step;
+        sum.Directions += step;
+        sum.Steps.Add({ inFrame, inFrame });
       }
     }
     lanes.Count = 0;

@@ -6,6 +6,7 @@
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/PatchIntersector.h"
@@ -82,6 +83,8 @@ public:
    * none.
    */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
+  /** Bounds of the steps of the refracted rays, there as well; empty if there are none. */
+  const AxisBox& GetStepBounds() const { return this->StepBounds; }
   const View& GetView() const { return this->Of; }
   /**
    * Pairs of a ray and a patch that it touches, or runs along, within rounding, such as an outline
@@ -127,10 +130,14 @@ private:
   void SortFacets(const std::vector<SeenFacet>& facets);
   bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
     const PixelRays& rays) const;
-  /** Sum of the steps of a tile's refracted rays in world coordinates, and its undecided rays. */
+  /** Contributions of a tile to the results. */
   struct TileSum
   {
+    /** Sum of the steps of the refracted rays in world coordinates. */
     glm::dvec3 Directions{ 0.0 };
+    /** Bounds of the steps in the frame of the view. */
+    AxisBox Steps;
+    /** Number of undecided rays. */
     std::int64_t Undecided = 0;
   };
   TileSum TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile);
@@ -139,7 +146,7 @@ private:
   void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
     const Box& box, bool matters, const PixelRays& rays, std::vector<MembraneHit>& hits) const;
   TileSquares RefractTile(const PixelRays& tile, const std::vector<MembraneHit>& hits,
-    std::vector<RefractedRay>& rays, glm::dvec3& directions) const;
+    std::vector<RefractedRay>& rays, TileSum& sum) const;
 
   View Of;
   int Columns = 0;
@@ -147,6 +154,7 @@ private:
   bool Seen = false;
   std::int64_t UndecidedRays = 0;
   glm::dvec3 MeanDirection{ 0.0 };
+  AxisBox StepBounds;
   glm::dmat3 WorldToFrame{ 1.0 };
   /** Bounds of the mesh, relative to the membrane's origin. */
   VisibilityBounds Mesh;

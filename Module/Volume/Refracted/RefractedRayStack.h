@@ -7,6 +7,7 @@
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
+#include "Volume/Refracted/StackBlock.h"
 #include "Volume/Refracted/StackVisibility.h"
 #include "Volume/Refracted/StackedInterface.h"
 
@@ -76,6 +77,8 @@ public:
   bool IsSeen() const { return !this->Rays.empty() && this->Rays.front().HasRays(); }
   /** Mean direction of all legs in the frame of the view; a unit vector, or 0 without any. */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
+  /** Bounds of the steps of all legs, there as well; empty if there are none. */
+  const AxisBox& GetStepBounds() const { return this->StepBounds; }
   /**
    * Counts all rays of the image. Traces the blocks that Build() left out, through the interfaces
    * that it was given.
@@ -88,29 +91,35 @@ public:
   std::int64_t GetBytes() const;
 
 private:
-  struct Block;
   /** Contributions of a tile to the results. */
   struct TileSum
   {
+    /** Sum and bounds of the steps of the legs, in the frame of the view. */
     glm::dvec3 Directions{ 0.0 };
+    AxisBox Steps;
     Counts Rays;
   };
 
-  TileSum TraceTile(int tile, const StackVisibility& sight);
-  void TraceBlock(std::size_t interfaces, Block& block, Counts& sums) const;
+  TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
+  void PrepareTile(int tile, bool mayShow);
   /** First pixel of a tile. */
   glm::ivec2 FirstPixel(int tile) const
   {
     return RefractedRayTiles::TileSize * glm::ivec2(tile % this->Columns, tile / this->Columns);
   }
   CornerRays CornersOf(const glm::ivec2& first, int size) const;
-  void StartBlock(const glm::ivec2& first, Block& block) const;
-  void SetLanes(std::size_t number, Block& block, Counts& sums) const;
-  void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
-  void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
-  void EndRaysBesideMesh(Block& block) const;
-  void StoreBlock(const Block& block, int tile, int number, glm::dvec3& directions);
-  void StoreSights(const Block& block, int tile);
+  /** The view's origin, from that of the surface of an interface. */
+  glm::dvec3 ToSurface(std::size_t number) const
+  {
+    return this->Of.Center - this->Interfaces[number].Surface->GetOrigin();
+  }
+  void MeetFirst(const glm::ivec2& first, StackBlock& block, Counts& sums) const;
+  bool TraceBlock(const StackVisibility* sight, StackBlock& block, Counts& sums) const;
+  bool MayShowMesh(const StackVisibility& sight, StackBlock& block) const;
+  void SetLanes(std::size_t number, StackBlock& block, Counts& sums) const;
+  void MeetInterface(std::size_t number, StackBlock& block, Counts& sums) const;
+  void StoreBlock(const StackBlock& block, int tile, int number, TileSum& sum);
+  void StoreSights(const StackBlock& block, int tile, int number);
 
   std::vector<StackedInterface> Interfaces;
   View Of;
@@ -121,9 +130,10 @@ private:
   glm::dvec3 MeshCenter{ 0.0 };
   glm::dvec3 MeshHalf{ 0.0 };
   std::vector<RefractedRayTiles> Rays;
-  /** Blocks that are not traced behind the first interface: a bit per block of each tile. */
+  /** Blocks with rays that are not traced behind the first interface: a bit per block of a tile. */
   std::vector<TileSquares> Untraced;
   glm::dvec3 MeanDirection{ 0.0 };
+  AxisBox StepBounds;
   Counts Sums;
 };
 

@@ -168,11 +168,9 @@ unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
 }
 
 //------------------------------------------------------------------------------
-void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop)
+/** Returns a bit per frame that a ray needs. */
+unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, const RangeLoop& loop) const
 {
-  const HeightFrame along(mean == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : mean);
-  this->Axes = glm::dmat3(along.First, along.Second, along.Axis);
-
   std::vector<unsigned int> needed(static_cast<std::size_t>(legs.GetNumberOfTiles()), 0);
   loop(needed.size(),
     [&](std::size_t begin, std::size_t end)
@@ -182,12 +180,36 @@ void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const R
         needed[tile] = this->FindNeeded(legs, static_cast<int>(tile));
       }
     });
-  const glm::dvec3 sightPoint = MeanSightPoint(legs);
-  this->Needed = 0;
+  unsigned int all = 0;
   for (const unsigned int ofTile : needed)
   {
-    this->Needed |= ofTile;
+    all |= ofTile;
   }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if all rays whose steps are in a box belong to the first frame. Their slopes are then within
+ * 1/2, far from the limit of 1 as compared with rounding.
+ */
+bool RefractionFrames::IsAlongMean(const AxisBox& steps) const
+{
+  const glm::dvec3 middle = 0.5 * (steps.Low + steps.High) * this->Axes;
+  const glm::dvec3 half = 0.5 * (steps.High - steps.Low) *
+    glm::dmat3(glm::abs(this->Axes[0]), glm::abs(this->Axes[1]), glm::abs(this->Axes[2]));
+  const glm::dvec3 most = glm::abs(middle) + half;
+  return steps.Low.x <= steps.High.x && middle.z - half.z > 2.0 * std::max(most.x, most.y);
+}
+
+//------------------------------------------------------------------------------
+void RefractionFrames::Turn(
+  const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop, const AxisBox& steps)
+{
+  const HeightFrame along(mean == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : mean);
+  this->Axes = glm::dmat3(along.First, along.Second, along.Axis);
+  this->Needed = this->IsAlongMean(steps) ? 1u : this->FindNeeded(legs, loop);
+  const glm::dvec3 sightPoint = MeanSightPoint(legs);
   for (int index = 0; index < Number; ++index)
   {
     std::vector<PacketVertex> room = std::move(this->Frames[index].Vertices);

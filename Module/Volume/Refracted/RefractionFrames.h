@@ -4,6 +4,7 @@
 #define meniscus_Volume_Refracted_RefractionFrames_h
 
 #include "Common/RangeLoop.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketRays.h"
@@ -64,8 +65,10 @@ public:
   /**
    * Rotates the frames to the refracted legs, and determines which frames are needed.
    * @param mean their mean direction in the frame of the view; 0 if there is none.
+   * @param steps bounds of their steps, there as well; empty if they are not known.
    */
-  void Turn(const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop);
+  void Turn(const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop,
+    const AxisBox& steps = AxisBox());
 
   /**
    * Places the vertices of a mesh in the frames that are needed. For the scalars see
@@ -93,6 +96,8 @@ public:
   std::int64_t GetBytes() const;
 
 private:
+  bool IsAlongMean(const AxisBox& steps) const;
+  unsigned int FindNeeded(const RayLegs& legs, const RangeLoop& loop) const;
   unsigned int FindNeeded(const RayLegs& legs, int tile) const;
   unsigned int FindNeeded(const RefractedRay* rays, int square) const;
 

@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace meniscus
@@ -62,6 +63,7 @@ StackVisibility::Meeting StackVisibility::Meet(const StackedInterface& interface
       meeting.Places.Add({ glm::max(part.Low, patch.Places.Low) - toSurface,
         glm::min(part.High, patch.Places.High) - toSurface });
       meeting.Normals.Add(patch.Normals);
+      meeting.Last = std::max(meeting.Last, range.To);
       facets.Add(facet, patch.Places);
     }
     return anywhere;
@@ -78,32 +80,51 @@ StackVisibility::Meeting StackVisibility::Meet(const StackedInterface& interface
 }
 
 //------------------------------------------------------------------------------
-bool StackVisibility::MayShowMesh(
-  const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const
+bool StackVisibility::MayShowMesh(const CornerRays& rays, BundleFacets& facets) const
 {
   const auto& along = rays.Directions;
-  DirectionBox sight =
+  const DirectionBox sight =
     BoundDirections(0.25 * (along[0] + along[1] + along[2] + along[3]), along, 4, 0.0);
-  TubeBounds tube =
+  const TubeBounds tube =
     BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
-  double medium = 0.0;
+  BundleFacets all;
+  return this->FollowLegs(0, tube, 0.0, all, facets);
+}
+
+//------------------------------------------------------------------------------
+bool StackVisibility::MayShowMesh(
+  const TubeBounds& rays, double medium, BundleFacets& within, BundleFacets& facets) const
+{
+  return this->FollowLegs(1, rays, medium, within, facets);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * @param number first interface that the rays come to.
+ * @param medium medium in front of it; not used for interface 0, which rays may come to in either
+ *   of its media.
+ */
+bool StackVisibility::FollowLegs(std::size_t number, TubeBounds tube, double medium,
+  BundleFacets& within, BundleFacets& facets) const
+{
   bool mayShow = false;
-  facets.Clear();
-  for (std::size_t k = 0; k < this->Interfaces.size() && tube.IsValid(); ++k)
+  facets.Clear(number);
+  for (std::size_t k = number; k < this->Interfaces.size() && tube.IsValid(); ++k)
   {
-    mayShow = mayShow || this->Mesh.Meets(tube);
     const StackedInterface& interface = this->Interfaces[k];
     if (k > 0 && medium != interface.Exterior && medium != interface.Interior)
     {
-      return mayShow;
+      return true;
     }
     const double facing = medium == interface.Exterior ? -1.0 : 1.0;
     const Meeting meeting =
       this->Meet(interface, tube, k == 0 ? 0.0 : facing, within.Find(k), facets.Append());
     if (!meeting.Exists)
     {
-      return mayShow;
+      return k > 0;
     }
+    mayShow = mayShow || (k > 0 && this->Mesh.Meets(tube, meeting.Last));
+    const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
     DirectionBox normal = InBox(meeting.Normals.Low, meeting.Normals.High);
     const CosineBounds cosine = BoundCosine(sight, normal);
     if (k == 0 && !(cosine.Most < 0.0) && !(cosine.Least > 0.0))
@@ -116,7 +137,6 @@ bool StackVisibility::MayShowMesh(
     normal.Middle = fromFront ? normal.Middle : -normal.Middle;
     const glm::dvec3 corners[2] = { meeting.Places.Low, meeting.Places.High };
     tube = BoundRefractedRays(sight, normal, before / behind, corners, 2, 0.0);
-    sight = InBox(tube.DirectionLow, tube.DirectionHigh);
     medium = behind;
   }
   // Without valid bounds all rays are totally reflected.

@@ -19,9 +19,10 @@ namespace meniscus
 {
 
 /**
- * Finds bundles of sight rays that show nothing of a mesh through a list of interfaces. The legs
+ * Finds bundles of rays that show nothing of a mesh behind the first interface of a list. The legs
  * behind each interface are bounded by a tube: of the parts of the surface that the tube in front
- * of it may meet, and of their normals.
+ * of it may meet, and of their normals. A leg ends at the next interface, and rays that miss that
+ * have no such leg.
  */
 class StackVisibility
 {
@@ -41,12 +42,21 @@ public:
   }
 
   /**
-   * False if no ray of a rectangle of pixels reaches the bounds of the mesh, on any of its legs.
+   * False if no ray of a rectangle of pixels reaches the bounds of the mesh on a leg behind the
+   * first interface. True if all rays miss a further interface, which is found at little cost.
    * @param rays starts at the depth from which on geometry is seen, and directions.
-   * @param within facets for a bundle that holds this one; may be empty.
-   * @param facets is set to those for this bundle.
+   * @param facets is set to the facets of each interface that the rays may meet.
    */
-  bool MayShowMesh(const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const;
+  bool MayShowMesh(const CornerRays& rays, BundleFacets& facets) const;
+  /**
+   * The same for a part of these rays behind the first interface.
+   * @param rays beginnings, and directions of unit length.
+   * @param medium index of refraction of the medium that they are in.
+   * @param within facets of the rectangle of pixels; may be empty.
+   * @param facets is set to those for these rays, from the second interface on.
+   */
+  bool MayShowMesh(
+    const TubeBounds& rays, double medium, BundleFacets& within, BundleFacets& facets) const;
 
 private:
   /** Bounds of the intersections of the rays of a tube with a surface. */
@@ -55,7 +65,11 @@ private:
     bool Exists = false;
     AxisBox Places;
     AxisBox Normals;
+    /** Largest parameter of the tube at which a ray may meet the surface. */
+    double Last = 0.0;
   };
+  bool FollowLegs(std::size_t number, TubeBounds tube, double medium, BundleFacets& within,
+    BundleFacets& facets) const;
   Meeting Meet(const StackedInterface& interface, const TubeBounds& tube, double facing,
     FacetBoxes* within, FacetBoxes& facets) const;
 

@@ -13,7 +13,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 using namespace meniscus;
@@ -169,6 +171,63 @@ TEST(RayBlock, PatchesThatDoNotCountAreLeftOut)
   }
 }
 
+/**
+ * Intersections are as exact as PatchIntersector::LastStep promises: Newton's method, continued
+ * from them, moves them by less than 1e-9 of the facet.
+ */
+TEST(RayBlock, IntersectionsAreWithinTheirBound)
+{
+  Random random(43);
+  int hits = 0;
+  double largest = 0.0;
+  for (const auto& shape : { Cap, Waves })
+  {
+    for (const int cells : { 1, 2, 3, 5, 8, 13, 21 })
+    {
+      const Sheet sheet(shape, cells);
+      const auto facets = static_cast<std::int32_t>(sheet.Surface.GetFacets().size());
+      for (int i = 0; i < 400; ++i)
+      {
+        const CurvedPatch patch =
+          sheet.Patches.GetPatch(static_cast<std::int32_t>(random(0.0, 0.999) * facets));
+        const PatchIntersector tracer(patch, 1.0, BestInstructionSet());
+        RayBlock rays;
+        for (int ray = 0; ray < RayBlock::Size; ++ray)
+        {
+          const PatchPoint place = patch.Evaluate({ random(0.0, 0.5), random(0.0, 0.5) });
+          // Within 70 degrees of the normal: slants below 3.
+          const glm::dvec3 normal = glm::normalize(place.Normal);
+          const glm::dvec3 beside = glm::cross(normal, random.Point(glm::dvec3(-1), glm::dvec3(1)));
+          const glm::dvec3 direction = glm::normalize(2.7 * beside - glm::length(beside) * normal);
+          rays.Add(place.Position - random(0.5, 2.0) * direction, direction, 0.0, 0.0);
+        }
+        CompleteRays(BestInstructionSet(), rays);
+        tracer.Meet(rays,
+          [&](std::int32_t ray, const MembraneHit& hit)
+          {
+            const glm::dvec3 start = rays.GetStart(ray);
+            const glm::dvec3 direction = rays.GetDirection(ray);
+            FreeRayBatch exact;
+            exact.Add(0, start, direction);
+            const glm::dvec2 place = patch.ProjectToFacet(start + hit.Depth * direction);
+            exact.PatchX[0] = place.x;
+            exact.PatchY[0] = place.y;
+            exact.Depth[0] = hit.Depth;
+            exact.Behind[0] = 0.0;
+            for (int step = 0; step < 6; ++step)
+            {
+              StepToPatch(patch, FreeRays(), patch.GetSize(), InstructionSet::Portable, exact);
+            }
+            ++hits;
+            largest = std::max(largest, std::fabs(exact.Behind[0]) / patch.GetSize());
+          });
+      }
+    }
+  }
+  EXPECT_GT(hits, 100000);
+  EXPECT_LT(largest, 1e-9);
+}
+
 TEST(RayBlock, InstructionSetsSeeTheSame)
 {
   const Sheet sheet(Waves, 3);
@@ -202,11 +261,14 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
       result.Least[i] = static_cast<double>(block.Meets[i]);
       result.Slant[i] = block.Slant[i];
       result.Depth[i] = block.Depth[i];
+      result.X[i] = block.X[i];
+      result.Y[i] = block.Y[i];
       result.PatchX[i] = block.X[i];
       result.PatchY[i] = block.Y[i];
       result.Behind[i] = 0.0;
     }
     StepToPatch(patch, FreeRays(), 0.5, set, result);
+    FindStates({ 0.1, 1e-8, 0.1 }, 0.5, set, result);
     Refract(FreeRays(), 1.5, set, result); // some beyond the critical angle
     return result;
   };
@@ -221,6 +283,7 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
       EXPECT_EQ(result.Depth[i], expected.Depth[i]);
       EXPECT_EQ(result.PatchX[i], expected.PatchX[i]);
       EXPECT_EQ(result.Behind[i], expected.Behind[i]);
+      EXPECT_EQ(result.State[i], expected.State[i]);
       EXPECT_EQ(result.Refracted[i], expected.Refracted[i]);
       for (int axis = 0; axis < 3; ++axis)
       {

@@ -10,6 +10,8 @@
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
+#include "Volume/Refracted/RefractionFrames.h"
+#include "Volume/Refracted/StackBlock.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -551,6 +553,128 @@ TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
   EXPECT_GT(rays.Shown, 5000);
   EXPECT_GT(rays.Ended, 5000);
   EXPECT_GT(rays.Untraced, 48 * Size * Size / (8 * 8) / 4);
+}
+
+/**
+ * A prism turns rays away from a mesh that is seen without it, and towards one that is not. Only
+ * the latter has to be traced to the second surface.
+ */
+TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
+{
+  const StackedSheet front([](double, double) { return 0.0; }, 12);
+  const StackedSheet back([](double x, double) { return -0.5 + 0.5 * x; }, 12);
+  const std::vector<StackedInterface> prism{ front.Between(1.0, 1.6), back.Between(1.6, 1.0) };
+  RefractedRayField::View view =
+    LookAt(glm::dvec3(0.0, 0.0, 20.0), glm::dvec3(0.0), 0.2, false, Size);
+  const double depth = 4.0;
+  // The angle between the surfaces is atan(1/2); rays come to the first one along its normal.
+  const double inside = std::atan(0.5);
+  const double turned = std::asin(1.6 * std::sin(inside)) - inside;
+  const WorldBox straight{ glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.2) };
+  const WorldBox aside{ glm::dvec3(-std::tan(turned) * (depth - 0.5), 0.0, -depth),
+    glm::dvec3(0.2) };
+  const auto countShown = [&](const WorldBox& box)
+  {
+    SetMesh(view, box);
+    RefractedRayStack stack;
+    stack.Build(prism, view);
+    const RayLegs legs = LegsOf(stack, view);
+    int shown = 0;
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      const WorldRay ray = LegOf(legs, view, pixel % Size, pixel / Size, 2);
+      shown += ray.Direction != glm::dvec3(0.0) ? 1 : 0;
+    }
+    const int blocks = Size * Size / StackBlock::Size;
+    EXPECT_EQ(stack.GetNumberOfUntracedBlocks(), shown > 0 ? 0 : blocks);
+    return shown;
+  };
+  EXPECT_EQ(countShown(straight), 0);
+  EXPECT_EQ(countShown(aside), Size * Size);
+}
+
+/** Tiles that showed the mesh hold nothing of it after another view, in an image of any size. */
+TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
+{
+  const StackedSheet front(Shapes[2], 12);
+  const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
+  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  Random random(31);
+  RefractedRayStack kept;
+  int met = 0;
+  for (int i = 0; i < 24; ++i)
+  {
+    RefractedRayField::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 2.0),
+      random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), false, Size);
+    view.Width = i % 3 == 0 ? Size - 13 : Size;
+    SetMesh(view,
+      { random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.0)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) });
+    const std::vector<StackedInterface> list(pane.begin(), pane.end() - (i % 5 == 0 ? 1 : 0));
+    kept.Build(list, view);
+    RefractedRayStack fresh;
+    fresh.Build(list, view);
+    ASSERT_EQ(kept.GetRays().size(), fresh.GetRays().size());
+    for (std::size_t k = 0; k < list.size(); ++k)
+    {
+      for (int tile = 0; tile < fresh.GetRays()[k].GetNumberOfTiles(); ++tile)
+      {
+        const RefractedRay* one = kept.GetRays()[k].GetTile(tile);
+        const RefractedRay* other = fresh.GetRays()[k].GetTile(tile);
+        ASSERT_EQ(one != nullptr, other != nullptr);
+        for (int pixel = 0; other && pixel < RefractedRayTiles::RaysOfTile; ++pixel)
+        {
+          ASSERT_TRUE(
+            one[pixel].Depth == other[pixel].Depth && one[pixel].Step == other[pixel].Step);
+          met += other[pixel].GoesOn() ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(met, 10000);
+}
+
+/** The bounds of the steps hold, and lead to the frames that the single rays need. */
+TEST(RefractedRayStack, StepBoundsChooseTheFramesOfAllRays)
+{
+  const StackedSphere sphere(16);
+  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 2.0), sphere.Between(1.0, 2.0) };
+  int several = 0;
+  for (const double width : { 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5 })
+  {
+    RefractedRayField::View view =
+      LookAt(glm::dvec3(0.3, 0.2, 2.5), glm::dvec3(0.0), width, false, Size);
+    SetMesh(view, Everywhere);
+    RefractedRayStack stack;
+    stack.Build(ball, view);
+    AxisBox steps;
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      for (const RefractedRayTiles& rays : stack.GetRays())
+      {
+        const RefractedRay ray = RayOf(rays, pixel % Size, pixel / Size);
+        steps.Add(ray.GoesOn() ? AxisBox{ ray.Step, ray.Step } : AxisBox());
+      }
+    }
+    EXPECT_EQ(stack.GetStepBounds().Low, steps.Low);
+    EXPECT_EQ(stack.GetStepBounds().High, steps.High);
+    const RayLegs legs = LegsOf(stack, view);
+    RefractionFrames each;
+    each.Turn(legs, stack.GetMeanDirection(), SerialLoop);
+    RefractionFrames bounded;
+    bounded.Turn(legs, stack.GetMeanDirection(), SerialLoop, stack.GetStepBounds());
+    int frames = 0;
+    for (int index = 0; index < RefractionFrames::Number; ++index)
+    {
+      // Frames that are not needed are not turned.
+      const glm::dmat3& turn = each.Get(index).FromView;
+      EXPECT_EQ(bounded.Get(index).FromView, turn) << width;
+      frames += turn != glm::dmat3(1.0) ? 1 : 0;
+    }
+    several += frames > 1 ? 1 : 0;
+  }
+  EXPECT_GT(several, 0);
+  EXPECT_LT(several, 7);
 }
 
 TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
