@@ -199,6 +199,8 @@ bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
   if (!sameFrame)
   {
     this->HasDepthsOfImage = false;
+    // A moving camera needs the memory of one image of depths only.
+    this->Depths.swap(this->DepthsOfImage);
     return false;
   }
   const std::vector<float>& depths = this->ReadDepths();

@@ -26,13 +26,52 @@ constexpr std::int32_t EvenBits(std::int32_t number)
   return bits;
 }
 
-/** Pixel of the tile with a number along the Morton curve. */
-constexpr std::int32_t PixelAlongCurve(std::int32_t number)
+/** Pixels of a tile along the Morton curve. */
+struct CurveOfTile
 {
-  return EvenBits(number >> 1) * TileSize + EvenBits(number);
-}
+  std::int16_t Pixels[TileSize * TileSize]{};
+
+  constexpr CurveOfTile()
+  {
+    for (std::int32_t i = 0; i < TileSize * TileSize; ++i)
+    {
+      this->Pixels[i] = static_cast<std::int16_t>(EvenBits(i >> 1) * TileSize + EvenBits(i));
+    }
+  }
+};
+constexpr CurveOfTile Curve;
 static_assert(TileSize == 32, "EvenBits() takes ten bits");
 static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
+
+/** Depths of a frame at which opaque objects end the rays of pixels. */
+class OpaqueEnds
+{
+public:
+  /** @param windowDepths one per pixel; null for none. */
+  OpaqueEnds(const RayFrame& frame, const float* windowDepths)
+    : Frame(frame)
+    , WindowDepths(windowDepths)
+  {
+  }
+
+  double At(std::int64_t pixel)
+  {
+    // Consecutive pixels mostly have the same depth, that of the background.
+    if (this->WindowDepths && this->WindowDepths[pixel] != this->Window)
+    {
+      this->Window = this->WindowDepths[pixel];
+      this->End = this->Frame.DepthAt(2.0 * this->Window - 1.0);
+    }
+    return this->End;
+  }
+
+private:
+  const RayFrame& Frame;
+  const float* WindowDepths;
+  /** The last window depth, in [0, 1], and the frame's. */
+  float Window = -1.0f;
+  double End = 1.0e+30;
+};
 
 }
 
@@ -55,17 +94,12 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
 //------------------------------------------------------------------------------
 /**
  * Sets the depths between which a pixel's ray is cast, and its length per depth.
- * @param farthest largest depth at which the ray may end.
+ * @param end largest depth at which the ray may end.
  */
-void SightLegEntries::Limit(
-  int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const
+void SightLegEntries::Limit(int column, int row, double end, PacketRay& ray) const
 {
   const glm::dvec2 fromCenter = this->Rays.FromCenter(column, row);
-  const RayFrame& frame = this->Rays.GetFrame();
-  const std::int64_t pixel = std::int64_t{ row } * this->Rays.GetWidth() + column;
-  double start = frame.NearDepth;
-  double end = opaqueDepth ? frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0) : 1.0e+30;
-  end = std::min(end, farthest);
+  double start = this->Rays.GetFrame().NearDepth;
   for (const RayClippingPlane& plane : this->ClippingPlanes)
   {
     ClipRay(plane, fromCenter, start, end);
@@ -132,11 +166,11 @@ void SightLegEntries::TakeRays(
 {
   const EntryLists& entries = workspace.Raster.Lists;
   LegBatch& batch = workspace.Batch;
-  for (std::int32_t number = 0; number < TileSize * TileSize; ++number)
+  OpaqueEnds ends(this->Rays.GetFrame(), leg.OpaqueDepth);
+  // Rays that are cast together are those of a square, which cross the same cells for longer than
+  // those of a row.
+  for (const std::int32_t pixel : Curve.Pixels)
   {
-    // Rays that are cast together are those of a square, which cross the same cells for longer than
-    // those of a row.
-    const std::int32_t pixel = PixelAlongCurve(number);
     const auto inTile = static_cast<std::size_t>(pixel);
     if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1))
     {
@@ -144,8 +178,10 @@ void SightLegEntries::TakeRays(
     }
     // Filled where it stays: a copy would wait for each of its numbers to be stored.
     PacketRay& ray = batch.Rays.emplace_back();
-    this->Limit(leg.Box.Left + pixel % TileSize, leg.Box.Bottom + pixel / TileSize, leg.OpaqueDepth,
-      next ? next[pixel].Depth : 1.0e+30, ray);
+    const int column = leg.Box.Left + pixel % TileSize;
+    const int row = leg.Box.Bottom + pixel / TileSize;
+    const double end = ends.At(std::int64_t{ row } * this->Rays.GetWidth() + column);
+    this->Limit(column, row, next ? std::min(end, double{ next[pixel].Depth }) : end, ray);
     if (ray.StartDepth < ray.EndDepth)
     {
       BoundaryRaster::SetLine(workspace.Raster, inTile, ray);

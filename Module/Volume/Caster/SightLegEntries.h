@@ -68,7 +68,7 @@ public:
   bool TakeBack(int, std::size_t, Workspace&) const { return false; }
 
 private:
-  void Limit(int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const;
+  void Limit(int column, int row, double end, PacketRay& ray) const;
   bool EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const;
   bool ReachDepth(
     const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;

@@ -136,7 +136,8 @@ double BoundaryRaster::NearestDepth(int tile) const
 }
 
 //------------------------------------------------------------------------------
-void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
+/** Sets the lines of the rays of a tile that are in the box. */
+void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const
 {
   workspace.Offsets.resize(2 * SizeOfRays);
   workspace.Slopes.resize(2 * SizeOfRays);
@@ -147,24 +148,25 @@ void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
     std::fill(workspace.Fractions.begin(), workspace.Fractions.end(), 0.0f);
     std::fill(workspace.SlopeRests.begin(), workspace.SlopeRests.end(), 0.0f);
   }
-  for (int row = tile.Bottom; row < tile.Top; ++row)
+  for (int row = box.Bottom; row < box.Top; ++row)
   {
     FixedPointRays::RowOfRays rays;
     for (int axis = 0; axis < 2; ++axis)
     {
-      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize;
+      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize + box.Left - tile.Left;
       rays.Offset[axis] = workspace.Offsets.data() + first;
       rays.Slope[axis] = workspace.Slopes.data() + first;
       rays.Fraction[axis] = workspace.Fractions.data() + first;
       rays.SlopeRest[axis] = workspace.SlopeRests.data() + first;
     }
-    this->GetRays().FillRow(tile.Left, row, tile.Right - tile.Left, rays);
+    this->GetRays().FillRow(box.Left, row, box.Right - box.Left, rays);
   }
 }
 
 //------------------------------------------------------------------------------
-/** Adds a face and the pixels of the tile that it may cover. */
-void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const
+/** Adds a face and the pixels of the tile that it may cover; returns their box. */
+ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
+  std::int32_t index, const PixelBox& tile, Workspace& workspace) const
 {
   const PixelBox& box = this->Boxes[index];
   const PixelBox covered{ std::max(box.Left, tile.Left), std::min(box.Right, tile.Right),
@@ -190,7 +192,7 @@ void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspac
     {
       add(row, { 0, width });
     }
-    return;
+    return covered;
   }
   const ProjectedFaces::Face face = this->Faces.Project(index);
   double reciprocals[3];
@@ -202,6 +204,7 @@ void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspac
   {
     add(row, SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(covered.Left, row), width));
   }
+  return covered;
 }
 
 //------------------------------------------------------------------------------
@@ -225,11 +228,14 @@ void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
   workspace.Faces.clear();
   workspace.Spans.clear();
   workspace.SpannedPixels = 0;
+  PixelBox covered{ box.Right, box.Left, box.Top, box.Bottom };
   for (const auto& face : workspace.Order)
   {
-    this->AddSpans(face.second, box, workspace);
+    const PixelBox part = this->AddSpans(face.second, box, workspace);
+    covered = { std::min(covered.Left, part.Left), std::max(covered.Right, part.Right),
+      std::min(covered.Bottom, part.Bottom), std::max(covered.Top, part.Top) };
   }
-  this->FillRays(box, workspace);
+  this->FillRays(box, covered, workspace);
   workspace.Hits.resize(std::max(workspace.Hits.size(), workspace.SpannedPixels));
   PacketSpanJob job;
   job.Vertices = this->Faces.GetVertices().data();

@@ -84,8 +84,8 @@ public:
   void CollectEntries(int tile, Workspace& workspace) const;
 
 private:
-  void FillRays(const PixelBox& tile, Workspace& workspace) const;
-  void AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
+  void FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const;
+  PixelBox AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
 
   /** Readable length of each row of the tile's lines (PacketSpanJob). */
   static constexpr int SizeOfRays = TileSize * TileSize + 16;

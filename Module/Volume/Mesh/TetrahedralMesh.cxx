@@ -181,6 +181,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
   this->MeasureSmallestCell(control.Loop);
   this->OrientCells(control.Loop);
   this->ActiveCells = this->GetNumberOfCells();
+  this->IsActive.Assign(this->Cells.size(), true);
   this->CollectBoundary(control.Loop);
   return MeshStatus::Ok;
 }

@@ -28,6 +28,7 @@
 #ifndef meniscus_Volume_Mesh_TetrahedralMesh_h
 #define meniscus_Volume_Mesh_TetrahedralMesh_h
 
+#include "Common/BitTable.h"
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/PointsView.h"
 
@@ -112,15 +113,15 @@ std::int64_t BytesOf(const std::vector<T>& table)
 /** A face of an active cell without an active cell on its other side. */
 struct BoundaryFace
 {
-  /** Mesh vertices in ascending order. */
-  std::array<std::int32_t, 3> Vertices;
   /**
-   * +1 if the normal of the triangle, in this order and by the right-hand rule, points out of the
-   * mesh; otherwise -1.
+   * Mesh vertices, in an order in which the normal of the triangle, by the right-hand rule, points
+   * out of the mesh: ascending, or ascending with the first two exchanged.
    */
-  std::int32_t Outward;
+  std::array<std::int32_t, 3> Vertices;
   /** Cell * 4 + index of the cell's vertex opposite the face. */
   std::int32_t CellFace;
+
+  bool IsAscending() const { return this->Vertices[0] < this->Vertices[1]; }
 };
 
 class TetrahedralMesh
@@ -221,7 +222,12 @@ public:
   /** Input cell of each cell if requested; otherwise empty. */
   const std::vector<std::int32_t>& GetSourceCells() const { return this->SourceCells; }
   const std::vector<BoundaryFace>& GetBoundary() const { return this->Boundary; }
-  /** A face of an active cell in the form of the boundary: see BoundaryFace. */
+  /** True if the cell's ascending vertices form a positively oriented tetrahedron. */
+  bool IsPositivelyOriented(std::int64_t cell) const
+  {
+    return this->IsPositive[static_cast<std::size_t>(cell)];
+  }
+  /** A face of a cell in the form of the boundary: see BoundaryFace. */
   BoundaryFace GetFace(std::int64_t cell, int face) const;
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
   /**
@@ -233,8 +239,8 @@ public:
   std::int64_t GetBytes() const
   {
     return BytesOf(this->Cells) + BytesOf(this->Positions) + BytesOf(this->SourcePoints) +
-      BytesOf(this->SourceCells) + BytesOf(this->Boundary) + BytesOf(this->Orientation) +
-      BytesOf(this->Components) + BytesOf(this->Coincident);
+      BytesOf(this->SourceCells) + BytesOf(this->Boundary) + this->IsPositive.GetBytes() +
+      this->IsActive.GetBytes() + BytesOf(this->Components) + BytesOf(this->Coincident);
   }
   /** Centre of the bounding box of the used points. */
   const glm::dvec3& GetCenter() const { return this->Center; }
@@ -276,11 +282,9 @@ private:
   std::vector<std::int32_t> SourcePoints;
   std::vector<std::int32_t> SourceCells;
   std::vector<BoundaryFace> Boundary;
-  /**
-   * Positive if the cell's ascending vertices form a positively oriented tetrahedron, otherwise
-   * negative. The magnitude is 1 for an active cell and 2 for an inactive one.
-   */
-  std::vector<std::int8_t> Orientation;
+  /** IsPositivelyOriented() of each cell. */
+  BitTable IsPositive;
+  BitTable IsActive;
   /** Number of the connected component of each cell; empty if there is one component. */
   std::vector<std::int32_t> Components;
   std::int32_t NumberOfComponents = 0;

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
+#include <utility>
 
 namespace meniscus
 {
@@ -95,7 +95,7 @@ bool TetrahedralMesh::ActivateCells(
         active[c] = range.Known && visible.Meets(range.Lowest, range.Highest);
         count.Active += active[c];
         count.Unknown += !range.Known;
-        count.Changed += active[c] != (std::abs(this->Orientation[c]) == 1);
+        count.Changed += (active[c] != 0) != this->IsActive[c];
       }
       counts[block] = count;
     });
@@ -126,7 +126,7 @@ bool TetrahedralMesh::SetActiveCells(
   for (std::size_t c = 0; c < this->Cells.size(); ++c)
   {
     number += active[c];
-    changed = changed || active[c] != (std::abs(this->Orientation[c]) == 1);
+    changed = changed || (active[c] != 0) != this->IsActive[c];
   }
   this->UnknownCells = unknown;
   if (changed)
@@ -146,8 +146,7 @@ void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const R
     {
       for (std::size_t c = first; c < last; ++c)
       {
-        const int sign = this->Orientation[c] > 0 ? 1 : -1;
-        this->Orientation[c] = static_cast<std::int8_t>(active[c] ? sign : 2 * sign);
+        this->IsActive.Set(c, active[c] != 0);
         for (std::int32_t& link : this->Cells[c].Links)
         {
           if (link != NoNeighbor)
@@ -163,15 +162,20 @@ void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const R
 //------------------------------------------------------------------------------
 BoundaryFace TetrahedralMesh::GetFace(std::int64_t cell, int face) const
 {
-  return { FaceVertices(this->Cells[cell].Vertices, face),
-    FaceParity(face) * this->Orientation[cell], static_cast<std::int32_t>(4 * cell + face) };
+  BoundaryFace made{ FaceVertices(this->Cells[cell].Vertices, face),
+    static_cast<std::int32_t>(4 * cell + face) };
+  if (this->IsPositivelyOriented(cell) != (FaceParity(face) > 0))
+  {
+    std::swap(made.Vertices[0], made.Vertices[1]);
+  }
+  return made;
 }
 
 //------------------------------------------------------------------------------
 void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
 {
   const auto isBoundary = [this](std::size_t c, int face)
-  { return std::abs(this->Orientation[c]) == 1 && this->Cells[c].Links[face] < 0; };
+  { return this->IsActive[c] && this->Cells[c].Links[face] < 0; };
 
   // Cells are counted before they are written, so that their order does not depend on the threads.
   std::vector<std::size_t> starts(NumberOfBlocks(this->Cells.size()) + 1, 0);

@@ -169,7 +169,7 @@ std::vector<ComponentVolume> TetrahedralMesh::MeasureComponents(const RangeLoop&
           ofBlock.emplace_back(component, ComponentVolume());
         }
         const double volume = SignedVolume(this->Positions, this->Cells[c]);
-        ofBlock.back().second.Add(this->Orientation[c] > 0 ? volume : -volume);
+        ofBlock.back().second.Add(this->IsPositive[c] ? volume : -volume);
       }
     });
   std::vector<ComponentVolume> volumes(static_cast<std::size_t>(this->NumberOfComponents));
@@ -208,14 +208,16 @@ bool TetrahedralMesh::TurnComponents(const RangeLoop& loop)
     {
       for (std::size_t c = first; c < last; ++c)
       {
-        const int sign = isMirrored(volumes[this->ComponentOf(c)]) ? -1 : 1;
-        this->Orientation[c] = static_cast<std::int8_t>(sign * this->Orientation[c]);
+        this->IsPositive.Set(c, this->IsPositive[c] != isMirrored(volumes[this->ComponentOf(c)]));
       }
     });
   for (BoundaryFace& face : this->Boundary)
   {
     const auto cell = static_cast<std::size_t>(face.CellFace) / 4;
-    face.Outward *= isMirrored(volumes[this->ComponentOf(cell)]) ? -1 : 1;
+    if (isMirrored(volumes[this->ComponentOf(cell)]))
+    {
+      std::swap(face.Vertices[0], face.Vertices[1]);
+    }
   }
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Topology of the cells of a TetrahedralMesh: links across faces, and orientation.
+#include "Common/BitTable.h"
 #include "Common/BlockLoop.h"
 #include "Volume/Mesh/CellFaces.h"
 #include "Volume/Mesh/ComponentVolume.h"
@@ -271,12 +272,12 @@ private:
 class Orienter
 {
 public:
-  Orienter(const TetrahedralMesh& mesh, std::vector<TetrahedralMesh::Cell>& cells,
-    std::vector<std::int8_t>& orientation, const RangeLoop& loop)
+  Orienter(
+    const TetrahedralMesh& mesh, std::vector<TetrahedralMesh::Cell>& cells, const RangeLoop& loop)
     : Mesh(mesh)
     , Cells(cells)
-    , Orientation(orientation)
     , Loop(loop)
+    , Orientation(cells.size(), 0)
     , PatchOf(cells.size())
     , Blocks(NumberOfBlocks(cells.size()))
   {
@@ -287,11 +288,23 @@ public:
   std::int32_t GetNumberOfComponents() const { return this->NumberOfComponents; }
   /** Number of the component of each cell; none if there is one component. */
   std::vector<std::int32_t> TakeComponents() { return std::move(this->Components); }
+  /** Marks the cells with a positive orientation. */
+  void MarkPositive(BitTable& marks) const
+  {
+    marks.Assign(this->Orientation.size(), false);
+    ForEachBlock(this->Orientation.size(), this->Loop,
+      [this, &marks](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t c = first; c < last; ++c)
+        {
+          marks.Set(c, this->Orientation[c] > 0);
+        }
+      });
+  }
 
   /** Returns the number of links cut. */
   std::int64_t Orient()
   {
-    this->Orientation.assign(this->Cells.size(), 0);
     ForEachBlock(this->Cells.size(), this->Loop,
       [this](std::size_t block, std::size_t first, std::size_t last)
       { this->FillBlock(this->Blocks[block], first, last); });
@@ -534,8 +547,9 @@ private:
 
   const TetrahedralMesh& Mesh;
   std::vector<TetrahedralMesh::Cell>& Cells;
-  std::vector<std::int8_t>& Orientation;
   const RangeLoop& Loop;
+  /** 1 or -1 per cell; 0 if not known yet. */
+  std::vector<std::int8_t> Orientation;
   /** Index of each cell's patch within its block. */
   std::vector<std::int32_t> PatchOf;
   std::vector<Block> Blocks;
@@ -564,8 +578,9 @@ void TetrahedralMesh::LinkCells(const RangeLoop& loop)
 //------------------------------------------------------------------------------
 void TetrahedralMesh::OrientCells(const RangeLoop& loop)
 {
-  Orienter orienter(*this, this->Cells, this->Orientation, loop);
+  Orienter orienter(*this, this->Cells, loop);
   this->CutLinks = orienter.Orient();
+  orienter.MarkPositive(this->IsPositive);
   this->Components = orienter.TakeComponents();
   this->NumberOfComponents = orienter.GetNumberOfComponents();
   this->IsMovable = this->IsMovable && !orienter.HasTakenApart();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace meniscus
 {
@@ -60,6 +61,17 @@ double AreaError(const ProjectedFaces::Vertex& p, const ProjectedFaces::Vertex& 
 }
 
 //------------------------------------------------------------------------------
+PacketFace EnteredFace(const BoundaryFace& face, const RayFrame& frame)
+{
+  PacketFace entered{ { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace };
+  if (frame.Handedness < 0)
+  {
+    std::swap(entered.Vertices[0], entered.Vertices[1]);
+  }
+  return entered;
+}
+
+//------------------------------------------------------------------------------
 void ProjectedFaces::Set(const std::vector<PacketVertex>& vertices,
   const std::vector<BoundaryFace>& faces, const FixedPointRays& rays)
 {
@@ -76,16 +88,6 @@ ProjectedFaces::Vertex ProjectedFaces::ProjectVertex(std::int32_t vertex) const
   const AffinePixelMap& slope = this->Rays.GetSlope();
   return { Coefficients(offset, slope, 0, seen), Coefficients(offset, slope, 1, seen),
     FixedPointRays::DepthOf(seen.Place[2]) };
-}
-
-//------------------------------------------------------------------------------
-PacketFace ProjectedFaces::GetEntered(std::int32_t index) const
-{
-  const BoundaryFace& face = this->GetFace(index);
-  const bool counterClockwise = face.Outward * this->Rays.GetFrame().Handedness > 0;
-  return { { face.Vertices[counterClockwise ? 0 : 1], face.Vertices[counterClockwise ? 1 : 0],
-             face.Vertices[2] },
-    face.CellFace };
 }
 
 //------------------------------------------------------------------------------

@@ -15,6 +15,9 @@
 namespace meniscus
 {
 
+/** A face for packets: its vertices are counter-clockwise about the rays that enter by it. */
+PacketFace EnteredFace(const BoundaryFace& face, const RayFrame& frame);
+
 /** Boundary faces projected along the rays of an image. */
 class ProjectedFaces
 {
@@ -38,8 +41,11 @@ public:
     return (*this->Faces)[static_cast<std::size_t>(index)];
   }
 
-  /** A face for packets: its vertices are counter-clockwise about the rays that enter by it. */
-  PacketFace GetEntered(std::int32_t index) const;
+  /** EnteredFace() of a face. */
+  PacketFace GetEntered(std::int32_t index) const
+  {
+    return EnteredFace(this->GetFace(index), this->Rays.GetFrame());
+  }
 
   /** u and v of a vertex as functions of the pixel: constant, per column, per row. */
   struct Vertex

@@ -8,6 +8,7 @@
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
 #include "Volume/Rays/ExactEdgeTest.h"
+#include "Volume/Rays/ProjectedFaces.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -57,7 +58,7 @@ bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop)
           glm::length(edges[2]) };
         const double rounding = std::sqrt(3.0) *
           (lengths[0] * lengths[1] + lengths[1] * lengths[2] + lengths[2] * lengths[0]);
-        const bool positive = mesh.GetFace(static_cast<std::int64_t>(c), 0).Outward > 0;
+        const bool positive = mesh.IsPositivelyOriented(static_cast<std::int64_t>(c));
         if ((positive ? volume : -volume) < -rounding)
         {
           found = true;
@@ -134,16 +135,6 @@ RayBundleEntries::RayBundleEntries(const TetrahedralMesh& mesh, const BoundaryTr
   this->ToFrame = glm::transpose(glm::dmat3(rows.RowX, rows.RowY, rows.RowDepth));
   this->Reach =
     glm::dmat3(glm::abs(this->ToFrame[0]), glm::abs(this->ToFrame[1]), glm::abs(this->ToFrame[2]));
-}
-
-//------------------------------------------------------------------------------
-/** The face, counter-clockwise about the lines that enter by it. */
-PacketFace RayBundleEntries::SeenBy(const BoundaryFace& face) const
-{
-  const bool counterClockwise = face.Outward * this->Frame.Rays.GetFrame().Handedness > 0;
-  return { { face.Vertices[counterClockwise ? 0 : 1], face.Vertices[counterClockwise ? 1 : 0],
-             face.Vertices[2] },
-    face.CellFace };
 }
 
 //------------------------------------------------------------------------------
@@ -265,8 +256,8 @@ void RayBundleEntries::FindFaces(const Bundle& bundle, Workspace& workspace) con
     }
     if (meets && node.Face >= 0)
     {
-      const PacketFace face =
-        this->SeenBy(this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)]);
+      const PacketFace face = EnteredFace(
+        this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)], this->Frame.Rays.GetFrame());
       if (this->MayFace(face, bundle))
       {
         workspace.Found.push_back({ face, center, half });
@@ -427,7 +418,7 @@ bool RayBundleEntries::EntersCell(
 {
   for (int k = 0; k < 4; ++k)
   {
-    const PacketFace face = this->SeenBy(this->Mesh.GetFace(cell, k));
+    const PacketFace face = EnteredFace(this->Mesh.GetFace(cell, k), this->Frame.Rays.GetFrame());
     if (this->Enters(face, ray, entry) && this->Frame.Rays.ToFrame(entry.Depth) <= before)
     {
       return true;

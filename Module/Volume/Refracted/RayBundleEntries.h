@@ -108,7 +108,6 @@ private:
   bool MayFace(const PacketFace& face, const Bundle& bundle) const;
   void AddSpans(const Bundle& bundle, int lines, Workspace& workspace) const;
   void AddHits(const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const;
-  PacketFace SeenBy(const BoundaryFace& face) const;
   bool Enters(const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const;
   bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;
 

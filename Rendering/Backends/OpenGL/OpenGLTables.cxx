@@ -259,7 +259,10 @@ std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
   for (const auto& face : tree.GetFaces())
   {
     const auto& v = face.Vertices;
-    faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
+    // Ascending; the first number tells the order in which the normal points outwards.
+    const bool ascending = face.IsAscending();
+    faces.insert(
+      faces.end(), { ascending ? v[0] : ~v[1], ascending ? v[1] : v[0], v[2], face.CellFace });
   }
   error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
   return this->Count(this->TreeFaces, error);

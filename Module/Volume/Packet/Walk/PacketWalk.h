@@ -461,13 +461,10 @@ unsigned int PacketWalk<Simd, Model>::Replace(unsigned int ended)
   unsigned int busy = Simd::Bits(this->Busy);
   unsigned int entering = 0;
   unsigned int fresh = 0;
-  for (int lane = 0; lane < Width; ++lane)
+  for (unsigned int left = ended; left != 0; left &= left - 1)
   {
+    const int lane = __builtin_ctz(left);
     const unsigned int bit = 1u << lane;
-    if ((ended & bit) == 0)
-    {
-      continue;
-    }
     if (this->Ray[lane] >= 0 && this->NextEntry(lane))
     {
       entering |= bit;
@@ -524,8 +521,11 @@ bool PacketWalk<Simd, Model>::TakeRay(int lane)
     {
       this->Offsets[axis][lane] = ray.Offset[axis];
       this->Slopes[axis][lane] = ray.Slope[axis];
-      this->Fractions[axis][lane] = ray.Fraction[axis];
-      this->SlopeRests[axis][lane] = ray.SlopeRest[axis];
+      if (this->Job.RaysAreFine)
+      {
+        this->Fractions[axis][lane] = ray.Fraction[axis];
+        this->SlopeRests[axis][lane] = ray.SlopeRest[axis];
+      }
     }
     for (int k = 0; k < Model::NumberOfValues; ++k)
     {
@@ -626,8 +626,11 @@ void PacketWalk<Simd, Model>::LoadLanes()
   {
     this->Rays.Offset[axis] = Simd::Load(this->Offsets[axis]);
     this->Rays.Slope[axis] = Simd::Load(this->Slopes[axis]);
-    this->Rays.Fraction[axis] = Simd::Load(this->Fractions[axis]);
-    this->Rays.SlopeRest[axis] = Simd::Load(this->SlopeRests[axis]);
+    if (this->Job.RaysAreFine)
+    {
+      this->Rays.Fraction[axis] = Simd::Load(this->Fractions[axis]);
+      this->Rays.SlopeRest[axis] = Simd::Load(this->SlopeRests[axis]);
+    }
   }
   if constexpr (Model::UsesLines)
   {

@@ -40,10 +40,6 @@ OrientedFace MakeOrientedFace(const TetrahedralMesh& mesh, const BoundaryFace& f
   {
     points[i] = mesh.GetSourcePoints()[face.Vertices[i]];
   }
-  if (face.Outward < 0)
-  {
-    std::swap(points[1], points[2]);
-  }
   std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
   return points;
 }

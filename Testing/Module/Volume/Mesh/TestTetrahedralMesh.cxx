@@ -30,7 +30,7 @@ double EnclosedVolume(const TetrahedralMesh& mesh)
     const glm::dvec3 a = mesh.GetPosition(face.Vertices[0]);
     const glm::dvec3 b = mesh.GetPosition(face.Vertices[1]);
     const glm::dvec3 c = mesh.GetPosition(face.Vertices[2]);
-    volume += face.Outward * glm::dot(a, glm::cross(b, c)) / 6.0;
+    volume += glm::dot(a, glm::cross(b, c)) / 6.0;
   }
   return volume;
 }
@@ -228,8 +228,20 @@ TEST(TetrahedralMesh, DoesNotDependOnTheLoopNorOnTheTypesOfTheInput)
   for (std::size_t f = 0; f < serial.GetBoundary().size(); ++f)
   {
     EXPECT_EQ(parallel.GetBoundary()[f].CellFace, serial.GetBoundary()[f].CellFace);
-    EXPECT_EQ(parallel.GetBoundary()[f].Outward, serial.GetBoundary()[f].Outward);
+    EXPECT_EQ(parallel.GetBoundary()[f].Vertices, serial.GetBoundary()[f].Vertices);
   }
+}
+
+TEST(TetrahedralMesh, TakesTwoBitsBesidesVerticesAndLinksPerCell)
+{
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(KuhnGrid(12).View()), MeshStatus::Ok);
+  // Bits are in words of 8 bytes.
+  const std::int64_t ofCells =
+    32 * mesh.GetNumberOfCells() + 2 * 8 * (mesh.GetNumberOfCells() / 64 + 1);
+  const std::int64_t ofVertices = 16 * mesh.GetNumberOfVertices();
+  const auto ofFaces = static_cast<std::int64_t>(16 * mesh.GetBoundary().size());
+  EXPECT_LE(mesh.GetBytes(), ofCells + ofVertices + ofFaces);
 }
 
 TEST(TetrahedralMesh, DoesNotDependOnTheLayoutOfThePoints)

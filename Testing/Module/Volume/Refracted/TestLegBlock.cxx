@@ -147,7 +147,7 @@ double EntryDepth(const LegScene& scene, const BoundaryFace& face, const LineBlo
   {
     const glm::dvec3& p = corners[(k + 1) % 3];
     const glm::dvec3& q = corners[(k + 2) % 3];
-    const double area = face.Outward * rows.Handedness * (p.x * q.y - p.y * q.x);
+    const double area = rows.Handedness * (p.x * q.y - p.y * q.x);
     if (!(area > 0.0))
     {
       return Infinity;
