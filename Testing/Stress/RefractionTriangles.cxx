@@ -75,7 +75,7 @@ void AddPieces(
   }
 }
 
-std::vector<Piece> Draw(const CurvedMembraneSolver& geometry, const Triangle& triangle)
+std::vector<Piece> Draw(CurvedMembraneSolver& geometry, const Triangle& triangle)
 {
   ObjectImages images(geometry);
   images.SetTolerance(Tolerance);
@@ -122,8 +122,7 @@ public:
   {
   }
 
-  void CheckResult(
-    const CurvedMembraneSolver& geometry, const Triangle& triangle, StressRandom& random)
+  void CheckResult(CurvedMembraneSolver& geometry, const Triangle& triangle, StressRandom& random)
   {
     const std::vector<Piece> pieces = Draw(geometry, triangle);
     for (int i = 0; i < PlacesPerTriangle; ++i)
@@ -279,7 +278,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RefractionTally CheckTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
+RefractionTally CheckTriangles(const RefractionCase& test, CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error)
 {
   TriangleChecker checker(test, oracle, error);

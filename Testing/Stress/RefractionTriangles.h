@@ -17,7 +17,7 @@ namespace test
  * certain image of the place must be shown by a polygon, and every polygon that shows the place
  * must show it in the direction from which its light arrives.
  */
-RefractionTally CheckTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
+RefractionTally CheckTriangles(const RefractionCase& test, CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error);
 
 } // namespace test
