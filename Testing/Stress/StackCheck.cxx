@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr int PointsPerCase = 24;
+constexpr int RimPointsPerCase = 8;
 constexpr double Side = 200.0;
 
 template <typename T>
@@ -165,18 +166,70 @@ PatchHit StackChecker::ChoosePlace()
 }
 
 //------------------------------------------------------------------------------
-// A point on a ray that was traced before: its image is known.
-void StackChecker::CheckPlanted(int i)
+// A place in the first surface that faces the eye, or none.
+std::optional<PatchHit> StackChecker::ChooseFront()
 {
-  PatchHit first = this->ChoosePlace();
-  for (int k = 0; k < 20 && glm::dot(first.Normal, first.Position - this->Eye) >= 0.0; ++k)
+  for (int k = 0; k < 20; ++k)
   {
-    first = this->ChoosePlace(); // it faces away
+    const PatchHit place = this->ChoosePlace();
+    if (glm::dot(place.Normal, place.Position - this->Eye) < 0.0)
+    {
+      return place;
+    }
   }
-  if (glm::dot(first.Normal, first.Position - this->Eye) >= 0.0)
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+// A place whose ray passes more interfaces than another one that is 0.1 to 0.0001 facets away, or
+// none: next to a border or a critical angle.
+std::optional<PatchHit> StackChecker::ChooseRim()
+{
+  for (int k = 0; k < 20; ++k)
   {
-    return;
+    const std::optional<PatchHit> place = this->ChooseFront();
+    if (!place)
+    {
+      return std::nullopt;
+    }
+    PatchHit passed = *place;
+    glm::dvec2 stopped(this->Random.Uniform(), this->Random.Uniform());
+    stopped = stopped.x + stopped.y > 1.0 ? 1.0 - stopped : stopped;
+    std::size_t most = this->Trace(passed).Points.size();
+    const PatchHit other = this->Evaluate(0, passed.Facet, stopped);
+    const std::size_t least = this->Trace(other).Points.size();
+    if (least == most)
+    {
+      continue;
+    }
+    if (least > most)
+    {
+      stopped = passed.B;
+      passed = other;
+      most = least;
+    }
+    const double distance = std::pow(10.0, this->Random.Uniform(-4.0, -1.0));
+    while (glm::length(passed.B - stopped) > distance)
+    {
+      const PatchHit middle = this->Evaluate(0, passed.Facet, 0.5 * (passed.B + stopped));
+      if (this->Trace(middle).Points.size() >= most)
+      {
+        passed = middle;
+      }
+      else
+      {
+        stopped = middle.B;
+      }
+    }
+    return passed;
   }
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+// A point on a ray that was traced before: its image is known.
+void StackChecker::CheckPlanted(int i, const PatchHit& first)
+{
   const TracedPath path = this->Trace(first);
   this->Tally.RaysMissed += path.End == PathEnd::Missed;
   this->Tally.RaysReflected += path.End == PathEnd::Reflected;
@@ -396,9 +449,16 @@ RefractionTally StackChecker::Run()
     {
       this->CheckElsewhere(i);
     }
-    else
+    else if (const std::optional<PatchHit> place = this->ChooseFront())
     {
-      this->CheckPlanted(i);
+      this->CheckPlanted(i, *place);
+    }
+  }
+  for (int i = PointsPerCase; i < PointsPerCase + RimPointsPerCase; ++i)
+  {
+    if (const std::optional<PatchHit> place = this->ChooseRim())
+    {
+      this->CheckPlanted(i, *place);
     }
   }
   this->CheckChains();

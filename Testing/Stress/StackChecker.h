@@ -79,7 +79,9 @@ private:
   double GetCondition(const TracedPath& path, const glm::dvec3& point) const;
 
   PatchHit ChoosePlace();
-  void CheckPlanted(int i);
+  std::optional<PatchHit> ChooseFront();
+  std::optional<PatchHit> ChooseRim();
+  void CheckPlanted(int i, const PatchHit& first);
   void CheckElsewhere(int i);
   void CheckPoint(int i, const glm::dvec3& point, const PatchHit* planted, std::size_t count);
   void CheckImage(int i, const glm::dvec3& point, const StackPath& path);

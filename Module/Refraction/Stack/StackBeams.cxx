@@ -188,15 +188,9 @@ TubeBounds StackBeams::BoundFirstLeg(std::int32_t facet) const
 bool StackBeams::MayShow(
   const StackTarget& target, std::int32_t facet, const PatchTriangle& corners) const
 {
-  const TubeBounds tube = BoundStackRays(*this->Stack, facet, corners, target.Count);
-  if (!tube.IsValid())
-  {
-    return false;
-  }
   const double slack = this->Stack->GetLinks().front().Surface->GetSlack(glm::length(target.Point));
-  const TubeRange range = TubeClip(tube).Clip(
-    { target.Point - slack, target.Point + slack }, std::numeric_limits<double>::max());
-  return range.From <= range.To;
+  return MayReach(
+    *this->Stack, facet, corners, target.Count, { target.Point - slack, target.Point + slack });
 }
 
 //------------------------------------------------------------------------------

@@ -28,9 +28,6 @@ constexpr int DeepestOfAll = 14;
 constexpr double FarthestEvidence = 0.5;
 constexpr double SameRoot = 1e-5;
 
-// A part whose rays all fail is divided down to this level.
-constexpr int DeepestBlind = 2;
-
 // As in PatchRoots: size of the part of second degree above which the interpolant is only a guess.
 constexpr double LargestDeflection = 0.5;
 
@@ -71,15 +68,13 @@ void StackSearch::FindAll(std::int32_t facet, StackPath& path, std::vector<Stack
 bool StackSearch::Search(std::int32_t facet, StackPath& path)
 {
   this->Facet = facet;
-  this->HasFrame = false;
   this->Divisions = 0;
   const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
     { 0.0, 0.5 }, { 0.5, 0.0 } };
-  // The first ray that passes gives the plane.
   Part whole;
-  for (const int i : { 3, 4, 5, 0, 1, 2 })
+  for (std::size_t i = 0; i < 6; ++i)
   {
-    whole[static_cast<std::size_t>(i)] = this->Evaluate(places[i], path);
+    whole[i] = this->Evaluate(places[i], path);
   }
   return this->SearchPart(whole, 0, path);
 }
@@ -94,18 +89,8 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
     return sample;
   }
   const RayJet& ray = path.GetLast();
-  if (!this->HasFrame)
-  {
-    this->Frame = HeightFrame(ray.Direction);
-    this->HasFrame = true;
-  }
-  const glm::dvec3 away = this->Target.Point - ray.Origin;
-  const double cosine = this->Frame.GetHeight(ray.Direction);
-  if (!(cosine > SmallestCosine))
-  {
-    return sample;
-  }
-  sample.X = this->Frame.Project((this->Frame.GetHeight(away) / cosine) * ray.Direction - away);
+  sample.Away = this->Target.Point - ray.Origin;
+  sample.Direction = ray.Direction;
   const glm::dvec3 nearest = GetNearest(ray, this->Target.Point);
   sample.Move = GetMove(ray, nearest, this->Target.Point - nearest);
   sample.Footprint = GetFootprint(path, path.Count);
@@ -183,19 +168,44 @@ bool StackSearch::SearchPart(const Part& part, int depth, StackPath& path)
 {
   const auto valid =
     std::count_if(part.begin(), part.end(), [](const Sample& s) { return s.IsValid; });
-  if (valid == 6)
+  TriangleMap places;
+  if (valid == 6 && MeetPlane(part, places))
   {
-    return this->SearchWhole(part, depth, path);
-  }
-  if (valid == 0 && depth >= DeepestBlind)
-  {
-    return false;
+    return this->SearchWhole(part, places, depth, path);
   }
   return this->SearchBroken(part, depth, path);
 }
 
 //------------------------------------------------------------------------------
-bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
+// Places of the rays in the plane through the target that is normal to their mean direction,
+// relative to the target. Returns false if a ray runs along it: the rays of one patch may go to all
+// sides.
+bool StackSearch::MeetPlane(const Part& part, TriangleMap& places)
+{
+  glm::dvec3 sum(0.0);
+  for (const Sample& sample : part)
+  {
+    sum += sample.Direction;
+  }
+  const HeightFrame frame(glm::normalize(sum));
+  for (std::size_t k = 0; k < 6; ++k)
+  {
+    const Sample& sample = part[k];
+    const double cosine = frame.GetHeight(sample.Direction);
+    // Written so that a NaN fails.
+    if (!(cosine > SmallestCosine))
+    {
+      return false;
+    }
+    places[k] =
+      frame.Project((frame.GetHeight(sample.Away) / cosine) * sample.Direction - sample.Away);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::SearchWhole(
+  const Part& part, const TriangleMap& places, int depth, StackPath& path)
 {
   TriangleMap control;
   double bend = 0.0;
@@ -203,11 +213,11 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   double reach = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const glm::dvec2& a = part[(k + 1) % 3].X;
-    const glm::dvec2& b = part[(k + 2) % 3].X;
-    control[k] = part[k].X;
-    control[k + 3] = 2.0 * part[k + 3].X - 0.5 * (a + b);
-    bend = std::max(bend, glm::length(part[k + 3].X - 0.5 * (a + b)));
+    const glm::dvec2& a = places[(k + 1) % 3];
+    const glm::dvec2& b = places[(k + 2) % 3];
+    control[k] = places[k];
+    control[k + 3] = 2.0 * places[k + 3] - 0.5 * (a + b);
+    bend = std::max(bend, glm::length(places[k + 3] - 0.5 * (a + b)));
     size = std::max(size, glm::length(b - a));
     reach = std::max(reach, glm::length(a));
   }
@@ -220,7 +230,7 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   const bool isDeepest = depth == this->GetDeepest() || this->Divisions >= MostDivisions;
   if (footprint > LargestFootprint && !isDeepest)
   {
-    return this->Divide(part, depth, path);
+    return this->DivideWhere(part, depth, path);
   }
   const bool isGuess = !(bend <= LargestDeflection * size);
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
@@ -232,12 +242,13 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   const bool isCertain = !isGuess && (!this->Images || IsInjective(control, margin));
   if (!isCertain && !isDeepest)
   {
-    return this->Divide(part, depth, path);
+    return isGuess ? this->DivideWhere(part, depth, path) : this->Divide(part, depth, path);
   }
-  const Sample& nearest = *std::min_element(part.begin(), part.end(),
-    [](const Sample& a, const Sample& b) { return glm::dot(a.X, a.X) < glm::dot(b.X, b.X); });
+  const auto nearest = std::min_element(places.begin(), places.end(),
+    [](const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
+  const glm::dvec2& start = part[static_cast<std::size_t>(nearest - places.begin())].B;
   Shot shot;
-  if (this->TakeShot(part, nearest.B, path, shot))
+  if (this->TakeShot(part, start, path, shot))
   {
     return true;
   }
@@ -256,15 +267,9 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
 //------------------------------------------------------------------------------
 bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 {
-  // Whole patches have been tested by the tree.
-  if (depth > 0 &&
-    !this->Beams.MayShow(this->Target, this->Facet, { part[0].B, part[1].B, part[2].B }))
-  {
-    return false;
-  }
   if (depth < DeepestLevel && this->Divisions < MostDivisions)
   {
-    return this->Divide(part, depth, path);
+    return this->DivideWhere(part, depth, path);
   }
   // Larger parts that are left may have any number of images.
   this->Complete = this->Complete && (!this->Images || depth == DeepestLevel);
@@ -287,8 +292,32 @@ bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 //------------------------------------------------------------------------------
 bool StackSearch::Divide(const Part& part, int depth, StackPath& path)
 {
+  return this->SearchQuarters(part, { true, true, true, true }, depth, path);
+}
+
+//------------------------------------------------------------------------------
+// As Divide, but without the quarters that interval arithmetic excludes, whose rays are not traced.
+bool StackSearch::DivideWhere(const Part& part, int depth, StackPath& path)
+{
+  const auto mayShow = [this](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return this->Beams.MayShow(this->Target, this->Facet, { a, b, c });
+  };
+  std::array<bool, 4> quarters;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    quarters[k] = mayShow(part[k].B, part[(k + 2) % 3 + 3].B, part[(k + 1) % 3 + 3].B);
+  }
+  quarters[3] = mayShow(part[3].B, part[4].B, part[5].B);
+  return this->SearchQuarters(part, quarters, depth, path);
+}
+
+//------------------------------------------------------------------------------
+// Searches those quarters of a part that are marked: three at the corners, and one in the middle,
+// whose corners are the middles of edges.
+bool StackSearch::SearchQuarters(
+  const Part& part, const std::array<bool, 4>& quarters, int depth, StackPath& path)
+{
   ++this->Divisions;
-  // Three children at the corners, and one in the middle, whose corners are the middles of edges.
   Part middle;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -296,20 +325,27 @@ bool StackSearch::Divide(const Part& part, int depth, StackPath& path)
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
-    middle[k + 3] = this->Evaluate(0.5 * (middle[(k + 1) % 3].B + middle[(k + 2) % 3].B), path);
+    if (quarters[k] || quarters[3])
+    {
+      middle[k + 3] = this->Evaluate(0.5 * (middle[(k + 1) % 3].B + middle[(k + 2) % 3].B), path);
+    }
   }
-  if (this->SearchPart(middle, depth + 1, path))
+  if (quarters[3] && this->SearchPart(middle, depth + 1, path))
   {
     return true;
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
+    if (!quarters[k])
+    {
+      continue;
+    }
     const std::size_t i = (k + 1) % 3;
     const std::size_t j = (k + 2) % 3;
-    const Part child{ part[k], part[j + 3], part[i + 3], middle[k + 3],
+    const Part corner{ part[k], part[j + 3], part[i + 3], middle[k + 3],
       this->Evaluate(0.5 * (part[k].B + part[i + 3].B), path),
       this->Evaluate(0.5 * (part[k].B + part[j + 3].B), path) };
-    if (this->SearchPart(child, depth + 1, path))
+    if (this->SearchPart(corner, depth + 1, path))
     {
       return true;
     }

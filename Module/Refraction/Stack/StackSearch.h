@@ -19,13 +19,17 @@ namespace meniscus
 /**
  * Search of one patch of the first surface for a path to a target, or for all of them.
  *
- * The rays from a part of the patch meet a plane through the target; where the target's place is
- * away from the image of the part, no ray of the part meets the target. The image is interpolated
- * by second degree from six rays, with a margin as in PatchRoots. Parts that cannot be excluded are
- * shot from, or divided; so are parts of which some rays do not pass the stack, unless interval
- * arithmetic excludes them. All paths are found
- * if the parts that cannot be excluded are divided until the image of each is injective, which its
- * control points prove with the same margin; such a part has one path at most.
+ * The rays from a part of the patch meet a plane through the target that is normal to their mean
+ * direction; where the target's place is away from the image of the part, no ray of the part meets
+ * the target. The image is interpolated by second degree from six rays, with a margin as in
+ * PatchRoots. Parts that cannot be excluded are shot from, or divided. All paths are found if they
+ * are divided until the image of each is injective, which its control points prove with the same
+ * margin; such a part has one path at most.
+ *
+ * Six rays tell nothing about a part if some or all of them do not pass the stack, or if they go to
+ * all sides: next to borders and critical angles, or if the surfaces behind are small. Such parts
+ * are divided down to 2^-6 of the patch unless interval arithmetic on all of their rays excludes
+ * them.
  */
 class StackSearch
 {
@@ -53,10 +57,11 @@ private:
   struct Sample
   {
     glm::dvec2 B;
-    glm::dvec2 X{ 0.0 };    ///< in the plane, relative to the target
-    glm::dvec2 Move{ 0.0 }; ///< Newton's step from here
-    double Footprint = 0.0; ///< of the whole patch
-    bool IsValid = false;   ///< the ray passes the stack and meets the plane
+    glm::dvec3 Away{ 0.0 };      ///< from the ray's origin to the target
+    glm::dvec3 Direction{ 0.0 }; ///< of the ray
+    glm::dvec2 Move{ 0.0 };      ///< Newton's step from here
+    double Footprint = 0.0;      ///< of the whole patch
+    bool IsValid = false;        ///< the ray passes the stack
   };
   enum class Shot
   {
@@ -71,7 +76,11 @@ private:
   Sample Evaluate(const glm::dvec2& b, StackPath& path);
   bool SearchPart(const Part& part, int depth, StackPath& path);
   bool Divide(const Part& part, int depth, StackPath& path);
-  bool SearchWhole(const Part& part, int depth, StackPath& path);
+  bool DivideWhere(const Part& part, int depth, StackPath& path);
+  bool SearchQuarters(
+    const Part& part, const std::array<bool, 4>& quarters, int depth, StackPath& path);
+  static bool MeetPlane(const Part& part, TriangleMap& places);
+  bool SearchWhole(const Part& part, const TriangleMap& places, int depth, StackPath& path);
   bool SearchBroken(const Part& part, int depth, StackPath& path);
   bool TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot);
   Shot Judge(const Part& part, const StackPath& path) const;
@@ -83,8 +92,6 @@ private:
   const StackTarget& Target;
   std::vector<StackPath>* Images = nullptr; ///< null in a search for one image
   std::int32_t Facet = CurvedPatches::NoFacet;
-  HeightFrame Frame; ///< its axis is normal to the plane
-  bool HasFrame = false;
   int Divisions = 0;
   bool Complete = true;
 };

@@ -9,6 +9,7 @@
 #define meniscus_Refraction_Stack_StackTubes_h
 
 #include "Refraction/Stack/RefractionStack.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <array>
@@ -36,6 +37,13 @@ TubeBounds BoundStackRays(const RefractionStack& stack, std::int32_t facet,
  * last one and meets that one from the right side.
  */
 bool MayMeetLast(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners);
+
+/**
+ * False if interval arithmetic proves that no ray to the triangle passes `count` interfaces, at
+ * least one, and meets the box behind them.
+ */
+bool MayReach(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners,
+  std::size_t count, const AxisBox& box);
 
 }
 

@@ -225,6 +225,45 @@ std::size_t Compare(
   return images.size();
 }
 
+// Chooses places in the first surface until the rays of `count` of them pass all interfaces and are
+// turned by at least `turn`. A point behind on each ray must be shown there, and by a search for
+// one image.
+void FindPlantedPoints(const StackSolver& solver, Random& random, int count, double turn)
+{
+  const RefractionStack& stack = solver.GetStack();
+  const std::size_t interfaces = stack.GetLinks().size();
+  const auto facets = stack.GetLinks()[0].Surface->GetMembrane().GetFacets().size();
+  std::vector<StackPath> images;
+  StackPath path;
+  int planted = 0;
+  for (int i = 0; i < 300000 && planted < count; ++i)
+  {
+    const auto facet = std::min(static_cast<std::size_t>(random(0.0, double(facets))), facets - 1);
+    glm::dvec2 b(random(0.0, 1.0), random(0.0, 1.0));
+    b = b.x + b.y > 1.0 ? 1.0 - b : b;
+    path.Forget(interfaces);
+    if (stack.Trace({ static_cast<std::int32_t>(facet), b }, interfaces, false, path) !=
+        PathEnd::Passed ||
+      glm::dot(path.GetLast().Direction, path.Sight) > std::cos(turn))
+    {
+      continue;
+    }
+    SCOPED_TRACE(i);
+    ++planted;
+    const glm::dvec3 sight = path.Points[0].Ray.Origin;
+    const glm::dvec3 point =
+      path.GetLast().Origin + random(1.0, 100.0) * path.GetLast().Direction + stack.GetOrigin();
+    solver.FindImages(point, images);
+    EXPECT_TRUE(std::any_of(images.begin(), images.end(),
+      [&sight, interfaces](const StackPath& image) {
+        return image.Count == interfaces && glm::length(image.Points[0].Ray.Origin - sight) < 1e-5;
+      }))
+      << "missed, among " << images.size();
+    EXPECT_EQ(SolveAlone(solver, point).State, ImageState::Found);
+  }
+  EXPECT_EQ(planted, count);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -400,6 +439,38 @@ TEST(RefractionStackImages, AgreeWithADenseSearchAtBordersAndCriticalAngles)
   RecordProperty("images", std::to_string(images));
   RecordProperty("none", std::to_string(none));
   RecordProperty("undecided", std::to_string(solver.GetNumberOfUndecidedSearches()));
+}
+
+//------------------------------------------------------------------------------
+// Rays pass all interfaces in a tenth of the width of the first surface's two facets: none of the
+// first rays that are tried do.
+TEST(RefractionStackImages, SmallBallBehindLargeFacets)
+{
+  const auto pane = MakeSurface(MakePlane(0.0, 200.0, 1));
+  const auto ball = MakeSurface(MakeSphere({ 31.0, -60.0, 17.0 }, 10.0, 3, true));
+  for (const double index : { 1.6, 0.7 })
+  {
+    SCOPED_TRACE(index);
+    StackSolver solver;
+    SetStack(solver, { { pane, { 1.0, 1.3 } }, { ball, { 1.3, index } }, { ball, { 1.3, index } } },
+      { 10.0, 150.0, -20.0 });
+    Random random(25);
+    FindPlantedPoints(solver, random, 20, 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Next to the critical angle of a ball of air in glass, rays from one facet leave to all sides: no
+// plane through the point meets all of them.
+TEST(RefractionStackImages, RaysOfOneFacetGoToAllSides)
+{
+  const auto pane = MakeSurface(MakePlane(0.0, 200.0, 3));
+  const auto ball = MakeSurface(MakeSphere({ 10.0, -90.0, 10.0 }, 40.0, 2, true));
+  StackSolver solver;
+  SetStack(solver, { { pane, { 1.0, 1.78 } }, { ball, { 1.78, 0.62 } }, { ball, { 1.39, 0.62 } } },
+    { 3.6, 215.0, -28.0 });
+  Random random(26);
+  FindPlantedPoints(solver, random, 40, 1.2);
 }
 
 //------------------------------------------------------------------------------
