@@ -304,14 +304,14 @@ TEST_F(TetrahedraRayCastEdits, EqualObjectsAreTheSameMesh)
 
 TEST_F(TetrahedraRayCastEdits, UploadedBytesAreThoseOfTheTables)
 {
-  // 32 bytes per cell, 16 per vertex, at least 20 per boundary face, and the transfer function.
+  // 32 bytes per cell, 16 per vertex, at least 16 per boundary face, and the transfer function.
   const auto scene = this->MakeScene(this->Mesh);
   vtkTetrahedraRayCastMapper* mapper = scene->GetRayCaster();
   const vtkTypeInt64 cells = 32 * this->Mesh->GetNumberOfCells();
   const vtkTypeInt64 vertices = 16 * this->Mesh->GetNumberOfPoints();
   const vtkTypeInt64 faces = 6 * 4 * 4 * 2;
   const vtkTypeInt64 all = mapper->GetUploadedBytes();
-  EXPECT_GE(all, cells + vertices + 20 * faces);
+  EXPECT_GE(all, cells + vertices + 16 * faces);
   EXPECT_LE(all, cells + vertices + 80 * faces + 48 * 1000);
   // Another view uploads nothing, other scalars upload those of the vertices, another function its
   // points.
