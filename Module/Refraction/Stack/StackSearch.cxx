@@ -14,10 +14,17 @@ namespace
 // Newton's method starts near the root of a nearly linear map.
 constexpr int ShotSteps = 16;
 
-// Parts have at least 2^-6 of the facet's size. Along a border or a critical angle the number of
-// parts doubles with each level.
+// Divisions of a part that is as wide as the smallest later surface. Along a border or a critical
+// angle the number of parts doubles with each level. Parts none of whose rays passes the list are
+// divided less often: they are most of the parts where surfaces cross, or where most rays are
+// totally reflected.
 constexpr int DeepestLevel = 6;
+constexpr int DeepestBlind = 4;
 constexpr int MostDivisions = 2000;
+
+// Levels up to a part that is as wide as the smallest later surface; for bodies of less than 2^-6
+// of a facet's size the search would take too long.
+constexpr int MostCoarseLevels = 6;
 
 // In a search for all images, parts whose rays all pass are divided down to 2^-14, as in
 // PatchRoots: a smaller undecided one holds a double root, on a caustic.
@@ -69,6 +76,7 @@ bool StackSearch::Search(std::int32_t facet, StackPath& path)
 {
   this->Facet = facet;
   this->Divisions = 0;
+  this->CoarseLevels = this->CountCoarseLevels();
   const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
     { 0.0, 0.5 }, { 0.5, 0.0 } };
   Part whole;
@@ -99,9 +107,27 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
 }
 
 //------------------------------------------------------------------------------
+int StackSearch::CountCoarseLevels() const
+{
+  const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
+  double smallest = std::numeric_limits<double>::max();
+  for (std::size_t k = 1; k < this->Target.Count; ++k)
+  {
+    smallest = std::min(smallest, links[k].Surface->GetWidth());
+  }
+  const double size = links[0].Surface->GetPatches().GetPatch(this->Facet).GetSize();
+  int levels = 0;
+  while (levels < MostCoarseLevels && std::ldexp(size, -levels) > smallest)
+  {
+    ++levels;
+  }
+  return levels;
+}
+
+//------------------------------------------------------------------------------
 int StackSearch::GetDeepest() const
 {
-  return this->Images ? DeepestOfAll : DeepestLevel;
+  return this->Images ? DeepestOfAll : DeepestLevel + this->CoarseLevels;
 }
 
 //------------------------------------------------------------------------------
@@ -267,12 +293,15 @@ bool StackSearch::SearchWhole(
 //------------------------------------------------------------------------------
 bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 {
-  if (depth < DeepestLevel && this->Divisions < MostDivisions)
+  const bool isBlind =
+    std::none_of(part.begin(), part.end(), [](const Sample& s) { return s.IsValid; });
+  const int deepest = this->CoarseLevels + (isBlind ? DeepestBlind : DeepestLevel);
+  if (depth < deepest && this->Divisions < MostDivisions)
   {
     return this->DivideWhere(part, depth, path);
   }
   // Larger parts that are left may have any number of images.
-  this->Complete = this->Complete && (!this->Images || depth == DeepestLevel);
+  this->Complete = this->Complete && (!this->Images || depth >= deepest);
   const double size = std::ldexp(1.0, -depth);
   for (const Sample& sample : part)
   {

@@ -28,8 +28,9 @@ namespace meniscus
  *
  * Six rays tell nothing about a part if some or all of them do not pass the stack, or if they go to
  * all sides: next to borders and critical angles, or if the surfaces behind are small. Such parts
- * are divided down to 2^-6 of the patch unless interval arithmetic on all of their rays excludes
- * them.
+ * are divided down to 2^-6 of the patch or of the smallest surface behind it, whichever is smaller,
+ * and down to 2^-4 if none of the rays passes, unless interval arithmetic on all of their rays
+ * excludes them.
  */
 class StackSearch
 {
@@ -85,6 +86,7 @@ private:
   bool TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot);
   Shot Judge(const Part& part, const StackPath& path) const;
   void Add(const StackPath& path);
+  int CountCoarseLevels() const;
   int GetDeepest() const;
 
   const RefractionStack& Stack;
@@ -93,6 +95,8 @@ private:
   std::vector<StackPath>* Images = nullptr; ///< null in a search for one image
   std::int32_t Facet = CurvedPatches::NoFacet;
   int Divisions = 0;
+  /** Levels after which a part is no wider than the smallest later surface. */
+  int CoarseLevels = 0;
   bool Complete = true;
 };
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace meniscus
@@ -39,11 +40,15 @@ MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const Range
   std::vector<DirectionBox> normals;
   boxes.reserve(count);
   normals.reserve(count);
+  AxisBox whole;
   for (const PatchBounds& bounds : this->Bounds)
   {
     boxes.push_back(bounds.Box);
     normals.push_back(bounds.Normals);
+    whole.Add(bounds.Box);
   }
+  const glm::dvec3 sides = whole.High - whole.Low;
+  this->Width = std::max({ 0.0, sides.x, sides.y, sides.z });
   this->Tree.Build(boxes);
   this->Steep.Build(this->Surface, this->Patches, normals);
   return status;

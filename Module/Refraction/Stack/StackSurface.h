@@ -69,6 +69,9 @@ public:
   bool FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction, int side, double least,
     double most, SurfaceCrossing& nearest) const;
 
+  /** Largest side of the surface's bounding box. */
+  double GetWidth() const { return this->Width; }
+
   /** Calls `visit(facet, range)` for every patch that a ray of the tube may meet. */
   template <typename Visitor>
   void VisitFacets(const TubeBounds& tube, Visitor&& visit) const
@@ -106,6 +109,7 @@ private:
   std::vector<PatchBounds> Bounds;
   BoxTree Tree;
   SteepDirections Steep;
+  double Width = 0.0;
   mutable std::atomic<std::int64_t> Undecided{ 0 };
 };
 
