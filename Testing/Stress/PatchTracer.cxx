@@ -56,6 +56,15 @@ bool Meet(const CurvedPatch& patch, const glm::dvec3& origin, const glm::dvec3& 
   return false;
 }
 
+/** Normal of the patch's shape, on the side of the interpolated one. */
+glm::dvec3 GetShapeNormal(const CurvedPatch& patch, const PatchHit& hit)
+{
+  PatchJet jet;
+  patch.Evaluate(hit.B, jet);
+  const glm::dvec3 normal = glm::cross(jet.PositionBy[0], jet.PositionBy[1]);
+  return glm::dot(normal, hit.Normal) < 0.0 ? -normal : normal;
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
@@ -81,8 +90,8 @@ PatchTracer::PatchTracer(const CurvedPatches& patches, std::size_t facets)
 }
 
 //------------------------------------------------------------------------------
-std::vector<PatchHit> PatchTracer::FindCrossings(
-  const glm::dvec3& origin, const glm::dvec3& direction, bool fromFront, double least) const
+std::vector<PatchHit> PatchTracer::FindCrossings(const glm::dvec3& origin,
+  const glm::dvec3& direction, bool fromFront, double least, Sides sides) const
 {
   std::vector<PatchHit> hits;
   for (std::size_t f = 0; f < this->Spheres.size(); ++f)
@@ -113,7 +122,8 @@ std::vector<PatchHit> PatchTracer::FindCrossings(
       hit.Distance = l * scale;
       const bool isKnown = std::any_of(hits.begin() + static_cast<std::ptrdiff_t>(known),
         hits.end(), [&b](const PatchHit& other) { return glm::length(other.B - b) < 1e-6; });
-      if (!isKnown && glm::dot(hit.Normal, direction) < 0.0)
+      const glm::dvec3 normal = sides == Sides::ByShape ? GetShapeNormal(patch, hit) : hit.Normal;
+      if (!isKnown && glm::dot(normal, direction) < 0.0)
       {
         hits.push_back(hit);
       }

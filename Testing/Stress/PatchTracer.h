@@ -38,11 +38,21 @@ public:
   PatchTracer(const CurvedPatches& patches, std::size_t facets);
 
   /**
+   * Normals that tell the side from which a ray crosses a patch. Interpolated ones, by which rays
+   * are refracted, and those of the patch's shape may tell different sides at grazing incidence.
+   */
+  enum class Sides
+  {
+    ByNormals,
+    ByShape
+  };
+
+  /**
    * All crossings with the ray from `origin` along the unit vector `direction` that go against the
    * normals (`fromFront`), or along them, nearest first. Distances are above `least`.
    */
-  std::vector<PatchHit> FindCrossings(
-    const glm::dvec3& origin, const glm::dvec3& direction, bool fromFront, double least) const;
+  std::vector<PatchHit> FindCrossings(const glm::dvec3& origin, const glm::dvec3& direction,
+    bool fromFront, double least, Sides sides = Sides::ByNormals) const;
 
   /**
    * The place of a patch that a position lies on, or one near it. Use this where a ray grazes a

@@ -72,8 +72,8 @@ private:
   {
     return this->Surfaces[this->Layers[k]->Mesh];
   }
-  std::vector<PatchHit> FindCrossings(
-    std::size_t k, const glm::dvec3& origin, const glm::dvec3& direction) const;
+  std::vector<PatchHit> FindCrossings(std::size_t k, const glm::dvec3& origin,
+    const glm::dvec3& direction, PatchTracer::Sides sides = PatchTracer::Sides::ByNormals) const;
   PatchHit Evaluate(std::size_t k, std::int32_t facet, const glm::dvec2& b) const;
   TracedPath Trace(const PatchHit& first) const;
   double GetCondition(const TracedPath& path, const glm::dvec3& point) const;

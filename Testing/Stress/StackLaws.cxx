@@ -50,12 +50,12 @@ bool IsFinite(const glm::dvec3& v)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<PatchHit> StackChecker::FindCrossings(
-  std::size_t k, const glm::dvec3& origin, const glm::dvec3& direction) const
+std::vector<PatchHit> StackChecker::FindCrossings(std::size_t k, const glm::dvec3& origin,
+  const glm::dvec3& direction, PatchTracer::Sides sides) const
 {
   const TracedSurface& surface = this->GetSurface(k);
   std::vector<PatchHit> hits = surface.Tracer->FindCrossings(
-    origin - surface.Shift, direction, this->GetLayer(k).FromFront, 0.0);
+    origin - surface.Shift, direction, this->GetLayer(k).FromFront, 0.0, sides);
   for (PatchHit& hit : hits)
   {
     hit.Position += surface.Shift;
@@ -232,7 +232,10 @@ bool StackChecker::CheckNearest(const glm::dvec3& point, const StackPath& path) 
         return false;
       }
     }
-    if (isLast && hits.empty())
+    // A ray that meets the surface from the right side of its shape is not missed, even if it is on
+    // the wrong side of the interpolated normal.
+    if (isLast && hits.empty() &&
+      this->FindCrossings(k, origin, (end - origin) / length, PatchTracer::Sides::ByShape).empty())
     {
       return false;
     }
