@@ -88,8 +88,7 @@ bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm:
   }
   at.Position += shift;
   at.Normal *= side;
-  // Written so that a NaN fails.
-  return glm::dot(at.Normal, direction) < 0.0;
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -28,6 +28,8 @@ public:
   /**
    * Intersection of the ray from `origin` along the unit vector `direction` with the surface of a
    * link, from the side from which the link is passed, and the unit normal there, against the ray.
+   * At grazing incidence the interpolated normal of a patch may face along the ray: nothing is
+   * refracted there.
    * @param near  point of the stack's own surface close to the intersection
    * @return false if there is none
    */
