@@ -36,7 +36,7 @@ def test():
     reader = simple.XMLUnstructuredGridReader(FileName=[path])
     if servermanager.Fetch(reader).GetNumberOfCells() != cells:
         PluginTesting.skip("this ParaView cannot read raw appended .vtu files with the installed "
-            "libexpat (newer than 2.5.0-1+deb12u1); save as ASCII or encoded instead")
+            "libexpat (newer than 2.5.0-1+deb12u1); save with DataMode Binary instead")
     draw(reader, "AppendedMesh")
 
     mesh = os.path.join(os.environ.get("MENISCUS_DATA_DIR", ""), "crushed_can.vtu")

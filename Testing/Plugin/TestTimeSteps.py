@@ -25,8 +25,8 @@ def write_series(name, mesh, motion):
             Input=wave, CoordinateResults=1,
             Function=motion % (0.01 * step) if motion else "coords")
         file = "%s-%02d.vtu" % (name, step)
-        # Raw data cannot be read with every libexpat: see TestReadAppendedMesh.py.
-        simple.SaveData(os.path.join(folder, file), proxy=moved, EncodeAppendedData=1)
+        # Appended data cannot be read with every libexpat: see TestReadAppendedMesh.py.
+        simple.SaveData(os.path.join(folder, file), proxy=moved, DataMode="Binary")
         lines.append('<DataSet timestep="%d" file="%s"/>' % (step, file))
     with open(path, "w") as pvd:
         pvd.write('<VTKFile type="Collection"><Collection>%s</Collection></VTKFile>'
