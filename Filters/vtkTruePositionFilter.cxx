@@ -28,6 +28,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace
@@ -88,8 +90,23 @@ public:
   /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
   std::unique_ptr<meniscus::TruePositions> Truth;
   vtkTypeInt64 EyeUpdate = -1;
+  /** Coordinates of the points, and the order in which they are solved: see FindCoherentOrder(). */
+  std::vector<double> Coordinates;
+  std::vector<std::uint32_t> Order;
   vtkTypeInt64 TotallyReflected = 0;
   vtkTypeInt64 Missed = 0;
+
+  /** The order is kept while no coordinate changes. */
+  void UpdatePoints(vtkPointSet* points)
+  {
+    std::vector<double> coordinates = meniscus::CopyPoints(points);
+    if (coordinates != this->Coordinates)
+    {
+      this->Coordinates = std::move(coordinates);
+      this->Order = meniscus::FindCoherentOrder(
+        this->Coordinates.data(), this->Coordinates.size() / 3, meniscus::ThreadedLoop);
+    }
+  }
 
   void UpdateTruth()
   {
@@ -244,17 +261,15 @@ bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformation
 }
 
 //------------------------------------------------------------------------------
-
-//------------------------------------------------------------------------------
 /** Returns false after an abort. */
 bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
   PointArrays arrays(count);
   const vtkInternals& internals = *this->Internals;
-  const std::vector<double> coordinates = meniscus::CopyPoints(input);
-  const std::vector<std::uint32_t> order = meniscus::FindCoherentOrder(
-    coordinates.data(), static_cast<std::size_t>(count), meniscus::ThreadedLoop);
+  this->Internals->UpdatePoints(input);
+  const std::vector<double>& coordinates = internals.Coordinates;
+  const std::vector<std::uint32_t>& order = internals.Order;
   // One chain.
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {

@@ -3,6 +3,7 @@
 #include "Refraction/Membrane/FacetWalk.h"
 
 #include "Common/Prefetch.h"
+#include "Refraction/Membrane/CrossProduct.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 
 #include <glm/common.hpp>
@@ -105,8 +106,7 @@ void FacetWalk::ReadFacet()
 int FacetWalk::FindExit() const
 {
   const glm::dvec2(&c)[3] = this->Corner;
-  const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-  const double area[3] = { cross(c[1], c[2]), cross(c[2], c[0]), cross(c[0], c[1]) };
+  const double area[3] = { Cross(c[1], c[2]), Cross(c[2], c[0]), Cross(c[0], c[1]) };
   const double sign = area[0] + area[1] + area[2] < 0.0 ? -1.0 : 1.0;
   const double first = sign * area[0];
   const double second = sign * area[1];

@@ -41,9 +41,10 @@ StackPatches::StackPatches(const RefractionStack& stack, StackChain* chain)
 
 //------------------------------------------------------------------------------
 // The nearest crossing, relative to the surface's origin.
-bool StackPatches::Search(const RefractionStack::Link& link, std::size_t number,
-  const glm::dvec3& origin, const glm::dvec3& direction, CrossingChain* chain, PatchPoint& at) const
+bool StackPatches::Search(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
+  CrossingChain* chain, PatchPoint& at) const
 {
+  const RefractionStack::Link& link = this->Stack.GetLinks()[number];
   SurfaceCrossing crossing;
   if (!this->Stack.FindNext(number, origin + link.Shift, direction, crossing))
   {
@@ -82,7 +83,7 @@ bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm:
     this->Chain && surface.IsCrossedOnce(direction) ? &(*this->Chain)[link.Index] : nullptr;
   const bool isNear = chain && chain->Follow(surface.GetPatches(), origin - shift, direction, at) &&
     side * glm::dot(at.Normal, direction) < 0.0;
-  if (!isNear && !this->Search(link, number, origin - shift, direction, chain, at))
+  if (!isNear && !this->Search(number, origin - shift, direction, chain, at))
   {
     return false;
   }

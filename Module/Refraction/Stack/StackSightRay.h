@@ -54,8 +54,8 @@ public:
     const glm::dvec3& near, PatchPoint& at) const override;
 
 private:
-  bool Search(const RefractionStack::Link& link, std::size_t number, const glm::dvec3& origin,
-    const glm::dvec3& direction, CrossingChain* chain, PatchPoint& at) const;
+  bool Search(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
+    CrossingChain* chain, PatchPoint& at) const;
 
   const RefractionStack& Stack;
   StackChain* Chain;

@@ -163,7 +163,8 @@ void RefractedRayStack::PrepareTile(int tile, bool mayShow)
   for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
     std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
-    // All squares of the image are stored; pixels beside it keep their first values.
+    // All squares of pixels in the image are stored. Pixels of the tile outside the image keep
+    // their initial values.
     rays.resize(k == 0 || mayShow ? RefractedRayTiles::RaysOfTile : 0);
     this->Rays[k].SetSquares(tile, 0, 0);
   }

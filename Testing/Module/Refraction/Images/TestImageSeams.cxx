@@ -428,16 +428,33 @@ TEST(RefractionSeamsExit, CornersBeyondTheFarFlankAreDrawnAtTheirSightPoints)
   EXPECT_GT(beyond, 0u);
 }
 
+namespace
+{
+
+// Low waves, and an eye above them.
+void SetLowWaves(CurvedMembraneSolver& geometry)
+{
+  const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
+  geometry.SetMembrane(field.MakeMesh(64).AsInput());
+  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
+}
+
+// A ball half in front of them.
+Object MakePiercingBall()
+{
+  return MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);
+}
+
+}
+
 //------------------------------------------------------------------------------
 // The part of a triangle in front of a membrane that it intersects is no finer than the pieces
 // behind.
 TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
 {
-  const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
   CurvedMembraneSolver geometry;
-  geometry.SetMembrane(field.MakeMesh(64).AsInput());
-  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
-  const Object ball = MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);
+  SetLowWaves(geometry);
+  const Object ball = MakePiercingBall();
   const Drawn drawn = Draw(geometry, ball, 0.005 * Pi / 180.0);
   ASSERT_GT(drawn.Report.Mapped, 150u);
   // One part in front and one to four behind: triangles are smaller than facets.
@@ -448,11 +465,9 @@ TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
 // Seams are closed in blocks of work, in any order.
 TEST(RefractionSeamsThreads, ResultsDoNotDependOnTheOrderOfBlocks)
 {
-  const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
   CurvedMembraneSolver geometry;
-  geometry.SetMembrane(field.MakeMesh(64).AsInput());
-  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
-  const Object ball = MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);
+  SetLowWaves(geometry);
+  const Object ball = MakePiercingBall();
   const double tolerance = 0.005 * Pi / 180.0;
   const std::size_t all = std::numeric_limits<std::uint32_t>::max();
   std::size_t blocks = 0;

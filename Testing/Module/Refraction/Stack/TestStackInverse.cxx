@@ -119,7 +119,7 @@ TEST(StackInverse, ChainsBehindAPane)
   {
     const Tally tally = CompareChain(MakePane(), eye, points);
     EXPECT_GT(tally.Count(SeenState::Refracted), 1000);
-    EXPECT_GT(tally.Count(SeenState::Unrefracted), 100); // rays beside the pane
+    EXPECT_GT(tally.Count(SeenState::Unrefracted), 100); // rays that miss the pane
   }
 }
 

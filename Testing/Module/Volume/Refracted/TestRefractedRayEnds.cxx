@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays behind several interfaces that are traced only as far as the mesh needs them.
+#include "RefractionTestRandom.h"
+#include "StackedRays.h"
+
+#include "Volume/Refracted/RefractionFrames.h"
+#include "Volume/Refracted/StackBlock.h"
+
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace meniscus;
+using namespace meniscus::test;
+using meniscus::testing::Random;
+
+namespace
+{
+
+/** Rays through interfaces to a small mesh, compared with those to a mesh that is everywhere. */
+struct EndedRays
+{
+  int Shown = 0;
+  int Ended = 0;
+  int Wrong = 0;
+  std::int64_t Untraced = 0;
+
+  void Compare(
+    const std::vector<StackedInterface>& list, RefractedRayField::View view, const WorldBox& box)
+  {
+    RefractedRayStack all;
+    SetMesh(view, Everywhere);
+    all.Build(list, view);
+    RefractedRayStack some;
+    SetMesh(view, box);
+    some.Build(list, view);
+    EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
+    EXPECT_EQ(some.GetCounts().Reflected, all.GetCounts().Reflected);
+    EXPECT_EQ(all.GetNumberOfUntracedBlocks(), 0);
+    this->Untraced += some.GetNumberOfUntracedBlocks();
+    const RayLegs legs = LegsOf(all, view);
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      const auto rayOf = [pixel](const RefractedRayStack& stack, std::size_t interface)
+      { return RayOf(stack.GetRays()[interface], pixel % Size, pixel / Size); };
+      bool comes = false;
+      for (std::size_t k = list.size(); k > 0; --k)
+      {
+        const WorldRay ray = LegOf(legs, view, pixel % Size, pixel / Size, static_cast<int>(k));
+        const RefractedRay exact = rayOf(all, k - 1);
+        const RefractedRay found = rayOf(some, k - 1);
+        const RefractedRay next = k < list.size() ? rayOf(all, k) : RefractedRay();
+        comes = comes ||
+          (exact.GoesOn() && box.Meets(ray.Start, ray.Direction, next.Depth - exact.Depth));
+        this->Shown += comes ? 1 : 0;
+        this->Ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
+        this->Wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
+      }
+      this->Wrong += rayOf(all, 0).Depth != rayOf(some, 0).Depth ? 1 : 0;
+    }
+  }
+};
+
+}
+
+/** Rays end early only where they do not come to the mesh. */
+TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
+{
+  Random random(23);
+  const StackedSheet front(Shapes[2], 12);
+  const StackedSheet back([](double x, double y) { return Shapes[1](y, x) - 0.8; }, 9);
+  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  EndedRays rays;
+  for (int i = 0; i < 96; ++i)
+  {
+    const RefractedRayField::View view =
+      LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), random(0.5, 3.0)),
+        random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), i % 3 == 0, Size);
+    rays.Compare(pane, view,
+      { random.Point(glm::dvec3(-1.0, -1.0, -2.0), glm::dvec3(1.0, 1.0, 0.5)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) });
+  }
+  EXPECT_EQ(rays.Wrong, 0);
+  EXPECT_GT(rays.Shown, 10000);
+  EXPECT_GT(rays.Ended, 10000);
+  // Half of the blocks of 8 x 8 rays.
+  EXPECT_GT(rays.Untraced, 96 * Size * Size / (8 * 8) / 2);
+}
+
+/** The same from behind, at sheets of few and of many facets, through a ball, and into dense media.
+ */
+TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
+{
+  Random random(29);
+  const StackedSheet coarse(Shapes[0], 1);
+  const StackedSheet waves([](double x, double y) { return Shapes[2](x, y) - 0.4; }, 48);
+  const StackedSphere sphere(12);
+  // Media from above, and from below in the reverse order.
+  const std::vector<StackedInterface> above{ coarse.Between(1.0, 2.0), waves.Between(2.0, 1.0) };
+  const std::vector<StackedInterface> below{ waves.Between(2.0, 1.0), coarse.Between(1.0, 2.0) };
+  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 1.5), sphere.Between(1.0, 1.5) };
+  const std::vector<StackedInterface> behind{ coarse.Between(1.0, 1.3), sphere.Between(1.3, 1.0),
+    sphere.Between(1.3, 1.0) };
+  EndedRays rays;
+  for (int i = 0; i < 48; ++i)
+  {
+    const std::vector<StackedInterface>& list =
+      i % 4 == 0 ? above : (i % 4 == 1 ? below : (i % 4 == 2 ? ball : behind));
+    const double side = i % 4 == 1 ? -1.0 : 1.0;
+    const RefractedRayField::View view =
+      LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), side * random(1.5, 3.0)),
+        random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 3.0), i % 3 == 0, Size);
+    rays.Compare(list, view,
+      { random.Point(glm::dvec3(-0.9), glm::dvec3(0.9)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.4)) });
+  }
+  EXPECT_EQ(rays.Wrong, 0);
+  EXPECT_GT(rays.Shown, 5000);
+  EXPECT_GT(rays.Ended, 5000);
+  EXPECT_GT(rays.Untraced, 48 * Size * Size / (8 * 8) / 4);
+}
+
+/**
+ * A prism turns rays away from a mesh that is seen without it, and towards one that is not. Only
+ * the latter has to be traced to the second surface.
+ */
+TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
+{
+  const StackedSheet front([](double, double) { return 0.0; }, 12);
+  const StackedSheet back([](double x, double) { return -0.5 + 0.5 * x; }, 12);
+  const std::vector<StackedInterface> prism{ front.Between(1.0, 1.6), back.Between(1.6, 1.0) };
+  RefractedRayField::View view =
+    LookAt(glm::dvec3(0.0, 0.0, 20.0), glm::dvec3(0.0), 0.2, false, Size);
+  const double depth = 4.0;
+  // The angle between the surfaces is atan(1/2); rays come to the first one along its normal.
+  const double inside = std::atan(0.5);
+  const double turned = std::asin(1.6 * std::sin(inside)) - inside;
+  const WorldBox straight{ glm::dvec3(0.0, 0.0, -depth), glm::dvec3(0.2) };
+  const WorldBox aside{ glm::dvec3(-std::tan(turned) * (depth - 0.5), 0.0, -depth),
+    glm::dvec3(0.2) };
+  const auto countShown = [&](const WorldBox& box)
+  {
+    SetMesh(view, box);
+    RefractedRayStack stack;
+    stack.Build(prism, view);
+    const RayLegs legs = LegsOf(stack, view);
+    int shown = 0;
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      const WorldRay ray = LegOf(legs, view, pixel % Size, pixel / Size, 2);
+      shown += ray.Direction != glm::dvec3(0.0) ? 1 : 0;
+    }
+    const int blocks = Size * Size / StackBlock::Size;
+    EXPECT_EQ(stack.GetNumberOfUntracedBlocks(), shown > 0 ? 0 : blocks);
+    return shown;
+  };
+  EXPECT_EQ(countShown(straight), 0);
+  EXPECT_EQ(countShown(aside), Size * Size);
+}
+
+/** Tiles that showed the mesh hold nothing of it after another view, in an image of any size. */
+TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
+{
+  const StackedSheet front(Shapes[2], 12);
+  const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
+  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  Random random(31);
+  RefractedRayStack kept;
+  int met = 0;
+  for (int i = 0; i < 24; ++i)
+  {
+    RefractedRayField::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 2.0),
+      random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), false, Size);
+    view.Width = i % 3 == 0 ? Size - 13 : Size;
+    SetMesh(view,
+      { random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.0)),
+        random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) });
+    const std::vector<StackedInterface> list(pane.begin(), pane.end() - (i % 5 == 0 ? 1 : 0));
+    kept.Build(list, view);
+    RefractedRayStack fresh;
+    fresh.Build(list, view);
+    ASSERT_EQ(kept.GetRays().size(), fresh.GetRays().size());
+    for (std::size_t k = 0; k < list.size(); ++k)
+    {
+      for (int tile = 0; tile < fresh.GetRays()[k].GetNumberOfTiles(); ++tile)
+      {
+        const RefractedRay* one = kept.GetRays()[k].GetTile(tile);
+        const RefractedRay* other = fresh.GetRays()[k].GetTile(tile);
+        ASSERT_EQ(one != nullptr, other != nullptr);
+        for (int pixel = 0; other && pixel < RefractedRayTiles::RaysOfTile; ++pixel)
+        {
+          ASSERT_TRUE(
+            one[pixel].Depth == other[pixel].Depth && one[pixel].Step == other[pixel].Step);
+          met += other[pixel].GoesOn() ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(met, 10000);
+}
+
+/** The bounds of the steps hold, and lead to the frames that the single rays need. */
+TEST(RefractedRayStack, StepBoundsChooseTheFramesOfAllRays)
+{
+  const StackedSphere sphere(16);
+  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 2.0), sphere.Between(1.0, 2.0) };
+  int several = 0;
+  for (const double width : { 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5 })
+  {
+    RefractedRayField::View view =
+      LookAt(glm::dvec3(0.3, 0.2, 2.5), glm::dvec3(0.0), width, false, Size);
+    SetMesh(view, Everywhere);
+    RefractedRayStack stack;
+    stack.Build(ball, view);
+    AxisBox steps;
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      for (const RefractedRayTiles& rays : stack.GetRays())
+      {
+        const RefractedRay ray = RayOf(rays, pixel % Size, pixel / Size);
+        steps.Add(ray.GoesOn() ? AxisBox{ ray.Step, ray.Step } : AxisBox());
+      }
+    }
+    EXPECT_EQ(stack.GetStepBounds().Low, steps.Low);
+    EXPECT_EQ(stack.GetStepBounds().High, steps.High);
+    const RayLegs legs = LegsOf(stack, view);
+    RefractionFrames each;
+    each.Turn(legs, stack.GetMeanDirection(), SerialLoop);
+    RefractionFrames bounded;
+    bounded.Turn(legs, stack.GetMeanDirection(), SerialLoop, stack.GetStepBounds());
+    int frames = 0;
+    for (int index = 0; index < RefractionFrames::Number; ++index)
+    {
+      // Frames that are not needed are not turned.
+      const glm::dmat3& turn = each.Get(index).FromView;
+      EXPECT_EQ(bounded.Get(index).FromView, turn) << width;
+      frames += turn != glm::dmat3(1.0) ? 1 : 0;
+    }
+    several += frames > 1 ? 1 : 0;
+  }
+  EXPECT_GT(several, 0);
+  EXPECT_LT(several, 7);
+}
+
+TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
+{
+  const StackedSheet front(Shapes[2], 12);
+  const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
+  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false);
+  RefractedRayStack forward;
+  forward.Build(pane, view);
+  RefractedRayStack backward;
+  backward.Build(pane, view,
+    [](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body)
+    {
+      for (std::size_t i = count; i > 0; --i)
+      {
+        body(i - 1, i);
+      }
+    });
+  EXPECT_EQ(forward.GetMeanDirection(), backward.GetMeanDirection());
+  EXPECT_EQ(forward.GetCounts().Missing, backward.GetCounts().Missing);
+  for (int pixel = 0; pixel < Size * Size; ++pixel)
+  {
+    for (const std::size_t k : { std::size_t{ 0 }, std::size_t{ 1 } })
+    {
+      const RefractedRay one = RayOf(forward.GetRays()[k], pixel % Size, pixel / Size);
+      const RefractedRay other = RayOf(backward.GetRays()[k], pixel % Size, pixel / Size);
+      ASSERT_TRUE(one.Depth == other.Depth && one.Step == other.Step);
+    }
+  }
+}
