@@ -1,11 +1,14 @@
-# Builds the kernel and its unit tests alone: no VTK, no OpenGL. For other processors and quick
-# work.
+# Builds the kernel and its unit tests alone: no VTK, no OpenGL. For other processors, quick work,
+# and as the kernel of several builds (MENISCUS_KERNEL_BUILD).
 find_package(glm REQUIRED)
 find_package(OpenMesh REQUIRED)
-find_package(GTest REQUIRED)
-include(GoogleTest)
-enable_testing()
 add_subdirectory(Module)
-add_subdirectory(Testing/Reference/Refraction)
-add_subdirectory(Testing/Fuzz)
-add_subdirectory(Testing/Module)
+if (MENISCUS_BUILD_TESTING)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  enable_testing()
+  add_subdirectory(Testing/Reference/Refraction)
+  add_subdirectory(Testing/Fuzz)
+  add_subdirectory(Testing/Module)
+  meniscus_write_rooms()
+endif ()

@@ -47,18 +47,35 @@ function (meniscus_target_flags target)
   endif ()
 endfunction ()
 
-# Makes a program a part of the target meniscus_tests_LABEL, which builds all tests of a label.
-function (meniscus_label_tests target label)
-  if (NOT TARGET meniscus_tests_${label})
-    add_custom_target(meniscus_tests_${label})
-  endif ()
-  add_dependencies(meniscus_tests_${label} ${target})
-endfunction ()
+# Headers that many sources include, by subject: kernel, vtk, rendering, tests.
+set(meniscus_headers_kernel
+  <algorithm> <array> <cmath> <cstddef> <cstdint> <functional> <limits> <memory> <numeric> <string>
+  <utility> <vector>
+  <glm/common.hpp> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/matrix.hpp> <glm/vec2.hpp>
+  <glm/vec3.hpp> <glm/vec4.hpp>)
+set(meniscus_headers_vtk
+  <vtkCellArray.h> <vtkCellData.h> <vtkDoubleArray.h> <vtkFloatArray.h> <vtkIdList.h>
+  <vtkIdTypeArray.h> <vtkInformation.h> <vtkInformationVector.h> <vtkMath.h>
+  <vtkMultiBlockDataSet.h> <vtkNew.h> <vtkObjectFactory.h> <vtkPointData.h> <vtkPoints.h>
+  <vtkPolyData.h> <vtkSMPTools.h> <vtkSmartPointer.h> <vtkUnstructuredGrid.h>)
+set(meniscus_headers_rendering
+  <vtkCamera.h> <vtkColorTransferFunction.h> <vtkPiecewiseFunction.h> <vtkRenderWindow.h>
+  <vtkRenderer.h> <vtkVolume.h> <vtkVolumeProperty.h>)
+set(meniscus_headers_tests <gtest/gtest.h>)
 
-# meniscus_discover_tests(TARGET LABEL [PROPERTY VALUE]...): adds the tests of a GoogleTest program.
-function (meniscus_discover_tests target label)
-  meniscus_label_tests(${target} ${label})
-  gtest_discover_tests(${target} PROPERTIES LABELS ${label} ${ARGN})
+# meniscus_precompile_headers(TARGET SUBJECT...): reads the headers of these subjects once for all
+# sources of a target. No source relies on it: each includes the headers that it uses, and
+# CMAKE_DISABLE_PRECOMPILE_HEADERS builds without.
+function (meniscus_precompile_headers target)
+  get_target_property(aliased "${target}" ALIASED_TARGET)
+  if (aliased)
+    set(target "${aliased}")
+  endif ()
+  set(headers)
+  foreach (subject IN LISTS ARGN)
+    list(APPEND headers ${meniscus_headers_${subject}})
+  endforeach ()
+  target_precompile_headers(${target} PRIVATE ${headers})
 endfunction ()
 
 # Tests also run on real meshes where they find them.

@@ -11,9 +11,9 @@ export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}"
 export CCACHE_NOHASHDIR="${CCACHE_NOHASHDIR:-1}"
 
 # Packages that a fresh Debian 12 lacks, per purpose. The first are those without VTK.
-PACKAGES_KERNEL=(g++ cmake ninja-build python3 libpython3-dev libglm-dev libopenmesh-dev
-  libgtest-dev libbenchmark-dev)
-PACKAGES_BUILD=("${PACKAGES_KERNEL[@]}" libvtk9-dev python3-vtk9)
+PACKAGES_KERNEL=(g++ cmake ninja-build libglm-dev libopenmesh-dev)
+PACKAGES_TESTS=(python3 libpython3-dev libgtest-dev libbenchmark-dev)
+PACKAGES_BUILD=("${PACKAGES_KERNEL[@]}" "${PACKAGES_TESTS[@]}" libvtk9-dev python3-vtk9)
 # Needed by a part of the benchmarks only; the build works without it.
 PACKAGES_BENCHMARKS=(libembree-dev)
 # TetGen, under the AGPL: for MENISCUS_WITH_TETGEN.
@@ -124,6 +124,20 @@ configure_and_build()
   configure "$@"
   build "$1"
 }
+
+# install_packages_and_kernel PACKAGE...: builds the kernel, which knows no VTK, in build-kernel
+# while the packages are being installed.
+install_packages_and_kernel()
+{
+  install_packages "${PACKAGES_KERNEL[@]}"
+  configure kernel > /dev/null
+  build kernel > build-kernel/build.log 2>&1 &
+  install_packages "$@"
+  say "Building the kernel"
+  wait "$!" || { cat build-kernel/build.log >&2; die "the kernel cannot be built"; }
+}
+# Makes a build use that kernel.
+WITH_KERNEL="-DMENISCUS_KERNEL_BUILD=$ROOT/build-kernel"
 
 # with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen. Without
 # -noreset the server starts anew whenever its last client leaves, and refuses those who come then.

@@ -10,67 +10,9 @@
 namespace meniscus
 {
 
-constexpr int PortableWidth = 4;
-
-template <typename T>
-struct PortableLanes
-{
-  T Of[PortableWidth];
-};
-
-/** Applies a function of lane values to each lane. */
-template <typename Result, typename Function, typename... Arguments>
-inline PortableLanes<Result> EachLane(const Function& function, const Arguments&... arguments)
-{
-  PortableLanes<Result> result;
-  for (int i = 0; i < PortableWidth; ++i)
-  {
-    result.Of[i] = function(arguments.Of[i]...);
-  }
-  return result;
-}
-
-template <typename T>
-inline PortableLanes<T> operator+(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return EachLane<T>([](T x, T y) { return x + y; }, a, b);
-}
-template <typename T>
-inline PortableLanes<T> operator-(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return EachLane<T>([](T x, T y) { return x - y; }, a, b);
-}
-template <typename T>
-inline PortableLanes<T> operator*(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return EachLane<T>([](T x, T y) { return x * y; }, a, b);
-}
-template <typename T>
-inline PortableLanes<T> operator/(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return EachLane<T>([](T x, T y) { return x / y; }, a, b);
-}
-template <typename T>
-inline PortableLanes<bool> operator<(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return EachLane<bool>([](T x, T y) { return x < y; }, a, b);
-}
-template <typename T>
-inline PortableLanes<bool> operator>(const PortableLanes<T>& a, const PortableLanes<T>& b)
-{
-  return b < a;
-}
-inline PortableLanes<bool> operator&(const PortableLanes<bool>& a, const PortableLanes<bool>& b)
-{
-  return EachLane<bool>([](bool x, bool y) { return x && y; }, a, b);
-}
-inline PortableLanes<bool> operator|(const PortableLanes<bool>& a, const PortableLanes<bool>& b)
-{
-  return EachLane<bool>([](bool x, bool y) { return x || y; }, a, b);
-}
-
 /**
- * Packets of 4 lanes in plain C++, for any processor. The other instruction sets offer the same
+ * Packets of 4 lanes for any processor, in the vector types of GCC and Clang, which become the
+ * processor's vector instructions where it has them. The other instruction sets offer the same
  * names with intrinsics; the templates of the ray caster use no others.
  *
  * Float, Int (32 bits) and Mask hold one value per lane. Comparisons with NaN are false; Min and
@@ -78,40 +20,65 @@ inline PortableLanes<bool> operator|(const PortableLanes<bool>& a, const Portabl
  */
 struct SimdPortable
 {
-  static constexpr int Width = PortableWidth;
-  using Float = PortableLanes<float>;
-  using Int = PortableLanes<std::int32_t>;
-  using Mask = PortableLanes<bool>;
+  static constexpr int Width = 4;
+  using FloatVector = float __attribute__((vector_size(16)));
+  using IntVector = std::int32_t __attribute__((vector_size(16)));
 
-  template <typename T>
-  static PortableLanes<T> Load(const T* from)
+  /** All bits of a lane are set, or none. */
+  struct Mask
   {
-    PortableLanes<T> result;
-    std::memcpy(result.Of, from, sizeof(result.Of));
+    IntVector Bits;
+    friend Mask operator&(Mask a, Mask b) { return { a.Bits & b.Bits }; }
+    friend Mask operator|(Mask a, Mask b) { return { a.Bits | b.Bits }; }
+  };
+
+  struct Float
+  {
+    FloatVector V;
+    friend Float operator+(Float a, Float b) { return { a.V + b.V }; }
+    friend Float operator-(Float a, Float b) { return { a.V - b.V }; }
+    friend Float operator*(Float a, Float b) { return { a.V * b.V }; }
+    friend Float operator/(Float a, Float b) { return { a.V / b.V }; }
+    friend Mask operator<(Float a, Float b) { return { IntVector(a.V < b.V) }; }
+    friend Mask operator>(Float a, Float b) { return { IntVector(a.V > b.V) }; }
+  };
+
+  struct Int
+  {
+    IntVector V;
+    // Unsigned: sums of signed integers must not overflow.
+    friend Int operator+(Int a, Int b) { return { IntVector(Unsigned(a.V) + Unsigned(b.V)) }; }
+    friend Int operator-(Int a, Int b) { return { IntVector(Unsigned(a.V) - Unsigned(b.V)) }; }
+    friend Mask operator<(Int a, Int b) { return { IntVector(a.V < b.V) }; }
+    friend Mask operator>(Int a, Int b) { return { IntVector(a.V > b.V) }; }
+
+  private:
+    using Unsigned = std::uint32_t __attribute__((vector_size(16)));
+  };
+
+  static Float Load(const float* from)
+  {
+    Float result;
+    std::memcpy(&result.V, from, sizeof(result.V));
     return result;
   }
-  template <typename T>
-  static void Store(T* to, const PortableLanes<T>& x)
+  static Int Load(const std::int32_t* from)
   {
-    std::memcpy(to, x.Of, sizeof(x.Of));
+    Int result;
+    std::memcpy(&result.V, from, sizeof(result.V));
+    return result;
   }
-  template <typename T>
-  static PortableLanes<T> Splat(T value)
-  {
-    return EachLane<T>([value](T) { return value; }, PortableLanes<T>());
-  }
+  static void Store(float* to, Float x) { std::memcpy(to, &x.V, sizeof(x.V)); }
+  static void Store(std::int32_t* to, Int x) { std::memcpy(to, &x.V, sizeof(x.V)); }
+  static Float Splat(float value) { return { FloatVector{ value, value, value, value } }; }
+  static Int Splat(std::int32_t value) { return { IntVector{ value, value, value, value } }; }
 
   /** a * b + c, with one rounding or two. */
-  template <typename T>
-  static PortableLanes<T> Fma(
-    const PortableLanes<T>& a, const PortableLanes<T>& b, const PortableLanes<T>& c)
-  {
-    return a * b + c;
-  }
+  static Float Fma(Float a, Float b, Float c) { return a * b + c; }
   /** a - b * c, with one rounding. */
-  static Float SubtractProduct(const Float& a, const Float& b, const Float& c)
+  static Float SubtractProduct(Float a, Float b, Float c)
   {
-    return EachLane<float>([](float x, float y, float z) { return std::fma(-y, z, x); }, a, b, c);
+    return FloatOf([&](int i) { return std::fma(-b.V[i], c.V[i], a.V[i]); });
   }
   /**
    * a * d - b * c by Kahan's method. Unless a product under- or overflows, the error is at most 2
@@ -119,165 +86,128 @@ struct SimdPortable
    * Kahan's algorithm for the accurate computation of 2x2 determinants", 2013), so the sign is
    * exact, and the result is 0 only if the two products are equal.
    */
-  static Float CrossProduct(const Float& a, const Float& b, const Float& c, const Float& d)
+  static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
     const Float bc = b * c;
-    const Float roundOff = SubtractProduct(bc, b, c);
-    return EachLane<float>([](float x, float y, float product, float rest)
-      { return std::fma(x, y, -product) + rest; },
-      a, d, bc, roundOff);
+    return FloatOf([&](int i) { return std::fma(a.V[i], d.V[i], -bc.V[i]); }) +
+      SubtractProduct(bc, b, c);
   }
-  static Float Min(const Float& a, const Float& b)
+  static Float Min(Float a, Float b) { return Select(a < b, a, b); }
+  static Float Max(Float a, Float b) { return Select(a > b, a, b); }
+  static Float Abs(Float a) { return { FloatVector(IntVector(a.V) & Splat(INT32_MAX).V) }; }
+  static Float Sqrt(Float a)
   {
-    return EachLane<float>([](float x, float y) { return x < y ? x : y; }, a, b);
-  }
-  static Float Max(const Float& a, const Float& b)
-  {
-    return EachLane<float>([](float x, float y) { return x > y ? x : y; }, a, b);
-  }
-  static Float Abs(const Float& a)
-  {
-    return EachLane<float>([](float x) { return std::fabs(x); }, a);
-  }
-  static Float Sqrt(const Float& a)
-  {
-    return EachLane<float>([](float x) { return std::sqrt(x); }, a);
+    return FloatOf([&](int i) { return std::sqrt(a.V[i]); });
   }
 
-  template <typename T>
-  static PortableLanes<T> Select(
-    const Mask& mask, const PortableLanes<T>& yes, const PortableLanes<T>& no)
+  static Float Select(Mask mask, Float yes, Float no)
   {
-    return EachLane<T>([](bool m, T x, T y) { return m ? x : y; }, mask, yes, no);
+    return { FloatVector(Choose(mask.Bits, IntVector(yes.V), IntVector(no.V))) };
   }
+  static Int Select(Mask mask, Int yes, Int no) { return { Choose(mask.Bits, yes.V, no.V) }; }
   /** 1 where the mask is set, otherwise 0. */
-  static Int One(const Mask& mask)
-  {
-    return EachLane<std::int32_t>([](bool m) { return m ? 1 : 0; }, mask);
-  }
+  static Int One(Mask mask) { return { mask.Bits & Splat(1).V }; }
   /** a and not b. */
-  static Mask AndNot(const Mask& a, const Mask& b)
-  {
-    return EachLane<bool>([](bool x, bool y) { return x && !y; }, a, b);
-  }
-  static Mask Not(const Mask& a)
-  {
-    return EachLane<bool>([](bool x) { return !x; }, a);
-  }
+  static Mask AndNot(Mask a, Mask b) { return { a.Bits & ~b.Bits }; }
+  static Mask Not(Mask a) { return { ~a.Bits }; }
   /** Bit mask in which bit i is lane i. */
-  static unsigned int Bits(const Mask& mask)
+  static unsigned int Bits(Mask mask)
   {
     unsigned int bits = 0;
     for (int i = 0; i < Width; ++i)
     {
-      bits |= (mask.Of[i] ? 1u : 0u) << i;
+      bits |= static_cast<unsigned int>(mask.Bits[i]) & 1u << i;
     }
     return bits;
   }
   static Mask FromBits(unsigned int bits)
   {
-    Mask mask;
-    for (int i = 0; i < Width; ++i)
-    {
-      mask.Of[i] = (bits >> i & 1u) != 0;
-    }
-    return mask;
+    const IntVector lane = { 1, 2, 4, 8 };
+    return { IntVector((Splat(static_cast<std::int32_t>(bits)).V & lane) == lane) };
   }
 
   /** a + 1 and a - 1 in the lanes where the mask is set. */
-  static Int Increment(const Mask& mask, const Int& a) { return a + One(mask); }
-  static Int Decrement(const Mask& mask, const Int& a) { return a - One(mask); }
-  static Int And(const Int& a, const Int& b)
-  {
-    return EachLane<std::int32_t>([](std::int32_t x, std::int32_t y) { return x & y; }, a, b);
-  }
-  static Float ToFloat(const Int& a)
-  {
-    return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
-  }
+  static Int Increment(Mask mask, Int a) { return a - Int{ mask.Bits }; }
+  static Int Decrement(Mask mask, Int a) { return a + Int{ mask.Bits }; }
+  static Int And(Int a, Int b) { return { a.V & b.V }; }
+  static Float ToFloat(Int a) { return { __builtin_convertvector(a.V, FloatVector) }; }
   /** The nearest integer, even if there are two. Any result if it has more than 32 bits. */
-  static Int ToInt(const Float& a)
+  static Int ToInt(Float a)
   {
-    return EachLane<std::int32_t>(
-      [](float x) { return static_cast<std::int32_t>(std::llrint(x)); }, a);
+    return IntOf([&](int i) { return static_cast<std::int32_t>(std::llrint(a.V[i])); });
   }
   /** The bits of a, which must not be negative, shifted right by b, 0 to 31. */
-  static Int ShiftRight(const Int& a, const Int& b)
-  {
-    return EachLane<std::int32_t>([](std::int32_t x, std::int32_t y) { return x >> y; }, a, b);
-  }
+  static Int ShiftRight(Int a, Int b) { return { a.V >> b.V }; }
   /** table[index], for a table of 32 entries and an index below 24. */
-  static Int LookupOf24(const std::int32_t (&table)[32], const Int& index)
+  static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {
-    return EachLane<std::int32_t>([&table](std::int32_t i) { return table[i]; }, index);
+    return LoadFrom(table, index);
   }
   /** from[index], for an index in the 32 bits of an unsigned integer. */
-  static Int LoadFrom(const std::int32_t* from, const Int& index)
+  static Int LoadFrom(const std::int32_t* from, Int index)
   {
-    return EachLane<std::int32_t>(
-      [from](std::int32_t i) { return from[static_cast<std::uint32_t>(i)]; }, index);
+    return IntOf([&](int i) { return from[static_cast<std::uint32_t>(index.V[i])]; });
   }
 
   /** Loads, for each lane, the four floats at `from + Stride * index`. */
   template <int Stride>
-  static void GatherQuads(
-    const float* from, const Int& index, Float& x, Float& y, Float& z, Float& w)
+  static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
   {
-    for (int i = 0; i < Width; ++i)
-    {
-      const float* quad = from + std::int64_t{ Stride } * index.Of[i];
-      x.Of[i] = quad[0];
-      y.Of[i] = quad[1];
-      z.Of[i] = quad[2];
-      w.Of[i] = quad[3];
-    }
+    const auto column = [&](int k)
+    { return FloatOf([&](int i) { return from[std::int64_t{ Stride } * index.V[i] + k]; }); };
+    x = column(0);
+    y = column(1);
+    z = column(2);
+    w = column(3);
   }
   /** Loads, for each lane, the three floats at `from + 3 * index`. */
-  static void GatherTriples(const float* from, const Int& index, Float& x, Float& y, Float& z)
+  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
   {
-    for (int i = 0; i < Width; ++i)
-    {
-      const float* triple = from + std::int64_t{ 3 } * index.Of[i];
-      x.Of[i] = triple[0];
-      y.Of[i] = triple[1];
-      z.Of[i] = triple[2];
-    }
+    const auto column = [&](int k)
+    { return FloatOf([&](int i) { return from[std::int64_t{ 3 } * index.V[i] + k]; }); };
+    x = column(0);
+    y = column(1);
+    z = column(2);
   }
   /**
    * Loads the four floats of the vertex ids[index], for an index in the 32 bits of an unsigned
    * integer.
    */
   static void GatherVertices(
-    const std::int32_t* ids, const float* vertices, const Int& index, Float (&vertex)[4])
+    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
   {
-    for (int i = 0; i < Width; ++i)
-    {
-      const float* quad =
-        vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(index.Of[i])] };
-      for (int k = 0; k < 4; ++k)
-      {
-        vertex[k].Of[i] = quad[k];
-      }
-    }
+    GatherQuads<4>(vertices, LoadFrom(ids, index), vertex[0], vertex[1], vertex[2], vertex[3]);
   }
   /** scalars[cellFace / 4] for each lane. */
-  static Float GatherCellScalars(const float* scalars, const Int& cellFace)
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
   {
-    return EachLane<float>([scalars](std::int32_t i) { return scalars[i / 4]; }, cellFace);
+    return Lookup<1>(scalars, { cellFace.V >> 2 });
   }
   /** table[index], for a table of `Blocks` (1 or 2) times LookupBlock entries. */
   static constexpr int LookupBlock = 8;
   template <int Blocks>
-  static Float Lookup(const float* table, const Int& index)
+  static Float Lookup(const float* table, Int index)
   {
-    return EachLane<float>([table](std::int32_t i) { return table[i]; }, index);
+    return FloatOf([&](int i) { return table[index.V[i]]; });
   }
   /** The same bits as an integer. */
-  static Int AsInt(const Float& a)
+  static Int AsInt(Float a) { return { IntVector(a.V) }; }
+
+private:
+  /** The values of a function of the lane. */
+  template <typename Function>
+  static Float FloatOf(const Function& value)
   {
-    Int result;
-    std::memcpy(result.Of, a.Of, sizeof(a.Of));
-    return result;
+    return { FloatVector{ value(0), value(1), value(2), value(3) } };
+  }
+  template <typename Function>
+  static Int IntOf(const Function& value)
+  {
+    return { IntVector{ value(0), value(1), value(2), value(3) } };
+  }
+  static IntVector Choose(IntVector mask, IntVector yes, IntVector no)
+  {
+    return (yes & mask) | (no & ~mask);
   }
 };
 

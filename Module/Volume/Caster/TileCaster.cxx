@@ -61,6 +61,11 @@ struct TileCaster::TileWork
 };
 
 //------------------------------------------------------------------------------
+TileCaster::Workspace::Workspace() = default;
+TileCaster::Workspace::Workspace(const Workspace&) = default;
+TileCaster::Workspace::~Workspace() = default;
+
+//------------------------------------------------------------------------------
 TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   : Input(scene)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)

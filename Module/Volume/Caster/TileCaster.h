@@ -115,9 +115,13 @@ public:
     return this->Sight.GetRaster().BoxOfTile(tile);
   }
 
-  /** Buffers of one thread. */
+  /** Buffers of one thread. Thread-local storage instantiates its members many times over. */
   struct Workspace
   {
+    Workspace();
+    Workspace(const Workspace&);
+    ~Workspace();
+
     SightLegEntries::Workspace Sight;
     RefractedLegEntries::Workspace Refracted;
     std::vector<PacketResult> Results;

@@ -420,10 +420,10 @@ TEST(PacketFunctions, AbsorbedIsOneLessTheExponential)
   for (const double x : { 0.0, 1e-6, 0.01, 0.3, 0.999, 1.0, 1.001, 2.5, 7.0, 31.0, 50.0, 1e18 })
   {
     const auto lanes = AbsorbedAll<SimdPortable>(SimdPortable::Splat(static_cast<float>(x)));
-    EXPECT_NEAR(lanes.Of[1], -std::expm1(-x), 1e-6) << x;
+    EXPECT_NEAR(lanes.V[1], -std::expm1(-x), 1e-6) << x;
     if (x <= 0.01)
     {
-      EXPECT_NEAR(lanes.Of[1], -std::expm1(-x), 2e-7 * x) << x;
+      EXPECT_NEAR(lanes.V[1], -std::expm1(-x), 2e-7 * x) << x;
     }
   }
 }
@@ -436,7 +436,7 @@ TEST(PacketFunctions, Powers)
     for (const float x : { 0.0f, 1e-3f, 0.5f, 0.97f, 1.0f })
     {
       const double expected = std::pow(double{ x }, double{ exponent });
-      EXPECT_NEAR(power(SimdPortable::Splat(x)).Of[2], expected, 1e-5 * expected + 1e-30)
+      EXPECT_NEAR(power(SimdPortable::Splat(x)).V[2], expected, 1e-5 * expected + 1e-30)
         << x << "^" << exponent;
     }
   }

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compiles each header by itself, without precompiled headers: a header includes what it uses.
+
+usage: check_headers.py BUILD [FOLDER...]
+
+BUILD is a configured build folder; its compile_commands.json has the flags. Without folders, the
+headers of Module, Filters, Rendering and Testing are checked.
+"""
+import concurrent.futures
+import json
+import os
+import shlex
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+# Headers for another processor, and lists that are included in the middle of a source.
+LEFT_OUT = {"Module/Simd/SimdNEON.h", "Module/Simd/SimdAVX2.h", "Module/Simd/SimdAVX512.h",
+            "Module/Simd/SimdRowLoads.h"}
+
+
+def flags_of_folders(build):
+    """Flags of one source per folder, without the source, the output, and precompiled headers."""
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        commands = json.load(file)
+    flags = {}
+    for command in commands:
+        path = os.path.relpath(os.path.join(command["directory"], command["file"]), ROOT)
+        words = shlex.split(command["command"])
+        kept = [words[1] if os.path.basename(words[0]) == "ccache" else words[0]]
+        i = words.index(kept[0]) + 1
+        while i < len(words):
+            if words[i] in ("-o", "-MF", "-MT", "-include", "-c", "-Xclang", "-include-pch"):
+                i += 2
+            elif words[i].startswith(("-MD", "-Winvalid-pch", "-fpch")):
+                i += 1
+            else:
+                kept.append(words[i])
+                i += 1
+        flags.setdefault(os.path.dirname(path), (kept, command["directory"]))
+    return flags
+
+
+def find_flags(flags, folder):
+    """Flags of the folder, or of the nearest one above it or below it."""
+    above = folder
+    while above and above not in flags:
+        above = os.path.dirname(above)
+    if above:
+        return flags[above]
+    below = [name for name in flags if name.startswith(folder.split("/")[0] + "/")]
+    return flags[min(below)] if below else None
+
+
+def check(header, flags):
+    """The compiler's messages about the header, empty if there are none."""
+    command, directory = flags
+    result = subprocess.run(
+        command + ["-fsyntax-only", "-x", "c++", "-w", os.path.join(ROOT, header)],
+        cwd=directory, capture_output=True, text=True, check=False)
+    return result.stderr if result.returncode else ""
+
+
+def main():
+    """Checks all headers; returns the number of headers that fail."""
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    flags = flags_of_folders(sys.argv[1])
+    folders = sys.argv[2:] or ["Module", "Filters", "Rendering", "Testing"]
+    patterns = [folder + "/*.h" for folder in folders]
+    listed = subprocess.run(
+        ["git", "-c", "safe.directory=" + ROOT, "ls-files"] + patterns,
+        cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    jobs = [(name, find_flags(flags, os.path.dirname(name))) for name in listed
+            if name not in LEFT_OUT]
+    jobs = [job for job in jobs if job[1]]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        messages = list(pool.map(lambda job: check(*job), jobs))
+    failed = 0
+    for (name, _), message in zip(jobs, messages):
+        if message:
+            failed += 1
+            print(name + " cannot be compiled by itself:\n" + "\n".join(message.splitlines()[:4]))
+    print(f"{len(jobs)} headers, {failed} not self-contained")
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(1 if main() else 0)
