@@ -46,20 +46,49 @@ glm::dvec3 ToVector(const OpenMesh::Vec3d& v)
   return { v[0], v[1], v[2] };
 }
 
-/** Largest power of two by which coordinates are divided so that their squares stay in range. */
-int FindExponent(
-  const std::vector<glm::dvec3>& positions, const std::vector<std::array<std::int32_t, 3>>& facets)
+glm::dvec3 Scale(const glm::dvec3& v, int exponent)
 {
-  double largest = 0.0;
-  for (const auto& facet : facets)
-  {
-    for (const std::int32_t vertex : facet)
-    {
-      const glm::dvec3 extent = glm::abs(positions[static_cast<std::size_t>(vertex)]);
-      largest = std::max({ largest, extent.x, extent.y, extent.z });
-    }
-  }
-  return largest > 0.0 ? std::ilogb(largest) : 0;
+  return { std::scalbn(v.x, exponent), std::scalbn(v.y, exponent), std::scalbn(v.z, exponent) };
+}
+
+/** Exponent of the largest component, which is not 0. */
+int GetExponent(const glm::dvec3& v)
+{
+  const glm::dvec3 extent = glm::abs(v);
+  return std::ilogb(std::max({ extent.x, extent.y, extent.z }));
+}
+
+/** Unit vector; one along an axis has no rounding error. */
+glm::dvec3 Normalize(const glm::dvec3& v)
+{
+  return v / glm::length(v);
+}
+
+/**
+ * Unit vector from one point to another, whose squared distance may be out of the range of double.
+ * The scale is a power of two, which changes no digit.
+ */
+glm::dvec3 DirectionBetween(const glm::dvec3& from, const glm::dvec3& to)
+{
+  const glm::dvec3 away = to - from;
+  return Normalize(Scale(away, -GetExponent(away)));
+}
+
+/** Normal of a facet in one of its corners, with the weight of N. Max; times 2^(-2 Exponent). */
+struct WeightedNormal
+{
+  glm::dvec3 Normal;
+  int Exponent; ///< of the facet's size
+};
+
+WeightedNormal WeighNormal(const glm::dvec3& corner, const glm::dvec3& next, const glm::dvec3& last)
+{
+  const int exponent = std::max(GetExponent(next - corner), GetExponent(last - corner));
+  const glm::dvec3 first = Scale(next - corner, -exponent);
+  const glm::dvec3 second = Scale(last - corner, -exponent);
+  // The cross product comes first: it would lose its last digits to other roundings.
+  return { glm::cross(first, second) / glm::dot(first, first) / glm::dot(second, second),
+    exponent };
 }
 
 // Silences OpenMesh's message about every complex edge; complex edges are counted instead.
@@ -93,15 +122,12 @@ struct Topology
   Mesh Surface;
   std::vector<std::size_t> Source;
   std::vector<bool> IsComplex; ///< per vertex of the membrane: a facet has a copy of it
-  int Exponent = 0;            ///< power of two by which coordinates are divided
 
   Mesh::VertexHandle AddVertex(const std::vector<glm::dvec3>& positions, std::size_t vertex)
   {
     const glm::dvec3& p = positions[vertex];
-    const int shift = -this->Exponent;
     this->Source.push_back(vertex);
-    return this->Surface.add_vertex(
-      Mesh::Point(std::scalbn(p.x, shift), std::scalbn(p.y, shift), std::scalbn(p.z, shift)));
+    return this->Surface.add_vertex(Mesh::Point(p.x, p.y, p.z));
   }
   std::size_t SourceOf(Mesh::VertexHandle vertex) const
   {
@@ -117,7 +143,6 @@ void BuildTopology(Topology& topology, const std::vector<glm::dvec3>& positions,
   const std::vector<std::array<std::int32_t, 3>>& facets)
 {
   const QuietOpenMesh quiet;
-  topology.Exponent = FindExponent(positions, facets);
   topology.IsComplex.assign(positions.size(), false);
   topology.Surface.reserve(positions.size(), positions.size() + facets.size(), facets.size());
   std::vector<Mesh::VertexHandle> handles(positions.size());
@@ -148,17 +173,10 @@ void BuildTopology(Topology& topology, const std::vector<glm::dvec3>& positions,
   }
 }
 
-/** Unit vector; one along an axis has no rounding error. */
-glm::dvec3 Normalize(const glm::dvec3& v)
+/** Calls `visit(vertex, normal)` for every corner of every facet. */
+template <typename Visit>
+void VisitCorners(const Topology& topology, const Visit& visit)
 {
-  return v / glm::length(v);
-}
-
-/** Weighted sums of the facets' normals, of unit length. */
-void AddFacetNormals(const Topology& topology, std::vector<glm::dvec3>& normals)
-{
-  std::vector<glm::dvec3> fallback(normals.size(), glm::dvec3(0.0));
-  std::vector<double> weights(normals.size(), 0.0);
   for (const Mesh::FaceHandle face : topology.Surface.faces())
   {
     std::array<std::size_t, 3> vertex{};
@@ -171,18 +189,32 @@ void AddFacetNormals(const Topology& topology, std::vector<glm::dvec3>& normals)
     }
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const glm::dvec3 first = corner[(i + 1) % 3] - corner[i];
-      const glm::dvec3 second = corner[(i + 2) % 3] - corner[i];
-      const glm::dvec3 normal =
-        glm::cross(first / glm::dot(first, first), second / glm::dot(second, second));
-      normals[vertex[i]] += normal;
-      weights[vertex[i]] += glm::length(normal);
-      if (fallback[vertex[i]] == glm::dvec3(0.0))
-      {
-        fallback[vertex[i]] = Normalize(normal);
-      }
+      visit(vertex[i], WeighNormal(corner[i], corner[(i + 1) % 3], corner[(i + 2) % 3]));
     }
   }
+}
+
+/** Weighted sums of the facets' normals, of unit length. */
+void AddFacetNormals(const Topology& topology, std::vector<glm::dvec3>& normals)
+{
+  // Facets around a vertex may differ in size by more than the range of double, squared.
+  std::vector<int> least(normals.size(), std::numeric_limits<int>::max());
+  VisitCorners(topology,
+    [&least](std::size_t vertex, const WeightedNormal& facet)
+    { least[vertex] = std::min(least[vertex], facet.Exponent); });
+  std::vector<glm::dvec3> fallback(normals.size(), glm::dvec3(0.0));
+  std::vector<double> weights(normals.size(), 0.0);
+  VisitCorners(topology,
+    [&](std::size_t vertex, const WeightedNormal& facet)
+    {
+      const glm::dvec3 normal = Scale(facet.Normal, 2 * (least[vertex] - facet.Exponent));
+      normals[vertex] += normal;
+      weights[vertex] += glm::length(normal);
+      if (fallback[vertex] == glm::dvec3(0.0))
+      {
+        fallback[vertex] = Normalize(facet.Normal);
+      }
+    });
   for (std::size_t i = 0; i < normals.size(); ++i)
   {
     normals[i] = glm::length(normals[i]) > CancellationRounding * weights[i] ? Normalize(normals[i])
@@ -225,7 +257,7 @@ void ContinueNormals(const Topology& topology, std::vector<glm::dvec3>& normals)
         if (isKnown[source])
         {
           result.Add(
-            Normalize(topology.PointOf(other) - topology.PointOf(vertex)), normals[source]);
+            DirectionBetween(topology.PointOf(vertex), topology.PointOf(other)), normals[source]);
         }
       }
       return result;

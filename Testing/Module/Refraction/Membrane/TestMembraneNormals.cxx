@@ -125,6 +125,31 @@ TEST(RefractionNormals, OfANoisyBorderStayNearThoseInside)
   EXPECT_LT(errors.AtBorder, 4.0 * errors.Inside);
 }
 
+// A facet that is smaller than its distance from another by more than the range of a double
+// squared.
+TEST(RefractionNormals, OfFacetsOfVeryDifferentSizesHaveUnitLength)
+{
+  for (const double far : { 1e100, 1e150, 1e250 })
+  {
+    MembraneMesh mesh;
+    for (const double x : { -far, far })
+    {
+      const auto first = static_cast<std::int64_t>(mesh.Points.size() / 3);
+      mesh.AddPoint({ x, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+      mesh.AddPoint({ x, 0.0, 1.0 }, { 0.0, 1.0, 0.0 });
+      mesh.AddPoint({ x, 1.0, 0.0 }, { 0.0, 1.0, 0.0 });
+      mesh.AddTriangle(first, first + 1, first + 2);
+    }
+    mesh.AddTriangle(0, 3, 1); // a long facet with corners of both
+    Membrane membrane;
+    ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+    for (const glm::dvec3& normal : membrane.GetNormals())
+    {
+      EXPECT_NEAR(glm::length(normal), 1.0, 1e-15) << far;
+    }
+  }
+}
+
 class SeparateFacets : public testing::TestWithParam<bool>
 {
 };
