@@ -6,6 +6,7 @@
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkMembraneCellFilter.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkRefractedLightFilter.h"
@@ -133,6 +134,14 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
       filter->Update();
       EXPECT_EQ(toldOfEyes->Warnings, 1);
     }
+
+    vtkNew<vtkMembraneCellFilter> cells;
+    cells->AddMembraneData(water);
+    cells->SetEyePosition(20.0, 300.0, 10.0);
+    const auto toldOfCells = Observe(cells);
+    cells->Update();
+    EXPECT_TRUE(Contains(toldOfCells->Text, "No facet of the first membrane faces an eye"))
+      << toldOfCells->Text;
 
     vtkNew<vtkRefractedLightFilter> light;
     light->SetInputData(MakeGrid(5, 50.0, -20.0));
