@@ -16,6 +16,8 @@
  * finite and copies no arrays but colours.
  *
  * vtkTruePositionFilter with the camera's position as the eye moves the points to where they are.
+ * Its SetDepth() says what a distance behind a refracting surface means: the apparent depth of
+ * rendered virtual geometry, the optical length of a laser scan, or the length of the path.
  *
  * @sa vtkTruePositionFilter
  */
@@ -42,7 +44,7 @@ public:
   {
     DEPTH_BUFFER = 0, ///< value of OpenGL's depth buffer, from 0 to 1
     VIEW_DEPTH = 1,   ///< distance from the eye along the direction of projection
-    RANGE = 2         ///< distance from the eye
+    RANGE = 2         ///< distance from the eye, as a scanner gives it
   };
 
   /** @{ */

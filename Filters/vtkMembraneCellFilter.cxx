@@ -231,6 +231,10 @@ bool vtkMembraneCellFilter::UpdateScene(vtkInformationVector* membranes)
     messages.Error = "No interface in front of the eye refracts";
     ready = false;
   }
+  if (ready && messages.Warning.empty())
+  {
+    this->Internals->Stack.ReportEyes({ glm::dvec3(eye[0], eye[1], eye[2]) }, messages);
+  }
   meniscus::Report(this, messages);
   return ready;
 }

@@ -9,12 +9,15 @@
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
 
+#include "vtkAppendPolyData.h"
 #include "vtkCamera.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -244,8 +247,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::AreCellsReady(
 {
   block.UpdateTopology();
   return block.EyeUpdate == this->Scene.GetVersion().Rays && block.All && block.CellsReady &&
-    block.Tolerance == vtkMath::RadiansFromDegrees(self->AngularTolerance) &&
-    block.ClosesSeams == self->CloseSeams;
+    block.Tolerance == self->GetTolerance() && block.ClosesSeams == self->CloseSeams;
 }
 
 //------------------------------------------------------------------------------
@@ -256,7 +258,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   {
     return true;
   }
-  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const double tolerance = self->GetTolerance();
   const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
   block.CellsReady = false;
   block.Assembly.IsReady = false;
@@ -384,6 +386,29 @@ void vtkRefractedGeometryFilter::SetMembraneData(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
+vtkPolyData* vtkRefractedGeometryFilter::GetOutput()
+{
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(this->GetOutputDataObject(0));
+  if (!blocks)
+  {
+    return this->Superclass::GetOutput();
+  }
+  if (this->Internals->JoinedTime < blocks->GetMTime())
+  {
+    vtkNew<vtkAppendPolyData> append;
+    const auto block = vtk::TakeSmartPointer(blocks->NewIterator());
+    for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+    {
+      append->AddInputData(vtkPolyData::SafeDownCast(block->GetCurrentDataObject()));
+    }
+    append->Update();
+    this->Internals->Joined->ShallowCopy(append->GetOutput());
+    this->Internals->JoinedTime = blocks->GetMTime();
+  }
+  return this->Internals->Joined;
+}
+
+//------------------------------------------------------------------------------
 vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
@@ -394,7 +419,7 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 //------------------------------------------------------------------------------
 int vtkRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkDataSet");
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
@@ -424,18 +449,27 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
 int vtkRefractedGeometryFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
+  vtkDataSet* geometry = vtkDataSet::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  if (!input || !membrane || !output)
+  if (!geometry || !vtkPolyData::GetData(inputs[1]) || !output)
   {
-    vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
+    vtkErrorMacro("The geometry is missing, or the membrane is missing or is not a vtkPolyData; "
+                  "the output is empty.");
     return 0;
   }
-  if (meniscus::HasStack(this->Interfaces, inputs[1]))
-  {
-    return this->RequestStack(input, inputs[1], output);
-  }
+  const meniscus::ObjectSurface surface = this->Internals->Surfaces.Get(geometry);
+  const int result = meniscus::HasStack(this->Interfaces, inputs[1])
+    ? this->RequestStack(surface.Data, inputs[1], output)
+    : this->RequestOne(surface.Data, vtkPolyData::GetData(inputs[1]), output);
+  surface.RestoreIds(output);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+// One membrane.
+int vtkRefractedGeometryFilter::RequestOne(
+  vtkPolyData* input, vtkPolyData* membrane, vtkPolyData* output)
+{
   if (this->Mode == REFLECTION && this->MembraneModel == FLAT_FACETS)
   {
     vtkErrorMacro("Mode REFLECTION needs the membrane model CURVED; the output is empty.");
@@ -443,8 +477,7 @@ int vtkRefractedGeometryFilter::RequestData(
   }
   this->WarnOfModes();
   const meniscus::RefractionScene::Loan loan(this->Internals->Scene, membrane,
-    this->MembraneModel == CURVED, this->GetExactMembrane(), this->GetEyeAndIndices(),
-    this->Mode == REFLECTION);
+    this->MembraneModel == CURVED, this->GetExactMembrane(), this->Internals->GetView(this));
   if (!this->UpdateMembrane(membrane))
   {
     return 1;
@@ -515,9 +548,11 @@ void vtkRefractedGeometryFilter::ReportPoints(
   if (points > failed && !hasImage && internals.WarnedOfNoImage != internals.GetShapes())
   {
     internals.WarnedOfNoImage = internals.GetShapes();
-    vtkWarningMacro("None of the "
-      << points << " points has an image. Is the eye on the side that the membrane's normals point "
-      << "to, and are geometry (port 0) and membrane (port 1) at the right ports?");
+    const std::string reason = internals.DescribeNoImage(this);
+    if (!reason.empty())
+    {
+      vtkWarningMacro("None of the " << points << " points has an image. " << reason);
+    }
   }
   if (this->VirtualNormals && !internals.WarnedOfNoNormals && points > 0 &&
     !input->GetPointData()->GetNormals())
@@ -569,12 +604,6 @@ void vtkRefractedGeometryFilter::WarnOfModes()
                     "extrapolated cells show images that do not exist. The result is that of "
                     "FIRST_IMAGE.");
   }
-  if (!this->Internals->WarnedOfParallelProjection && this->Camera &&
-    this->Camera->GetParallelProjection())
-  {
-    this->Internals->WarnedOfParallelProjection = true;
-    vtkWarningMacro("A camera in parallel projection has no eye; its position is used as the eye.");
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -583,42 +612,6 @@ bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetMembrane(
     membrane, this->MembraneModel == CURVED, messages, this->GetExactMembrane());
-  if (!messages.Error.empty())
-  {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
-  }
-  if (!messages.Warning.empty())
-  {
-    vtkWarningMacro(<< messages.Warning);
-  }
-  return ready;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractedGeometryFilter::GetEye(double position[3])
-{
-  std::copy(this->EyePosition, this->EyePosition + 3, position);
-  if (this->Camera)
-  {
-    this->Camera->GetPosition(position);
-  }
-}
-
-//------------------------------------------------------------------------------
-std::array<double, 5> vtkRefractedGeometryFilter::GetEyeAndIndices()
-{
-  double position[3];
-  this->GetEye(position);
-  return { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
-    this->GetInteriorIndexOfRefraction() };
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateEye()
-{
-  meniscus::SceneMessages messages;
-  const bool ready =
-    this->Internals->Scene.SetEye(this->GetEyeAndIndices(), messages, this->Mode == REFLECTION);
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");

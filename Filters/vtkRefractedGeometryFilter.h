@@ -8,17 +8,19 @@
  * membrane: at the right pixel and at the apparent depth. Drawn with the same eye, the output shows
  * the refracted scene without tracing a ray.
  *
- * Input port 0 is the geometry, a vtkPolyData with vertices, lines, polygons and triangle strips;
- * composite data runs block by block. Input port 1 is the membrane, a vtkPolyData with triangles,
- * polygons or strips that separate the eye's medium (exterior) from that of the geometry
- * (interior). Its normals point to the eye's side: its point normals are used where they are valid,
- * others are computed from the facets' winding. If most of them do not fit the triangles around
- * them, for example after a filter that moves points only, the filter warns. Facets whose winding
- * is opposite to that of most of their piece, and normals on the other side than most, are
- * reversed, with a warning; a one-sided surface (a Moebius band) is an error. A closed membrane is
- * a body of the interior medium if its normals point outwards, or a bubble of the exterior medium
- * if they point inwards; geometry on the eye's side of it is shown unchanged. Ghost levels of the
- * membrane are not requested.
+ * Input port 0 is the geometry: a vtkPolyData with vertices, lines, polygons and triangle strips,
+ * or a grid, whose surface is taken. Polygons that are not convex, which VTK would draw as fans,
+ * are divided into triangles. Composite data runs block by block.
+ *
+ * Input port 1 is the membrane, a vtkPolyData with triangles, polygons or strips that separate the
+ * eye's medium (exterior) from that of the geometry (interior). Its normals point to the eye's
+ * side: its point normals are used where they are valid, others are computed from the facets'
+ * winding. If most of them do not fit the triangles around them, for example after a filter that
+ * moves points only, the filter warns. Facets whose winding is opposite to that of most of their
+ * piece, and normals on the other side than most, are reversed, with a warning; a one-sided surface
+ * (a Moebius band) is an error. A closed membrane is a body of the interior medium if its normals
+ * point outwards, or a bubble of the exterior medium if they point inwards; geometry on the eye's
+ * side of it is shown unchanged. Ghost levels of the membrane are not requested.
  *
  * The output shows every image of the geometry (ALL_IMAGES), or one per point with the input's own
  * connectivity (FIRST_IMAGE), with all point and cell arrays. Each image of a point of a vertex
@@ -76,7 +78,6 @@
  * its own cache. The counters show when work was done. Memory: about 400 bytes per facet of the
  * membrane and 100 per point of the geometry, 150 per image.
  *
- * @note A camera in parallel projection has no eye position; its position is used with a warning.
  * @note Occlusion of the membrane by itself is not modelled: a sight ray may cross the membrane in
  *   front of its sight point, and a refracted ray may cross it again behind. The normals decide
  *   where there is an image.
@@ -183,9 +184,11 @@ public:
 
   /** @{ */
   /**
-   * Set/Get a camera whose position is the eye. Changes of the camera modify the filter; only a
-   * change of its position, or of the part of the membrane in its view, costs more than a
-   * comparison. Default is none.
+   * Set/Get a camera whose position is the eye. In parallel projection its eye is at infinity: the
+   * filter uses a point 1e5 sizes of the membrane away, and AngularTolerance, as a part of the
+   * picture's height, is that of a view angle of 30 degrees. Changes of the camera modify the
+   * filter; only a change of its position, or of the part of the membrane in its view, costs more
+   * than a comparison. Default is none.
    */
   void SetCamera(vtkCamera* camera);
   vtkCamera* GetCamera();
@@ -456,6 +459,15 @@ public:
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const;
   /** @} */
 
+  /** @{ */
+  /**
+   * The virtual geometry. Of composite data, whose output is composite too (GetOutputDataObject()),
+   * all blocks in one object, with the arrays that all of them have. Call Update() before.
+   */
+  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput(int port) { return port == 0 ? this->GetOutput() : nullptr; }
+  /** @} */
+
   /** Includes the times of the camera and of the exact membrane. */
   vtkMTimeType GetMTime() override;
 
@@ -479,11 +491,12 @@ private:
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
-  std::array<double, 5> GetEyeAndIndices();
-  void GetEye(double position[3]);
+  std::array<double, 3> GetEye();
+  double GetTolerance();
   void ReportCells(const meniscus::VirtualPolyDataReport& report, vtkPolyData* input);
   std::string FindUnsupported();
   bool UpdateStack(vtkInformationVector* membranes);
+  int RequestOne(vtkPolyData* input, vtkPolyData* membrane, vtkPolyData* output);
   int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
 
   int Mode = REFRACTION;

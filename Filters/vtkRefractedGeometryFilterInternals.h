@@ -8,10 +8,16 @@
 #include "Common/RangeLoop.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Membrane/StackScene.h"
+#include "Filters/Object/ObjectSurface.h"
+#include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/OutputArrays.h"
 #include "Filters/Solver/SolvedBlock.h"
 
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
 #include <list>
+#include <string>
 #include <utility>
 
 /** Scenes, solved blocks and counters of a filter. */
@@ -28,6 +34,9 @@ public:
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
     vtkIdType grain, const meniscus::RangeBody& body);
   void Count(meniscus::ImageState state);
+  meniscus::CameraEye FindEye(vtkRefractedGeometryFilter* self) const;
+  meniscus::MembraneView GetView(vtkRefractedGeometryFilter* self) const;
+  std::string DescribeNoImage(vtkRefractedGeometryFilter* self) const;
   meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
   bool SolveStack(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
   bool SolveAllOfStack(
@@ -40,9 +49,12 @@ public:
     return { this->Scene.GetVersion().Shape, this->Stack.GetNumberOfPatchBuilds() };
   }
 
+  meniscus::ObjectSurfaces Surfaces;
   meniscus::RefractionScene Scene; ///< of one interface
   meniscus::StackScene Stack;      ///< of several ones
   std::list<meniscus::SolvedBlock> Blocks;
+  vtkNew<vtkPolyData> Joined; ///< blocks of a composite output together, and the output's time
+  vtkMTimeType JoinedTime = 0;
 
   vtkTypeInt64 SolvedVertices = 0;
   vtkTypeInt64 FailedSolves = 0;
@@ -59,7 +71,6 @@ public:
   ShapeNumbers WarnedOfUndecided{ -1, -1 };
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
-  bool WarnedOfParallelProjection = false;
 };
 
 #endif

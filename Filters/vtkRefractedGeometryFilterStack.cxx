@@ -9,7 +9,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMath.h"
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"
 
@@ -43,12 +42,10 @@ std::string vtkRefractedGeometryFilter::FindUnsupported()
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateStack(vtkInformationVector* membranes)
 {
-  double eye[3];
-  this->GetEye(eye);
   meniscus::SceneMessages messages;
   messages.Error = this->FindUnsupported();
   const bool isReady = meniscus::UpdateStack(
-    this->Internals->Stack, membranes, 1, this->Interfaces, { eye[0], eye[1], eye[2] }, messages);
+    this->Internals->Stack, membranes, 1, this->Interfaces, this->GetEye(), messages);
   meniscus::Report(this, messages);
   return isReady;
 }
@@ -135,7 +132,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveStack(
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAllOfStack(
   vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
 {
-  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const double tolerance = self->GetTolerance();
   const vtkTypeInt64 update = this->Stack.GetNumberOfEyeUpdates();
   block.UpdateTopology();
   if (block.StackUpdate != update || !block.ImagesOfStack)

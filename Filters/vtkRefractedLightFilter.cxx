@@ -5,6 +5,7 @@
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/StackInput.h"
+#include "Filters/Object/ObjectSurface.h"
 #include "Refraction/Stack/StackLight.h"
 
 #include "vtkRefractedGeometryFilter.h"
@@ -14,6 +15,7 @@
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -217,6 +219,7 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
 class vtkRefractedLightFilter::vtkInternals
 {
 public:
+  meniscus::ObjectSurfaces Surfaces;
   meniscus::StackScene Stack; ///< several interfaces
 };
 
@@ -288,7 +291,7 @@ vtkRefractedGeometryFilter* vtkRefractedLightFilter::GetView()
 //------------------------------------------------------------------------------
 int vtkRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkDataSet");
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
@@ -359,14 +362,18 @@ bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
 int vtkRefractedLightFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkDataSet* geometry = vtkDataSet::GetData(inputs[0]);
   vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  if (!input || !membrane || !output)
+  if (!geometry || !membrane || !output)
   {
-    vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
+    vtkErrorMacro("The geometry is missing, or the membrane is missing or is not a vtkPolyData; "
+                  "the output is empty.");
     return 0;
   }
+  // Polygons are not divided: the output has the cells of the input.
+  vtkSmartPointer<vtkPolyData> input = vtkPolyData::SafeDownCast(geometry);
+  input = input ? input : this->Internals->Surfaces.Get(geometry).Data;
   output->ShallowCopy(input);
   if (input->GetNumberOfPoints() == 0)
   {

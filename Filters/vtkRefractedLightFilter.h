@@ -4,8 +4,9 @@
  * @class   vtkRefractedLightFilter
  * @brief   irradiance of geometry lit through a membrane: caustics
  *
- * Adds to polygonal geometry (port 0) the irradiance that it receives from a light on the other
- * side of a membrane (port 1), such as the bright lines of refracted light on the floor of a pool.
+ * Adds to polygonal geometry (port 0), or to the surface of a grid, the irradiance that it receives
+ * from a light on the other side of a membrane (port 1), such as the bright lines of refracted
+ * light on the floor of a pool.
  *
  *     light->SetInputConnection(floor->GetOutputPort());
  *     light->SetMembraneConnection(water->GetOutputPort());

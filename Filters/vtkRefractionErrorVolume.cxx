@@ -278,14 +278,16 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
   const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
     this->EyePosition[2], this->GetExteriorIndexOfRefraction(),
     this->GetInteriorIndexOfRefraction() };
+  const meniscus::MembraneView view{ eye, false,
+    this->Interfaces->GetFirstInterface()->GetTurnTowardsEye() };
   meniscus::SceneMessages messages;
   bool ready = internals.Scene.SetMembrane(membrane, curved, messages) &&
-    internals.Scene.SetEye(eye, messages);
+    internals.Scene.SetEye(view, messages);
   const bool needsReference = !this->GetExactMembrane() && (reference || !curved);
   if (ready && needsReference)
   {
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
-      internals.Reference.SetEye(eye, messages);
+      internals.Reference.SetEye(view, messages);
   }
   meniscus::Report(this, messages);
   if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)

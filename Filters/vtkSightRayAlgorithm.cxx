@@ -125,6 +125,10 @@ bool vtkSightRayAlgorithm::UpdateScene(
     messages.Error = eyes.UseArray(points, this->EyeArrayName);
     ready = messages.Error.empty() &&
       meniscus::UpdateSurfaces(this->Internals->Stack, membranes, 1, this->Interfaces, messages);
+    if (ready)
+    {
+      this->Internals->Stack.ReportEyes(eyes.GetSample(points->GetNumberOfPoints()), messages);
+    }
   }
   else
   {

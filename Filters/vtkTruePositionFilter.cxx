@@ -47,6 +47,11 @@ static_assert(
     vtkTruePositionFilter::MISSED == static_cast<int>(meniscus::SeenState::Missed),
   "the same states");
 
+static_assert(vtkTruePositionFilter::APPARENT == static_cast<int>(meniscus::SeenDepth::Apparent) &&
+    vtkTruePositionFilter::OPTICAL == static_cast<int>(meniscus::SeenDepth::Optical) &&
+    vtkTruePositionFilter::GEOMETRIC == static_cast<int>(meniscus::SeenDepth::Geometric),
+  "the same depths");
+
 /** Arrays of the output. */
 struct PointArrays
 {
@@ -124,10 +129,11 @@ public:
   }
 
   /** True position behind one interface, after the points of `chain`. */
-  meniscus::StackTruePosition FindOne(const glm::dvec3& seen, meniscus::CrossingChain& chain) const
+  meniscus::StackTruePosition FindOne(
+    const glm::dvec3& seen, meniscus::CrossingChain& chain, meniscus::SeenDepth depth) const
   {
     const glm::dvec3 eye = this->Eyes.Get(0);
-    meniscus::TruePosition found = this->Truth->Find(seen, chain);
+    meniscus::TruePosition found = this->Truth->Find(seen, chain, depth);
     const bool refracted = found.State == meniscus::SeenState::Refracted;
     const double path = refracted ? this->Exterior * glm::length(found.SightPoint - eye) +
         this->Interior * glm::length(found.Position - found.SightPoint)
@@ -238,6 +244,11 @@ bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformation
   else if (hasEyes)
   {
     ready = meniscus::UpdateSurfaces(this->GetStackScene(), membranes, 1, interfaces, messages);
+    if (ready)
+    {
+      this->GetStackScene().ReportEyes(
+        internals.Eyes.GetSample(points->GetNumberOfPoints()), messages);
+    }
   }
   else if (internals.HasStack)
   {
@@ -250,7 +261,8 @@ bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformation
       internals.Interior };
     ready = internals.Scene.SetMembrane(vtkPolyData::GetData(membranes), true, messages,
               interfaces->GetFirstInterface()->GetExactSurface()) &&
-      internals.Scene.SetEye(eye, messages);
+      internals.Scene.SetEye(
+        { eye, false, interfaces->GetFirstInterface()->GetTurnTowardsEye() }, messages);
   }
   if (ready && !internals.HasStack)
   {
@@ -270,6 +282,7 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   this->Internals->UpdatePoints(input);
   const std::vector<double>& coordinates = internals.Coordinates;
   const std::vector<std::uint32_t>& order = internals.Order;
+  const auto depth = static_cast<meniscus::SeenDepth>(this->Depth);
   // One chain.
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
@@ -282,10 +295,10 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
       const double* p = coordinates.data() + 3 * i;
       const glm::dvec3 seen(p[0], p[1], p[2]);
       const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
-        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen, &chains)
-        : (internals.HasStack
-              ? meniscus::FindTruePosition(tracer.GetStack(), internals.Exterior, seen, &chains)
-              : internals.FindOne(seen, chain));
+        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen, &chains, depth)
+        : (internals.HasStack ? meniscus::FindTruePosition(
+                                  tracer.GetStack(), internals.Exterior, seen, &chains, depth)
+                              : internals.FindOne(seen, chain, depth));
       arrays.Positions->SetTypedTuple(i, &found.Position.x);
       arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
       arrays.States->SetValue(i, static_cast<unsigned char>(found.State));
@@ -326,6 +339,7 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
 void vtkTruePositionFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Depth: " << this->Depth << "\n";
   os << indent << "NumberOfTotallyReflectedPoints: " << this->GetNumberOfTotallyReflectedPoints()
      << "\n";
   os << indent << "NumberOfMissedPoints: " << this->GetNumberOfMissedPoints() << "\n";

@@ -11,9 +11,11 @@
  *
  * The sight ray from the eye to a point is refracted by Snell's law where it first meets the front
  * of the membrane, a curved surface through the vertices with their normals (CURVED of
- * vtkRefractedGeometryFilter). The point is moved to the refracted ray, to n2 / n1 times the
- * distance at which it is seen behind the sight point, so that vtkRefractedGeometryFilter moves it
- * back (Eq. 2.4 of the thesis "Refraction by geometric transforms").
+ * vtkRefractedGeometryFilter). The point is moved to the refracted ray; SetDepth() says how far
+ * behind the sight point. The default is n2 / n1 times the distance at which it is seen behind the
+ * sight point, so that vtkRefractedGeometryFilter moves it back (Eq. 2.4 of the thesis "Refraction
+ * by geometric transforms"). Laser scans need SetDepthToOptical(). Points that were triangulated
+ * along straight rays have no depth of any of these kinds: use vtkTriangulatedPositionFilter.
  *
  * The output has the structure and the arrays of the input, and the point arrays
  *
@@ -52,6 +54,27 @@ public:
     MISSED = 4             ///< the ray misses one of several surfaces; the point is not moved
   };
 
+  /**
+   * Meanings of the distance at which a point is seen, with the length a of the sight ray up to the
+   * first surface, in a medium of the index n1, and a length b behind it, in a medium of the index
+   * n2. In several media there is a term of b for each.
+   */
+  enum Depths
+  {
+    APPARENT = 0, ///< a + b n1 / n2: points of vtkRefractedGeometryFilter
+    OPTICAL = 1,  ///< a + b n2 / n1: laser scans, which measure the time of light
+    GEOMETRIC = 2 ///< a + b: lengths along the refracted path
+  };
+
+  /** @{ */
+  /** Set/Get the meaning of the distance of the points from the eye. Default is APPARENT. */
+  vtkSetClampMacro(Depth, int, APPARENT, GEOMETRIC);
+  vtkGetMacro(Depth, int);
+  void SetDepthToApparent() { this->SetDepth(APPARENT); }
+  void SetDepthToOptical() { this->SetDepth(OPTICAL); }
+  void SetDepthToGeometric() { this->SetDepth(GEOMETRIC); }
+  /** @} */
+
   /** Number of points of the last run that have no true position: TOTALLY_REFLECTED. */
   vtkTypeInt64 GetNumberOfTotallyReflectedPoints() const;
   /** Number of points of the last run whose rays miss one of several surfaces: MISSED. */
@@ -77,6 +100,8 @@ private:
 
   bool UpdateRefraction(vtkPointSet* points, vtkInformationVector* membranes);
   bool MovePoints(vtkPointSet* input, vtkPointSet* output);
+
+  int Depth = APPARENT;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -44,5 +44,6 @@ void vtkRefractingInterface::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "TurnTowardsEye: " << (this->TurnTowardsEye ? "on" : "off") << "\n";
   os << indent << "ExactSurface: " << this->ExactSurface.Get() << "\n";
 }

@@ -57,6 +57,20 @@ public:
   vtkImplicitFunction* GetExactSurface();
   /** @} */
 
+  /** @{ */
+  /**
+   * If on, an open surface none of whose facets faces the eye or the light is turned round: its
+   * normals are reversed, so that the eye is on the side of ExteriorIndexOfRefraction. In a list of
+   * several interfaces, a surface is turned to the side from which rays pass it when they come from
+   * the exterior of the first one. Surfaces with facets on both sides and closed surfaces are not
+   * turned. Filters with an eye for each point turn no surface. Default is off, and owners warn of
+   * such a surface: an eye that is really on the other side, as under water, sees it rightly so.
+   */
+  vtkSetMacro(TurnTowardsEye, bool);
+  vtkGetMacro(TurnTowardsEye, bool);
+  vtkBooleanMacro(TurnTowardsEye, bool);
+  /** @} */
+
   /** True if the indices differ, so that rays change their direction at the surface. */
   bool IsRefracting() const
   {
@@ -76,6 +90,7 @@ private:
 
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
+  bool TurnTowardsEye = false;
   vtkSmartPointer<vtkImplicitFunction> ExactSurface;
 };
 

@@ -237,6 +237,19 @@ MembraneInput MembraneArrays::AsInput() const
 }
 
 //------------------------------------------------------------------------------
+void MembraneArrays::Turn()
+{
+  for (std::size_t i = 0; i < this->Triangles.size(); i += 3)
+  {
+    std::swap(this->Triangles[i + 1], this->Triangles[i + 2]);
+  }
+  for (double& component : this->Normals)
+  {
+    component = -component;
+  }
+}
+
+//------------------------------------------------------------------------------
 MembraneArrays ExtractMembrane(vtkPolyData* membrane)
 {
   return Extraction(membrane).Run();

@@ -28,6 +28,8 @@ struct MembraneArrays
 
   bool operator==(const MembraneArrays& other) const;
   MembraneInput AsInput() const;
+  /** Reverses normals and windings. */
+  void Turn();
 };
 
 /**

@@ -6,7 +6,11 @@
 #include "vtkDataArray.h"
 #include "vtkPolyData.h"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace meniscus
@@ -75,9 +79,9 @@ bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
     text << "The membrane's normals do not have 3 components for each of its " << points
          << " points; normals are computed. ";
   }
-  else if (report.ComputedNormals > lost && !arrays.Normals.empty())
+  else if (report.ComputedNormals > lost + report.DifferentNormals && !arrays.Normals.empty())
   {
-    text << report.ComputedNormals << " of " << points
+    text << report.ComputedNormals - report.DifferentNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";
   }
   if (report.TurnedFacets > 0)
@@ -90,6 +94,19 @@ bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
     text << report.TurnedNormals << " of " << points
          << " membrane normals point to another side than their neighbours; they are reversed. ";
   }
+  if (report.WildNormals > 0)
+  {
+    text << report.WildNormals << " of " << points
+         << " membrane normals deviate by more than 30 degrees from the triangles around them and "
+            "from the normals next to them; they are replaced by computed ones. ";
+  }
+  if (report.NonManifoldFacets > 0)
+  {
+    text << report.NonManifoldFacets << " of " << triangles
+         << " membrane triangles have an edge that three or more of them share, such as a fin on a "
+            "surface; the surface is taken to end there, and rays are refracted at each sheet "
+            "alone. ";
+  }
   if (report.Normals.AreMost())
   {
     text
@@ -100,6 +117,40 @@ bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
   }
   messages.Warning = text.str();
   return true;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeNoImage(
+  const Membrane& surface, const glm::dvec3& eye, double side, double before, double behind)
+{
+  bool isSeen = false;
+  bool isReflected = true;
+  for (const Membrane::Facet& facet : surface.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      const auto i = static_cast<std::size_t>(vertex);
+      const glm::dvec3 sight = eye - surface.GetPositions()[i];
+      const double cosine = side * glm::dot(sight, surface.GetNormals()[i]) / glm::length(sight);
+      if (cosine > 0.0)
+      {
+        isSeen = true;
+        isReflected = isReflected && before * std::sqrt(1.0 - cosine * cosine) > behind;
+      }
+    }
+  }
+  if (isSeen && isReflected)
+  {
+    std::ostringstream text;
+    text << "Everything is totally reflected: the eye sees each point of the membrane at more than "
+            "the critical angle, "
+         << glm::degrees(std::asin(behind / before))
+         << " degrees from the normal, from the medium with the index " << before
+         << " to the medium with the index " << behind << ".";
+    return text.str();
+  }
+  return "Is the eye on the side that the membrane's normals point to, and are geometry (port 0) "
+         "and membrane (port 1) at the right ports?";
 }
 
 //------------------------------------------------------------------------------

@@ -37,6 +37,16 @@ vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
 bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
   const MembraneArrays& arrays, std::size_t lost, SceneMessages& messages);
 
+/**
+ * Text of the warning for an eye that sees no point at all through a surface: it is totally
+ * reflected everywhere, or why else it may be so.
+ * @param eye local coordinates of the surface
+ * @param side of the surface on which the eye is: +1 for the side of its normals, otherwise -1
+ * @param before and `behind`: indices of refraction
+ */
+std::string DescribeNoImage(
+  const Membrane& surface, const glm::dvec3& eye, double side, double before, double behind);
+
 /** Text of the error for an eye that is not `Ready`. */
 std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye);
 

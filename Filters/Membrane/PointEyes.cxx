@@ -24,4 +24,17 @@ std::string PointEyes::UseArray(vtkPointSet* points, const std::string& name)
   return "The points have no array \"" + name + "\" with three components for the eyes";
 }
 
+//------------------------------------------------------------------------------
+std::vector<glm::dvec3> PointEyes::GetSample(vtkIdType count) const
+{
+  constexpr vtkIdType most = 256;
+  std::vector<glm::dvec3> eyes;
+  const vtkIdType stride = this->Array ? (count + most - 1) / most : count;
+  for (vtkIdType i = 0; i < count; i += stride)
+  {
+    eyes.push_back(this->Get(i));
+  }
+  return eyes;
+}
+
 }

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <vector>
 
 class vtkPointSet;
 
@@ -45,6 +46,9 @@ public:
     }
     return eye;
   }
+
+  /** Eyes of up to 256 of `count` points; all if there are no more. */
+  std::vector<glm::dvec3> GetSample(vtkIdType count) const;
 
 private:
   glm::dvec3 Eye{ 0.0 };

@@ -44,10 +44,11 @@ struct MembraneView
   /** Position of the eye in world coordinates, exterior and interior index of refraction. */
   std::array<double, 5> Eye{};
   bool Reflects = false;
+  bool Turns = false; ///< an open membrane that does not face the eye is turned round
 
   bool operator==(const MembraneView& other) const
   {
-    return this->Eye == other.Eye && this->Reflects == other.Reflects;
+    return this->Eye == other.Eye && this->Reflects == other.Reflects && this->Turns == other.Turns;
   }
 };
 
@@ -69,7 +70,8 @@ struct MembraneVersion
 struct PreparedMembrane
 {
   MembraneOrigin Origin;
-  MembraneArrays Arrays;
+  MembraneArrays Arrays; ///< of the turned membrane, if it is turned
+  bool IsTurned = false;
   std::size_t Lost = 0; ///< number of points that could not be moved to the exact surface
   MembraneStatus Status = MembraneStatus::Empty;
   bool HasShape = false;

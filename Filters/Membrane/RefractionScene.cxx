@@ -28,6 +28,14 @@ MembraneOrigin MakeOrigin(vtkPolyData* membrane, bool curved, vtkImplicitFunctio
     curved };
 }
 
+/** True if an open surface has no facet that faces the eye; false for an eye that is not finite. */
+bool IsBehind(const Membrane& surface, const glm::dvec3& eye)
+{
+  const glm::dvec3 local = eye - surface.GetOrigin();
+  return !surface.IsClosed() && std::isfinite(local.x + local.y + local.z) &&
+    !surface.ShowsSide(local, 1.0);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -38,11 +46,11 @@ RefractionScene::RefractionScene()
 
 //------------------------------------------------------------------------------
 RefractionScene::Loan::Loan(RefractionScene& scene, vtkPolyData* membrane, bool curved,
-  vtkImplicitFunction* function, const Eye& eye, bool reflects)
+  vtkImplicitFunction* function, const MembraneView& view)
   : Scene(scene)
 {
-  scene.Prepared = BorrowMembrane(
-    scene.Prepared, scene.Version, MakeOrigin(membrane, curved, function), { eye, reflects });
+  scene.Prepared =
+    BorrowMembrane(scene.Prepared, scene.Version, MakeOrigin(membrane, curved, function), view);
   scene.HasLoan = true;
   scene.UndecidedBefore = scene.CountUndecided();
 }
@@ -79,6 +87,10 @@ bool RefractionScene::SetMembrane(
   {
     MembraneArrays arrays = ExtractMembrane(membrane);
     const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
+    if (prepared.IsTurned)
+    {
+      arrays.Turn();
+    }
     const bool isOfOtherModel = prepared.Origin.Curves != curved;
     prepared.Origin = origin;
     if (!known || !(arrays == prepared.Arrays))
@@ -90,13 +102,7 @@ bool RefractionScene::SetMembrane(
       }
       prepared.Arrays = std::move(arrays);
       prepared.Lost = lost;
-      const MembraneInput input = prepared.Arrays.AsInput();
-      prepared.Status =
-        curved ? prepared.Curved.SetMembrane(input, FacetLoop) : prepared.Flat.SetMembrane(input);
-      prepared.HasShape = prepared.Status == MembraneStatus::Ready;
-      prepared.HasRays = false;
-      prepared.Version.Shape = MembraneVersion::MakeNumber();
-      ++this->PatchBuilds;
+      this->BuildShape(prepared);
     }
   }
   if (this->Version.Shape == prepared.Version.Shape)
@@ -110,17 +116,46 @@ bool RefractionScene::SetMembrane(
 }
 
 //------------------------------------------------------------------------------
-bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages, bool reflects)
+void RefractionScene::BuildShape(PreparedMembrane& prepared)
+{
+  const MembraneInput input = prepared.Arrays.AsInput();
+  prepared.Status = prepared.Origin.Curves ? prepared.Curved.SetMembrane(input, FacetLoop)
+                                           : prepared.Flat.SetMembrane(input);
+  prepared.HasShape = prepared.Status == MembraneStatus::Ready;
+  prepared.HasRays = false;
+  prepared.Version.Shape = MembraneVersion::MakeNumber();
+  ++this->PatchBuilds;
+}
+
+//------------------------------------------------------------------------------
+/** Turns the membrane round if the view demands it, or back. */
+void RefractionScene::TurnMembrane(const MembraneView& view)
 {
   PreparedMembrane& prepared = *this->Prepared;
-  const MembraneView view{ eye, reflects };
+  const glm::dvec3 eye(view.Eye[0], view.Eye[1], view.Eye[2]);
+  const bool isTurned = view.Turns && prepared.IsTurned != IsBehind(prepared.GetMembrane(), eye);
+  if (isTurned != prepared.IsTurned)
+  {
+    prepared.Arrays.Turn();
+    prepared.IsTurned = isTurned;
+    this->BuildShape(prepared);
+    this->Version.Shape = prepared.Version.Shape;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetEye(const MembraneView& view, SceneMessages& messages)
+{
+  PreparedMembrane& prepared = *this->Prepared;
+  const Eye& eye = view.Eye;
   if (!prepared.HasRays || !(prepared.View == view))
   {
     prepared.HasRays = false; // stale until the update succeeds
     this->View = MembraneView();
+    this->TurnMembrane(view);
     const glm::dvec3 position(eye[0], eye[1], eye[2]);
     const EyeStatus status = prepared.Origin.Curves
-      ? prepared.Curved.SetEye(position, eye[3], eye[4], FacetLoop, reflects)
+      ? prepared.Curved.SetEye(position, eye[3], eye[4], FacetLoop, view.Reflects)
       : prepared.Flat.SetEye(position, eye[3], eye[4], FacetLoop);
     if (status != EyeStatus::Ready)
     {
@@ -152,6 +187,8 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   const CurvedMembraneSolver& curved = this->GetCurved();
   const bool isEnclosed = isCurved && curved.IsClosed() && !curved.FacesEye();
   const bool reflects = this->View.Reflects;
+  const bool isBehind = IsBehind(
+    this->GetMembrane(), glm::dvec3(this->View.Eye[0], this->View.Eye[1], this->View.Eye[2]));
   const auto behind = static_cast<vtkTypeInt64>(
     isCurved && !reflects ? curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
   const bool isNew = this->EyeReportOf != this->Version.Shape;
@@ -163,6 +200,14 @@ void RefractionScene::ReportEye(SceneMessages& messages)
                       : "geometry outside passes unchanged. For a bubble around the eye")
          << ", reverse the normals. ";
   }
+  if (isBehind && (isNew || !this->EyeBehind))
+  {
+    text << "No facet of the membrane faces the eye: its normals point to the other side, and "
+         << (reflects ? "the eye sees the back of the mirror only. "
+                      : "everything passes unchanged. ")
+         << "Unless the eye is really behind the membrane, reverse the normals and the order of "
+            "the corners, or use TurnTowardsEye of the vtkRefractingInterface. ";
+  }
   if (behind > 0 && (isNew || this->PointsBehind == 0))
   {
     text
@@ -171,6 +216,7 @@ void RefractionScene::ReportEye(SceneMessages& messages)
          "Use one piece, or a filter for each. ";
   }
   this->EyeEnclosed = isEnclosed;
+  this->EyeBehind = isBehind;
   this->PointsBehind = behind;
   this->EyeReportOf = this->Version.Shape;
   messages.Warning = text.str();

@@ -53,7 +53,7 @@ public:
   {
   public:
     Loan(RefractionScene& scene, vtkPolyData* membrane, bool curved, vtkImplicitFunction* function,
-      const Eye& eye, bool reflects);
+      const MembraneView& view);
     ~Loan();
     Loan(const Loan&) = delete;
     Loan& operator=(const Loan&) = delete;
@@ -71,11 +71,11 @@ public:
 
   /**
    * Sets the eye. Returns false, with an error message, if it cannot be used. Adds a warning when
-   * the eye enters a closed membrane whose normals point outwards, when pieces of the membrane come
-   * to lie behind each other, and when the membrane changes in such a state. With `reflects`, for
-   * curved membranes only, the membrane is a mirror.
+   * the eye enters a closed membrane whose normals point outwards or comes behind an open one, when
+   * pieces of the membrane come to lie behind each other, and when the membrane changes in such a
+   * state. A membrane is a mirror, or turned round, as the view says; mirrors are curved.
    */
-  bool SetEye(const Eye& eye, SceneMessages& messages, bool reflects = false);
+  bool SetEye(const MembraneView& view, SceneMessages& messages);
 
   const Eye& GetEye() const { return this->View.Eye; }
 
@@ -106,6 +106,8 @@ public:
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
   /** Results for the current eye and curved membrane. */
   bool IsEyeEnclosed() const { return this->EyeEnclosed; }
+  /** True if the membrane is open and no facet faces the eye. */
+  bool IsEyeBehind() const { return this->EyeBehind; }
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const { return this->PointsBehind; }
 
   /** Number of the membrane's triangles that were skipped. */
@@ -114,6 +116,8 @@ public:
   vtkTypeInt64 GetNumberOfUndecided() const;
 
 private:
+  void BuildShape(PreparedMembrane& prepared);
+  void TurnMembrane(const MembraneView& view);
   void ReportEye(SceneMessages& messages);
   /** The solver's count, to which all of its users add. */
   vtkTypeInt64 CountUndecided() const;
@@ -131,6 +135,7 @@ private:
   vtkTypeInt64 Undecided = 0;       ///< until the last loan
   vtkTypeInt64 UndecidedBefore = 0; ///< count of the solver at the beginning of the loan
   bool EyeEnclosed = false;
+  bool EyeBehind = false;
   vtkTypeInt64 PointsBehind = 0;
   vtkTypeInt64 EyeReportOf = -1; ///< number of the shape for which the warnings were given
 };

@@ -10,6 +10,7 @@
 #include "vtkRefractingInterfaceCollection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -30,6 +31,9 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
       { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
     vtkImplicitFunction* function =
       this->UsedFitting == Fitting::Exact ? interface->GetExactSurface() : nullptr;
+    bool& turns = this->Entries[i].Turns;
+    this->IsEyeReady = this->IsEyeReady && turns == interface->GetTurnTowardsEye();
+    turns = interface->GetTurnTowardsEye();
     if (!this->UpdateEntry(i, surfaces[i], function, isNew, messages))
     {
       return false;
@@ -42,15 +46,102 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
   {
     return true;
   }
-  std::vector<StackInterface> list;
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-  {
-    list.push_back({ this->Entries[i].Surface, media[i] });
-  }
   this->Media = std::move(media);
-  this->IsEyeReady = false;
-  this->Solver.SetInterfaces(list);
+  this->SetSolverInterfaces();
   return true;
+}
+
+//------------------------------------------------------------------------------
+void StackScene::SetSolverInterfaces()
+{
+  std::vector<StackInterface> list;
+  for (std::size_t i = 0; i < this->Media.size(); ++i)
+  {
+    list.push_back({ this->Entries[i].Surface, this->Media[i] });
+  }
+  this->IsEyeReady = false;
+  this->AreEyesReported = false;
+  this->Solver.SetInterfaces(list);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if an open surface shows the eye its other side only, when rays pass the list from the
+ * exterior of the first interface. False for an eye that is not finite.
+ */
+bool StackScene::IsOnWrongSide(std::size_t index, const glm::dvec3& eye) const
+{
+  const Membrane& surface = this->Entries[index].Surface->GetMembrane();
+  const glm::dvec3 local = eye - surface.GetOrigin();
+  const MediaChain chain(this->Media);
+  const bool refracts = this->Media[index].Exterior != this->Media[index].Interior;
+  return refracts && !chain.Ways.empty() && !surface.IsClosed() &&
+    std::isfinite(local.x + local.y + local.z) &&
+    !surface.ShowsSide(local, chain.Ways.front()[index].FromFront ? 1.0 : -1.0);
+}
+
+//------------------------------------------------------------------------------
+/** Turns surfaces round whose interfaces say so, or back. */
+void StackScene::TurnSurfaces(const glm::dvec3& eye)
+{
+  bool isNew = false;
+  for (std::size_t i = 0; i < this->Entries.size(); ++i)
+  {
+    Entry& entry = this->Entries[i];
+    const bool isTurned = entry.Turns && entry.IsTurned != this->IsOnWrongSide(i, eye);
+    if (isTurned == entry.IsTurned)
+    {
+      continue;
+    }
+    entry.IsTurned = isTurned;
+    entry.Arrays.Turn();
+    auto surface = std::make_shared<StackSurface>();
+    surface->SetMembrane(entry.Arrays.AsInput(), FacetLoop);
+    ++this->PatchBuilds;
+    entry.Surface = surface;
+    isNew = true;
+  }
+  if (isNew)
+  {
+    this->SetSolverInterfaces();
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Text of the warning about interfaces that the eye is behind or sees from their wrong side. */
+std::string StackScene::DescribeSides()
+{
+  const RefractionStack& stack = this->Solver.GetStack();
+  const bool isBlocked = stack.GetNumberOfInterfaces() > 0 && !stack.HasPassage();
+  const std::size_t behind = stack.GetNumberOfInterfaces() - stack.GetLinks().size();
+  const bool isBehind = behind > this->InterfacesBehindEye;
+  this->InterfacesBehindEye = behind;
+  std::ostringstream text;
+  if (isBlocked)
+  {
+    text << "No ray from the eye passes the surfaces in the order of the list. Do they cross, does "
+            "one of them lie behind the eye or out of the others' way, or is the list in another "
+            "order? ";
+  }
+  if (isBehind)
+  {
+    const std::size_t last = stack.GetLinks().front().Index - 1;
+    text << "The eye is behind interface " << (last > 0 ? "0 to " : "") << last
+         << ", and nothing is refracted there. If the eye is in front, surfaces are in the wrong "
+            "order, normals point to the wrong side, or indices of refraction are exchanged. ";
+  }
+  const glm::dvec3 eye(this->Eye[0], this->Eye[1], this->Eye[2]);
+  for (std::size_t i = 0; (isBlocked || isBehind) && i < this->Entries.size(); ++i)
+  {
+    if (this->IsOnWrongSide(i, eye))
+    {
+      text
+        << "Interface " << i
+        << " shows the eye the side of the medium behind it: unless the eye is there, reverse its "
+           "normals, exchange its indices, or use TurnTowardsEye of the vtkRefractingInterface. ";
+    }
+  }
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -62,10 +153,11 @@ bool StackScene::UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicit
   Entry& entry = this->Entries[index];
   const vtkMTimeType sourceTime = GetMembraneTime(source);
   const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
-  const auto isCurrent = [=](const Entry& known)
+  const auto isCurrent = [=, isTurned = entry.IsTurned](const Entry& known)
   {
     return known.Surface && known.Source == source && known.SourceTime == sourceTime &&
-      known.Function == function && known.FunctionTime == functionTime;
+      known.Function == function && known.FunctionTime == functionTime &&
+      known.IsTurned == isTurned;
   };
   if (isCurrent(entry))
   {
@@ -76,11 +168,17 @@ bool StackScene::UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicit
   if (earlier != end)
   {
     isNew = isNew || entry.Surface != earlier->Surface;
+    const bool turns = entry.Turns;
     entry = *earlier;
+    entry.Turns = turns;
     return true;
   }
   MembraneArrays arrays = ExtractMembrane(source);
   const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
+  if (entry.IsTurned)
+  {
+    arrays.Turn();
+  }
   entry.Source = source;
   entry.SourceTime = sourceTime;
   entry.Function = function;
@@ -117,6 +215,7 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
     return true;
   }
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
+  this->TurnSurfaces(position);
   const EyeStatus status = this->Solver.SetEye(position, FacetLoop);
   this->Eye = eye;
   this->IsEyeReady = status == EyeStatus::Ready;
@@ -126,15 +225,29 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
     return false;
   }
   ++this->EyeUpdates;
-  const RefractionStack& stack = this->Solver.GetStack();
-  if (stack.GetNumberOfInterfaces() > 0 && !stack.HasPassage())
-  {
-    messages.Warning =
-      "No ray from the eye passes the surfaces in the order of the list. Do they "
-      "cross, does one of them lie behind the eye or out of the others' way, or is the list "
-      "in another order?";
-  }
+  messages.Warning += this->DescribeSides();
   return true;
+}
+
+//------------------------------------------------------------------------------
+void StackScene::ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& messages)
+{
+  const auto first = std::find_if(this->Media.begin(), this->Media.end(),
+    [](const InterfaceMedia& media) { return media.Exterior != media.Interior; });
+  if (this->AreEyesReported || eyes.empty() || first == this->Media.end())
+  {
+    return;
+  }
+  this->AreEyesReported = true;
+  const auto index = static_cast<std::size_t>(first - this->Media.begin());
+  if (std::all_of(eyes.begin(), eyes.end(),
+        [this, index](const glm::dvec3& eye) { return this->IsOnWrongSide(index, eye); }))
+  {
+    messages.Warning +=
+      "No facet of the first membrane faces an eye: its normals point to the other side. Unless "
+      "the "
+      "eyes are really behind it, reverse the normals and the order of the corners. ";
+  }
 }
 
 //------------------------------------------------------------------------------

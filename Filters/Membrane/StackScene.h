@@ -10,7 +10,9 @@
 #include "vtkWeakPointer.h"
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkImplicitFunction;
@@ -47,10 +49,17 @@ public:
     vtkRefractingInterfaceCollection* interfaces, SceneMessages& messages);
 
   /**
-   * Sets the eye. Returns false, with an error, if it cannot be used. Warns, once per change, if no
-   * ray from the eye passes the surfaces in the order of the list.
+   * Sets the eye, and turns surfaces round whose interfaces say so. Returns false, with an error,
+   * if the eye cannot be used. Warns, once per change, if no ray from the eye passes the surfaces
+   * in the order of the list, and when the eye comes behind the first of them.
    */
   bool SetEye(const std::array<double, 3>& eye, SceneMessages& messages);
+
+  /**
+   * Warns, once per change of the surfaces, if the first surface that refracts shows none of some
+   * eyes the side from which rays pass it, for rays that are traced without SetEye().
+   */
+  void ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& messages);
 
   const StackSolver& GetSolver() const { return this->Solver; }
   /** The first surface in front of the eye that refracts; that of the list if there is none. */
@@ -67,12 +76,18 @@ private:
     vtkMTimeType SourceTime = 0;
     vtkImplicitFunction* Function = nullptr; ///< used for comparison only
     vtkMTimeType FunctionTime = 0;
-    MembraneArrays Arrays;
+    bool Turns = false; ///< the surface is turned towards the eye
+    bool IsTurned = false;
+    MembraneArrays Arrays;                       ///< of the turned surface, if it is turned
     std::shared_ptr<const StackSurface> Surface; ///< null if it cannot be used
   };
 
   bool UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicitFunction* function,
     bool& isNew, SceneMessages& messages);
+  void SetSolverInterfaces();
+  bool IsOnWrongSide(std::size_t index, const glm::dvec3& eye) const;
+  void TurnSurfaces(const glm::dvec3& eye);
+  std::string DescribeSides();
 
   Fitting UsedFitting;
   std::vector<Entry> Entries;
@@ -80,6 +95,8 @@ private:
   StackSolver Solver;
   std::array<double, 3> Eye{};
   bool IsEyeReady = false;
+  bool AreEyesReported = false;
+  std::size_t InterfacesBehindEye = 0; ///< refracting interfaces that are left out
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;
 };

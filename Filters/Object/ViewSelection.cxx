@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Object/ViewSelection.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
+#include "vtkMath.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,6 +17,15 @@ namespace meniscus
 {
 namespace
 {
+
+// Distance of the eye of a parallel camera, in sizes of the surfaces. Sight rays are parallel up to
+// its inverse, a hundredth of a pixel in a picture of a thousand; the rounding of coordinates grows
+// with it, to 1e-11 sizes.
+constexpr double FarAway = 1e5;
+
+// View angle at which a degree is the same part of a perspective and of a parallel picture: VTK's
+// default.
+constexpr double ViewAngle = 30.0;
 
 class Selector
 {
@@ -111,6 +122,26 @@ ObjectTopology::Cells SelectFrom(const ObjectTopology::Cells& cells, const ViewS
   return result;
 }
 
+}
+
+//------------------------------------------------------------------------------
+CameraEye FindEye(vtkCamera* camera, const vtkBoundingBox& bounds)
+{
+  CameraEye eye;
+  camera->GetPosition(&eye.Position.x);
+  eye.Degree = vtkMath::RadiansFromDegrees(1.0);
+  const bool hasSize = bounds.IsValid() && bounds.GetDiagonalLength() > 0.0;
+  if (camera->GetParallelProjection() && hasSize)
+  {
+    const double distance = FarAway * bounds.GetDiagonalLength();
+    glm::dvec3 center;
+    glm::dvec3 direction;
+    bounds.GetCenter(&center.x);
+    camera->GetDirectionOfProjection(&direction.x);
+    eye.Position = center - distance * direction;
+    eye.Degree = 2.0 * camera->GetParallelScale() / ViewAngle / distance;
+  }
+  return eye;
 }
 
 //------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <vector>
 
+class vtkBoundingBox;
 class vtkCamera;
 
 namespace meniscus
@@ -28,6 +29,26 @@ namespace meniscus
  * (unknown), only the planes that do not depend on it are returned.
  */
 std::vector<ViewPlane> FindViewPlanes(vtkCamera* camera, double aspect);
+
+/** Eye of a camera. */
+struct CameraEye
+{
+  glm::dvec3 Position{ 0.0 }; ///< world coordinates
+  /**
+   * Angle, as seen from the eye, that is the same part of the picture's height as one degree is of
+   * a picture with a view angle of 30 degrees; radians. In perspective, one degree.
+   */
+  double Degree = 0.0;
+};
+
+/**
+ * Eye of a camera. A camera in parallel projection has its eye at infinity: the result is a point
+ * against its direction, 1e5 sizes of the surfaces away, from where rays are parallel up to the
+ * inverse of that. It depends on direction and surfaces only, so that a camera that is moved along
+ * with its focal point keeps its eye.
+ * @param bounds bounds of the surfaces; invalid ones are not used
+ */
+CameraEye FindEye(vtkCamera* camera, const vtkBoundingBox& bounds);
 
 struct ViewSelection
 {

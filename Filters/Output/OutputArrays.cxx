@@ -18,6 +18,7 @@
 #include "vtkSignedCharArray.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus
@@ -241,6 +242,15 @@ void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<
   for (vtkIdType i = 0; i < count; ++i)
   {
     to->CopyData(from, sources[static_cast<std::size_t>(i)], i);
+  }
+  if (to->GetGlobalIds())
+  {
+    std::vector<vtkIdType> sorted = sources;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    {
+      to->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+    }
   }
 }
 

@@ -96,6 +96,7 @@ int TakeFittingArrays(vtkDataSetAttributes* from, vtkIdType tuples, vtkDataSetAt
 
 /**
  * Copies tuple `sources[i]` to tuple i for all i. Arrays are shared if every tuple keeps its index.
+ * Global ids stay in their array but are no longer marked as global if one of them is repeated.
  */
 void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<vtkIdType>& sources,
   vtkDataSetAttributes* to);

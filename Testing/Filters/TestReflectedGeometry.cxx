@@ -450,7 +450,9 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   open->Update();
   EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(open->GetNumberOfVerticesWithoutImage(), 25);
-  EXPECT_NE(messages->Text.find("Is the eye on the side"), std::string::npos);
+  EXPECT_EQ(messages->Warnings, 1);
+  EXPECT_NE(messages->Text.find("No facet of the membrane faces the eye"), std::string::npos);
+  EXPECT_NE(messages->Text.find("sees the back of the mirror only"), std::string::npos);
 
   const auto ball =
     MakeMirror(MakeGrid(5, 0.4, 0.3), MakeMembrane(meniscus::reference::MakeSphere(16, 1.0)));

@@ -311,3 +311,62 @@ TEST(TruePositions, BadInputIsAnError)
   filter->GetInterfaces()->AddItem(second);
   expectError(filter, "two interfaces");
 }
+
+// A path of the length a in air and b in water is seen at a + b / n, a + n b or a + b.
+TEST(TruePositions, DepthsAreApparentOpticalOrGeometric)
+{
+  const auto membrane = MakeFlatMembrane();
+  const double factors[] = { 1.0 / Water, Water, 1.0 };
+  const glm::dvec3 sightPoint(-40.0, 0.0, 25.0);
+  const glm::dvec3 sight = glm::normalize(sightPoint - Eye);
+  glm::dvec3 refracted(sight.x / Water, 0.0, sight.z / Water);
+  refracted.y = -std::sqrt(1.0 - glm::dot(refracted, refracted));
+  constexpr double path = 30.0;
+  const glm::dvec3 truth = sightPoint + path * refracted;
+  for (int depth = 0; depth < 3; ++depth)
+  {
+    const glm::dvec3 seen = sightPoint + factors[depth] * path * sight;
+    // The second point has its own index around the eye: only the ratio counts.
+    for (const double scale : { 1.0, 1.2 })
+    {
+      for (const bool isStack : { false, true })
+      {
+        const auto filter = MakeInverse(MakePoints({ { seen.x, seen.y, seen.z } }), membrane);
+        filter->SetDepth(depth);
+        filter->SetExteriorIndexOfRefraction(scale);
+        filter->SetInteriorIndexOfRefraction(scale * Water);
+        if (isStack)
+        {
+          // A second surface far below, which the ray does not reach.
+          auto bottom = vtkSmartPointer<vtkPolyData>::New();
+          bottom->DeepCopy(membrane);
+          for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
+          {
+            double point[3];
+            bottom->GetPoint(i, point);
+            bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
+          }
+          filter->AddMembraneData(bottom);
+          filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
+        }
+        filter->Update();
+        EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+        EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - truth), 1e-10)
+          << depth << " " << scale << " " << isStack;
+      }
+    }
+  }
+}
+
+// A laser scanner above a pool of depth 1: with the apparent depth it was 1.777.
+TEST(TruePositions, LaserScansShowTheBottom)
+{
+  const auto scan = MakePoints({ { Eye.x, Eye.y - (Eye.y + Water * 1.0), Eye.z } });
+  const auto filter = MakeInverse(scan, MakeFlatMembrane());
+  filter->SetDepthToOptical();
+  filter->Update();
+  EXPECT_NEAR(PointOf(filter->GetOutput(), 0).y, -1.0, 1e-10);
+  filter->SetDepthToApparent();
+  filter->Update();
+  EXPECT_NEAR(PointOf(filter->GetOutput(), 0).y, -Water * Water, 1e-10);
+}

@@ -308,18 +308,7 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::FacesEye() const
 {
-  const auto& facets = this->Surface.GetFacets();
-  return std::any_of(facets.begin(), facets.end(),
-    [this](const Membrane::Facet& facet)
-    {
-      return std::any_of(facet.begin(), facet.end(),
-        [this](std::int32_t vertex)
-        {
-          const auto i = static_cast<std::size_t>(vertex);
-          return glm::dot(this->Surface.GetPositions()[i] - this->Optics.Eye,
-                   this->Surface.GetNormals()[i]) < 0.0;
-        });
-    });
+  return this->Surface.ShowsSide(this->Optics.Eye, 1.0);
 }
 
 //------------------------------------------------------------------------------

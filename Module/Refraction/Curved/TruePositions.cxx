@@ -47,7 +47,8 @@ bool TruePositions::Meet(const glm::dvec3& direction, CrossingChain& chain, Patc
 }
 
 //------------------------------------------------------------------------------
-TruePosition TruePositions::Find(const glm::dvec3& seen, CrossingChain& chain) const
+TruePosition TruePositions::Find(
+  const glm::dvec3& seen, CrossingChain& chain, SeenDepth depth) const
 {
   const glm::dvec3 none(std::numeric_limits<double>::quiet_NaN());
   const glm::dvec3 sight = seen - this->Eye;
@@ -62,8 +63,8 @@ TruePosition TruePositions::Find(const glm::dvec3& seen, CrossingChain& chain) c
   {
     return { seen, none, SeenState::Unrefracted };
   }
-  const double apparent = glm::dot(seen - at.Position, direction);
-  if (apparent <= 0.0)
+  const double behind = glm::dot(seen - at.Position, direction);
+  if (behind <= 0.0)
   {
     return { seen, none, SeenState::Unrefracted };
   }
@@ -74,8 +75,9 @@ TruePosition TruePositions::Find(const glm::dvec3& seen, CrossingChain& chain) c
   {
     return { seen, at.Position, SeenState::TotallyReflected };
   }
-  const double depth = apparent * media.Interior / media.Exterior;
-  return { at.Position + depth * ray.Direction, at.Position, SeenState::Refracted };
+  const double length =
+    GetTrueLength(depth, GetSeenLength(depth, behind, media.Exterior), media.Interior);
+  return { at.Position + length * ray.Direction, at.Position, SeenState::Refracted };
 }
 
 }

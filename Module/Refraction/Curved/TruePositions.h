@@ -5,6 +5,7 @@
 
 #include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/SeenDepth.h"
 #include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Curved/SteepDirections.h"
 
@@ -36,8 +37,9 @@ struct TruePosition
 /**
  * True positions of points that the eye sees through a membrane: the inverse of the virtual
  * vertices (Eq. 2.4). The sight ray to the point is refracted where it meets the membrane first
- * from the front, and the point lies on the refracted ray, at n2 / n1 times the distance at which
- * it is seen behind the sight point.
+ * from the front, and the point lies on the refracted ray, at a distance from the sight point that
+ * the meaning of its depth gives: n2 / n1 times the distance behind it at which the point is seen,
+ * if that is the apparent depth.
  */
 class TruePositions
 {
@@ -53,7 +55,8 @@ public:
    * search; the last bits of the result depend on the points before.
    * @param seen  position in world coordinates. Points without a true position keep it.
    */
-  TruePosition Find(const glm::dvec3& seen, CrossingChain& chain) const;
+  TruePosition Find(
+    const glm::dvec3& seen, CrossingChain& chain, SeenDepth depth = SeenDepth::Apparent) const;
 
 private:
   bool Meet(const glm::dvec3& direction, CrossingChain& chain, PatchPoint& at) const;

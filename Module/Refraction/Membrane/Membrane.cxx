@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/Membrane.h"
 
+#include "Refraction/Membrane/CoincidentEdges.h"
 #include "Refraction/Membrane/MembraneNormals.h"
 
 #include <glm/common.hpp>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace meniscus
 {
@@ -86,9 +86,8 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
 {
   Membrane last;
   std::swap(*this, last);
-  this->WoundFacets = std::move(last.WoundFacets);
-  this->OrientedFacets = std::move(last.OrientedFacets);
-  this->Pieces = std::move(last.Pieces);
+  this->Given = std::move(last.Given);
+  this->Joined = std::move(last.Joined);
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   if (input.NumberOfPoints > limit || input.NumberOfTriangles > limit)
   {
@@ -104,6 +103,7 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
     }
     this->MoveToLocalOrigin(input);
   } while (this->DropFlattened(leastHeight));
+  this->TakeGivenNormals(input);
   if (!this->OrientFacets(input.NumberOfPoints))
   {
     *this = Membrane();
@@ -116,8 +116,20 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
     this->Report.ZeroArea = tooSmall;
     return MembraneStatus::Empty;
   }
-  this->TakeNormals(input);
+  this->CompleteNormals(input.Normals != nullptr);
   return MembraneStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+bool Membrane::ShowsSide(const glm::dvec3& local, double side) const
+{
+  const auto shows = [this, &local, side](std::int32_t vertex)
+  {
+    const auto i = static_cast<std::size_t>(vertex);
+    return side * glm::dot(local - this->Positions[i], this->Normals[i]) > 0.0;
+  };
+  return std::any_of(this->Facets.begin(), this->Facets.end(),
+    [&shows](const Facet& facet) { return std::any_of(facet.begin(), facet.end(), shows); });
 }
 
 //------------------------------------------------------------------------------
@@ -186,22 +198,112 @@ void Membrane::DropDuplicates()
   {
     repeated[static_cast<std::size_t>(keys[i].Id)] = keys[i].Sorted == keys[i - 1].Sorted;
   }
-  this->Report.Duplicated =
+  this->Report.Duplicated +=
     Filter(this->Facets, this->CellIds, [&repeated](std::size_t i) { return !repeated[i]; });
 }
 
 //------------------------------------------------------------------------------
+void Membrane::OrientedFacets::Update(const std::vector<Facet>& wound, std::size_t points)
+{
+  if (wound != this->Wound)
+  {
+    this->Wound = wound;
+    this->Facets = wound;
+    this->Pieces = meniscus::OrientFacets(this->Facets, points);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Joins coincident vertices and makes the winding consistent. Returns false if it cannot be. */
 bool Membrane::OrientFacets(std::size_t points)
 {
-  if (this->Facets != this->WoundFacets)
+  this->Given.Update(this->Facets, points);
+  const std::vector<std::int32_t> target =
+    JoinCoincidentEdges(this->Positions, this->Given.Pieces.Borders, this->Normals, this->Facets);
+  this->HasJoined = !target.empty();
+  if (this->HasJoined)
   {
-    this->WoundFacets = this->Facets;
-    this->OrientedFacets = this->Facets;
-    this->Pieces = meniscus::OrientFacets(this->OrientedFacets, points);
+    this->JoinNormals(target);
+    this->DropDuplicates();
+    this->Joined.Update(this->Facets, points);
   }
-  this->Facets = this->OrientedFacets;
-  this->Report.TurnedFacets = this->Pieces.TurnedFacets;
-  return !this->Pieces.IsOneSided;
+  else
+  {
+    this->Joined = OrientedFacets();
+  }
+  const SurfacePieces& pieces = this->GetPieces();
+  this->Facets = this->HasJoined ? this->Joined.Facets : this->Given.Facets;
+  this->Report.TurnedFacets = pieces.TurnedFacets;
+  this->Report.NonManifoldFacets = pieces.NonManifoldFacets;
+  return !pieces.IsOneSided;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Removes given normals that differ between joined vertices, so that they are computed. Where there
+ * are any, the surface may have a normal per facet: the normals of other corners are then removed
+ * as well if only one facet has them and they are that facet's.
+ */
+void Membrane::JoinNormals(const std::vector<std::int32_t>& target)
+{
+  // Normals in single precision, which were computed from the same values, differ by a few units in
+  // the last place.
+  constexpr double same = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  // Normals of facets with corners in single precision are off by more only if a facet's height is
+  // a thousandth of the coordinates, or less.
+  const double facets = std::sqrt(static_cast<double>(std::numeric_limits<float>::epsilon()));
+  std::vector<bool> isJoined(target.size(), false);
+  std::vector<bool> differs(target.size(), false);
+  bool differ = false;
+  for (std::size_t i = 0; i < target.size(); ++i)
+  {
+    const auto to = static_cast<std::size_t>(target[i]);
+    if (to == i)
+    {
+      continue;
+    }
+    ++this->Report.JoinedVertices;
+    isJoined[i] = isJoined[to] = true;
+    const bool areGiven =
+      this->Normals[i] != glm::dvec3(0.0) && this->Normals[to] != glm::dvec3(0.0);
+    if (areGiven && glm::length(this->Normals[i] - this->Normals[to]) > same)
+    {
+      differs[to] = differ = true;
+    }
+    else if (!areGiven)
+    {
+      this->Normals[to] += this->Normals[i]; // one of them, or both, are zero
+    }
+  }
+  std::vector<unsigned char> uses(target.size(), 0);
+  for (const Facet& facet : this->Given.Facets)
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      unsigned char& count = uses[static_cast<std::size_t>(vertex)];
+      count = static_cast<unsigned char>(std::min(count + 1, 2));
+    }
+  }
+  for (std::size_t i = 0; differ && i < this->Given.Facets.size(); ++i)
+  {
+    const Facet& facet = this->Given.Facets[i];
+    const auto at = [this, &facet](std::size_t k)
+    { return this->Positions[static_cast<std::size_t>(facet[k])] / this->Radius; };
+    const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
+    for (const std::int32_t corner : facet)
+    {
+      const auto vertex = static_cast<std::size_t>(corner);
+      const bool isOfFacet =
+        glm::length(glm::cross(area, this->Normals[vertex])) <= facets * glm::length(area);
+      differs[vertex] = differs[vertex] || (!isJoined[vertex] && uses[vertex] == 1 && isOfFacet);
+    }
+  }
+  for (std::size_t i = 0; i < differs.size(); ++i)
+  {
+    const bool isRemoved = differs[i] && this->Normals[i] != glm::dvec3(0.0);
+    this->Report.DifferentNormals += isRemoved ? 1 : 0;
+    this->Normals[i] = isRemoved ? glm::dvec3(0.0) : this->Normals[i];
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -254,42 +356,68 @@ bool Membrane::DropFlattened(double leastHeight)
 }
 
 //------------------------------------------------------------------------------
-void Membrane::TakeNormals(const MembraneInput& input)
+/** Takes the given normals with unit length; others are zero. */
+void Membrane::TakeGivenNormals(const MembraneInput& input)
 {
   this->Normals.assign(this->Positions.size(), glm::dvec3(0.0));
-  std::vector<bool> missing(this->Positions.size(), false);
-  for (const Facet& facet : this->Facets)
-  {
-    for (std::int32_t vertex : facet)
-    {
-      missing[static_cast<std::size_t>(vertex)] = true;
-    }
-  }
   for (std::size_t i = 0; input.Normals && i < this->Normals.size(); ++i)
   {
     const glm::dvec3 normal = Load(input.Normals, i);
     const double length = std::hypot(normal.x, normal.y, normal.z);
-    if (missing[i] && length > 0.0 && std::isfinite(length))
+    if (length > 0.0 && std::isfinite(length))
     {
       this->Normals[i] = glm::normalize(normal / length);
-      missing[i] = false;
     }
   }
-  this->Report.ComputedNormals =
-    static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
-  if (this->Report.ComputedNormals > 0)
+}
+
+//------------------------------------------------------------------------------
+/** Computes the normals that are zero. Returns their number. */
+std::size_t Membrane::ComputeMissingNormals()
+{
+  std::vector<bool> missing(this->Positions.size(), false);
+  for (const Facet& facet : this->Facets)
   {
-    this->Report.NonManifoldFacets =
-      ComputeVertexNormals(this->Positions, this->Facets, missing, this->Normals);
+    for (const std::int32_t vertex : facet)
+    {
+      const auto i = static_cast<std::size_t>(vertex);
+      missing[i] = this->Normals[i] == glm::dvec3(0.0);
+    }
   }
-  if (input.Normals)
+  const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
+  if (count > 0)
   {
-    this->Report.TurnedNormals =
-      OrientNormals(this->Positions, this->Facets, this->Pieces, this->Normals);
-    const glm::dvec3 origin = glm::abs(this->Origin);
-    this->Report.Normals = FindMismatchedNormals(this->Positions, this->Facets, this->Normals,
-      std::max({ origin.x, origin.y, origin.z }) + this->Radius);
+    ComputeVertexNormals(this->Positions, this->Facets, missing, this->Normals);
   }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+/** @param areGiven  true if the input has normals, which need not fit the surface. */
+void Membrane::CompleteNormals(bool areGiven)
+{
+  this->Report.ComputedNormals = this->ComputeMissingNormals();
+  if (!areGiven)
+  {
+    return;
+  }
+  const SurfacePieces& pieces = this->GetPieces();
+  this->Report.TurnedNormals = OrientNormals(this->Positions, this->Facets, pieces, this->Normals);
+  const glm::dvec3 origin = glm::abs(this->Origin);
+  const double coordinate = std::max({ origin.x, origin.y, origin.z }) + this->Radius;
+  const std::vector<std::int32_t> wild =
+    FindWildNormals(this->Positions, this->Facets, this->Normals, coordinate);
+  for (const std::int32_t vertex : wild)
+  {
+    this->Normals[static_cast<std::size_t>(vertex)] = glm::dvec3(0.0);
+  }
+  if (!wild.empty())
+  {
+    this->Report.WildNormals = this->ComputeMissingNormals();
+    OrientNormals(this->Positions, this->Facets, pieces, this->Normals);
+  }
+  this->Report.Normals =
+    FindMismatchedNormals(this->Positions, this->Facets, this->Normals, coordinate);
 }
 
 }

@@ -50,9 +50,13 @@ struct MembraneReport
   std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product or
                                      ///< of the membrane's local coordinates
   std::size_t Duplicated = 0;        ///< skipped: same three points as an earlier triangle
-  std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
-  std::size_t NonManifoldFacets = 0; ///< kept, but not joined to their neighbours for computed
-                                     ///< normals
+  std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero, not finite or
+                                     ///< different at joined vertices
+  std::size_t DifferentNormals = 0;  ///< given normals that differ between joined vertices, or are
+                                     ///< those of a facet; computed
+  std::size_t WildNormals = 0;       ///< given normals that cannot belong to the surface; computed
+  std::size_t JoinedVertices = 0;    ///< replaced by another vertex at the same place
+  std::size_t NonManifoldFacets = 0; ///< kept, but not joined across edges of three or more facets
   std::size_t TurnedFacets = 0;  ///< kept; the winding was reversed to agree with the neighbours
   std::size_t TurnedNormals = 0; ///< kept; reversed to the side of the neighbours
   MismatchedNormals Normals;     ///< kept; given normals that do not fit the facets
@@ -97,17 +101,33 @@ public:
   {
     return this->CellIds[static_cast<std::size_t>(facet)];
   }
+  /** True if the surface has no border, so that it has an inside. */
+  bool IsClosed() const
+  {
+    return this->GetPieces().Borders.empty() && this->GetPieces().NonManifoldFacets == 0;
+  }
+  /**
+   * True if a point, in local coordinates, is on the given side of the surface at any vertex of its
+   * facets: on the side of the normals for +1, on the other for -1.
+   */
+  bool ShowsSide(const glm::dvec3& local, double side) const;
   const MembraneReport& GetReport() const { return this->Report; }
   /** Connected pieces of the surface. */
-  const SurfacePieces& GetPieces() const { return this->Pieces; }
+  const SurfacePieces& GetPieces() const
+  {
+    return this->HasJoined ? this->Joined.Pieces : this->Given.Pieces;
+  }
 
 private:
   double AcceptFacets(const MembraneInput& input);
   void DropDuplicates();
   bool OrientFacets(std::size_t points);
+  void JoinNormals(const std::vector<std::int32_t>& target);
   void MoveToLocalOrigin(const MembraneInput& input);
   bool DropFlattened(double leastHeight);
-  void TakeNormals(const MembraneInput& input);
+  void TakeGivenNormals(const MembraneInput& input);
+  std::size_t ComputeMissingNormals();
+  void CompleteNormals(bool areGiven);
 
   glm::dvec3 Origin{ 0.0 };
   double Radius = 0.0;
@@ -117,10 +137,19 @@ private:
   std::vector<std::int64_t> CellIds;
   MembraneReport Report;
 
-  /** Kept when the shape changes: a deforming membrane keeps its winding. */
-  std::vector<Facet> WoundFacets;
-  std::vector<Facet> OrientedFacets;
-  SurfacePieces Pieces;
+  /** Facets and their pieces, kept when the shape changes: a deforming membrane keeps both. */
+  struct OrientedFacets
+  {
+    std::vector<Facet> Wound; ///< before the winding was made consistent
+    std::vector<Facet> Facets;
+    SurfacePieces Pieces;
+
+    void Update(const std::vector<Facet>& wound, std::size_t points);
+  };
+
+  OrientedFacets Given;
+  OrientedFacets Joined; ///< after coincident vertices were joined; empty if there are none
+  bool HasJoined = false;
 };
 
 }

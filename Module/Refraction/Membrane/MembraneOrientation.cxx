@@ -51,6 +51,7 @@ struct Across
 {
   std::int32_t Facet = -1; ///< -1: none, or several
   bool SameWay = false;
+  bool AreSeveral = false;
 };
 
 Across FindAcross(
@@ -74,9 +75,9 @@ Across FindAcross(
     }
     if (result.Facet >= 0)
     {
-      return {};
+      return { -1, false, true };
     }
-    result = { fans.Facets[i], isNext };
+    result = { fans.Facets[i], isNext, false };
   }
   return result;
 }
@@ -92,11 +93,17 @@ void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t 
   for (std::size_t i = 0; i < piece.size(); ++i)
   {
     const std::int32_t facet = piece[i];
+    bool isNonManifold = false;
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
       const Across across = FindAcross(facets, fans, facet, corner);
+      isNonManifold = isNonManifold || across.AreSeveral;
       if (across.Facet < 0)
       {
+        if (!across.AreSeveral)
+        {
+          pieces.Borders.push_back({ facet, static_cast<std::int32_t>(corner) });
+        }
         continue;
       }
       const auto other = static_cast<std::size_t>(across.Facet);
@@ -112,6 +119,7 @@ void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t 
         pieces.IsOneSided = true;
       }
     }
+    pieces.NonManifoldFacets += isNonManifold ? 1 : 0;
   }
 }
 

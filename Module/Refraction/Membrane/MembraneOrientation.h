@@ -13,20 +13,29 @@
 namespace meniscus
 {
 
+/** Edge of a facet, opposite to one of its corners. */
+struct SurfaceEdge
+{
+  std::int32_t Facet;
+  std::int32_t Corner;
+};
+
 /** Pieces of a surface that are connected by edges with two facets. */
 struct SurfacePieces
 {
   std::vector<std::int32_t> PieceOf; ///< per facet
   std::int32_t Count = 0;
+  std::vector<SurfaceEdge> Borders;  ///< edges with one facet
+  std::size_t NonManifoldFacets = 0; ///< facets with an edge that three or more of them share
   std::size_t TurnedFacets = 0;
   bool IsOneSided = false; ///< true for a surface such as a Moebius band: no winding is consistent
                            ///< over all facets
 };
 
 /**
- * Makes the winding of the facets of each piece consistent: the minority is reversed; of two equal
- * halves, the half without the piece's first facet. If any piece is one-sided, no facet is
- * reversed.
+ * Finds the pieces of a surface and makes the winding of the facets of each piece consistent: the
+ * minority is reversed; of two equal halves, the half without the piece's first facet. If any piece
+ * is one-sided, no facet is reversed.
  */
 SurfacePieces OrientFacets(std::vector<std::array<std::int32_t, 3>>& facets, std::size_t points);
 

@@ -42,6 +42,20 @@ MismatchedNormals FindMismatchedNormals(const std::vector<glm::dvec3>& positions
   const std::vector<std::array<std::int32_t, 3>>& facets, const std::vector<glm::dvec3>& normals,
   double coordinate);
 
+/**
+ * Finds single normals that cannot belong to the surface. A normal is wild if it is foreign, as
+ * above but at any vertex, and deviates by more than CreaseAngle both from the facets around it and
+ * from the normal that continues the given normals of its neighbours. Normals of a smooth surface
+ * on a coarse mesh fit their neighbours, mean normals of a crease fit their facets. Returns nothing
+ * if more than half of the normals are wild, at vertices that facets surround: nothing says that
+ * the others are better.
+ *
+ * The parameters are those of FindMismatchedNormals().
+ */
+std::vector<std::int32_t> FindWildNormals(const std::vector<glm::dvec3>& positions,
+  const std::vector<std::array<std::int32_t, 3>>& facets, const std::vector<glm::dvec3>& normals,
+  double coordinate);
+
 }
 
 #endif

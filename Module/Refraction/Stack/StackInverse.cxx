@@ -20,8 +20,8 @@ const glm::dvec3 None(std::numeric_limits<double>::quiet_NaN());
 }
 
 //------------------------------------------------------------------------------
-StackTruePosition FindTruePosition(
-  const RefractionStack& stack, double medium, const glm::dvec3& seen, StackChain* chain)
+StackTruePosition FindTruePosition(const RefractionStack& stack, double medium,
+  const glm::dvec3& seen, StackChain* chain, SeenDepth depth)
 {
   thread_local StackSightRay ray; // kept so that its memory is reused
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
@@ -33,30 +33,31 @@ StackTruePosition FindTruePosition(
   }
   TraceSightRay(stack, medium, sight / distance, ray, chain);
   std::size_t leg = 0;
-  return WalkSightRay(ray, seen, leg);
+  return WalkSightRay(ray, seen, leg, depth);
 }
 
 //------------------------------------------------------------------------------
-StackTruePosition FindTruePosition(
-  SightRayTracer& tracer, const glm::dvec3& eye, const glm::dvec3& seen, StackChain* chain)
+StackTruePosition FindTruePosition(SightRayTracer& tracer, const glm::dvec3& eye,
+  const glm::dvec3& seen, StackChain* chain, SeenDepth depth)
 {
   return tracer.SetEye(eye) == EyeStatus::Ready
-    ? FindTruePosition(tracer.GetStack(), tracer.GetMedium(), seen, chain)
+    ? FindTruePosition(tracer.GetStack(), tracer.GetMedium(), seen, chain, depth)
     : StackTruePosition{ { seen, None, SeenState::NotFinite },
         tracer.GetMedium() * glm::length(seen - eye) };
 }
 
 //------------------------------------------------------------------------------
-StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg)
+StackTruePosition WalkSightRay(
+  const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg, SeenDepth depth)
 {
   const SightLeg& sight = ray.Legs.front();
   const double distance = glm::length(seen - sight.Origin);
   leg = 0;
   const glm::dvec3 first =
     ray.Legs.size() > 1 ? ray.Legs[1].Origin : sight.Origin + sight.Length * sight.Direction;
-  // Sum of the lengths of the legs behind the first surface up to the point, each divided by the
-  // index of its medium. The share of each passed leg is subtracted.
-  double rest = glm::dot(seen - first, sight.Direction) / sight.Index;
+  // Sum of the shares of the legs behind the first surface up to the point. The share of each
+  // passed leg is subtracted.
+  double rest = GetSeenLength(depth, glm::dot(seen - first, sight.Direction), sight.Index);
   if (!std::isfinite(sight.Length) || rest <= 0.0)
   {
     return { { seen, None, SeenState::Unrefracted }, sight.Index * distance };
@@ -69,13 +70,13 @@ StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen,
     {
       return { { seen, first, SeenState::Missed }, sight.Index * distance };
     }
-    const double toPoint = rest * on.Index;
+    const double toPoint = GetTrueLength(depth, rest, on.Index);
     if (toPoint <= on.Length)
     {
       return { { on.Origin + toPoint * on.Direction, first, SeenState::Refracted },
         optical + on.Index * toPoint };
     }
-    rest -= on.Length / on.Index;
+    rest -= GetSeenLength(depth, on.Length, on.Index);
     optical += on.Index * on.Length;
   }
   --leg;

@@ -28,20 +28,21 @@ struct StackTruePosition : TruePosition
  * True position of a point that is seen through a stack; as TruePositions for one surface. The
  * point may lie behind all interfaces, or between two of them if the ray goes on to the next one.
  * `medium` is the index of refraction around the eye, which a stack without links does not know.
- * See StackPatches for `chain`.
+ * `depth` is the meaning of the distance at which the point is seen. See StackPatches for `chain`.
  */
-StackTruePosition FindTruePosition(
-  const RefractionStack& stack, double medium, const glm::dvec3& seen, StackChain* chain = nullptr);
+StackTruePosition FindTruePosition(const RefractionStack& stack, double medium,
+  const glm::dvec3& seen, StackChain* chain = nullptr, SeenDepth depth = SeenDepth::Apparent);
 
 /** The same for a point that is seen from its own eye. */
 StackTruePosition FindTruePosition(SightRayTracer& tracer, const glm::dvec3& eye,
-  const glm::dvec3& seen, StackChain* chain = nullptr);
+  const glm::dvec3& seen, StackChain* chain = nullptr, SeenDepth depth = SeenDepth::Apparent);
 
 /**
  * As FindTruePosition, for a traced ray. `leg` is set to the leg that the position lies on, or to
  * the last leg of a ray that does not show it.
  */
-StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg);
+StackTruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg,
+  SeenDepth depth = SeenDepth::Apparent);
 
 /** Error of virtual vertices behind several surfaces; as ErrorSampler for one. */
 class StackErrorSampler

@@ -134,15 +134,22 @@ int SampleStateOf(vtkRefractionErrorVolume* volume, vtkIdType i)
     volume->GetOutput()->GetPointData()->GetArray("SampleState")->GetTuple1(i));
 }
 
-/** A cap of the sphere of this radius below (0, 0, 0), without normals, and its function. */
+/**
+ * A cap of the sphere of this radius below (0, 0, 0), and its function. The normals are turned by
+ * up to 0.01; computed ones would be exact.
+ */
 constexpr double CapRadius = 300.0;
 const glm::dvec3 CapCentre(0.0, -CapRadius, 0.0);
 vtkSmartPointer<vtkPolyData> MakeRoughCap(int cells)
 {
-  const auto cap = MakeMembrane(
-    reference::MakeCap(CapCentre, CapRadius, Up, glm::dvec3(0.0, 1000.0, 0.0), 200.0, cells));
-  cap->GetPointData()->SetNormals(nullptr);
-  return cap;
+  auto mesh =
+    reference::MakeCap(CapCentre, CapRadius, Up, glm::dvec3(0.0, 1000.0, 0.0), 200.0, cells);
+  for (std::size_t i = 0; i < mesh.Normals.size(); i += 3)
+  {
+    mesh.Normals[i] += 0.01 * std::sin(static_cast<double>(i));
+    mesh.Normals[i + 2] += 0.01 * std::cos(2.0 * static_cast<double>(i));
+  }
+  return MakeMembrane(mesh);
 }
 const std::vector<reference::ExactSurface> CapOnWater{ { 1.0, 1.5, CapCentre, CapRadius },
   { 1.5, 1.333, glm::dvec3(0.0, -50.0, 0.0), 0.0, Up } };

@@ -200,17 +200,21 @@ TEST_F(RefractedGeometryCache, EyeFollowsTheCamera)
   this->ExpectAfterUpdate({ 1, 3, 243 });
 }
 
-TEST_F(RefractedGeometryCache, ParallelProjectionWarnsOnce)
+// The eye is at infinity: it depends on the direction, not on the position.
+TEST_F(RefractedGeometryCache, MovesOfAParallelCameraSolveNothing)
 {
   const auto messages = Observe(this->Filter);
   vtkNew<vtkCamera> camera;
   camera->SetPosition(0.0, 250.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
   camera->ParallelProjectionOn();
   this->Filter->SetCamera(camera);
   this->Filter->Update();
+  const vtkTypeInt64 solved = this->Filter->GetNumberOfSolvedVertices();
   camera->SetPosition(0.0, 240.0, 0.0);
   this->Filter->Update();
-  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_EQ(this->Filter->GetNumberOfSolvedVertices(), solved);
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text;
 }
 
 //------------------------------------------------------------------------------

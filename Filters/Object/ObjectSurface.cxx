@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Object/ObjectSurface.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTriangleFilter.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+const char* const PointIds = "MeniscusSourcePoint";
+const char* const CellIds = "MeniscusSourceCell";
+
+/** Latest time of a data set and, for a vtkPolyData, of the arrays of its polygons. */
+vtkMTimeType GetTime(vtkDataSet* data)
+{
+  vtkMTimeType time = data->GetMTime();
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    vtkCellArray* cells = surface->GetPolys();
+    time = std::max(
+      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
+  }
+  return time;
+}
+
+/**
+ * True if a polygon turns to both sides, by more than the rounding of the cross product of its
+ * edges. The side is that of its area vector.
+ */
+bool IsConcave(const std::vector<glm::dvec3>& corners)
+{
+  // Rounding of a cross product, as in Membrane.cxx, for edges from coordinates that are rounded.
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const std::size_t count = corners.size();
+  glm::dvec3 area(0.0);
+  double reach = 0.0;
+  for (std::size_t i = 1; i + 1 < count; ++i)
+  {
+    area += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  }
+  for (const glm::dvec3& corner : corners)
+  {
+    reach = std::max(reach, glm::length(corner));
+  }
+  const double size = glm::length(area);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 in = corners[(i + 1) % count] - corners[i];
+    const glm::dvec3 out = corners[(i + 2) % count] - corners[(i + 1) % count];
+    const double turn = glm::dot(glm::cross(in, out), area);
+    if (turn < -rounding * reach * (glm::length(in) + glm::length(out)) * size)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Cells of a polydata that are not convex, by their ids; those with points that exist. */
+std::vector<vtkIdType> FindConcave(vtkPolyData* data)
+{
+  std::vector<vtkIdType> concave;
+  std::vector<glm::dvec3> corners;
+  const vtkIdType points = data->GetNumberOfPoints();
+  vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
+  const auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(count, ids);
+    const auto isPoint = [points](vtkIdType id) { return id >= 0 && id < points; };
+    if (count > 3 && std::all_of(ids, ids + count, isPoint))
+    {
+      corners.resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < corners.size(); ++i)
+      {
+        data->GetPoint(ids[i], &corners[i].x);
+      }
+      if (IsConcave(corners))
+      {
+        concave.push_back(cell);
+      }
+    }
+    ++cell;
+  }
+  return concave;
+}
+
+/** Several faces or triangles of a cell have its id, which is then not global any more. */
+void UnmarkGlobalIds(vtkCellData* data)
+{
+  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+}
+
+/** Replaces polygons of a polydata by triangles. */
+class PolygonReplacement
+{
+public:
+  PolygonReplacement(vtkPolyData* from, const std::vector<vtkIdType>& concave)
+    : From(from)
+    , Concave(concave)
+  {
+  }
+
+  void Run(ObjectSurface& surface)
+  {
+    this->Triangulate();
+    const vtkIdType before = this->From->GetNumberOfVerts() + this->From->GetNumberOfLines();
+    for (vtkIdType cell = 0; cell < before; ++cell)
+    {
+      this->Sources->InsertNextValue(cell);
+    }
+    this->CopyPolygons(before);
+    for (vtkIdType i = 0; i < this->From->GetNumberOfStrips(); ++i)
+    {
+      this->Sources->InsertNextValue(before + this->From->GetNumberOfPolys() + i);
+    }
+    vtkNew<vtkPolyData> result;
+    result->ShallowCopy(this->From);
+    result->SetPolys(this->Polygons);
+    result->DeleteCells();
+    this->CopyCellData(result);
+    surface.Data = result;
+    surface.Cells = this->Sources;
+  }
+
+private:
+  /** Divides all concave polygons at once. */
+  void Triangulate()
+  {
+    vtkNew<vtkCellArray> polygons;
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName(CellIds);
+    const vtkIdType before = this->From->GetNumberOfVerts() + this->From->GetNumberOfLines();
+    for (const vtkIdType cell : this->Concave)
+    {
+      vtkIdType count = 0;
+      const vtkIdType* ids = nullptr;
+      this->From->GetPolys()->GetCellAtId(cell - before, count, ids);
+      polygons->InsertNextCell(count, ids);
+      numbers->InsertNextValue(cell);
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(this->From->GetPoints());
+    data->SetPolys(polygons);
+    data->GetCellData()->AddArray(numbers);
+    vtkNew<vtkTriangleFilter> division;
+    division->SetInputData(data);
+    division->Update();
+    this->Triangles = division->GetOutput();
+  }
+
+  /** Cells in the order of the input; the triangles of a polygon are in the order of their ids. */
+  void CopyPolygons(vtkIdType cell)
+  {
+    auto* numbers = vtkIdTypeArray::SafeDownCast(this->Triangles->GetCellData()->GetArray(CellIds));
+    const vtkIdType triangles = numbers ? this->Triangles->GetNumberOfPolys() : 0;
+    vtkIdType next = 0;
+    const auto iterator = vtk::TakeSmartPointer(this->From->GetPolys()->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      bool isDivided = false;
+      for (; next < triangles && numbers->GetValue(next) == cell; ++next)
+      {
+        vtkIdType count = 0;
+        const vtkIdType* ids = nullptr;
+        this->Triangles->GetPolys()->GetCellAtId(next, count, ids);
+        this->Add(count, ids, cell);
+        isDivided = true;
+      }
+      if (!isDivided)
+      {
+        vtkIdType count = 0;
+        const vtkIdType* ids = nullptr;
+        iterator->GetCurrentCell(count, ids);
+        this->Add(count, ids, cell);
+      }
+      ++cell;
+    }
+  }
+
+  void Add(vtkIdType count, const vtkIdType* ids, vtkIdType cell)
+  {
+    this->Polygons->InsertNextCell(count, ids);
+    this->Sources->InsertNextValue(cell);
+  }
+
+  /** Arrays of another length than the input's cells are left out, as of other inputs. */
+  void CopyCellData(vtkPolyData* result)
+  {
+    const vtkIdType cells = this->From->GetNumberOfCells();
+    vtkNew<vtkCellData> fitting;
+    fitting->ShallowCopy(this->From->GetCellData());
+    for (int i = fitting->GetNumberOfArrays(); i-- > 0;)
+    {
+      if (fitting->GetAbstractArray(i)->GetNumberOfTuples() != cells)
+      {
+        fitting->RemoveArray(i);
+      }
+    }
+    const vtkIdType count = this->Sources->GetNumberOfValues();
+    vtkCellData* data = result->GetCellData();
+    data->Initialize();
+    data->CopyAllOn();
+    data->CopyAllocate(fitting, count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      data->CopyData(fitting, this->Sources->GetValue(i), i);
+    }
+    UnmarkGlobalIds(data);
+  }
+
+  vtkPolyData* From;
+  const std::vector<vtkIdType>& Concave;
+  vtkSmartPointer<vtkPolyData> Triangles;
+  vtkNew<vtkCellArray> Polygons;
+  vtkNew<vtkIdTypeArray> Sources;
+};
+
+/** Takes an array of ids out of attributes. */
+vtkSmartPointer<vtkIdTypeArray> Take(vtkDataSetAttributes* attributes, const char* name)
+{
+  const vtkSmartPointer<vtkIdTypeArray> ids =
+    vtkIdTypeArray::SafeDownCast(attributes->GetArray(name));
+  attributes->RemoveArray(name);
+  return ids;
+}
+
+void ExtractSurface(vtkDataSet* input, ObjectSurface& surface)
+{
+  vtkNew<vtkDataSetSurfaceFilter> faces;
+  faces->PassThroughPointIdsOn();
+  faces->PassThroughCellIdsOn();
+  faces->SetOriginalPointIdsName(PointIds);
+  faces->SetOriginalCellIdsName(CellIds);
+  faces->SetInputData(input);
+  faces->Update();
+  surface.Data = faces->GetOutput();
+  surface.Points = Take(surface.Data->GetPointData(), PointIds);
+  surface.Cells = Take(surface.Data->GetCellData(), CellIds);
+  UnmarkGlobalIds(surface.Data->GetCellData());
+}
+
+/** Replaces the ids in an array of a name by those that `ids` has for them. */
+void Restore(vtkFieldData* data, const char* name, vtkIdTypeArray* ids)
+{
+  auto* array = vtkIdTypeArray::SafeDownCast(data->GetArray(name));
+  if (!array || !ids)
+  {
+    return;
+  }
+  vtkNew<vtkIdTypeArray> restored; // the array may be kept for another run
+  restored->SetName(name);
+  restored->SetNumberOfValues(array->GetNumberOfValues());
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+  {
+    const vtkIdType id = array->GetValue(i);
+    restored->SetValue(i, id < 0 ? id : ids->GetValue(id));
+  }
+  data->AddArray(restored);
+}
+
+}
+
+//------------------------------------------------------------------------------
+void ObjectSurface::RestoreIds(vtkPolyData* output) const
+{
+  Restore(output->GetPointData(), "SourcePointId", this->Points);
+  Restore(output->GetFieldData(), "PointsWithoutImage", this->Points);
+  Restore(output->GetCellData(), "SourceCellId", this->Cells);
+}
+
+//------------------------------------------------------------------------------
+ObjectSurface ObjectSurfaces::Get(vtkDataSet* input)
+{
+  this->Entries.remove_if([](const Entry& entry) { return !entry.Source; });
+  auto entry = std::find_if(this->Entries.begin(), this->Entries.end(),
+    [input](const Entry& candidate) { return candidate.Source == input; });
+  if (entry == this->Entries.end())
+  {
+    entry = this->Entries.emplace(this->Entries.end());
+    entry->Source = input;
+  }
+  const vtkMTimeType time = GetTime(input);
+  auto* data = vtkPolyData::SafeDownCast(input);
+  if (entry->Time != time)
+  {
+    entry->Time = time;
+    entry->Surface = ObjectSurface();
+    const std::vector<vtkIdType> concave = data ? FindConcave(data) : std::vector<vtkIdType>();
+    if (!data)
+    {
+      ExtractSurface(input, entry->Surface);
+    }
+    else if (!concave.empty())
+    {
+      PolygonReplacement(data, concave).Run(entry->Surface);
+    }
+  }
+  ObjectSurface surface = entry->Surface;
+  surface.Data = surface.Data ? surface.Data.Get() : data;
+  return surface;
+}
+
+}

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Membrane/CoincidentEdges.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+using Facet = std::array<std::int32_t, 3>;
+
+/** An edge at the border, from the place First to the place Second, with First < Second. */
+struct PlacedEdge
+{
+  std::int32_t First;
+  std::int32_t Second;
+  std::array<std::int32_t, 2> Vertex; ///< at First and at Second
+  std::int32_t Opposite;              ///< third corner of the facet
+
+  bool IsAtPlaceOf(const PlacedEdge& other) const
+  {
+    return this->First == other.First && this->Second == other.Second;
+  }
+};
+
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+/** Numbers of the different places of vertices. */
+class Places
+{
+public:
+  Places(const std::vector<glm::dvec3>& positions, std::vector<std::int32_t> vertices)
+    : Of(positions.size(), -1)
+  {
+    const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
+    { return positions[static_cast<std::size_t>(vertex)]; };
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::sort(vertices.begin(), vertices.end(),
+      [&at](std::int32_t a, std::int32_t b) { return IsBefore(at(a), at(b)); });
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      count += i > 0 && at(vertices[i]) != at(vertices[i - 1]) ? 1 : 0;
+      this->Of[static_cast<std::size_t>(vertices[i])] = count;
+    }
+    this->HasShared = !vertices.empty() && static_cast<std::size_t>(count) + 1 < vertices.size();
+  }
+
+  /** True if two vertices are at the same place. */
+  bool HasShared = false;
+  std::vector<std::int32_t> Of; ///< per vertex
+};
+
+/** Sets of joined vertices. */
+class JoinedVertices
+{
+public:
+  explicit JoinedVertices(std::size_t count)
+    : Parent(count)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+  }
+
+  std::int32_t Find(std::int32_t vertex)
+  {
+    while (this->At(vertex) != vertex)
+    {
+      this->At(vertex) = this->At(this->At(vertex));
+      vertex = this->At(vertex);
+    }
+    return vertex;
+  }
+
+  void Join(std::int32_t a, std::int32_t b)
+  {
+    a = this->Find(a);
+    b = this->Find(b);
+    this->HasJoined = this->HasJoined || a != b;
+    this->At(std::max(a, b)) = std::min(a, b);
+  }
+
+  bool HasJoined = false;
+
+private:
+  std::int32_t& At(std::int32_t vertex) { return this->Parent[static_cast<std::size_t>(vertex)]; }
+
+  std::vector<std::int32_t> Parent;
+};
+
+std::vector<PlacedEdge> ListEdges(const std::vector<SurfaceEdge>& borders,
+  const std::vector<Facet>& facets, const std::vector<std::int32_t>& places)
+{
+  std::vector<PlacedEdge> edges;
+  edges.reserve(borders.size());
+  for (const SurfaceEdge& border : borders)
+  {
+    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
+    const auto corner = static_cast<std::size_t>(border.Corner);
+    std::array<std::int32_t, 2> vertex{ facet[(corner + 1) % 3], facet[(corner + 2) % 3] };
+    if (places[static_cast<std::size_t>(vertex[0])] > places[static_cast<std::size_t>(vertex[1])])
+    {
+      std::swap(vertex[0], vertex[1]);
+    }
+    edges.push_back({ places[static_cast<std::size_t>(vertex[0])],
+      places[static_cast<std::size_t>(vertex[1])], vertex, facet[corner] });
+  }
+  std::stable_sort(edges.begin(), edges.end(),
+    [](const PlacedEdge& a, const PlacedEdge& b)
+    { return a.First != b.First ? a.First < b.First : a.Second < b.Second; });
+  return edges;
+}
+
+/** Component of `vector` across the unit vector `along`, of unit length. */
+glm::dvec3 Across(const glm::dvec3& vector, const glm::dvec3& along)
+{
+  return glm::normalize(vector - glm::dot(vector, along) * along);
+}
+
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& positions,
+  const std::vector<SurfaceEdge>& borders, const std::vector<glm::dvec3>& normals,
+  std::vector<Facet>& facets)
+{
+  std::vector<std::int32_t> ends;
+  ends.reserve(2 * borders.size());
+  for (const SurfaceEdge& border : borders)
+  {
+    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
+    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 1) % 3]);
+    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 2) % 3]);
+  }
+  const Places places(positions, std::move(ends));
+  if (!places.HasShared)
+  {
+    return {};
+  }
+  const std::vector<PlacedEdge> edges = ListEdges(borders, facets, places.Of);
+  const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
+  { return positions[static_cast<std::size_t>(vertex)]; };
+  const double smooth = std::cos(CreaseAngle);
+  // Cosine of the angle by which the facets are turned against a plane, for any winding.
+  const auto getFold = [&at](const PlacedEdge& a, const PlacedEdge& b)
+  {
+    const glm::dvec3& start = at(a.Vertex[0]);
+    const glm::dvec3 along = glm::normalize(at(a.Vertex[1]) - start);
+    return -glm::dot(Across(at(a.Opposite) - start, along), Across(at(b.Opposite) - start, along));
+  };
+  JoinedVertices joined(positions.size());
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next)
+  {
+    next = i + 1;
+    while (next < edges.size() && edges[next].IsAtPlaceOf(edges[i]))
+    {
+      ++next;
+    }
+    if (next != i + 2)
+    {
+      continue;
+    }
+    const PlacedEdge& a = edges[i];
+    const PlacedEdge& b = edges[i + 1];
+    const double fold = getFold(a, b);
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      const glm::dvec3& first = normals[static_cast<std::size_t>(a.Vertex[end])];
+      const glm::dvec3& second = normals[static_cast<std::size_t>(b.Vertex[end])];
+      const bool areGiven = first != glm::dvec3(0.0) && second != glm::dvec3(0.0);
+      if (areGiven ? fold > 0.0 && glm::dot(first, second) >= smooth : fold >= smooth)
+      {
+        joined.Join(a.Vertex[end], b.Vertex[end]);
+      }
+    }
+  }
+  if (!joined.HasJoined)
+  {
+    return {};
+  }
+  std::vector<std::int32_t> target(positions.size());
+  for (std::size_t i = 0; i < target.size(); ++i)
+  {
+    target[i] = joined.Find(static_cast<std::int32_t>(i));
+  }
+  for (Facet& facet : facets)
+  {
+    for (std::int32_t& vertex : facet)
+    {
+      vertex = target[static_cast<std::size_t>(vertex)];
+    }
+  }
+  return target;
+}
+
+}

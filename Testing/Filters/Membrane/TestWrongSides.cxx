@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces that show the eye the wrong side, or that it sees nothing through: warnings, and
+// surfaces that are turned round.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMembraneCellFilter.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRefractedLightFilter.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+#include "vtkRefractionErrorVolume.h"
+#include "vtkSightRayFilter.h"
+#include "vtkTriangulatedPositionFilter.h"
+#include "vtkTruePositionFilter.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::MembraneMesh;
+
+/** Square water in the plane y = 0 whose normals point up, or down for -1. */
+vtkSmartPointer<vtkPolyData> MakeWater(double side, double height = 0.0, bool withNormals = true)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 4, 0.0);
+  mesh.Translate({ 0.0, height, 0.0 });
+  if (side < 0.0)
+  {
+    for (double& component : mesh.Normals)
+    {
+      component = -component;
+    }
+    for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
+    {
+      std::swap(mesh.Triangles[i], mesh.Triangles[i + 1]);
+    }
+  }
+  auto membrane = MakeMembrane(mesh);
+  if (!withNormals)
+  {
+    membrane->GetPointData()->SetNormals(nullptr);
+  }
+  return membrane;
+}
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
+{
+  glm::dvec3 point;
+  data->GetPoint(i, &point.x);
+  return point;
+}
+
+bool Contains(const std::string& text, const char* part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
+{
+  const char* const expected = "No facet of the membrane faces the eye";
+  for (const bool withNormals : { false, true })
+  {
+    const auto water = MakeWater(-1.0, 0.0, withNormals);
+    const auto points = MakePoints({ { 10.0, -20.0, 5.0 } });
+    for (const bool all : { false, true })
+    {
+      const auto view = MakeView(points, water);
+      view->SetImages(
+        all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+      const auto told = Observe(view);
+      view->Update();
+      EXPECT_TRUE(Contains(told->Text, expected)) << told->Text;
+      EXPECT_EQ(told->Warnings, 1) << told->Text;
+      view->Modified();
+      view->Update();
+      EXPECT_EQ(told->Warnings, 1) << "repeated: " << told->Text;
+    }
+    vtkNew<vtkTruePositionFilter> truth;
+    truth->SetInputData(points);
+    truth->SetMembraneData(water);
+    truth->SetEyePosition(20.0, 300.0, 10.0);
+    const auto toldOfTruth = Observe(truth);
+    truth->Update();
+    EXPECT_TRUE(Contains(toldOfTruth->Text, expected)) << toldOfTruth->Text;
+
+    vtkNew<vtkDoubleArray> eyes;
+    eyes->SetName("Eye");
+    eyes->SetNumberOfComponents(3);
+    eyes->InsertNextTuple3(20.0, 300.0, 10.0);
+    points->GetPointData()->AddArray(eyes);
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName("PointId");
+    ids->InsertNextValue(0);
+    points->GetPointData()->AddArray(ids);
+    vtkNew<vtkTriangulatedPositionFilter> triangulated;
+    vtkNew<vtkSightRayFilter> rays;
+    vtkNew<vtkTruePositionFilter> ofEyes;
+    for (vtkSightRayAlgorithm* filter :
+      std::initializer_list<vtkSightRayAlgorithm*>{ triangulated, rays, ofEyes })
+    {
+      filter->SetEyeArrayName("Eye");
+      filter->SetInputData(points);
+      filter->SetMembraneData(water);
+      const auto toldOfEyes = Observe(filter);
+      filter->Update();
+      EXPECT_TRUE(Contains(toldOfEyes->Text, "No facet of the first membrane faces an eye"))
+        << toldOfEyes->Text;
+      filter->Modified();
+      filter->Update();
+      EXPECT_EQ(toldOfEyes->Warnings, 1);
+    }
+
+    vtkNew<vtkMembraneCellFilter> cells;
+    cells->AddMembraneData(water);
+    cells->SetEyePosition(20.0, 300.0, 10.0);
+    const auto toldOfCells = Observe(cells);
+    cells->Update();
+    EXPECT_TRUE(Contains(toldOfCells->Text, "No facet of the first membrane faces an eye"))
+      << toldOfCells->Text;
+
+    vtkNew<vtkRefractedLightFilter> light;
+    light->SetInputData(MakeGrid(5, 50.0, -20.0));
+    light->SetMembraneData(water);
+    light->SetLightPosition(0.3, 1.0, 0.0);
+    const auto toldOfLight = Observe(light);
+    light->Update();
+    EXPECT_TRUE(Contains(toldOfLight->Text, expected)) << toldOfLight->Text;
+
+    vtkNew<vtkRefractionErrorVolume> volume;
+    volume->SetInputData(0, water);
+    volume->SetEyePosition(20.0, 300.0, 10.0);
+    const auto toldOfVolume = Observe(volume);
+    volume->Update();
+    EXPECT_TRUE(Contains(toldOfVolume->Text, expected)) << toldOfVolume->Text;
+  }
+}
+
+// The right way round is that of the eye; when the eye dives, the surface turns again.
+TEST(WrongSides, AMembraneIsTurnedTowardsTheEye)
+{
+  const auto points = MakePoints({ { 10.0, -20.0, 5.0 }, { -30.0, -40.0, 15.0 } });
+  const auto right = MakeView(points, MakeWater(1.0));
+  right->Update();
+  for (const bool withNormals : { false, true })
+  {
+    const auto turned = MakeView(points, MakeWater(-1.0, 0.0, withNormals));
+    turned->GetInterfaces()->GetFirstInterface()->TurnTowardsEyeOn();
+    const auto told = Observe(turned);
+    turned->Update();
+    EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
+    ASSERT_EQ(turned->GetOutput()->GetNumberOfPoints(), 2);
+    for (vtkIdType i = 0; i < 2; ++i)
+    {
+      EXPECT_LT(
+        glm::length(PointOf(turned->GetOutput(), i) - PointOf(right->GetOutput(), i)), 1e-10);
+    }
+    turned->SetEyePosition(20.0, -300.0, 10.0);
+    turned->Update(); // the points are on the eye's side now
+    EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
+    EXPECT_LT(glm::length(PointOf(turned->GetOutput(), 0) - PointOf(points, 0)), 1e-12);
+    turned->SetEyePosition(20.0, 300.0, 10.0);
+    turned->GetInterfaces()->GetFirstInterface()->TurnTowardsEyeOff();
+    turned->Update();
+    EXPECT_EQ(told->Warnings, 1);
+    EXPECT_LT(glm::length(PointOf(turned->GetOutput(), 0) - PointOf(points, 0)), 1e-12);
+  }
+}
+
+// A pane of glass, 10 thick, in air.
+vtkSmartPointer<vtkRefractedGeometryFilter> MakePane(
+  vtkPolyData* geometry, double upperSide, double lowerSide, bool turns)
+{
+  auto filter = MakeView(geometry, MakeWater(upperSide));
+  filter->AddMembraneData(MakeWater(lowerSide, -10.0));
+  vtkNew<vtkRefractingInterfaceCollection> pane;
+  pane->AddInterface(1.0, 1.5)->SetTurnTowardsEye(turns);
+  pane->AddInterface(1.5, 1.0)->SetTurnTowardsEye(turns);
+  filter->SetInterfaces(pane);
+  return filter;
+}
+
+TEST(WrongSides, APaneWithASideUpsideDownIsReportedAndTurned)
+{
+  const auto points = MakePoints({ { 10.0, -60.0, 5.0 } });
+  const auto right = MakePane(points, 1.0, 1.0, false);
+  right->Update();
+  ASSERT_EQ(right->GetOutput()->GetNumberOfPoints(), 1);
+  for (const bool isUpper : { true, false })
+  {
+    const double upper = isUpper ? -1.0 : 1.0;
+    const auto wrong = MakePane(points, upper, -upper, false);
+    const auto told = Observe(wrong);
+    wrong->Update();
+    EXPECT_EQ(told->Warnings, 1) << told->Text;
+    EXPECT_TRUE(Contains(told->Text, "The eye is behind interface 0")) << told->Text;
+    EXPECT_TRUE(
+      Contains(told->Text, isUpper ? "Interface 0 shows the eye" : "Interface 1 shows the eye"))
+      << told->Text;
+
+    const auto turned = MakePane(points, upper, -upper, true);
+    const auto toldOfTurned = Observe(turned);
+    turned->Update();
+    EXPECT_EQ(toldOfTurned->Warnings, 0) << toldOfTurned->Text;
+    ASSERT_EQ(turned->GetOutput()->GetNumberOfPoints(), 1);
+    EXPECT_LT(glm::length(PointOf(turned->GetOutput(), 0) - PointOf(right->GetOutput(), 0)), 1e-10);
+  }
+}
+
+TEST(WrongSides, SidesOfAPaneInTheWrongOrderAreReported)
+{
+  const auto points = MakePoints({ { 10.0, -60.0, 5.0 } });
+  auto filter = MakeView(points, MakeWater(1.0, -10.0));
+  filter->AddMembraneData(MakeWater(1.0));
+  vtkNew<vtkRefractingInterfaceCollection> pane;
+  pane->AddInterface(1.0, 1.5);
+  pane->AddInterface(1.5, 1.0);
+  filter->SetInterfaces(pane);
+  const auto told = Observe(filter);
+  filter->Update();
+  EXPECT_TRUE(Contains(told->Text, "The eye is behind interface 0")) << told->Text;
+}
+
+TEST(WrongSides, TotalReflectionEverywhereIsNamed)
+{
+  const auto points = MakePoints({ { 10.0, -60.0, 5.0 } });
+  const auto view = MakeView(points, MakeWater(1.0));
+  view->SetEyePosition(1000.0, 300.0, 0.0); // at least 72 degrees from the normal
+  view->SetExteriorIndexOfRefraction(1.333);
+  view->SetInteriorIndexOfRefraction(1.0);
+  const auto told = Observe(view);
+  view->Update();
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(Contains(told->Text, "totally reflected")) << told->Text;
+  EXPECT_TRUE(Contains(told->Text, "48.6")) << told->Text;
+  EXPECT_FALSE(Contains(told->Text, "port 0")) << told->Text;
+}
+
+TEST(WrongSides, AFinOnTheMembraneIsReported)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 4, 0.0);
+  mesh.AddPoint({ 0.0, -30.0, 0.0 }, { 1.0, 0.0, 0.0 });
+  std::vector<std::int64_t> common; // of the first two facets
+  std::copy_if(mesh.Triangles.begin(), mesh.Triangles.begin() + 3, std::back_inserter(common),
+    [&mesh](std::int64_t vertex)
+    {
+      const auto second = mesh.Triangles.begin() + 3;
+      return std::find(second, second + 3, vertex) != second + 3;
+    });
+  ASSERT_EQ(common.size(), 2u);
+  mesh.AddTriangle(common[0], common[1], static_cast<std::int64_t>(mesh.Points.size() / 3) - 1);
+  const auto view = MakeView(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeMembrane(mesh));
+  const auto told = Observe(view);
+  view->Update();
+  EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
+}
+
+}

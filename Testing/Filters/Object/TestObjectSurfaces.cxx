@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Geometry that is no vtkPolyData or has polygons that are not convex, cameras without an eye, and
+// ids of cells that are cut.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRefractedLightFilter.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace
+{
+
+using namespace meniscus::testing;
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkDataObject* geometry)
+{
+  auto filter = vtkSmartPointer<vtkRefractedGeometryFilter>::New();
+  filter->SetInputDataObject(0, geometry);
+  filter->SetMembraneData(MakeFlatMembrane());
+  filter->SetEyePosition(20.0, 300.0, 10.0);
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
+{
+  glm::dvec3 point;
+  data->GetPoint(i, &point.x);
+  return point;
+}
+
+/** A row of two hexahedra in the water, with the point and cell arrays "Rank". */
+vtkSmartPointer<vtkUnstructuredGrid> MakeHexahedra()
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  for (const double x : { -10.0, 0.0, 10.0 })
+  {
+    for (const auto& [y, z] :
+      { std::pair{ -30.0, 0.0 }, { -20.0, 0.0 }, { -20.0, 10.0 }, { -30.0, 10.0 } })
+    {
+      points->InsertNextPoint(x, y, z);
+    }
+  }
+  grid->SetPoints(points);
+  for (const vtkIdType first : { 0, 4 })
+  {
+    vtkIdType ids[8];
+    std::generate(ids, ids + 8, [next = first]() mutable { return next++; });
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  }
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
+  {
+    vtkNew<vtkIdTypeArray> rank;
+    rank->SetName("Rank");
+    for (vtkIdType i = 0; i < (data == grid->GetPointData() ? 12 : 2); ++i)
+    {
+      rank->InsertNextValue(100 + i);
+    }
+    data->AddArray(rank);
+  }
+  return grid;
+}
+
+/** Compares ids with the array "Rank" of the input, and points with images of single points. */
+void ExpectImagesOf(vtkPointSet* input, vtkPolyData* output)
+{
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(input->GetPoints());
+  const auto single = MakeView(points);
+  single->Update();
+  ASSERT_GT(output->GetNumberOfPoints(), 0);
+  auto* ids = output->GetPointData()->GetArray("SourcePointId");
+  auto* ranks = output->GetPointData()->GetArray("Rank");
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(ids->GetTuple1(i));
+    EXPECT_EQ(ranks->GetTuple1(i), 100.0 + id);
+    EXPECT_LT(glm::length(PointOf(output, i) - PointOf(single->GetOutput(), id)), 1e-9);
+  }
+  for (vtkIdType i = 0; i < output->GetNumberOfCells(); ++i)
+  {
+    EXPECT_EQ(output->GetCellData()->GetArray("Rank")->GetTuple1(i),
+      100.0 + output->GetCellData()->GetArray("SourceCellId")->GetTuple1(i));
+  }
+}
+
+TEST(ObjectSurfaces, GridsAreSeenByTheirSurface)
+{
+  const auto grid = MakeHexahedra();
+  const auto view = MakeView(grid);
+  const auto told = Observe(view);
+  view->Update();
+  EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 10); // of twelve faces, two are inside
+  ExpectImagesOf(grid, view->GetOutput());
+  const vtkTypeInt64 solved = view->GetNumberOfSolvedVertices();
+  view->SetReflectanceModelToSchlick();
+  view->Update();
+  EXPECT_EQ(view->GetNumberOfSolvedVertices(), solved) << "the surface is kept";
+  view->SetImagesToFirstImage();
+  view->Update();
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 10);
+
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  image->SetOrigin(0.0, -40.0, 0.0);
+  const auto box = MakeView(image);
+  box->Update();
+  EXPECT_EQ(box->GetOutput()->GetNumberOfPolys(), 24);
+
+  vtkNew<vtkRefractedLightFilter> light;
+  light->SetInputDataObject(0, grid);
+  light->SetMembraneData(MakeFlatMembrane());
+  light->SetLightPosition(0.0, 1.0, 0.0);
+  light->Update();
+  EXPECT_EQ(light->GetOutput()->GetNumberOfCells(), 10);
+}
+
+TEST(ObjectSurfaces, BlocksAreOneOutputOrSeveral)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeHexahedra());
+  blocks->SetBlock(2, MakeGrid(3, 20.0, -10.0));
+  const auto view = MakeView(blocks);
+  const auto told = Observe(view);
+  view->Update();
+  EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
+  ASSERT_TRUE(vtkMultiBlockDataSet::SafeDownCast(view->GetOutputDataObject(0)));
+  ASSERT_NE(view->GetOutput(), nullptr);
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 14);
+  view->SetInputDataObject(0, MakeGrid(3, 20.0, -10.0));
+  view->Update();
+  EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 4);
+}
+
+/** A polygon in the shape of a U, and a square with one of its corners pushed inside. */
+vtkSmartPointer<vtkPolyData> MakeConcave()
+{
+  auto data = MakePoints({ { 0.0, -20.0, 0.0 }, { 30.0, -20.0, 0.0 }, { 30.0, -20.0, 30.0 },
+    { 20.0, -20.0, 30.0 }, { 20.0, -20.0, 10.0 }, { 10.0, -20.0, 10.0 }, { 10.0, -20.0, 30.0 },
+    { 0.0, -20.0, 30.0 }, { -5.0, -20.0, 5.0 } });
+  vtkNew<vtkCellArray> polygons;
+  const vtkIdType triangle[3] = { 0, 7, 8 };
+  const vtkIdType letter[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  polygons->InsertNextCell(3, triangle);
+  polygons->InsertNextCell(8, letter);
+  polygons->InsertNextCell(3, triangle);
+  data->SetPolys(polygons);
+  vtkNew<vtkIdTypeArray> global;
+  global->SetName("Rank");
+  for (vtkIdType i = 0; i < 3; ++i)
+  {
+    global->InsertNextValue(100 + i);
+  }
+  data->GetCellData()->SetGlobalIds(global);
+  return data;
+}
+
+double AreaOfTriangles(vtkPolyData* data, vtkIdType source)
+{
+  double area = 0.0;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    vtkCell* cell = data->GetCell(i);
+    EXPECT_EQ(cell->GetNumberOfPoints(), 3);
+    if (data->GetCellData()->GetArray("SourceCellId")->GetTuple1(i) == source)
+    {
+      const glm::dvec3 first = PointOf(data, cell->GetPointId(0));
+      area += 0.5 *
+        glm::length(glm::cross(
+          PointOf(data, cell->GetPointId(1)) - first, PointOf(data, cell->GetPointId(2)) - first));
+    }
+  }
+  return area;
+}
+
+// Vertical sight lines keep the shape: the eye is far above.
+TEST(ObjectSurfaces, ConcavePolygonsAreDividedAndTheirGlobalIdsAreNot)
+{
+  for (const bool all : { true, false })
+  {
+    const auto view = MakeView(MakeConcave());
+    view->SetEyePosition(15.0, 1e6, 15.0);
+    view->SetImages(
+      all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    view->Update();
+    vtkPolyData* seen = view->GetOutput();
+    EXPECT_EQ(seen->GetNumberOfPolys(), 8);
+    EXPECT_NEAR(AreaOfTriangles(seen, 1), 700.0, 1e-2);
+    EXPECT_EQ(seen->GetCellData()->GetGlobalIds(), nullptr);
+    ASSERT_NE(seen->GetCellData()->GetArray("Rank"), nullptr);
+    for (vtkIdType i = 0; i < seen->GetNumberOfCells(); ++i)
+    {
+      EXPECT_EQ(seen->GetCellData()->GetArray("Rank")->GetTuple1(i),
+        100.0 + seen->GetCellData()->GetArray("SourceCellId")->GetTuple1(i));
+    }
+  }
+  const auto whole = MakeGrid(3, 20.0, -20.0);
+  vtkNew<vtkIdTypeArray> global;
+  global->SetName("Global");
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    global->InsertNextValue(7 * i);
+  }
+  whole->GetCellData()->SetGlobalIds(global);
+  const auto view = MakeView(whole);
+  view->Update();
+  EXPECT_NE(view->GetOutput()->GetCellData()->GetGlobalIds(), nullptr) << "no cell is cut";
+}
+
+// Below flat water, a parallel camera sees a point along the direction that Snell's law gives.
+TEST(ObjectSurfaces, ParallelCamerasHaveTheirEyeAtInfinity)
+{
+  vtkNew<vtkCamera> camera;
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(50.0);
+  camera->SetPosition(40.0, 80.0, 30.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  glm::dvec3 sight;
+  camera->GetDirectionOfProjection(&sight.x);
+  const auto points = MakePoints({ { 5.0, -20.0, -10.0 }, { -15.0, -35.0, 2.0 } });
+  const auto view = MakeView(points);
+  view->SetCamera(camera);
+  const auto told = Observe(view);
+  view->Update();
+  EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
+  ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), 2);
+  constexpr double index = 1.333;
+  glm::dvec3 refracted(sight.x / index, 0.0, sight.z / index);
+  refracted.y = -std::sqrt(1.0 - glm::dot(refracted, refracted));
+  for (vtkIdType i = 0; i < 2; ++i)
+  {
+    const glm::dvec3 truth = PointOf(points, i);
+    const double path = truth.y / refracted.y;
+    const glm::dvec3 expected = truth - path * refracted + path / index * sight;
+    EXPECT_LT(glm::length(PointOf(view->GetOutput(), i) - expected), 1e-3);
+  }
+  // Moving along keeps the eye.
+  const vtkTypeInt64 updates = view->GetNumberOfEyeUpdates();
+  camera->SetPosition(41.0, 82.0, 33.0);
+  camera->SetFocalPoint(1.0, 2.0, 3.0);
+  view->Update();
+  EXPECT_EQ(view->GetNumberOfEyeUpdates(), updates);
+}
+
+// A line that bends in the picture is divided as finely as in perspective.
+TEST(ObjectSurfaces, ParallelPicturesAreDividedAsFinely)
+{
+  auto line = MakePoints({ { -40.0, -20.0, 0.0 }, { 40.0, -60.0, 0.0 } });
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ids[2] = { 0, 1 };
+  lines->InsertNextCell(2, ids);
+  line->SetLines(lines);
+  const auto waves = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 1.0, 4.0));
+  vtkIdType points[2];
+  for (const bool isParallel : { false, true })
+  {
+    vtkNew<vtkCamera> camera;
+    camera->SetPosition(20.0, 300.0, 10.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetParallelProjection(isParallel);
+    camera->SetParallelScale(camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(15.0)));
+    const auto view = MakeView(line);
+    view->SetMembraneData(waves);
+    view->SetCamera(camera);
+    view->Update();
+    points[isParallel] = view->GetOutput()->GetNumberOfPoints();
+  }
+  EXPECT_GT(points[0], 20);
+  EXPECT_NEAR(static_cast<double>(points[1]) / static_cast<double>(points[0]), 1.0, 0.4);
+}
+
+}
