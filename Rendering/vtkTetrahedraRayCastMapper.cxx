@@ -25,6 +25,7 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -303,18 +304,21 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
   const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
   const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
   meniscus::DivisionRequest division;
-  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionPlaceTolerance,
-    this->DivisionScalarTolerance, this->MaximumNumberOfPieces };
+  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionTolerance,
+    this->MaximumNumberOfPieces };
   division.Fields = parts;
   division.Component = mixed ? meniscus::ScalarSelection::Only : component;
+  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
+  division.Picture = internals.Property.GetPictureFunction();
+  division.UnitLength =
+    std::cbrt(std::abs(glm::determinant(glm::dmat3(meniscus::ToGlm(volume->GetMatrix())))));
   if (!this->Tell(input.UpdateMesh(parts, goOn, division)) ||
     input.GetMesh().GetNumberOfCells() == 0)
   {
     return false;
   }
-  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
-    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
   return this->Tell(input.UpdateScalars(parts, component, features)) &&
     this->Tell(internals.Components.Update(input, parts, internals.Mixture, features));

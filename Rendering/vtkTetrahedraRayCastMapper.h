@@ -248,7 +248,7 @@ public:
   enum CellDivisions
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within tolerances
+    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
   };
 
   /** @{ */
@@ -256,10 +256,12 @@ public:
    * Set/Get the division of cells. FIXED_DIVISION, the default, adds no points: the scalar is
    * linear in each of the tetrahedra, whose edges can be seen in hexahedra. ADAPTIVE_DIVISION
    * halves edges until the tetrahedra follow VTK's shape functions of the cells (voxels, hexahedra,
-   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerances, without cracks
-   * between neighbours. Cells are divided when the mesh is built, and again only if moved points or
-   * other scalars exceed twice the tolerances; otherwise the values of the new points are
-   * interpolated. See Documentation/true-cells.md.
+   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerance, without cracks
+   * between neighbours. Cells are divided when the mesh is built, and again only if moved points,
+   * other scalars or another property exceed twice the error; otherwise the values of the new
+   * points are interpolated. Lagrange and Bezier cells above order 1 have no fixed division: if
+   * there are any, cells above order 1 are divided adaptively in any case. See
+   * Documentation/true-cells.md.
    */
   vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
   vtkGetMacro(CellDivision, int);
@@ -269,25 +271,27 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the tolerances of ADAPTIVE_DIVISION in the edges of the tetrahedra: the largest
-   * distance of the curved edge from the straight one, as a fraction of the diagonal of the input's
-   * bounds (default 1e-5); and the largest difference of the scalar from its linear interpolation,
-   * as a fraction of the range of its finite values (default 5e-5). With several components that
-   * are mixed, each counts with its own range. They must be positive; otherwise it is an error.
+   * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest error of the picture in the edges
+   * of the tetrahedra, as a fraction of full colour or opacity. Differences of the scalar are seen
+   * through the volume's property: for a medium, relative to its density, or to one optical depth
+   * per length of the mesh's diagonal if that is more. With several components that are mixed they
+   * are fractions of each component's range. A displacement counts four times, as a fraction of the
+   * diagonal. Default is 1/256: a step of an 8-bit channel, and a pixel of a picture in which the
+   * mesh is 1024 pixels long. A tolerance that is not positive is an error.
    */
-  vtkSetMacro(DivisionPlaceTolerance, double);
-  vtkGetMacro(DivisionPlaceTolerance, double);
-  vtkSetMacro(DivisionScalarTolerance, double);
-  vtkGetMacro(DivisionScalarTolerance, double);
+  vtkSetMacro(DivisionTolerance, double);
+  vtkGetMacro(DivisionTolerance, double);
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes. If the tolerances take
-   * more, it is an error. While cells are divided, a tetrahedron takes up to 250 bytes. Default is
-   * 2^25, some 34 million.
+   * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes. They
+   * are spent where errors are largest. If the budget ends the division before the tolerance is
+   * reached, a warning reports the error; GetDivisionError() returns it. While cells are divided, a
+   * tetrahedron takes up to 250 bytes. Default is 0: twice as many tetrahedra as FIXED_DIVISION
+   * makes, but at least 100,000.
    */
-  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
@@ -584,7 +588,7 @@ public:
   /**
    * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
    * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
-   * that are folded inside out in parts, and edges that exceed the tolerances after 23 divisions. A
+   * that are folded inside out in parts, and edges that exceed the tolerance after 23 divisions. A
    * warning reports the last two if they are not 0.
    */
   vtkTypeInt64 GetNumberOfTetrahedra();
@@ -592,6 +596,13 @@ public:
   vtkTypeInt64 GetNumberOfFoldedCells();
   vtkTypeInt64 GetNumberOfUnresolvedEdges();
   /** @} */
+
+  /**
+   * Largest error in the edges of the tetrahedra that the last division made, in the unit of the
+   * tolerance; 0 without a division. Inside of a tetrahedron it is at most 1.5 times that where the
+   * scalar is quadratic.
+   */
+  double GetDivisionError();
 
   /**
    * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
@@ -738,9 +749,8 @@ private:
   bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
   int CellDivision = FIXED_DIVISION;
-  double DivisionPlaceTolerance = 1e-5;
-  double DivisionScalarTolerance = 5e-5;
-  vtkTypeInt64 MaximumNumberOfPieces = 33554432;
+  double DivisionTolerance = 1.0 / 256.0;
+  vtkTypeInt64 MaximumNumberOfPieces = 0;
   int VectorMode = DISABLED;
   int VectorComponent = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;

@@ -428,8 +428,8 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
     : this->ArrayComponent == -1          ? meniscus::ScalarSelection::Magnitude
                                           : this->ArrayComponent;
   meniscus::DivisionRequest division;
-  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionPlaceTolerance,
-    this->DivisionScalarTolerance, this->MaximumNumberOfPieces };
+  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionTolerance,
+    this->MaximumNumberOfPieces };
   division.Fields = request.Scalars;
   division.Component = component;
   if (!this->Tell(input.UpdateMesh(meshOf, goOn, division)) || this->GetAbortExecute())

@@ -19,8 +19,11 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -101,15 +104,22 @@ FaceSplit SplitFace(vtkCell* face)
   }
 }
 
-/** Number of tetrahedra of a cell of the given type, unless the cell is degenerate. */
+/**
+ * Number of tetrahedra of a cell of the given type, unless the cell is degenerate; for Lagrange and
+ * Bezier cells, the number between the corners.
+ */
 int TetrahedraOf(int type)
 {
   switch (type)
   {
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
       return 6;
     case VTK_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
       return 3;
     case VTK_PYRAMID:
       return 2;
@@ -138,16 +148,30 @@ int TetrahedraOf(int type)
   }
 }
 
-/** True if the grid contains only tetrahedra of four points each. */
+/** Reason why cells of a type are not drawn, with the cure. */
+std::string ReasonOf(int type)
+{
+  if (!HasCellClass(type))
+  {
+    return "VTK cannot evaluate this type; write linear or quadratic cells";
+  }
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(type);
+  return cell->GetCellDimension() < 3 ? "without a volume"
+                                      : "its points or faces do not fit its type";
+}
+
+/** True if the grid contains only tetrahedra of four points each, whatever their type. */
 bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
 {
+  constexpr vtkIdType points = 4;
   const vtkIdType cells = grid->GetNumberOfCells();
-  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != 4 * cells)
+  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != points * cells)
   {
     return false;
   }
   vtkIdType cell = 0;
-  while (cell < cells && grid->GetCellType(cell) == VTK_TETRA)
+  while (cell < cells && ResolveCellType(grid->GetCellType(cell), points) == VTK_TETRA)
   {
     ++cell;
   }
@@ -163,16 +187,21 @@ struct TetrahedraSource::Part
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
   bool SplitsByPosition = false;
+  std::int64_t Folded = 0;
   /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
   CellPoints Used = CellPoints::All;
+  /** Points of all data sets. */
+  PointsView Points;
+  std::int64_t NumberOfPoints = 0;
 
   void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
 
 private:
   void AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids);
   bool AddByFaces(vtkCell* cell);
+  bool IsFolded(std::size_t firstId) const;
 };
 
 //------------------------------------------------------------------------------
@@ -185,11 +214,50 @@ void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::
     const auto cell = static_cast<vtkIdType>(c);
     if (!ghosts || !(ghosts->GetValue(cell) & LeftOut))
     {
-      this->AddCell(grid, cell, grid->GetCellType(cell), ids);
+      const int type = grid->GetCellType(cell);
+      const std::size_t firstId = this->Tetrahedra.GetTetrahedra().size();
+      this->AddCell(grid, cell, type, ids);
+      if (this->Used == CellPoints::All && ShapeOf(type).Degree >= CellShape::SecondOrder)
+      {
+        this->Folded += this->IsFolded(firstId);
+      }
       this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
         static_cast<std::int32_t>(this->FirstCell + cell));
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if tetrahedra of the last cell have either orientation: those of a cell that is not folded
+ * have one, whichever it is. Volumes that may be due to the rounding of coordinates do not count: a
+ * determinant of three edges has six products, each with the rounding of three differences.
+ */
+bool TetrahedraSource::Part::IsFolded(std::size_t firstId) const
+{
+  const std::vector<std::int64_t>& ids = this->Tetrahedra.GetTetrahedra();
+  constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
+  bool found[2] = { false, false };
+  for (std::size_t t = firstId; t + 3 < ids.size(); t += 4)
+  {
+    std::array<glm::dvec3, 4> at;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      if (ids[t + i] < 0 || ids[t + i] >= this->NumberOfPoints)
+      {
+        return false;
+      }
+      at[i] = this->Points[static_cast<std::size_t>(ids[t + i])];
+    }
+    const glm::dvec3 a = at[1] - at[0];
+    const glm::dvec3 b = at[2] - at[0];
+    const glm::dvec3 c = at[3] - at[0];
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double least = rounding * glm::length(a) * glm::length(b) * glm::length(c);
+    found[0] = found[0] || volume > least;
+    found[1] = found[1] || volume < -least;
+  }
+  return found[0] && found[1];
 }
 
 //------------------------------------------------------------------------------
@@ -204,6 +272,7 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
   std::array<std::int64_t, mostPoints> points{};
   grid->GetCellPoints(cell, ids);
   vtkIdType size = ids->GetNumberOfIds();
+  type = ResolveCellType(type, size);
   const CellShape shape = this->Used == CellPoints::Corners ? ShapeOf(type) : CellShape();
   if (shape.IsKnown() && size >= shape.NumberOfCorners)
   {
@@ -259,7 +328,10 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
     // Its faces are those of the convex hull of its points.
     this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
     vtkNew<vtkGenericCell> generic;
-    grid->GetCell(cell, generic);
+    if (HasCellClass(type))
+    {
+      grid->GetCell(cell, generic); // otherwise it is left empty
+    }
     if (generic->GetCellDimension() != 3 || !this->AddByFaces(generic))
     {
       ++this->Omitted[type];
@@ -380,6 +452,8 @@ void TetrahedraSource::Tetrahedralize(
         part.FirstPoint = firstPoint;
         part.FirstCell = firstCell;
         part.Used = used;
+        part.Points = this->Points.GetView();
+        part.NumberOfPoints = this->View.NumberOfPoints;
         part.AddBlock(grid, first, last);
       });
     firstPoint += grid->GetNumberOfPoints();
@@ -398,6 +472,7 @@ void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop
     starts.push_back(size);
     size += part.Sources.size();
     this->PositionsDecide = this->PositionsDecide || part.SplitsByPosition;
+    this->Folded += part.Folded;
     for (const auto& omitted : part.Omitted)
     {
       this->Omitted[omitted.first] += omitted.second;
@@ -429,7 +504,7 @@ std::string TetrahedraSource::DescribeOmitted() const
   {
     const char* name = NameOfCellType(omitted.first);
     text << (text.tellp() > 0 ? ", " : "") << omitted.second << " "
-         << (name ? name : "of an unknown type");
+         << (name ? name : "of an unknown type") << " (" << ReasonOf(omitted.first) << ")";
   }
   return text.str();
 }
@@ -438,6 +513,7 @@ std::string TetrahedraSource::DescribeOmitted() const
 GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
 {
   GridSize size;
+  vtkNew<vtkIdList> ids;
   for (vtkDataSet* grid : grids)
   {
     size.Points += grid->GetNumberOfPoints();
@@ -450,7 +526,13 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
     }
     for (vtkIdType c = 0; c < cells; ++c)
     {
-      size.Tetrahedra += TetrahedraOf(grid->GetCellType(c));
+      const int type = grid->GetCellType(c);
+      size.Tetrahedra += TetrahedraOf(type);
+      if (ShapeOf(type).Degree == CellShape::Varying)
+      {
+        grid->GetCellPoints(c, ids);
+        size.HigherOrder += ResolveCellType(type, ids->GetNumberOfIds()) == type;
+      }
     }
   }
   return size;

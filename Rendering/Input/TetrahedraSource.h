@@ -50,6 +50,11 @@ public:
    * none.
    */
   std::string DescribeOmitted() const;
+  /**
+   * Number of cells of second order whose tetrahedra overlap, because the cell is folded inside out
+   * in parts: its points on edges lie elsewhere, or are in another order than VTK's.
+   */
+  std::int64_t GetNumberOfFolded() const { return this->Folded; }
   /** True if other positions of the points could divide a cell into other tetrahedra. */
   bool SplitsByPosition() const { return this->PositionsDecide; }
 
@@ -68,6 +73,7 @@ private:
   std::vector<std::int32_t> Sources;
   /** Number of cells that are not drawn, by type. */
   std::map<int, std::int64_t> Omitted;
+  std::int64_t Folded = 0;
   bool PositionsDecide = false;
 };
 
@@ -76,6 +82,8 @@ struct GridSize
 {
   std::int64_t Points = 0;
   std::int64_t Tetrahedra = 0;
+  /** Lagrange and Bezier cells above order 1, which have no fixed division. */
+  std::int64_t HigherOrder = 0;
 };
 
 /** Computes the size without creating tetrahedra. */

@@ -36,7 +36,7 @@ public:
    * again.
    *
    * With an adaptive division, cells are divided when the mesh is built. The division is kept as
-   * long as it holds (see DividedCells::Holds()) for other points and for other scalars.
+   * long as it holds (see DividedCells::Holds()) for other points, scalars and functions.
    * @param progress called with the fraction done; returns false to abort, which leaves no mesh and
    *   no report.
    */
@@ -91,6 +91,8 @@ public:
     return place == FieldAssociation::Points && this->Divided.IsUsed() ? &this->Divided.GetPoints()
                                                                        : nullptr;
   }
+  /** Cells that are folded inside out in parts: of the division, or those of second order. */
+  std::int64_t GetNumberOfFoldedCells() const { return this->FoldedCells; }
   /** Division of the cells into tetrahedra; not used unless it is adaptive. */
   const DividedCells& GetDivision() const { return this->Divided; }
   /** Index of the input's scalar for each vertex, or for each cell of the mesh. */
@@ -139,6 +141,11 @@ private:
   void BuildTables(TetrahedraView view, const MeshBuildControl& control, const std::string& omitted,
     InputReport& report);
   bool HasNewFields(const DivisionRequest& division);
+  /** True if cells are divided, or would be for other scalars. */
+  bool IsDivided(const DivisionSettings& settings) const
+  {
+    return settings.IsAdaptive || this->Divided.IsUsed();
+  }
   bool IsNewDivision(const DivisionSettings& settings);
   bool MovePoints(const InputBlocks& input);
 
@@ -159,10 +166,13 @@ private:
   DividedCells Divided;
   /** Settings and fields that the cells were divided for. */
   DivisionSettings BuiltDivision;
+  std::int64_t FoldedCells = 0;
   /** Error of the last build; empty if it succeeded. */
   std::string BuildError;
   FieldAssociation DividedPlace = FieldAssociation::Points;
   int DividedComponent = 0;
+  ScalarUse DividedUse = ScalarUse::Values;
+  TableVersion DividedFunction;
   ContentWatch FieldWatch;
 
   ContentWatch CellWatch;

@@ -186,6 +186,24 @@ void VolumePropertyTables::NormalizeTables(
 }
 
 //------------------------------------------------------------------------------
+PictureFunction VolumePropertyTables::GetPictureFunction() const
+{
+  PictureFunction function;
+  if (this->BuiltMixture != ComponentMixture::None)
+  {
+    return function;
+  }
+  const BlendModel& model = GetBlendModel(this->BuiltMode);
+  const bool hasSurfaces = model.Visible == VisibleBy::Isovalues;
+  function.Use = hasSurfaces ? ScalarUse::Surfaces
+    : model.IsMedium()       ? ScalarUse::Medium
+                             : ScalarUse::Colors;
+  function.Points = hasSurfaces ? this->SurfacePoints : this->Points;
+  function.Version = this->PointVersion;
+  return function;
+}
+
+//------------------------------------------------------------------------------
 std::vector<VisibleScalars> VolumePropertyTables::GetVisibleOthers() const
 {
   std::vector<VisibleScalars> visible;

@@ -7,6 +7,7 @@
 #include "Rendering/Input/VolumeComponents.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Rendering/Property/VolumePropertyPoints.h"
+#include "Volume/Optics/ErrorScale.h"
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Optics/VisibleScalars.h"
 
@@ -51,6 +52,11 @@ public:
   const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
   /** Scalars at which the functions change, or surfaces are; for the normalisation of scalars. */
   const FunctionFeatures& GetFeatures() const { return this->Features; }
+  /**
+   * Function by which the errors of a single scalar are seen; several components are measured as
+   * values.
+   */
+  PictureFunction GetPictureFunction() const;
   /** Intervals of the main scalar's function. */
   const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
   /** Intervals of the functions of the other components that are scalars. */
