@@ -2,15 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Isosurface areas of a scalar, and an opacity function that makes rare values visible."""
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
-from vtkmodules.vtkCommonDataModel import (
-    VTK_BEZIER_HEXAHEDRON, VTK_BEZIER_TETRAHEDRON, VTK_BEZIER_WEDGE,
-    VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, VTK_BIQUADRATIC_QUADRATIC_WEDGE, VTK_HEXAHEDRON,
-    VTK_LAGRANGE_HEXAHEDRON, VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_WEDGE, VTK_POLYHEDRON,
-    VTK_PYRAMID, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_LINEAR_WEDGE, VTK_QUADRATIC_PYRAMID,
-    VTK_QUADRATIC_TETRA, VTK_QUADRATIC_WEDGE, VTK_TETRA, VTK_TRIQUADRATIC_HEXAHEDRON,
-    VTK_TRIQUADRATIC_PYRAMID, VTK_WEDGE, vtkCellArray, vtkUnstructuredGrid)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
@@ -20,19 +13,6 @@ BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
 # hardly occur to 50 times that of the most frequent one.
 FLOOR = 0.02
-# Cell types of higher order: the linear type between the same corners, which come first in the
-# cell, and the number of corners.
-_LINEAR = {
-    number: linear for linear, numbers in {
-        (VTK_TETRA, 4): (VTK_QUADRATIC_TETRA, VTK_LAGRANGE_TETRAHEDRON, VTK_BEZIER_TETRAHEDRON),
-        (VTK_HEXAHEDRON, 8): (VTK_QUADRATIC_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON,
-                              VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON,
-                              VTK_BEZIER_HEXAHEDRON),
-        (VTK_WEDGE, 6): (VTK_QUADRATIC_WEDGE, VTK_QUADRATIC_LINEAR_WEDGE,
-                         VTK_BIQUADRATIC_QUADRATIC_WEDGE, VTK_LAGRANGE_WEDGE, VTK_BEZIER_WEDGE),
-        (VTK_PYRAMID, 5): (VTK_QUADRATIC_PYRAMID, VTK_TRIQUADRATIC_PYRAMID),
-    }.items() for number in numbers
-}
 # Mean optical depth of a ray through the middle of a cube of the mesh's size.
 OPTICAL_DEPTH = 1.5
 
@@ -46,36 +26,9 @@ def _as_grid(data):
     return append.GetOutput()
 
 
-def _between_corners(grid):
-    """The grid with linear cells between the corners of cells of higher order.
-
-    vtkCellSizeFilter warns about each cell above order 1, and about Lagrange and Bezier cells.
-    """
-    types = vtk_to_numpy(grid.GetCellTypesArray())
-    if not numpy.isin(types, list(_LINEAR)).any() or (types == VTK_POLYHEDRON).any():
-        return grid
-    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    sizes = numpy.diff(offsets)
-    kept, linear = sizes.copy(), types.copy()
-    for number, (shape, corners) in _LINEAR.items():
-        kept[types == number] = corners
-        linear[types == number] = shape
-    places = numpy.arange(offsets[-1]) - numpy.repeat(offsets[:-1], sizes)
-    points = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    points = points[places < numpy.repeat(kept, sizes)]
-    cells = vtkCellArray()
-    cells.SetData(numpy_to_vtkIdTypeArray(
-        numpy.concatenate(([0], numpy.cumsum(kept))).astype(numpy.int64), deep=True),
-                  numpy_to_vtkIdTypeArray(points.astype(numpy.int64), deep=True))
-    result = vtkUnstructuredGrid()
-    result.SetPoints(grid.GetPoints())
-    result.SetCells(numpy_to_vtk(linear, deep=True, array_type=VTK_UNSIGNED_CHAR), cells)
-    return result
-
-
 def _measure_cells(grid):
     size = vtkCellSizeFilter()
-    size.SetInputDataObject(_between_corners(grid))
+    size.SetInputDataObject(grid)
     size.ComputeVertexCountOff()
     size.ComputeLengthOff()
     size.ComputeAreaOff()

@@ -15,12 +15,8 @@ from meniscus.viewer import levels, reading, window as viewer_window
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    vtkDoubleArray, vtkOutputWindow, vtkPoints, vtkStringOutputWindow)
-from vtkmodules.vtkCommonDataModel import (
-    vtkBiQuadraticQuadraticHexahedron, vtkBiQuadraticQuadraticWedge, vtkImageData,
-    vtkMultiBlockDataSet, vtkQuadraticHexahedron, vtkQuadraticPyramid, vtkQuadraticTetra,
-    vtkTriQuadraticHexahedron, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -69,31 +65,6 @@ def radius(x, y, z):
 
 
 class TestLevels(unittest.TestCase):
-    def test_cells_of_second_order_have_their_volume_without_a_warning(self):
-        for shape, volume in ((vtkQuadraticHexahedron(), 1.0), (vtkTriQuadraticHexahedron(), 1.0),
-                              (vtkBiQuadraticQuadraticHexahedron(), 1.0),
-                              (vtkBiQuadraticQuadraticWedge(), 0.5),
-                              (vtkQuadraticPyramid(), 1.0 / 3.0), (vtkQuadraticTetra(), 1.0 / 6.0)):
-            count = shape.GetNumberOfPoints()
-            places = shape.GetParametricCoords()
-            points, values = vtkPoints(), vtkDoubleArray()
-            values.SetName("x")
-            for point in range(count):
-                points.InsertNextPoint([places[3 * point + axis] for axis in range(3)])
-                values.InsertNextValue(places[3 * point])
-            grid = vtkUnstructuredGrid()
-            grid.SetPoints(points)
-            grid.InsertNextCell(shape.GetCellType(), count, list(range(count)))
-            grid.GetPointData().AddArray(values)
-            shown, kept = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
-            vtkOutputWindow.SetInstance(kept)
-            try:
-                found = levels.Levels(grid, "x", "points")
-            finally:
-                vtkOutputWindow.SetInstance(shown)
-            self.assertEqual(kept.GetOutput(), "", shape.GetClassName())
-            self.assertAlmostEqual(found.volumes.sum(), volume, 12, shape.GetClassName())
-
     def test_areas_of_spheres(self):
         found = levels.Levels(make_block({"r": radius}), "r", "points")
         width = (found.high - found.low) / levels.BINS
