@@ -3,6 +3,7 @@
 #include "Rendering/Input/CellPieces.h"
 
 #include "Common/BlockLoop.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/GridLayout.h"
 #include "Volume/Division/ShapeTest.h"
@@ -29,13 +30,17 @@ bool IsFinite(const glm::dvec3& at)
   return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
 }
 
-/** Points of the cells of data sets, which are numbered consecutively; for one thread. */
-class CellReader
+/** Corners of the cells of data sets, which are numbered consecutively; for one thread. */
+class CornerReader
 {
 public:
-  explicit CellReader(const std::vector<vtkDataSet*>& grids)
+  explicit CornerReader(const std::vector<vtkDataSet*>& grids)
     : Grids(grids)
   {
+    for (vtkDataSet* grid : grids)
+    {
+      this->Readers.emplace_back(grid);
+    }
   }
 
   /** Loads a cell. Cells in ascending order are found fastest. */
@@ -54,9 +59,13 @@ public:
       ++this->Part;
     }
     const auto local = static_cast<vtkIdType>(cell - this->FirstCell);
-    this->Grids[this->Part]->GetCellPoints(local, this->Ids);
-    this->Shape = ShapeOf(
-      ResolveCellType(this->Grids[this->Part]->GetCellType(local), this->Ids->GetNumberOfIds()));
+    const CellReader& cells = this->Readers[this->Part];
+    const int type = cells.GetType(local);
+    UnusableCells counted; // TetrahedraSource reports them
+    const bool isRead =
+      HasVolume(type) && type != VTK_POLYHEDRON && cells.ReadPoints(local, this->Ids, counted);
+    this->Shape =
+      isRead ? ShapeOf(ResolveCellType(type, this->Ids->GetNumberOfIds())) : CellShape();
   }
 
   const CellShape& GetShape() const { return this->Shape; }
@@ -75,6 +84,7 @@ public:
 
 private:
   const std::vector<vtkDataSet*>& Grids;
+  std::vector<CellReader> Readers;
   vtkNew<vtkIdList> Ids;
   CellShape Shape;
   std::size_t Part = 0;
@@ -83,7 +93,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-bool CellReader::IsUsable(const PointsView& points) const
+bool CornerReader::IsUsable(const PointsView& points) const
 {
   bool usable = this->Shape.IsKnown() && this->Ids->GetNumberOfIds() >= this->Shape.NumberOfCorners;
   for (vtkIdType i = 0; usable && i < this->Ids->GetNumberOfIds(); ++i)
@@ -109,10 +119,10 @@ public:
   }
 
   /** True if no straight line between corners has an error above the limit. */
-  bool IsStraight(std::int32_t cell, const CellReader& reader, double most);
+  bool IsStraight(std::int32_t cell, const CornerReader& reader, double most);
 
 private:
-  bool IsBoundedBy(const CellReader& reader, double most) const;
+  bool IsBoundedBy(const CornerReader& reader, double most) const;
 
   const PointFields& Fields;
   const DivisionMeasure& Measure;
@@ -120,7 +130,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-bool CellMeasure::IsStraight(std::int32_t cell, const CellReader& reader, double most)
+bool CellMeasure::IsStraight(std::int32_t cell, const CornerReader& reader, double most)
 {
   if (this->IsBoundedBy(reader, most))
   {
@@ -158,7 +168,7 @@ double BoundDeviation(const std::array<Value, 8>& f, const LengthOf& lengthOf)
 
 //------------------------------------------------------------------------------
 /** A bound in closed form for voxels and hexahedra; false for other cells. */
-bool CellMeasure::IsBoundedBy(const CellReader& reader, double most) const
+bool CellMeasure::IsBoundedBy(const CornerReader& reader, double most) const
 {
   const CellShape& shape = reader.GetShape();
   const bool isTrilinear = shape.LinearType == VTK_VOXEL || shape.LinearType == VTK_HEXAHEDRON;
@@ -218,13 +228,14 @@ bool MayBeCurved(const std::vector<vtkDataSet*>& grids)
   vtkNew<vtkIdList> ids;
   for (vtkDataSet* grid : grids)
   {
+    const CellReader cells(grid);
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
-      CellShape shape = ShapeOf(grid->GetCellType(cell));
-      if (shape.Degree == CellShape::Varying)
+      CellShape shape = ShapeOf(cells.GetType(cell));
+      UnusableCells counted;
+      if (shape.Degree == CellShape::Varying && cells.ReadPoints(cell, ids, counted))
       {
-        grid->GetCellPoints(cell, ids);
-        shape = ShapeOf(ResolveCellType(grid->GetCellType(cell), ids->GetNumberOfIds()));
+        shape = ShapeOf(ResolveCellType(cells.GetType(cell), ids->GetNumberOfIds()));
       }
       if (shape.Degree != 0)
       {
@@ -254,7 +265,7 @@ CurvedCells FindCurvedCells(const std::vector<vtkDataSet*>& grids, const PointFi
       { return std::make_unique<GridShapeFunctions>(grids); };
       GridShapeFunctions degrees(grids);
       CellMeasure cellMeasure(fields, functions, measure);
-      CellReader reader(grids);
+      CornerReader reader(grids);
       constexpr int highest = 100;
       for (std::size_t c = first; c < last; ++c)
       {
@@ -299,7 +310,7 @@ CellPieces CollectPieces(
     }
   }
   CellPieces collected;
-  CellReader reader(grids);
+  CornerReader reader(grids);
   std::int64_t loaded = -1;
   for (std::int64_t t = 0; t < view.NumberOfCells; ++t)
   {

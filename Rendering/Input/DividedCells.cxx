@@ -240,6 +240,7 @@ DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeL
     const TetrahedraSource source(grids, loop, CellPoints::Corners);
     this->MatchPositions = source.GetView().MatchPositions;
     this->Omitted = source.DescribeOmitted();
+    this->Unusable = source.GetUnusable();
     this->PositionsDecide = source.SplitsByPosition();
     collected = CollectPieces(grids, source.GetView(), this->Curved);
   }

@@ -5,6 +5,7 @@
 
 #include "Common/RangeLoop.h"
 #include "Rendering/Input/CellPieces.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Division/CellDivision.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -79,6 +80,8 @@ public:
   bool SplitsByPosition() const { return this->PositionsDecide; }
   /** Types and numbers of the cells that are not drawn; empty if there are none. */
   const std::string& GetOmitted() const { return this->Omitted; }
+  /** Cells that are not used because their arrays do not describe a cell. */
+  const UnusableCells& GetUnusable() const { return this->Unusable; }
 
   /**
    * True if the division is good enough for other positions, scalars or another function: errors
@@ -108,6 +111,7 @@ private:
   bool MatchPositions = false;
   bool PositionsDecide = false;
   std::string Omitted;
+  UnusableCells Unusable;
   std::int64_t Divisions = 0;
   /** Tables of the view. */
   std::vector<double> Positions;
