@@ -25,6 +25,7 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -111,20 +112,31 @@ int vtkTetrahedraRayCastMapper::GetNumberOfMembranes()
 }
 
 //------------------------------------------------------------------------------
+/** Box of the cells that are drawn; without usable scalars, of all cells that could be. */
+meniscus::PointBox vtkTetrahedraRayCastMapper::MeasureInput()
+{
+  if (this->GetNumberOfInputConnections(0) == 0)
+  {
+    return meniscus::PointBox();
+  }
+  this->GetInputAlgorithm()->Update();
+  meniscus::InputBlocks parts;
+  meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+  return this->Internals->Bounds.Update(
+    parts.Parts.empty() ? meniscus::CollectGrids(this->GetDataObjectInput()) : parts);
+}
+
+//------------------------------------------------------------------------------
 double* vtkTetrahedraRayCastMapper::GetBounds()
 {
-  double* bounds = this->Superclass::GetBounds();
-  if (vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput()))
+  vtkMath::UninitializeBounds(this->Bounds);
+  const meniscus::PointBox ofInput = this->MeasureInput();
+  if (ofInput.IsEmpty())
   {
-    this->GetInputAlgorithm()->Update();
-    vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput())->GetBounds(this->Bounds);
-    bounds = this->Bounds;
+    return this->Bounds;
   }
-  if (this->GetNumberOfMembranes() == 0 || !vtkMath::AreBoundsInitialized(bounds))
-  {
-    return bounds;
-  }
-  vtkBoundingBox box(bounds);
+  vtkBoundingBox box(ofInput.Lower.x, ofInput.Upper.x, ofInput.Lower.y, ofInput.Upper.y,
+    ofInput.Lower.z, ofInput.Upper.z);
   for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
   {
     this->GetInputAlgorithm(1, i)->Update();
@@ -303,18 +315,21 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
   const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
   const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
   meniscus::DivisionRequest division;
-  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionPlaceTolerance,
-    this->DivisionScalarTolerance, this->MaximumNumberOfPieces };
+  division.Settings = { this->CellDivision == ADAPTIVE_DIVISION, this->DivisionTolerance,
+    this->MaximumNumberOfPieces };
   division.Fields = parts;
   division.Component = mixed ? meniscus::ScalarSelection::Only : component;
+  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
+  division.Picture = internals.Property.GetPictureFunction();
+  division.UnitLength =
+    std::cbrt(std::abs(glm::determinant(glm::dmat3(meniscus::ToGlm(volume->GetMatrix())))));
   if (!this->Tell(input.UpdateMesh(parts, goOn, division)) ||
     input.GetMesh().GetNumberOfCells() == 0)
   {
     return false;
   }
-  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
-    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
   return this->Tell(input.UpdateScalars(parts, component, features)) &&
     this->Tell(internals.Components.Update(input, parts, internals.Mixture, features));
@@ -580,6 +595,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
     vtkErrorMacro("Nothing is rendered: " << error << ".");
     return false;
   }
+  this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
   vtkOpenGLCheckErrorMacro("failed after Render");
   return true;
 }

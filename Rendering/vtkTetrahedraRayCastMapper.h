@@ -20,8 +20,9 @@
  * are left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with
  * inverted cells, cells of zero volume, duplicate points and faces of more than two cells. Cells
  * that vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of
- * range, a repeated point or a point that is not finite are left out and counted. Cells with a
- * scalar that is not finite, their own or that of a vertex, are transparent and counted.
+ * range, a repeated point, a point that is not finite, a number of points that their type does not
+ * have, or faces that are incomplete are left out and counted. Cells with a scalar that is not
+ * finite, their own or that of a vertex, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
@@ -105,6 +106,7 @@ namespace meniscus
 struct BlendModel;
 struct InputBlocks;
 struct InputReport;
+struct PointBox;
 class RayCastMembrane;
 struct RayCastFrame;
 struct ViewContext;
@@ -210,7 +212,11 @@ public:
   vtkMTimeType GetMTime() override;
 
   /** @{ */
-  /** Bounds of the input (of all leaves of a composite data set) and of all membranes. */
+  /**
+   * Bounds of the cells of the input that are drawn (of all leaves of a composite data set) and of
+   * all membranes. Points that no such cell uses do not count: unused points, those of hidden cells
+   * and of cells without volume. Not initialized if there are no such cells.
+   */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   /** @} */
@@ -248,7 +254,7 @@ public:
   enum CellDivisions
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within tolerances
+    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
   };
 
   /** @{ */
@@ -256,10 +262,12 @@ public:
    * Set/Get the division of cells. FIXED_DIVISION, the default, adds no points: the scalar is
    * linear in each of the tetrahedra, whose edges can be seen in hexahedra. ADAPTIVE_DIVISION
    * halves edges until the tetrahedra follow VTK's shape functions of the cells (voxels, hexahedra,
-   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerances, without cracks
-   * between neighbours. Cells are divided when the mesh is built, and again only if moved points or
-   * other scalars exceed twice the tolerances; otherwise the values of the new points are
-   * interpolated. See Documentation/true-cells.md.
+   * wedges, pyramids, quadratic, Lagrange and Bezier cells) within the tolerance, without cracks
+   * between neighbours. Cells are divided when the mesh is built, and again only if moved points,
+   * other scalars or another property exceed twice the error; otherwise the values of the new
+   * points are interpolated. Lagrange and Bezier cells above order 1 have no fixed division: if
+   * there are any, cells above order 1 are divided adaptively in any case. See
+   * Documentation/true-cells.md.
    */
   vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
   vtkGetMacro(CellDivision, int);
@@ -269,25 +277,27 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the tolerances of ADAPTIVE_DIVISION in the edges of the tetrahedra: the largest
-   * distance of the curved edge from the straight one, as a fraction of the diagonal of the input's
-   * bounds (default 1e-5); and the largest difference of the scalar from its linear interpolation,
-   * as a fraction of the range of its finite values (default 5e-5). With several components that
-   * are mixed, each counts with its own range. They must be positive; otherwise it is an error.
+   * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest error of the picture in the edges
+   * of the tetrahedra, as a fraction of full colour or opacity. Differences of the scalar are seen
+   * through the volume's property: for a medium, relative to its density, or to one optical depth
+   * per length of the mesh's diagonal if that is more. With several components that are mixed they
+   * are fractions of each component's range. A displacement counts four times, as a fraction of the
+   * diagonal. Default is 1/256: a step of an 8-bit channel, and a pixel of a picture in which the
+   * mesh is 1024 pixels long. A tolerance that is not positive is an error.
    */
-  vtkSetMacro(DivisionPlaceTolerance, double);
-  vtkGetMacro(DivisionPlaceTolerance, double);
-  vtkSetMacro(DivisionScalarTolerance, double);
-  vtkGetMacro(DivisionScalarTolerance, double);
+  vtkSetMacro(DivisionTolerance, double);
+  vtkGetMacro(DivisionTolerance, double);
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes. If the tolerances take
-   * more, it is an error. While cells are divided, a tetrahedron takes up to 250 bytes. Default is
-   * 2^25, some 34 million.
+   * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes. They
+   * are spent where errors are largest. If the budget ends the division before the tolerance is
+   * reached, a warning reports the error; GetDivisionError() returns it. While cells are divided, a
+   * tetrahedron takes up to 250 bytes. Default is 0: twice as many tetrahedra as FIXED_DIVISION
+   * makes, but at least 100,000.
    */
-  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
@@ -573,7 +583,8 @@ public:
    * Numbers of tetrahedra of the current mesh: those that rays can visit, which are visible with
    * the transfer function and have finite scalars; those with a scalar that is not finite; and
    * those left out because of a point index out of range, a repeated point or a point that is not
-   * finite, or because they have the points of an earlier tetrahedron.
+   * finite, or because they have the points of an earlier tetrahedron. Cells that cannot be divided
+   * into tetrahedra because their arrays do not describe a cell count once each.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();
@@ -584,7 +595,7 @@ public:
   /**
    * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
    * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
-   * that are folded inside out in parts, and edges that exceed the tolerances after 23 divisions. A
+   * that are folded inside out in parts, and edges that exceed the tolerance after 23 divisions. A
    * warning reports the last two if they are not 0.
    */
   vtkTypeInt64 GetNumberOfTetrahedra();
@@ -592,6 +603,13 @@ public:
   vtkTypeInt64 GetNumberOfFoldedCells();
   vtkTypeInt64 GetNumberOfUnresolvedEdges();
   /** @} */
+
+  /**
+   * Largest error in the edges of the tetrahedra that the last division made, in the unit of the
+   * tolerance; 0 without a division. Inside of a tetrahedron it is at most 1.5 times that where the
+   * scalar is quadratic.
+   */
+  double GetDivisionError();
 
   /**
    * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
@@ -714,6 +732,7 @@ private:
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
 
   meniscus::ScalarSelection SelectedScalars();
+  meniscus::PointBox MeasureInput();
   bool CollectInput(meniscus::InputBlocks& parts);
   bool Tell(const meniscus::InputReport& report);
   bool ChooseMixture(const meniscus::InputBlocks& parts, vtkVolume* volume);
@@ -738,9 +757,8 @@ private:
   bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
 
   int CellDivision = FIXED_DIVISION;
-  double DivisionPlaceTolerance = 1e-5;
-  double DivisionScalarTolerance = 5e-5;
-  vtkTypeInt64 MaximumNumberOfPieces = 33554432;
+  double DivisionTolerance = 1.0 / 256.0;
+  vtkTypeInt64 MaximumNumberOfPieces = 0;
   int VectorMode = DISABLED;
   int VectorComponent = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;

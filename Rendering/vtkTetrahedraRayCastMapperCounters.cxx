@@ -115,7 +115,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
-  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
+  return this->Internals->Input.GetNumberOfRejectedCells();
 }
 
 //------------------------------------------------------------------------------
@@ -181,7 +181,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCellDivisions()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfFoldedCells()
 {
-  return this->Internals->Input.GetDivision().GetCounts().FoldedCells;
+  return this->Internals->Input.GetNumberOfFoldedCells();
 }
 
 //------------------------------------------------------------------------------
@@ -191,14 +191,19 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUnresolvedEdges()
 }
 
 //------------------------------------------------------------------------------
+double vtkTetrahedraRayCastMapper::GetDivisionError()
+{
+  return this->Internals->Input.GetDivision().GetCounts().Error;
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "VectorMode: " << this->VectorMode << "\n";
   os << indent << "VectorComponent: " << this->VectorComponent << "\n";
   os << indent << "CellDivision: " << this->CellDivision << "\n";
-  os << indent << "DivisionPlaceTolerance: " << this->DivisionPlaceTolerance << "\n";
-  os << indent << "DivisionScalarTolerance: " << this->DivisionScalarTolerance << "\n";
+  os << indent << "DivisionTolerance: " << this->DivisionTolerance << "\n";
   os << indent << "MaximumNumberOfPieces: " << this->MaximumNumberOfPieces << "\n";
   os << indent << "OpacityModel: " << this->OpacityModel << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
@@ -249,6 +254,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
   os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
   os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
+  os << indent << "DivisionError: " << this->GetDivisionError() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";

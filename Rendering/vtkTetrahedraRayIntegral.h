@@ -12,7 +12,8 @@
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
  * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
  * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
- * else of the cells. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ * else of the cells. Path lengths and first and last depths need none: without active scalars every
+ * cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
  * floats with one tuple per pixel, are switched on separately:
@@ -87,7 +88,7 @@ public:
   /** Rays of the image. */
   enum FrameModes
   {
-    /** Parallel rays along Direction, through a rectangle around the input's bounding box. */
+    /** Parallel rays along Direction, through a rectangle around the box of the cells in use. */
     FITTED = 0,
     /** Parallel rays through the rectangle of FrameOrigin, FrameAxis1 and FrameAxis2. */
     PARALLEL = 1,
@@ -155,13 +156,13 @@ public:
   enum CellDivisions
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within tolerances
+    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
   };
 
   /** @{ */
   /**
    * Set/Get the division of cells: FIXED_DIVISION, the default, or ADAPTIVE_DIVISION, which follows
-   * VTK's shape functions of the cells within the tolerances below. See
+   * VTK's shape functions of the cells within the tolerance below. See
    * vtkTetrahedraRayCastMapper::SetCellDivision() and Documentation/true-cells.md.
    */
   vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
@@ -172,22 +173,22 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the tolerances of ADAPTIVE_DIVISION, > 0, as in the mapper: of places as a fraction of
-   * the diagonal of the input's bounds (default 1e-5), and of the scalar as a fraction of the range
-   * of its finite values (default 5e-5).
+   * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest difference of the scalar from its
+   * linear interpolation in the edges of the tetrahedra, as a fraction of the range of its finite
+   * values; or the largest displacement, as four times the fraction of the diagonal of the input's
+   * points. Default is 1/256, as in the mapper; measurements take a smaller one, and a budget.
    */
-  vtkSetMacro(DivisionPlaceTolerance, double);
-  vtkGetMacro(DivisionPlaceTolerance, double);
-  vtkSetMacro(DivisionScalarTolerance, double);
-  vtkGetMacro(DivisionScalarTolerance, double);
+  vtkSetMacro(DivisionTolerance, double);
+  vtkGetMacro(DivisionTolerance, double);
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the largest number of tetrahedra that ADAPTIVE_DIVISION makes; more are an error.
-   * Default is 2^25, some 34 million, for which division takes up to 8 GB.
+   * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes, where
+   * errors are largest. A warning reports if it ends the division before the tolerance is reached.
+   * Default is 0: twice as many as FIXED_DIVISION makes, but at least 100,000.
    */
-  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
@@ -404,7 +405,7 @@ public:
   /**
    * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
    * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
-   * that are folded inside out in parts, and edges that exceed the tolerances after 23 divisions. A
+   * that are folded inside out in parts, and edges that exceed the tolerance after 23 divisions. A
    * warning reports the last two if they are not 0.
    */
   vtkTypeInt64 GetNumberOfTetrahedra();
@@ -412,6 +413,9 @@ public:
   vtkTypeInt64 GetNumberOfFoldedCells();
   vtkTypeInt64 GetNumberOfUnresolvedEdges();
   /** @} */
+
+  /** Error of the last division, as vtkTetrahedraRayCastMapper::GetDivisionError(). */
+  double GetDivisionError();
 
   /**
    * Number of times that the input's cells were looked up for events since construction: once per
@@ -456,6 +460,7 @@ private:
 
   bool Tell(const meniscus::InputReport& report);
   bool TellError(const std::string& error);
+  meniscus::InputReport CollectScalars(vtkDataObject* input, Request& request);
   bool CollectInput(vtkDataObject* input, Request& request);
   bool ChooseEvents(Request& request);
   bool ChooseArrays(Request& request);
@@ -465,9 +470,8 @@ private:
   bool Measure(Request& request, vtkDataObject* input, vtkImageData* output);
 
   int CellDivision = FIXED_DIVISION;
-  double DivisionPlaceTolerance = 1e-5;
-  double DivisionScalarTolerance = 5e-5;
-  vtkTypeInt64 MaximumNumberOfPieces = 33554432;
+  double DivisionTolerance = 1.0 / 256.0;
+  vtkTypeInt64 MaximumNumberOfPieces = 0;
   int FrameMode = FITTED;
   double Direction[3] = { 0.0, 0.0, -1.0 };
   double ViewUp[3] = { 0.0, 1.0, 0.0 };

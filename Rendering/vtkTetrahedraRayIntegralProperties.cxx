@@ -234,7 +234,7 @@ vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTransparentCells()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfRejectedCells()
 {
-  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
+  return this->Internals->Input.GetNumberOfRejectedCells();
 }
 
 //------------------------------------------------------------------------------
@@ -263,7 +263,7 @@ vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCellDivisions()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfFoldedCells()
 {
-  return this->Internals->Input.GetDivision().GetCounts().FoldedCells;
+  return this->Internals->Input.GetNumberOfFoldedCells();
 }
 
 //------------------------------------------------------------------------------
@@ -273,17 +273,23 @@ vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfUnresolvedEdges()
 }
 
 //------------------------------------------------------------------------------
+double vtkTetrahedraRayIntegral::GetDivisionError()
+{
+  return this->Internals->Input.GetDivision().GetCounts().Error;
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CellDivision: " << this->CellDivision << "\n";
-  os << indent << "DivisionPlaceTolerance: " << this->DivisionPlaceTolerance << "\n";
-  os << indent << "DivisionScalarTolerance: " << this->DivisionScalarTolerance << "\n";
+  os << indent << "DivisionTolerance: " << this->DivisionTolerance << "\n";
   os << indent << "MaximumNumberOfPieces: " << this->MaximumNumberOfPieces << "\n";
   os << indent << "NumberOfTetrahedra: " << this->GetNumberOfTetrahedra() << "\n";
   os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
   os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
   os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
+  os << indent << "DivisionError: " << this->GetDivisionError() << "\n";
   const auto vector = [&os, indent](const char* name, const double(&values)[3]) {
     os << indent << name << ": (" << values[0] << ", " << values[1] << ", " << values[2] << ")\n";
   };

@@ -57,8 +57,8 @@ def make_volume(mesh, adaptive):
     mapper.SetBackend(mapper.NATIVE)
     if adaptive:
         mapper.SetCellDivisionToAdaptive()
-        mapper.SetDivisionPlaceTolerance(1e-3)
-        mapper.SetDivisionScalarTolerance(2e-3)
+        mapper.SetDivisionTolerance(2e-3)
+        mapper.SetMaximumNumberOfPieces(10000000)
     volume = vtkVolume()
     volume.SetMapper(mapper)
     opacity = vtkPiecewiseFunction()

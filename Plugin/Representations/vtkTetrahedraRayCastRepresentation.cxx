@@ -447,15 +447,9 @@ void vtkTetrahedraRayCastRepresentation::SetCellDivision(int division)
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetDivisionPlaceTolerance(double tolerance)
+void vtkTetrahedraRayCastRepresentation::SetDivisionTolerance(double tolerance)
 {
-  this->Mapper->SetDivisionPlaceTolerance(tolerance);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetDivisionScalarTolerance(double tolerance)
-{
-  this->Mapper->SetDivisionScalarTolerance(tolerance);
+  this->Mapper->SetDivisionTolerance(tolerance);
 }
 
 //------------------------------------------------------------------------------

@@ -73,8 +73,7 @@ public:
   void SetOpacityModel(int model);
   void SetGradients(int location);
   void SetCellDivision(int division);
-  void SetDivisionPlaceTolerance(double tolerance);
-  void SetDivisionScalarTolerance(double tolerance);
+  void SetDivisionTolerance(double tolerance);
   void SetMaximumNumberOfPieces(int pieces);
   void SetEarlyTerminationOpacity(double opacity);
   void SetAutoAdjustSampleDistances(bool adjust);

@@ -5,7 +5,9 @@
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkHexahedron.h"
+#include "vtkPointData.h"
 #include "vtkPyramid.h"
+#include "vtkSmartPointer.h"
 #include "vtkVoxel.h"
 #include "vtkWedge.h"
 
@@ -55,6 +57,35 @@ CellShape ShapeOf(int type)
     default:
       return { VTK_EMPTY_CELL, 0, 0 };
   }
+}
+
+//------------------------------------------------------------------------------
+int ResolveCellType(int type, vtkIdType numberOfPoints)
+{
+  if (type == VTK_LAGRANGE_PYRAMID || type == VTK_BEZIER_PYRAMID)
+  {
+    return numberOfPoints == ShapeOf(VTK_PYRAMID).NumberOfCorners ? VTK_PYRAMID : type;
+  }
+  const CellShape shape = ShapeOf(type);
+  return shape.Degree == CellShape::Varying && numberOfPoints == shape.NumberOfCorners
+    ? shape.LinearType
+    : type;
+}
+
+//------------------------------------------------------------------------------
+bool HasCellClass(int type)
+{
+  static const std::vector<bool> known = []()
+  {
+    std::vector<bool> all(VTK_NUMBER_OF_CELL_TYPES);
+    for (int i = 0; i < VTK_NUMBER_OF_CELL_TYPES; ++i)
+    {
+      all[static_cast<std::size_t>(i)] =
+        vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(i)) != nullptr;
+    }
+    return all;
+  }();
+  return type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES && known[static_cast<std::size_t>(type)];
 }
 
 //------------------------------------------------------------------------------
@@ -113,6 +144,11 @@ void GridShapeFunctions::Load(std::int32_t cell)
   this->FirstPoint = this->FirstPoints[part];
   this->Type = grid->GetCellType(local);
   grid->GetCellPoints(local, this->Ids);
+  // Weights of the points make a Bezier cell of order 1 rational, other than the linear cell.
+  if (!grid->GetPointData()->GetRationalWeights())
+  {
+    this->Type = ResolveCellType(this->Type, this->Ids->GetNumberOfIds());
+  }
   if (ShapeOf(this->Type).Degree != 1)
   {
     grid->GetCell(local, this->Generic);
@@ -160,6 +196,26 @@ void GridShapeFunctions::Weigh(std::int32_t cell, const glm::dvec3& place, Point
     row.Add(
       static_cast<std::int32_t>(this->FirstPoint + this->Ids->GetId(static_cast<vtkIdType>(i))),
       this->Weights[i]);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Trilinear functions are linear along an axis; a wedge's also in planes across its axis. */
+bool GridShapeFunctions::IsLinear(std::int32_t cell, const glm::vec3& from, const glm::vec3& to)
+{
+  this->Load(cell);
+  const int x = from.x != to.x;
+  const int y = from.y != to.y;
+  const int z = from.z != to.z;
+  switch (this->Type)
+  {
+    case VTK_VOXEL:
+    case VTK_HEXAHEDRON:
+      return x + y + z < 2;
+    case VTK_WEDGE:
+      return z == 0 || x + y == 0;
+    default:
+      return false;
   }
 }
 

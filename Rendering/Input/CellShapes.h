@@ -32,11 +32,21 @@ struct CellShape
   int Degree = 0;
 
   static constexpr int Varying = -1;
+  static constexpr int SecondOrder = 2;
   bool IsKnown() const { return this->NumberOfCorners > 0; }
 };
 
 /** Shape of a type; unknown for those without shape functions, such as polyhedra. */
 CellShape ShapeOf(int type);
+
+/**
+ * Type of the linear cell with the same points and shape functions: Lagrange and Bezier cells of
+ * order 1 have one. Other cells keep their type.
+ */
+int ResolveCellType(int type, vtkIdType numberOfPoints);
+
+/** True if VTK has a class that evaluates cells of this type. */
+bool HasCellClass(int type);
 
 /**
  * Reference coordinates of a corner: VTK's parametric coordinates. For pyramids, those along the
@@ -53,6 +63,7 @@ public:
   explicit GridShapeFunctions(const std::vector<vtkDataSet*>& grids);
 
   void Weigh(std::int32_t cell, const glm::dvec3& place, PointWeights& row) override;
+  bool IsLinear(std::int32_t cell, const glm::vec3& from, const glm::vec3& to) override;
   /** Degree of the shape functions of a cell whose type has shape functions. */
   int GetDegree(std::int32_t cell);
 

@@ -3,6 +3,7 @@
 #include "Rendering/Input/DividedCells.h"
 
 #include "Common/BlockLoop.h"
+#include "Rendering/Input/CellPieces.h"
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/ConcatenatedArray.h"
 #include "Rendering/Input/GridLayout.h"
@@ -140,22 +141,41 @@ double RoundingOf(double most)
   return 512.0 * std::numeric_limits<double>::epsilon() * most;
 }
 
-/** @param slack factor of the tolerances. */
-DivisionLimits LimitsOf(const DivisionSettings& settings, const PointFields& fields, double slack)
+DivisionMeasure MeasureFor(const DivisionRequest& request, const PointFields& fields)
 {
-  DivisionLimits limits;
-  limits.Place = std::max(
-    slack * settings.PlaceTolerance * DiagonalOf(fields), RoundingOf(LargestCoordinate(fields)));
-  limits.MostPieces =
-    std::min<std::int64_t>(settings.MostPieces, TetrahedralMesh::MaximumNumberOfCells);
+  // A pixel of a mesh that is 1024 pixels long has the error of a step of 256.
+  constexpr double displacement = 4.0;
+  DivisionMeasure measure;
+  const double diagonal = DiagonalOf(fields);
+  measure.OfPlace = diagonal > 0.0 ? displacement / diagonal : 0.0;
+  measure.PlaceRounding = RoundingOf(LargestCoordinate(fields));
+  measure.ValuesMayMove = request.Picture.Use != ScalarUse::Values;
   for (std::size_t field = 0; field < fields.GetNumberOfFields(); ++field)
   {
     const ScalarRange range = RangeOf(fields, field);
-    limits.Values[field] =
-      std::max(slack * settings.ScalarTolerance * (range.Highest - range.Lowest),
-        RoundingOf(std::max(std::abs(range.Lowest), std::abs(range.Highest))));
+    measure.OfValues[field] =
+      request.Picture.MakeScale(request.UnitLength * diagonal, range.Highest - range.Lowest);
+    measure.ValueRounding[field] =
+      RoundingOf(std::max(std::abs(range.Lowest), std::abs(range.Highest)));
   }
-  return limits;
+  return measure;
+}
+
+int LeastDegreeOf(const DivisionSettings& settings)
+{
+  return settings.IsAdaptive ? 1 : CellShape::SecondOrder;
+}
+
+/** @param fixedPieces number of pieces before they are divided. */
+std::int64_t BudgetOf(const DivisionSettings& settings, std::int64_t fixedPieces)
+{
+  // By default the cost is bounded by a multiple of that of the fixed division; pieces that are
+  // made within a second do not count.
+  constexpr std::int64_t multiple = 2;
+  constexpr std::int64_t least = 100000;
+  const std::int64_t budget =
+    settings.MostPieces > 0 ? settings.MostPieces : std::max(multiple * fixedPieces, least);
+  return std::min<std::int64_t>(budget, TetrahedralMesh::MaximumNumberOfCells);
 }
 
 std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
@@ -175,135 +195,15 @@ const RangeLoop& LoopFor(const std::vector<vtkDataSet*>& grids, const RangeLoop&
   return std::all_of(grids.begin(), grids.end(), IsThreadSafe) ? loop : serial;
 }
 
-/** True if there are types of cells with shape functions of a higher degree. */
-bool MayBeCurved(const std::vector<vtkDataSet*>& grids)
-{
-  for (vtkDataSet* grid : grids)
-  {
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-    {
-      if (ShapeOf(grid->GetCellType(cell)).Degree != 0)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/** Tetrahedra between corners as pieces of their cells. */
-class PieceCollector
-{
-public:
-  PieceCollector(
-    const std::vector<vtkDataSet*>& grids, const TetrahedraView& view, const PointsView& points)
-    : Grids(grids)
-    , View(view)
-    , Points(points)
-    , Functions(grids)
-  {
-  }
-
-  /** Collects all tetrahedra; those with a point out of range are returned in the second list. */
-  void Collect(std::vector<CellPiece>& pieces, std::vector<CellPiece>& invalid);
-  bool HasCurved() const { return this->Curved; }
-
-private:
-  void Load(std::int64_t cell);
-
-  const std::vector<vtkDataSet*>& Grids;
-  const TetrahedraView& View;
-  const PointsView& Points;
-  GridShapeFunctions Functions;
-  vtkNew<vtkIdList> Ids;
-  /** The cell that was loaded last, and its data set. */
-  std::int64_t Loaded = -1;
-  std::size_t Part = 0;
-  std::int64_t FirstCell = 0;
-  std::int64_t FirstPoint = 0;
-  CellShape Shape;
-  int Degree = 0;
-  bool Curved = false;
-};
-
-//------------------------------------------------------------------------------
-/** Cells are loaded in ascending order. */
-void PieceCollector::Load(std::int64_t cell)
-{
-  if (cell == this->Loaded)
-  {
-    return;
-  }
-  this->Loaded = cell;
-  while (cell >= this->FirstCell + this->Grids[this->Part]->GetNumberOfCells())
-  {
-    this->FirstCell += this->Grids[this->Part]->GetNumberOfCells();
-    this->FirstPoint += this->Grids[this->Part]->GetNumberOfPoints();
-    ++this->Part;
-  }
-  vtkDataSet* grid = this->Grids[this->Part];
-  const auto local = static_cast<vtkIdType>(cell - this->FirstCell);
-  this->Shape = ShapeOf(grid->GetCellType(local));
-  grid->GetCellPoints(local, this->Ids);
-  bool usable = this->Shape.Degree != 0 && this->Shape.IsKnown() &&
-    this->Ids->GetNumberOfIds() >= this->Shape.NumberOfCorners;
-  for (vtkIdType i = 0; usable && i < this->Ids->GetNumberOfIds(); ++i)
-  {
-    const vtkIdType id = this->Ids->GetId(i);
-    // IsId() returns the first place of an id: another place if the id is repeated.
-    usable = id >= 0 && id < grid->GetNumberOfPoints() && this->Ids->IsId(id) == i &&
-      IsFinite(this->Points[static_cast<std::size_t>(this->FirstPoint + id)]);
-  }
-  constexpr int most = 100;
-  this->Degree =
-    usable ? std::min(this->Functions.GetDegree(static_cast<std::int32_t>(cell)), most) : 0;
-}
-
-//------------------------------------------------------------------------------
-void PieceCollector::Collect(std::vector<CellPiece>& pieces, std::vector<CellPiece>& invalid)
-{
-  for (std::int64_t t = 0; t < this->View.NumberOfCells; ++t)
-  {
-    const std::int64_t cell = this->View.SourceCells[t];
-    this->Load(cell);
-    CellPiece piece;
-    piece.Cell = static_cast<std::int32_t>(cell);
-    piece.Degree = static_cast<std::uint8_t>(this->Degree);
-    bool valid = true;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      const std::int64_t point = this->View.Cells[4 * static_cast<std::size_t>(t) + i];
-      valid = valid && point >= 0 && point < this->View.NumberOfPoints;
-      // Numbers beyond 32 bits are out of range as well.
-      piece.Points[i] = valid ? static_cast<std::int32_t>(point) : -1;
-      if (this->Degree > 0)
-      {
-        piece.Places[i] = PlaceOfCorner(this->Shape,
-          static_cast<int>(this->Ids->IsId(static_cast<vtkIdType>(point - this->FirstPoint))));
-      }
-    }
-    (valid ? pieces : invalid).push_back(piece);
-    this->Curved = this->Curved || this->Degree > 0;
-  }
-}
-
 }
 
 //------------------------------------------------------------------------------
 std::string DivisionSettings::DescribeFault() const
 {
-  if (!this->IsAdaptive)
-  {
-    return std::string();
-  }
-  // Comparisons that are false for NaN.
-  const bool positive = this->PlaceTolerance > 0.0 && this->ScalarTolerance > 0.0;
-  if (!positive)
-  {
-    return "The tolerances of the division of cells must be positive, not " +
-      std::to_string(this->PlaceTolerance) + " and " + std::to_string(this->ScalarTolerance);
-  }
-  return std::string();
+  // A comparison that is false for NaN.
+  return this->Tolerance > 0.0 ? std::string()
+                               : "The tolerance of the division of cells must be positive, not " +
+      std::to_string(this->Tolerance);
 }
 
 //------------------------------------------------------------------------------
@@ -325,40 +225,46 @@ DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeL
     return DivisionStatus::Ok;
   }
   const PointsSource points(grids, loop);
-  std::vector<CellPiece> pieces;
-  std::vector<CellPiece> invalid;
-  {
-    const TetrahedraSource source(grids, loop, CellPoints::Corners);
-    const TetrahedraView& view = source.GetView();
-    this->MatchPositions = view.MatchPositions;
-    this->Omitted = source.DescribeOmitted();
-    this->PositionsDecide = source.SplitsByPosition();
-    PieceCollector collector(grids, view, points.GetView());
-    collector.Collect(pieces, invalid);
-    this->Used = collector.HasCurved();
-  }
-  if (!this->Used)
+  const PointFields fields = FieldsOf(request, points, loop);
+  DivisionLimits limits;
+  limits.Measure = MeasureFor(request, fields);
+  limits.Tolerance = request.Settings.Tolerance;
+  this->Curved = FindCurvedCells(grids, fields, limits.Measure, limits.Tolerance,
+    LeastDegreeOf(request.Settings), LoopFor(grids, loop));
+  if (this->Curved.IsEmpty)
   {
     return DivisionStatus::Ok;
   }
+  CellPieces collected;
+  {
+    const TetrahedraSource source(grids, loop, CellPoints::Corners);
+    this->MatchPositions = source.GetView().MatchPositions;
+    this->Omitted = source.DescribeOmitted();
+    this->Unusable = source.GetUnusable();
+    this->PositionsDecide = source.SplitsByPosition();
+    collected = CollectPieces(grids, source.GetView(), this->Curved);
+  }
+  this->Used = true;
   ++this->Divisions;
-  const PointFields fields = FieldsOf(request, points, loop);
+  const auto others = static_cast<std::int64_t>(collected.OtherCells.size());
+  this->Budget =
+    BudgetOf(request.Settings, others + static_cast<std::int64_t>(collected.Pieces.size()));
+  limits.MostPieces = this->Budget - others;
   const DivisionStatus status = this->Division.Divide(
-    std::move(pieces), fields, [&grids]() { return std::make_unique<GridShapeFunctions>(grids); },
-    LimitsOf(request.Settings, fields, 1.0), LoopFor(grids, loop), progress);
+    std::move(collected.Pieces), fields,
+    [&grids]() { return std::make_unique<GridShapeFunctions>(grids); }, limits,
+    LoopFor(grids, loop), progress);
   if (status != DivisionStatus::Ok)
   {
     return status;
   }
-  // The mesh rejects and counts those that are not valid.
-  for (const std::vector<CellPiece>* list :
-    { &this->Division.GetPieces(), &std::as_const(invalid) })
+  // The mesh rejects and counts those with a point out of range.
+  this->Cells = std::move(collected.Others);
+  this->Sources = std::move(collected.OtherCells);
+  for (const CellPiece& piece : this->Division.GetPieces())
   {
-    for (const CellPiece& piece : *list)
-    {
-      this->Cells.insert(this->Cells.end(), piece.Points.begin(), piece.Points.end());
-      this->Sources.push_back(piece.Cell);
-    }
+    this->Cells.insert(this->Cells.end(), piece.Points.begin(), piece.Points.end());
+    this->Sources.push_back(piece.Cell);
   }
   this->Division.ForgetPieces();
   this->Positions = this->ComputePositions(points, loop);
@@ -393,9 +299,26 @@ bool DividedCells::Holds(const DivisionRequest& request, const RangeLoop& loop) 
   const std::vector<vtkDataSet*> grids = GridsOf(request.Fields);
   const PointsSource points(grids, loop);
   const PointFields fields = FieldsOf(request, points, loop);
-  return this->Division.Holds(
-    fields, [&grids]() { return std::make_unique<GridShapeFunctions>(grids); },
-    LimitsOf(request.Settings, fields, 2.0), LoopFor(grids, loop));
+  const DivisionMeasure measure = MeasureFor(request, fields);
+  constexpr double slack = 2.0;
+  const double most = slack * std::max(request.Settings.Tolerance, this->GetCounts().Error);
+  const ShapeFunctionsMaker functions = [&grids]()
+  { return std::make_unique<GridShapeFunctions>(grids); };
+  if (!this->Division.Holds(fields, functions, measure, most, LoopFor(grids, loop)))
+  {
+    return false;
+  }
+  const CurvedCells curved = FindCurvedCells(
+    grids, fields, measure, most, LeastDegreeOf(request.Settings), LoopFor(grids, loop));
+  for (std::size_t cell = 0; cell < curved.Degrees.size(); ++cell)
+  {
+    if (curved.Degrees[cell] > 0 &&
+      (this->Curved.Degrees.empty() || this->Curved.Degrees[cell] == 0))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -431,7 +354,7 @@ std::vector<double> DividedCells::ComputePositions(
 std::int64_t DividedCells::GetBytes() const
 {
   return this->Division.GetBytes() + BytesOf(this->Positions) + BytesOf(this->Cells) +
-    BytesOf(this->Sources);
+    BytesOf(this->Sources) + BytesOf(this->Curved.Degrees);
 }
 
 }

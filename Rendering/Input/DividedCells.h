@@ -4,9 +4,12 @@
 #define meniscus_Rendering_Input_DividedCells_h
 
 #include "Common/RangeLoop.h"
+#include "Rendering/Input/CellPieces.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Division/CellDivision.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/ErrorScale.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,22 +24,21 @@ class PointsSource;
 /** Settings of the division of cells, as the user gives them. */
 struct DivisionSettings
 {
-  /** False: cells are split into tetrahedra between their points. */
+  /**
+   * False: cells are split into tetrahedra between their points. In an input with cells that have
+   * no such split, all cells above order 1 are divided as if it were true.
+   */
   bool IsAdaptive = false;
-  /** Largest distance between an edge and its chord, as a fraction of the points' diagonal. */
-  double PlaceTolerance = 1e-5;
-  /** Largest difference of the scalar, as a fraction of its range. */
-  double ScalarTolerance = 5e-5;
-  std::int64_t MostPieces = std::int64_t{ 1 } << 25;
+  /**
+   * Largest error in the edges of the tetrahedra, as a fraction of the picture's full colour. The
+   * default is a step of a display with 8 bits per channel. A displacement counts four times as a
+   * fraction of the mesh's diagonal, so that the default is a pixel of a picture in which the mesh
+   * is 1024 pixels long.
+   */
+  double Tolerance = 1.0 / 256.0;
+  /** Budget of tetrahedra; 0 stands for a multiple of those of the fixed division. */
+  std::int64_t MostPieces = 0;
 
-  /** True if cells are divided alike; the limit of pieces is not compared. */
-  bool DividesAs(const DivisionSettings& other) const
-  {
-    return this->IsAdaptive == other.IsAdaptive &&
-      (!this->IsAdaptive ||
-        (this->PlaceTolerance == other.PlaceTolerance &&
-          this->ScalarTolerance == other.ScalarTolerance));
-  }
   /** Reason why the settings cannot be used; empty if they can. */
   std::string DescribeFault() const;
 };
@@ -49,6 +51,10 @@ struct DivisionRequest
   InputBlocks Fields;
   /** As in ScalarSelection; Only stands for each of up to four components. */
   int Component = ScalarSelection::Only;
+  /** Function by which a picture shows the scalar. */
+  PictureFunction Picture;
+  /** Length of a unit of the input's coordinates, in the unit of the attenuation. */
+  double UnitLength = 1.0;
 };
 
 /** Cells of data sets as tetrahedra that follow their shape functions to a tolerance. */
@@ -63,7 +69,7 @@ public:
     const std::function<bool(double)>& progress);
   /** Forgets the division. */
   void Clear();
-  /** True if there are cells with shape functions of a higher degree; otherwise all is empty. */
+  /** True if there are cells to divide; otherwise the mesh is the input's, and all is empty. */
   bool IsUsed() const { return this->Used; }
 
   /** Tetrahedra of the last division; valid until the tables are freed. */
@@ -74,11 +80,14 @@ public:
   bool SplitsByPosition() const { return this->PositionsDecide; }
   /** Types and numbers of the cells that are not drawn; empty if there are none. */
   const std::string& GetOmitted() const { return this->Omitted; }
+  /** Cells that are not used because their arrays do not describe a cell. */
+  const UnusableCells& GetUnusable() const { return this->Unusable; }
 
   /**
-   * True if the division is good enough for other positions or scalars: differences are at most
-   * twice the tolerances. If these were not doubled, almost each change would cost a division,
-   * since there are always edges that just keep them.
+   * True if the division is good enough for other positions, scalars or another function: errors
+   * are at most twice the tolerance, or twice the error of the division if its budget ended it
+   * earlier. If these were not doubled, almost each change would cost a division, since there are
+   * always edges that just keep them.
    */
   bool Holds(const DivisionRequest& request, const RangeLoop& loop) const;
   /** Positions of all points, for other positions of those of the input. */
@@ -86,6 +95,8 @@ public:
 
   const WeightedPoints& GetPoints() const { return this->Division.GetPoints(); }
   const DivisionCounts& GetCounts() const { return this->Division.GetCounts(); }
+  /** Budget that the last division had. */
+  std::int64_t GetBudget() const { return this->Budget; }
   /** Number of divisions since construction. */
   std::int64_t GetNumberOfDivisions() const { return this->Divisions; }
   std::int64_t GetBytes() const;
@@ -94,10 +105,13 @@ private:
   std::vector<double> ComputePositions(const PointsSource& points, const RangeLoop& loop) const;
 
   CellDivision Division;
+  CurvedCells Curved;
   bool Used = false;
+  std::int64_t Budget = 0;
   bool MatchPositions = false;
   bool PositionsDecide = false;
   std::string Omitted;
+  UnusableCells Unusable;
   std::int64_t Divisions = 0;
   /** Tables of the view. */
   std::vector<double> Positions;

@@ -8,19 +8,20 @@
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/GridLayout.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -28,9 +29,6 @@ namespace meniscus
 {
 namespace
 {
-
-constexpr unsigned char LeftOut =
-  vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
 
 constexpr int NoPoint = -1;
 
@@ -90,7 +88,7 @@ FaceSplit SplitFace(vtkCell* face)
       return SplitAbout(6, { 0, 3, 1, 4, 2, 5 });
     case VTK_BIQUADRATIC_QUAD:
       return SplitAbout(8, { 0, 4, 1, 5, 2, 6, 3, 7 });
-    case VTK_POLYGON:
+    case VTK_POLYGON: // of prisms
     {
       std::vector<int> around(face->GetNumberOfPoints());
       std::iota(around.begin(), around.end(), 0);
@@ -101,15 +99,22 @@ FaceSplit SplitFace(vtkCell* face)
   }
 }
 
-/** Number of tetrahedra of a cell of the given type, unless the cell is degenerate. */
+/**
+ * Number of tetrahedra of a cell of the given type, unless the cell is degenerate; for Lagrange and
+ * Bezier cells, the number between the corners.
+ */
 int TetrahedraOf(int type)
 {
   switch (type)
   {
     case VTK_VOXEL:
     case VTK_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
       return 6;
     case VTK_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
       return 3;
     case VTK_PYRAMID:
       return 2;
@@ -138,20 +143,44 @@ int TetrahedraOf(int type)
   }
 }
 
-/** True if the grid contains only tetrahedra of four points each. */
+/** Reason why cells of a type are not drawn, with the cure. */
+std::string ReasonOf(int type)
+{
+  if (!HasCellClass(type))
+  {
+    return "VTK cannot evaluate this type; write linear or quadratic cells";
+  }
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(type);
+  return cell->GetCellDimension() < 3 ? "without a volume"
+                                      : "its points or faces do not fit its type";
+}
+
+/** True if the grid contains only tetrahedra of four points each, whatever their type. */
 bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
 {
+  constexpr vtkIdType points = 4;
   const vtkIdType cells = grid->GetNumberOfCells();
-  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != 4 * cells)
+  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != points * cells)
   {
     return false;
   }
   vtkIdType cell = 0;
-  while (cell < cells && grid->GetCellType(cell) == VTK_TETRA)
+  while (cell < cells && ResolveCellType(grid->GetCellType(cell), points) == VTK_TETRA)
   {
     ++cell;
   }
-  return cell == cells;
+  return cell == cells && CellLists(grid->GetCells()).HaveSize(4);
+}
+
+/**
+ * True for types whose faces are read from a cell object: those without a rule of their own that
+ * are drawn, and types with more points than their rule takes.
+ */
+bool HasFaceObjects(int type)
+{
+  return TetrahedraOf(type) > 1 || type == VTK_TETRA || type == VTK_PENTAGONAL_PRISM ||
+    type == VTK_HEXAGONAL_PRISM || type == VTK_CONVEX_POINT_SET;
 }
 
 }
@@ -162,30 +191,44 @@ struct TetrahedraSource::Part
   Tetrahedralizer Tetrahedra;
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
+  UnusableCells Unusable;
   bool SplitsByPosition = false;
+  std::int64_t Folded = 0;
   /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
   CellPoints Used = CellPoints::All;
+  /** Points of all data sets. */
+  PointsView Points;
+  std::int64_t NumberOfPoints = 0;
 
-  void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
+  void AddBlock(const CellReader& cells, std::size_t first, std::size_t last);
 
 private:
-  void AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids);
+  void AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids);
+  void AddPolyhedron(const CellReader& cells, vtkIdType cell);
   bool AddByFaces(vtkCell* cell);
+  bool IsFolded(std::size_t firstId) const;
+
+  std::vector<std::int64_t> Faces;
 };
 
 //------------------------------------------------------------------------------
-void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last)
+void TetrahedraSource::Part::AddBlock(const CellReader& cells, std::size_t first, std::size_t last)
 {
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
   vtkNew<vtkIdList> ids;
   for (std::size_t c = first; c < last; ++c)
   {
     const auto cell = static_cast<vtkIdType>(c);
-    if (!ghosts || !(ghosts->GetValue(cell) & LeftOut))
+    if (!cells.IsLeftOut(cell))
     {
-      this->AddCell(grid, cell, grid->GetCellType(cell), ids);
+      const std::size_t firstId = this->Tetrahedra.GetTetrahedra().size();
+      this->AddCell(cells, cell, ids);
+      if (this->Used == CellPoints::All &&
+        ShapeOf(cells.GetType(cell)).Degree >= CellShape::SecondOrder)
+      {
+        this->Folded += this->IsFolded(firstId);
+      }
       this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
         static_cast<std::int32_t>(this->FirstCell + cell));
     }
@@ -193,17 +236,65 @@ void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::
 }
 
 //------------------------------------------------------------------------------
-void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids)
+/**
+ * True if tetrahedra of the last cell have either orientation: those of a cell that is not folded
+ * have one, whichever it is. Volumes that may be due to the rounding of coordinates do not count: a
+ * determinant of three edges has six products, each with the rounding of three differences.
+ */
+bool TetrahedraSource::Part::IsFolded(std::size_t firstId) const
 {
+  const std::vector<std::int64_t>& ids = this->Tetrahedra.GetTetrahedra();
+  constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
+  bool found[2] = { false, false };
+  for (std::size_t t = firstId; t + 3 < ids.size(); t += 4)
+  {
+    std::array<glm::dvec3, 4> at;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      if (ids[t + i] < 0 || ids[t + i] >= this->NumberOfPoints)
+      {
+        return false;
+      }
+      at[i] = this->Points[static_cast<std::size_t>(ids[t + i])];
+    }
+    const glm::dvec3 a = at[1] - at[0];
+    const glm::dvec3 b = at[2] - at[0];
+    const glm::dvec3 c = at[3] - at[0];
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double least = rounding * glm::length(a) * glm::length(b) * glm::length(c);
+    found[0] = found[0] || volume > least;
+    found[1] = found[1] || volume < -least;
+  }
+  return found[0] && found[1];
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids)
+{
+  int type = cells.GetType(cell);
   if (type == VTK_EMPTY_CELL)
   {
     return; // blanked cell
   }
+  if (!HasVolume(type))
+  {
+    ++this->Omitted[type];
+    return;
+  }
+  if (type == VTK_POLYHEDRON)
+  {
+    this->AddPolyhedron(cells, cell);
+    return;
+  }
+  if (!cells.ReadPoints(cell, ids, this->Unusable))
+  {
+    return;
+  }
   // Largest number of points of a cell type with its own rule.
   constexpr vtkIdType mostPoints = 20;
   std::array<std::int64_t, mostPoints> points{};
-  grid->GetCellPoints(cell, ids);
   vtkIdType size = ids->GetNumberOfIds();
+  type = ResolveCellType(type, size);
   const CellShape shape = this->Used == CellPoints::Corners ? ShapeOf(type) : CellShape();
   if (shape.IsKnown() && size >= shape.NumberOfCorners)
   {
@@ -259,12 +350,34 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
     // Its faces are those of the convex hull of its points.
     this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
     vtkNew<vtkGenericCell> generic;
-    grid->GetCell(cell, generic);
-    if (generic->GetCellDimension() != 3 || !this->AddByFaces(generic))
+    if (HasFaceObjects(type))
+    {
+      cells.GetGrid()->GetCell(cell, generic);
+    }
+    if (!this->AddByFaces(generic))
     {
       ++this->Omitted[type];
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Part::AddPolyhedron(const CellReader& cells, vtkIdType cell)
+{
+  std::size_t numberOfFaces = 0;
+  if (!cells.ReadFaces(cell, this->Faces, numberOfFaces, this->Unusable))
+  {
+    return;
+  }
+  std::int64_t* face = this->Faces.data();
+  for (std::size_t f = 0; f < numberOfFaces; ++f, face += 1 + face[0])
+  {
+    for (std::int64_t k = 1; k <= face[0]; ++k)
+    {
+      face[k] += this->FirstPoint;
+    }
+  }
+  this->Tetrahedra.AddPolyhedron(this->Faces.data(), numberOfFaces);
 }
 
 //------------------------------------------------------------------------------
@@ -335,26 +448,13 @@ TetrahedraSource::TetrahedraSource(
 void TetrahedraSource::ViewTetrahedra(vtkUnstructuredGrid* grid)
 {
   this->View.NumberOfCells = grid->GetNumberOfCells();
-  vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
-  if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
-  {
-    // VTK's 64-bit integer and the standard's may be different types.
-    static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
-    this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
-  }
-  else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
-  {
-    this->View.ShortCells = ints->GetPointer(0);
-  }
-  else
-  {
-    this->Ids = CopyValues<std::int64_t>(ids);
-    this->View.Cells = this->Ids.data();
-  }
+  this->Stored = IdView(grid->GetCells()->GetConnectivityArray());
+  this->View.ShortCells = this->Stored.GetInts();
+  this->View.Cells = this->View.ShortCells ? nullptr : this->Stored.GetLongs();
   if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
   {
     this->View.CellFlags = ghosts->GetPointer(0);
-    this->View.LeftOutBits = LeftOut;
+    this->View.LeftOutBits = CellReader::GetLeftOutFlags();
   }
 }
 
@@ -372,7 +472,7 @@ void TetrahedraSource::Tetrahedralize(
     parts.resize(firstPart + NumberOfBlocks(size));
     // Objects that VTK creates on first access must exist before several threads access them.
     grid->GetCellType(0);
-    grid->GetCellGhostArray();
+    const CellReader cells(grid);
     ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
       [&](std::size_t block, std::size_t first, std::size_t last)
       {
@@ -380,7 +480,9 @@ void TetrahedraSource::Tetrahedralize(
         part.FirstPoint = firstPoint;
         part.FirstCell = firstCell;
         part.Used = used;
-        part.AddBlock(grid, first, last);
+        part.Points = this->Points.GetView();
+        part.NumberOfPoints = this->View.NumberOfPoints;
+        part.AddBlock(cells, first, last);
       });
     firstPoint += grid->GetNumberOfPoints();
     firstCell += grid->GetNumberOfCells();
@@ -398,6 +500,8 @@ void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop
     starts.push_back(size);
     size += part.Sources.size();
     this->PositionsDecide = this->PositionsDecide || part.SplitsByPosition;
+    this->Folded += part.Folded;
+    this->Unusable.Add(part.Unusable);
     for (const auto& omitted : part.Omitted)
     {
       this->Omitted[omitted.first] += omitted.second;
@@ -429,7 +533,7 @@ std::string TetrahedraSource::DescribeOmitted() const
   {
     const char* name = NameOfCellType(omitted.first);
     text << (text.tellp() > 0 ? ", " : "") << omitted.second << " "
-         << (name ? name : "of an unknown type");
+         << (name ? name : "of an unknown type") << " (" << ReasonOf(omitted.first) << ")";
   }
   return text.str();
 }
@@ -438,6 +542,7 @@ std::string TetrahedraSource::DescribeOmitted() const
 GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
 {
   GridSize size;
+  vtkNew<vtkIdList> ids;
   for (vtkDataSet* grid : grids)
   {
     size.Points += grid->GetNumberOfPoints();
@@ -448,9 +553,16 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
       size.Tetrahedra += TetrahedraOf(VTK_VOXEL) * cells;
       continue;
     }
+    const CellReader reader(grid);
     for (vtkIdType c = 0; c < cells; ++c)
     {
-      size.Tetrahedra += TetrahedraOf(grid->GetCellType(c));
+      const int type = grid->GetCellType(c);
+      size.Tetrahedra += TetrahedraOf(type);
+      UnusableCells counted;
+      if (ShapeOf(type).Degree == CellShape::Varying && reader.ReadPoints(c, ids, counted))
+      {
+        size.HigherOrder += ResolveCellType(type, ids->GetNumberOfIds()) == type;
+      }
     }
   }
   return size;

@@ -3,6 +3,8 @@
 #ifndef meniscus_Rendering_Input_TetrahedraSource_h
 #define meniscus_Rendering_Input_TetrahedraSource_h
 
+#include "Rendering/Input/CellReader.h"
+#include "Rendering/Input/IdView.h"
 #include "Rendering/Input/PointsSource.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
@@ -50,6 +52,16 @@ public:
    * none.
    */
   std::string DescribeOmitted() const;
+  /**
+   * Cells that are not used, because their arrays do not describe a cell. Those of a view are
+   * tetrahedra with a point out of range, which the mesh counts.
+   */
+  const UnusableCells& GetUnusable() const { return this->Unusable; }
+  /**
+   * Number of cells of second order whose tetrahedra overlap, because the cell is folded inside out
+   * in parts: its points on edges lie elsewhere, or are in another order than VTK's.
+   */
+  std::int64_t GetNumberOfFolded() const { return this->Folded; }
   /** True if other positions of the points could divide a cell into other tetrahedra. */
   bool SplitsByPosition() const { return this->PositionsDecide; }
 
@@ -63,11 +75,15 @@ private:
 
   PointsSource Points;
   TetrahedraView View;
+  /** Cells of a view, or points of the tetrahedra. */
+  IdView Stored;
   std::vector<std::int64_t> Ids;
   /** Cell of each tetrahedron. */
   std::vector<std::int32_t> Sources;
   /** Number of cells that are not drawn, by type. */
   std::map<int, std::int64_t> Omitted;
+  std::int64_t Folded = 0;
+  UnusableCells Unusable;
   bool PositionsDecide = false;
 };
 
@@ -76,6 +92,8 @@ struct GridSize
 {
   std::int64_t Points = 0;
   std::int64_t Tetrahedra = 0;
+  /** Lagrange and Bezier cells above order 1, which have no fixed division. */
+  std::int64_t HigherOrder = 0;
 };
 
 /** Computes the size without creating tetrahedra. */

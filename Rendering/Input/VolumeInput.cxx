@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace meniscus
 {
@@ -28,6 +29,14 @@ std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
     grids.push_back(part.Grid);
   }
   return grids;
+}
+
+std::string DescribeFolded(std::int64_t cells)
+{
+  return cells == 0 ? std::string()
+                    : std::to_string(cells) +
+      " cells are folded inside out in parts, where their pieces overlap; if they are of second "
+      "order, their points may be in another order than VTK's. ";
 }
 
 }
@@ -57,7 +66,7 @@ InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
   const bool sameCells = !newCells && !lacksSources && !newDivision && this->BuildError.empty();
   const bool holds = sameCells &&
-    (!this->Divided.IsUsed() || this->Divided.Holds(division, ThreadedLoop)) &&
+    (!this->IsDivided(division.Settings) || this->Divided.Holds(division, ThreadedLoop)) &&
     (!newPoints || this->MovePoints(input));
   if (!holds)
   {
@@ -71,19 +80,25 @@ InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
 /** True if the mesh has to be divided for these settings. */
 bool VolumeInput::IsNewDivision(const DivisionSettings& settings)
 {
-  // Another limit makes no difference to a division that keeps it.
-  const bool sameLimit = settings.MostPieces == this->BuiltDivision.MostPieces ||
-    (this->BuildError.empty() && this->Divided.GetCounts().Pieces <= settings.MostPieces);
-  const bool same = settings.DividesAs(this->BuiltDivision) && sameLimit;
+  const DivisionSettings& built = this->BuiltDivision;
+  bool same = settings.IsAdaptive == built.IsAdaptive;
+  if (this->IsDivided(settings))
+  {
+    // Another budget makes no difference to a division that kept the tolerance within it.
+    const DivisionCounts& counts = this->Divided.GetCounts();
+    const bool sameBudget = settings.MostPieces == built.MostPieces ||
+      (counts.ReachedTolerance && settings.MostPieces >= counts.Pieces);
+    same = same && settings.Tolerance == built.Tolerance && sameBudget;
+  }
   this->BuiltDivision = settings;
   return !same;
 }
 
 //------------------------------------------------------------------------------
-/** True if the scalars that an adaptive division depends on have changed. */
+/** True if the scalars, or their function, that an adaptive division depends on have changed. */
 bool VolumeInput::HasNewFields(const DivisionRequest& division)
 {
-  if (!division.Settings.IsAdaptive)
+  if (!this->IsDivided(division.Settings))
   {
     return false;
   }
@@ -92,10 +107,14 @@ bool VolumeInput::HasNewFields(const DivisionRequest& division)
   {
     return false; // constant in each cell
   }
+  const bool sameFunction =
+    division.Picture.Use == this->DividedUse && division.Picture.Version == this->DividedFunction;
+  this->DividedUse = division.Picture.Use;
+  this->DividedFunction = division.Picture.Version;
   const bool changed = this->FieldWatch.HasChanged(
     ScalarVersions(fields), [&fields]() { return DigestScalars(fields); });
-  const bool same =
-    !changed && fields.Place == this->DividedPlace && division.Component == this->DividedComponent;
+  const bool same = !changed && sameFunction && fields.Place == this->DividedPlace &&
+    division.Component == this->DividedComponent;
   this->DividedPlace = fields.Place;
   this->DividedComponent = division.Component;
   return !same;
@@ -139,6 +158,7 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   this->LinkVersion.Bump();
   this->InputCells = std::vector<std::int32_t>();
   this->Divided.Clear();
+  this->Unusable = UnusableCells();
 
   InputReport report;
   std::ostringstream text;
@@ -156,7 +176,8 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   MeshBuildControl control;
   control.Loop = ThreadedLoop;
   control.Progress = progress;
-  if (!division.Settings.IsAdaptive)
+  // Lagrange and Bezier cells above order 1 have no fixed division.
+  if (!division.Settings.IsAdaptive && size.HigherOrder == 0)
   {
     return this->BuildFromCells(grids, control);
   }
@@ -173,15 +194,7 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   }
   this->Mesh = TetrahedralMesh();
   this->Divided.Clear();
-  if (status == DivisionStatus::Aborted)
-  {
-    this->CellWatch.Forget(); // the next call starts again
-    return report;
-  }
-  text << "The division of the cells to the tolerances takes more than "
-       << division.Settings.MostPieces
-       << " tetrahedra, the maximum number of pieces, or more than 2^31 points";
-  report.Error = text.str();
+  this->CellWatch.Forget(); // after an abort, the next call starts again
   return report;
 }
 
@@ -192,6 +205,9 @@ InputReport VolumeInput::BuildFromCells(
 {
   InputReport report;
   const TetrahedraSource source(grids, ThreadedLoop);
+  this->Unusable = source.GetUnusable();
+  this->FoldedCells = source.GetNumberOfFolded();
+  report.Warning = DescribeFolded(this->FoldedCells);
   this->BuildTables(source.GetView(), control, source.DescribeOmitted(), report);
   this->SplitsByPosition = source.SplitsByPosition();
   return report;
@@ -205,16 +221,20 @@ InputReport VolumeInput::BuildDivided(const MeshBuildControl& control)
   this->KeepsSourceCells = true;
   InputReport report;
   const DivisionCounts& counts = this->Divided.GetCounts();
+  std::ostringstream text;
+  if (!counts.ReachedTolerance)
+  {
+    text << "The division of cells has spent its budget of " << this->Divided.GetBudget()
+         << " tetrahedra at an error of " << counts.Error << ", above the tolerance of "
+         << this->BuiltDivision.Tolerance << "; MaximumNumberOfPieces is the budget. ";
+  }
   if (counts.UnresolvedEdges > 0)
   {
-    report.Warning = std::to_string(counts.UnresolvedEdges) +
-      " edges of cells are not divided to the tolerances. ";
+    text << counts.UnresolvedEdges << " edges of cells are not divided to the tolerance. ";
   }
-  if (counts.FoldedCells > 0)
-  {
-    report.Warning += std::to_string(counts.FoldedCells) +
-      " cells are folded inside out in parts, where their pieces overlap. ";
-  }
+  this->FoldedCells = counts.FoldedCells;
+  report.Warning = text.str() + DescribeFolded(this->FoldedCells);
+  this->Unusable = this->Divided.GetUnusable();
   this->BuildTables(this->Divided.GetView(), control, this->Divided.GetOmitted(), report);
   this->Divided.FreeView();
   this->SplitsByPosition = this->Divided.SplitsByPosition();
@@ -236,17 +256,65 @@ void VolumeInput::BuildTables(TetrahedraView view, const MeshBuildControl& contr
   {
     text << "Cells that are not drawn, because of their type: " << omitted << ". ";
   }
-  const RejectedCells& rejected = this->Mesh.GetRejectedCells();
-  if (rejected.Total() > 0)
-  {
-    text << rejected.Total() << " of " << view.NumberOfCells
-         << " cells are left out: " << rejected.IndexOutOfRange
-         << " with a point index out of range, " << rejected.RepeatedVertex
-         << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite, " << rejected.Duplicate
-         << " equal to earlier cells.";
-  }
+  text << this->DescribeRejected(view.NumberOfCells) << this->DescribeImprecise();
   report.Warning = text.str();
+  if (!report.Warning.empty() && report.Warning.back() == ' ')
+  {
+    report.Warning.pop_back();
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Numbers of the cells that are left out, by reason. @param cells number of tetrahedra. */
+std::string VolumeInput::DescribeRejected(std::int64_t cells) const
+{
+  if (this->GetNumberOfRejectedCells() == 0)
+  {
+    return std::string();
+  }
+  const RejectedCells& rejected = this->Mesh.GetRejectedCells();
+  const std::pair<std::int64_t, const char*> reasons[] = {
+    { rejected.IndexOutOfRange + this->Unusable.PointOutOfRange,
+      " with a point index out of range" },
+    { this->Unusable.WrongNumberOfPoints,
+      " with a number of points that their type does not have" },
+    { this->Unusable.OutsideOfArray, " with points or faces outside of their array" },
+    { this->Unusable.MissingFaces, " polyhedra without usable faces" },
+    { rejected.RepeatedVertex, " with a repeated point" },
+    { rejected.PointNotFinite, " with a point that is not finite" },
+    { rejected.Duplicate, " equal to earlier cells" },
+  };
+  std::ostringstream text;
+  text << this->GetNumberOfRejectedCells() << " of " << cells + this->Unusable.Total()
+       << " cells are left out";
+  const char* separator = ": ";
+  for (const auto& reason : reasons)
+  {
+    if (reason.first > 0)
+    {
+      text << separator << reason.first << reason.second;
+      separator = ", ";
+    }
+  }
+  text << ". ";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+/** Number of cells that are too thin or too small for the precision of coordinates. */
+std::string VolumeInput::DescribeImprecise() const
+{
+  const std::int64_t cells = this->Mesh.GetNumberOfImpreciseCells();
+  if (cells == 0)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << cells << " of " << this->Mesh.GetNumberOfCells() << " cells have an edge shorter than "
+       << TetrahedralMesh::ShortestPreciseEdge * this->Mesh.GetRadius()
+       << ", 1/131072 of the mesh's radius: lengths of rays in such layers and small cells may be "
+          "off by more than 1 %. ";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -400,6 +468,21 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
   this->OthersVersion = others.Version;
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
+}
+
+//------------------------------------------------------------------------------
+std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
+{
+  // Folded cells overlap, and are reported when they are divided.
+  if (rays == 0 || this->OverlapsReported == this->BuildVersion ||
+    this->Divided.GetCounts().FoldedCells > 0)
+  {
+    return std::string();
+  }
+  this->OverlapsReported = this->BuildVersion;
+  return std::to_string(rays) +
+    " rays enter cells before they have left others: parts of the mesh overlap there, and the part "
+    "that a ray enters first is the only one to count.";
 }
 
 //------------------------------------------------------------------------------

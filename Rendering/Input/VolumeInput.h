@@ -5,6 +5,7 @@
 
 #include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/DividedCells.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -36,7 +37,7 @@ public:
    * again.
    *
    * With an adaptive division, cells are divided when the mesh is built. The division is kept as
-   * long as it holds (see DividedCells::Holds()) for other points and for other scalars.
+   * long as it holds (see DividedCells::Holds()) for other points, scalars and functions.
    * @param progress called with the fraction done; returns false to abort, which leaves no mesh and
    *   no report.
    */
@@ -73,6 +74,11 @@ public:
   void UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others);
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
+  /** Number of the input's cells that are left out because they cannot be used. */
+  std::int64_t GetNumberOfRejectedCells() const
+  {
+    return this->Mesh.GetRejectedCells().Total() + this->Unusable.Total();
+  }
   FieldAssociation GetFieldAssociation() const { return this->BuiltPlace; }
   /**
    * One normalised scalar per vertex; NaN if the input's is not finite. Empty for scalars of cells.
@@ -91,6 +97,8 @@ public:
     return place == FieldAssociation::Points && this->Divided.IsUsed() ? &this->Divided.GetPoints()
                                                                        : nullptr;
   }
+  /** Cells that are folded inside out in parts: of the division, or those of second order. */
+  std::int64_t GetNumberOfFoldedCells() const { return this->FoldedCells; }
   /** Division of the cells into tetrahedra; not used unless it is adaptive. */
   const DividedCells& GetDivision() const { return this->Divided; }
   /** Index of the input's scalar for each vertex, or for each cell of the mesh. */
@@ -112,6 +120,13 @@ public:
   int GetComponent() const { return this->BuiltComponent; }
   /** Tree over the boundary of the active cells; built when first requested. */
   const BoundaryTree& GetBoundaryTree();
+
+  /**
+   * Warning that parts of the mesh overlap; empty if there are no such rays, and after the first
+   * warning about this mesh.
+   * @param rays number of rays that found it.
+   */
+  std::string WarnOfOverlaps(std::int64_t rays);
 
   /** Number of bytes of the tables. */
   std::int64_t GetBytes() const;
@@ -138,11 +153,20 @@ private:
   InputReport BuildDivided(const MeshBuildControl& control);
   void BuildTables(TetrahedraView view, const MeshBuildControl& control, const std::string& omitted,
     InputReport& report);
+  std::string DescribeRejected(std::int64_t cells) const;
+  std::string DescribeImprecise() const;
   bool HasNewFields(const DivisionRequest& division);
+  /** True if cells are divided, or would be for other scalars. */
+  bool IsDivided(const DivisionSettings& settings) const
+  {
+    return settings.IsAdaptive || this->Divided.IsUsed();
+  }
   bool IsNewDivision(const DivisionSettings& settings);
   bool MovePoints(const InputBlocks& input);
 
   TetrahedralMesh Mesh;
+  /** Cells that are left out before the mesh is built. */
+  UnusableCells Unusable;
   BoundaryTree Tree;
   /** Empty until asked for, and if the mesh has them. */
   std::vector<std::int32_t> InputCells;
@@ -159,10 +183,13 @@ private:
   DividedCells Divided;
   /** Settings and fields that the cells were divided for. */
   DivisionSettings BuiltDivision;
+  std::int64_t FoldedCells = 0;
   /** Error of the last build; empty if it succeeded. */
   std::string BuildError;
   FieldAssociation DividedPlace = FieldAssociation::Points;
   int DividedComponent = 0;
+  ScalarUse DividedUse = ScalarUse::Values;
+  TableVersion DividedFunction;
   ContentWatch FieldWatch;
 
   ContentWatch CellWatch;
@@ -175,6 +202,8 @@ private:
   /** True if other positions may divide the input's cells into other tetrahedra. */
   bool SplitsByPosition = false;
   bool ActiveSetStale = true;
+  /** Mesh whose overlaps were reported. */
+  TableVersion OverlapsReported;
   /** Versions of the links and positions that the tree is of. */
   TableVersion LinksOfTree;
   TableVersion MeshOfTree;

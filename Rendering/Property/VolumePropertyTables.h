@@ -7,6 +7,7 @@
 #include "Rendering/Input/VolumeComponents.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Rendering/Property/VolumePropertyPoints.h"
+#include "Volume/Optics/ErrorScale.h"
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Optics/VisibleScalars.h"
 
@@ -48,9 +49,14 @@ public:
    */
   void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
 
-  const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
+  const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Main.Points; }
   /** Scalars at which the functions change, or surfaces are; for the normalisation of scalars. */
   const FunctionFeatures& GetFeatures() const { return this->Features; }
+  /**
+   * Function by which the errors of a single scalar are seen; several components are measured as
+   * values.
+   */
+  PictureFunction GetPictureFunction() const;
   /** Intervals of the main scalar's function. */
   const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
   /** Intervals of the functions of the other components that are scalars. */
@@ -86,8 +92,9 @@ private:
   void NormalizeTables(
     const ScalarNormalization& normalization, const VolumeComponents& components);
 
-  std::vector<TransferFunctionPoint> Points;
-  std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
+  /** Function of the main scalar, and those of the other components that are scalars. */
+  PropertyPoints Main;
+  std::vector<PropertyPoints> Others;
   std::vector<TransferFunctionPoint> GradientPoints;
   /** True if a gradient opacity function is used; without points it is 0 everywhere. */
   bool HasGradientOpacity = false;

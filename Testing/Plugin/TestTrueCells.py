@@ -36,7 +36,7 @@ def check_frames(field):
     fixed = PluginTesting.screenshot(view, "true-cells-fixed")
     mapper = PluginTesting.mapper_of(display)
     assert count(mapper, "CellDivisions") == 0, "fixed"
-    display.DivisionScalarTolerance = TOLERANCE
+    display.DivisionTolerance = TOLERANCE
     display.CellDivision = "Adaptive"
     assert PluginTesting.screenshot(view, "true-cells-adaptive") != fixed
     assert count(mapper, "CellDivisions") == 1, "adaptive"
@@ -52,7 +52,7 @@ def check_integrals(field):
                                         FrameOrigin=[0, 0, 2], FrameAxis1=[1, 0, 0],
                                         FrameAxis2=[0, 1, 0])
     rays.ScalarArray = ["POINTS", "product"]
-    rays.DivisionScalarTolerance = TOLERANCE
+    rays.DivisionTolerance = TOLERANCE
     rays.MaximumNumberOfPieces = 1000000
     worst = {}
     for division in "Fixed", "Adaptive":

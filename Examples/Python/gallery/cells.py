@@ -95,8 +95,8 @@ def draw_cells(_data, size):
     look = common.make_look(colors, common.make_opacity(zip(values, (0.9, 0.9, 0.9))), 1.0)
     volume = common.make_volume(mesh, look, values)
     volume.GetMapper().SetCellDivisionToAdaptive()
-    volume.GetMapper().SetDivisionPlaceTolerance(2e-4)
-    volume.GetMapper().SetDivisionScalarTolerance(1e-3)
+    volume.GetMapper().SetDivisionTolerance(1e-3)
+    volume.GetMapper().SetMaximumNumberOfPieces(10000000)
     renderer = common.make_renderer()
     renderer.AddVolume(volume)
     common.add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),

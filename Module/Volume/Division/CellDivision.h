@@ -5,9 +5,8 @@
 
 #include "Common/RangeLoop.h"
 #include "Volume/Division/CellPiece.h"
-#include "Volume/Division/EdgeIndex.h"
+#include "Volume/Division/DivisionLimits.h"
 #include "Volume/Division/ShapeFunctions.h"
-#include "Volume/Division/ShapeTest.h"
 #include "Volume/Division/WeightedPoints.h"
 
 #include <glm/vec3.hpp>
@@ -23,8 +22,6 @@ namespace meniscus
 enum class DivisionStatus
 {
   Ok,
-  /** More pieces or points than wanted, or than 32 bits can index. */
-  TooLarge,
   Aborted
 };
 
@@ -34,25 +31,35 @@ struct DivisionCounts
   std::int64_t Pieces = 0;
   /** Edges that were divided: as many as there are new points. */
   std::int64_t DividedEdges = 0;
-  /** Edges found beyond the tolerance that were not divided, because of MostLevels. */
+  /** Edges beyond the tolerance that were not divided, because of MostLevels. */
   std::int64_t UnresolvedEdges = 0;
   /** Cells that are folded: pieces with either orientation overlap by more than the tolerance. */
   std::int64_t FoldedCells = 0;
+  /** Largest error in the edges of the pieces. */
+  double Error = 0.0;
+  /** False if the budget ended the division before that. */
+  bool ReachedTolerance = true;
 };
 
 /**
- * Divides cells into tetrahedra until linear interpolation in them is accurate: in each edge, the
- * distance of the curve from its chord, and the difference of each value from that on the chord,
- * are within the limits.
+ * Divides cells into tetrahedra until linear interpolation in them is accurate, or a budget of
+ * pieces is spent: the error of an edge is the distance of the curve from its chord, or the
+ * difference of a value from that on the chord, as the measure weighs them.
  *
  * The cells are given as tetrahedra between their corners, which match across shared faces. In each
- * round all edges that have not been tested are sampled (three places; more in the first pieces of
- * cells of a high degree); so are faces and pieces of cells with a degree above 2, whose shape
- * functions may vanish on all edges: they mark their longest edge. Then each piece with marked
- * edges is halved at the longest of these, and so on. The rule is one order of all edges, so the
- * triangles of a shared face are the same on both sides: the first marked edge of a piece that lies
- * in the face is the first one of the face, whichever other edges the piece has. No neighbours
- * crack, whatever their types. A new point is the middle of its edge in reference coordinates.
+ * round all new edges are measured (at three places; at more in the first pieces of cells of a high
+ * degree); so are faces and pieces of cells with a degree above 2, whose shape functions may vanish
+ * on all edges: their errors count for their longest edge. Edges with errors above a threshold are
+ * marked; each piece with marked edges is halved at the longest of these, and so on. The rule is
+ * one order of all edges, so the triangles of a shared face are the same on both sides: the first
+ * marked edge of a piece that lies in the face is the first one of the face, whichever other edges
+ * the piece has. No neighbours crack, whatever their types. A new point is the middle of its edge
+ * in reference coordinates.
+ *
+ * The threshold is the tolerance if the budget allows. Otherwise it is an error for which the
+ * budget is likely to be enough, and is lowered until the budget is spent. If the last threshold is
+ * not reached everywhere, the largest errors are divided, or the result is that of the threshold
+ * before it.
  *
  * The result does not depend on the number of threads.
  */
@@ -70,11 +77,11 @@ public:
     const std::function<bool(double)>& progress);
 
   /**
-   * True if the edges of the pieces are within the limits for other positions or values of the
-   * points.
+   * True if the errors in the edges of the pieces are within a limit, for other positions or values
+   * of the points or another measure.
    */
   bool Holds(const PointFields& fields, const ShapeFunctionsMaker& functions,
-    const DivisionLimits& limits, const RangeLoop& loop) const;
+    const DivisionMeasure& measure, double most, const RangeLoop& loop) const;
 
   const std::vector<CellPiece>& GetPieces() const { return this->Pieces; }
   /** Frees the pieces. Holds() does not need them. */
@@ -84,8 +91,6 @@ public:
   std::int64_t GetBytes() const;
 
 private:
-  class Round;
-
   /** An edge of the last pieces, in a cell that is not linear. */
   struct TestedEdge
   {

@@ -33,6 +33,12 @@ struct CellPiece
 /** Corners at the ends of the edges of a piece. */
 constexpr int EdgeEnds[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
 
+/** The edge without a common corner. */
+constexpr int OppositeEdge(int edge)
+{
+  return 5 - edge;
+}
+
 /** Triangles of a piece. */
 constexpr struct
 {

@@ -39,6 +39,12 @@ CellSample MakeSample(const PointFields& fields, const glm::dvec3& position, con
 ShapeFunctions::~ShapeFunctions() = default;
 
 //------------------------------------------------------------------------------
+bool ShapeFunctions::IsLinear(std::int32_t, const glm::vec3&, const glm::vec3&)
+{
+  return false;
+}
+
+//------------------------------------------------------------------------------
 CellSampler::CellSampler(const PointFields& fields, const ShapeFunctionsMaker& maker)
   : Fields(fields)
   , Functions(maker())

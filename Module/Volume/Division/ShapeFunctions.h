@@ -32,6 +32,12 @@ public:
    * @param place in the cell's reference coordinates.
    */
   virtual void Weigh(std::int32_t cell, const glm::dvec3& place, PointWeights& row) = 0;
+
+  /**
+   * True if all functions of the cell are known to be linear along the straight line between two
+   * places, so that it need not be sampled.
+   */
+  virtual bool IsLinear(std::int32_t cell, const glm::vec3& from, const glm::vec3& to);
 };
 
 /** Creates an object for use by one thread. */
@@ -72,6 +78,10 @@ public:
   CellSampler(const PointFields& fields, const ShapeFunctionsMaker& maker);
 
   CellSample Sample(std::int32_t cell, const glm::dvec3& place);
+  bool IsLinear(std::int32_t cell, const glm::vec3& from, const glm::vec3& to)
+  {
+    return this->Functions->IsLinear(cell, from, to);
+  }
   /** Weights at a place; valid until the next call. */
   const PointWeights& Weigh(std::int32_t cell, const glm::dvec3& place);
 

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus
@@ -41,29 +42,39 @@ std::array<double, 4> ProjectedOn(
 
 //------------------------------------------------------------------------------
 ShapeTest::ShapeTest(
-  const PointFields& fields, const ShapeFunctionsMaker& functions, const DivisionLimits& limits)
+  const PointFields& fields, const ShapeFunctionsMaker& functions, const DivisionMeasure& measure)
   : Sampler(fields, functions)
-  , Limits(limits)
+  , Measure(measure)
   , NumberOfFields(fields.GetNumberOfFields())
 {
 }
 
 //------------------------------------------------------------------------------
-bool ShapeTest::IsEdgeStraight(
+double ShapeTest::MeasureEdge(
   std::int32_t cell, const glm::vec3& from, const glm::vec3& to, int parts)
 {
-  return this->IsEdgeStraight(
+  return this->MeasureEdge(
     cell, from, to, this->Sampler.Sample(cell, from), this->Sampler.Sample(cell, to), parts);
 }
 
 //------------------------------------------------------------------------------
-bool ShapeTest::IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const glm::vec3& to,
+double ShapeTest::MeasureEdge(std::int32_t cell, const glm::vec3& from, const glm::vec3& to,
   const CellSample& a, const CellSample& b, int parts)
 {
+  if (this->Sampler.IsLinear(cell, from, to))
+  {
+    return 0.0;
+  }
   const glm::dvec3 chord = b.Position - a.Position;
   const double square = glm::dot(chord, chord);
-  bool straight = true;
-  for (int i = 1; i < parts && straight; ++i)
+  const double length = std::sqrt(square);
+  std::array<double, CellSample::MostFields> slopes{};
+  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+  {
+    slopes[field] = length > 0.0 ? std::abs(b.Values[field] - a.Values[field]) / length : 0.0;
+  }
+  double most = 0.0;
+  for (int i = 1; i < parts; ++i)
   {
     const double t = static_cast<double>(i) / parts;
     const CellSample sample =
@@ -77,13 +88,14 @@ bool ShapeTest::IsEdgeStraight(std::int32_t cell, const glm::vec3& from, const g
     {
       drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
     }
-    straight = this->AreClose(sample, drawn, glm::length(offset - drawn.Position));
+    most =
+      std::max(most, this->ErrorOf(sample, drawn, glm::length(offset - drawn.Position), slopes));
   }
-  return straight;
+  return most;
 }
 
 //------------------------------------------------------------------------------
-bool ShapeTest::IsMiddleStraight(
+double ShapeTest::MeasureMiddle(
   const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points)
 {
   std::array<CellSample, 4> samples;
@@ -105,20 +117,34 @@ bool ShapeTest::IsMiddleStraight(
       drawn.Values[field] += weights[i] * samples[i].Values[field];
     }
   }
-  return this->AreClose(sample, drawn, glm::length(sample.Position - drawn.Position));
+  return this->ErrorOf(sample, drawn, glm::length(sample.Position - drawn.Position), {});
 }
 
 //------------------------------------------------------------------------------
-/** Differences that are not finite are not divided: no division would make them smaller. */
-bool ShapeTest::AreClose(const CellSample& sample, const CellSample& drawn, double distance) const
+/**
+ * Differences that are not finite are no errors: no division would make them smaller.
+ * @param slopes of the values that are drawn, by length; 0 if they are not known.
+ */
+double ShapeTest::ErrorOf(const CellSample& sample, const CellSample& drawn, double distance,
+  const std::array<double, CellSample::MostFields>& slopes) const
 {
-  bool close = !(distance > this->Limits.Place);
+  const DivisionMeasure& measure = this->Measure;
+  double most = distance > measure.PlaceRounding ? measure.OfPlace * distance : 0.0;
   for (std::size_t field = 0; field < this->NumberOfFields; ++field)
   {
     const double difference = std::abs(sample.Values[field] - drawn.Values[field]);
-    close = close && !(difference > this->Limits.Values[field] && std::isfinite(difference));
+    if (!(difference > measure.ValueRounding[field]))
+    {
+      continue;
+    }
+    double error = measure.OfValues[field].Measure(sample.Values[field], drawn.Values[field]);
+    if (measure.ValuesMayMove && slopes[field] > 0.0)
+    {
+      error = std::min(error, measure.OfPlace * difference / slopes[field]);
+    }
+    most = std::max(most, error);
   }
-  return close;
+  return std::isfinite(most) ? most : 0.0;
 }
 
 }

@@ -43,6 +43,15 @@ void WeightedPoints::Append(const WeightedPoints& other)
 }
 
 //------------------------------------------------------------------------------
+void WeightedPoints::Shrink(std::int64_t size)
+{
+  this->Ends.resize(static_cast<std::size_t>(size));
+  const std::size_t entries = this->Ends.empty() ? 0 : this->Ends.back();
+  this->Points.resize(entries);
+  this->Weights.resize(entries);
+}
+
+//------------------------------------------------------------------------------
 std::int64_t WeightedPoints::GetBytes() const
 {
   return static_cast<std::int64_t>(this->Ends.capacity() * sizeof(std::size_t) +

@@ -39,6 +39,9 @@ public:
   /** Adds the rows of another table, which begin with the same point of the input. */
   void Append(const WeightedPoints& other);
 
+  /** Removes the last rows. @param size number of rows to keep. */
+  void Shrink(std::int64_t size);
+
   bool IsEmpty() const { return this->Ends.empty(); }
   std::int64_t GetSize() const { return static_cast<std::int64_t>(this->Ends.size()); }
   /** Number of the first interpolated point. */

@@ -24,20 +24,21 @@ constexpr int PyramidFaces[] = { 4, 0, 3, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 3,
 constexpr int QuadraticParts[8][4] = { { 0, 4, 6, 7 }, { 1, 5, 4, 8 }, { 2, 6, 5, 9 },
   { 3, 7, 9, 8 }, { 4, 9, 5, 6 }, { 4, 9, 6, 7 }, { 4, 9, 7, 8 }, { 4, 9, 8, 5 } };
 
-// Tetrahedra at the corners of quadratic cells, and the faces of the remaining core.
+// Tetrahedra at the corners of quadratic cells, and the faces of the remaining core. All have the
+// same orientation in a cell, so that cells that are folded can be told (see TetrahedraSource).
 constexpr int HexahedronCorners[8][4] = { { 0, 8, 11, 16 }, { 1, 9, 8, 17 }, { 2, 10, 9, 18 },
   { 3, 11, 10, 19 }, { 4, 15, 12, 16 }, { 5, 12, 13, 17 }, { 6, 13, 14, 18 }, { 7, 14, 15, 19 } };
-constexpr int HexahedronCore[] = { 3, 8, 11, 16, 3, 9, 8, 17, 3, 10, 9, 18, 3, 11, 10, 19, 3, 15,
-  12, 16, 3, 12, 13, 17, 3, 13, 14, 18, 3, 14, 15, 19, 4, 16, 15, 19, 11, 4, 9, 18, 13, 17, 4, 8,
+constexpr int HexahedronCore[] = { 3, 8, 16, 11, 3, 9, 17, 8, 3, 10, 18, 9, 3, 11, 19, 10, 3, 15,
+  16, 12, 3, 12, 17, 13, 3, 13, 18, 14, 3, 14, 19, 15, 4, 16, 15, 19, 11, 4, 9, 18, 13, 17, 4, 8,
   17, 12, 16, 4, 19, 14, 18, 10, 4, 11, 10, 9, 8, 4, 12, 13, 14, 15 };
-constexpr int WedgeCorners[6][4] = { { 0, 6, 8, 12 }, { 1, 7, 6, 13 }, { 2, 8, 7, 14 },
+constexpr int WedgeCorners[6][4] = { { 0, 6, 12, 8 }, { 1, 7, 13, 6 }, { 2, 8, 14, 7 },
   { 3, 9, 11, 12 }, { 4, 10, 9, 13 }, { 5, 11, 10, 14 } };
-constexpr int WedgeCore[] = { 3, 6, 8, 12, 3, 7, 6, 13, 3, 8, 7, 14, 3, 9, 11, 12, 3, 10, 9, 13, 3,
-  11, 10, 14, 3, 6, 7, 8, 3, 9, 10, 11, 4, 12, 9, 13, 6, 4, 13, 10, 14, 7, 4, 14, 11, 12, 8 };
+constexpr int WedgeCore[] = { 3, 6, 8, 12, 3, 7, 6, 13, 3, 8, 7, 14, 3, 9, 12, 11, 3, 10, 13, 9, 3,
+  11, 14, 10, 3, 6, 7, 8, 3, 9, 11, 10, 4, 12, 9, 13, 6, 4, 13, 10, 14, 7, 4, 14, 11, 12, 8 };
 constexpr int PyramidCorners[4][4] = { { 0, 5, 8, 9 }, { 1, 6, 5, 10 }, { 2, 7, 6, 11 },
   { 3, 8, 7, 12 } };
-constexpr int PyramidCore[] = { 3, 5, 8, 9, 3, 6, 5, 10, 3, 7, 6, 11, 3, 8, 7, 12, 3, 5, 10, 9, 3,
-  6, 11, 10, 3, 7, 12, 11, 3, 8, 9, 12, 4, 5, 6, 7, 8, 4, 9, 10, 11, 12 };
+constexpr int PyramidCore[] = { 3, 5, 9, 8, 3, 6, 10, 5, 3, 7, 11, 6, 3, 8, 12, 7, 3, 5, 10, 9, 3,
+  6, 11, 10, 3, 7, 12, 11, 3, 8, 9, 12, 4, 8, 7, 6, 5, 4, 9, 10, 11, 12 };
 // Top of a quadratic pyramid as a pyramid, and the wedges of a wedge with linear sides.
 constexpr int PyramidTop[5] = { 9, 10, 11, 12, 4 };
 constexpr int LinearWedges[4][6] = { { 0, 6, 8, 3, 9, 11 }, { 1, 7, 6, 4, 10, 9 },

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 using namespace meniscus::test;
@@ -39,7 +40,7 @@ constexpr int Cells = 3;
 constexpr double CellSize = 2.0 / Cells;
 /** Attenuation at a scalar of 1; it is linear in the scalar. */
 constexpr double Attenuation = 1.5;
-constexpr double ScalarTolerance = 1e-3;
+constexpr double Tolerance = 1e-3;
 
 int IndexOf(const glm::ivec3& point)
 {
@@ -142,7 +143,8 @@ struct VoxelScene
     camera->SetFocalPoint(0.0, 0.0, 0.0);
     camera->SetParallelScale(Half);
     camera->SetClippingRange(0.1, 100.0);
-    this->Mapper->SetDivisionScalarTolerance(ScalarTolerance);
+    this->Mapper->SetDivisionTolerance(Tolerance);
+    this->Mapper->SetMaximumNumberOfPieces(1 << 25);
   }
 
   /** Largest difference between the opacity of a frame and its closed form. */
@@ -177,7 +179,7 @@ struct VoxelScene
 // A tetrahedron holds a quadratic function within 1.5 times the tolerance, so the optical depth of
 // a way of 2 is off by no more than twice that, and the opacity by less. A trilinear function is
 // cubic inside, which the factor of 2 covers.
-constexpr double OpacityBound = 2.0 * 1.5 * ScalarTolerance * Attenuation * 2.0;
+constexpr double OpacityBound = 2.0 * 1.5 * Tolerance * Attenuation * 2.0;
 
 }
 
@@ -211,7 +213,7 @@ TEST(TetrahedraRayCastTrueCells, FramesAndScalarsCostNoDivision)
   vtkDataArray* scalars = scene.Mesh->GetPointData()->GetScalars();
   for (vtkIdType i = 0; i < scalars->GetNumberOfTuples(); ++i)
   {
-    scalars->SetTuple1(i, 1.0 - scalars->GetTuple1(i));
+    scalars->SetTuple1(i, 0.5 + 0.5 * scalars->GetTuple1(i));
   }
   scalars->Modified();
   EXPECT_LE(scene.WorstOpacity(), OpacityBound);
@@ -237,7 +239,7 @@ TEST(TetrahedraRayCastTrueCells, PicksYieldTheFieldAndTheCellOfTheInput)
     ASSERT_EQ(picker->Pick(pixel, Size - 1 - pixel, 0.0, scene.Scene.GetRenderer()), 1);
     glm::dvec3 position;
     picker->GetPickPosition(&position.x);
-    EXPECT_NEAR(picker->GetValue(), ValueAt(scene.Mesh, position), 2.0 * 1.5 * ScalarTolerance);
+    EXPECT_NEAR(picker->GetValue(), ValueAt(scene.Mesh, position), 2.0 * 1.5 * Tolerance);
     const glm::ivec3 cell = CellAt(position);
     const double share = (position.z + 1.0) / CellSize;
     if (std::abs(share - std::round(share)) > 1e-4)
@@ -247,4 +249,112 @@ TEST(TetrahedraRayCastTrueCells, PicksYieldTheFieldAndTheCellOfTheInput)
     }
   }
   EXPECT_GE(picked, 4);
+}
+
+namespace
+{
+
+/** A room with a plume that rises from a source, on hexahedra that are finer near the walls. */
+Grid MakeRoom()
+{
+  constexpr int n[3] = { 6, 5, 4 };
+  Grid grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName("s");
+  const auto placeOf = [](int i, int count) { return -std::cos(3.14159265 * i / count); };
+  for (int k = 0; k <= n[2]; ++k)
+  {
+    for (int j = 0; j <= n[1]; ++j)
+    {
+      for (int i = 0; i <= n[0]; ++i)
+      {
+        const glm::dvec3 at(placeOf(i, n[0]), 0.8 * placeOf(j, n[1]), 0.6 * placeOf(k, n[2]));
+        points->InsertNextPoint(&at.x);
+        const double width = 0.15 + 0.2 * (at.z + 0.6);
+        const double away = std::hypot(at.x - 0.2 * at.z, at.y) / width;
+        scalars->InsertNextValue(std::exp(-away * away) + 0.5 * std::max(at.z, 0.0));
+      }
+    }
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(scalars);
+  for (int cell = 0; cell < n[0] * n[1] * n[2]; ++cell)
+  {
+    const int dy = n[0] + 1;
+    const int dz = dy * (n[1] + 1);
+    const vtkIdType o = cell % n[0] + cell / n[0] % n[1] * dy + cell / (n[0] * n[1]) * dz;
+    const vtkIdType ids[8] = { o, o + 1, o + dy + 1, o + dy, o + dz, o + dz + 1, o + dz + dy + 1,
+      o + dz + dy };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  }
+  return grid;
+}
+
+double LargestDifference(const FloatImage& a, const FloatImage& b)
+{
+  double worst = 0.0;
+  for (int row = 0; row < Size; ++row)
+  {
+    for (int column = 0; column < Size; ++column)
+    {
+      for (std::size_t channel = 0; channel < 4; ++channel)
+      {
+        worst = std::max(worst,
+          static_cast<double>(
+            std::abs(a.GetPixel(column, row)[channel] - b.GetPixel(column, row)[channel])));
+      }
+    }
+  }
+  return worst;
+}
+
+}
+
+TEST(TetrahedraRayCastTrueCells, ARoomEndsWithinItsBudgetAndReportsItsError)
+{
+  const Grid room = MakeRoom();
+  const double range[2] = { 0.0, 1.0 };
+  const auto property = MakeProperty(FunctionKind::Smooth, range, 2.0);
+  RayCastScene scene(room, property, Size, Size);
+  LookAt(scene.GetRenderer(), room->GetBounds(), 25.0, 15.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  const double fixed = [&]()
+  {
+    scene.GetWindow()->Render();
+    return static_cast<double>(mapper->GetNumberOfTetrahedra());
+  }();
+  EXPECT_EQ(mapper->GetDivisionError(), 0.0);
+  const FloatImage split = scene.RenderFloat();
+  mapper->SetCellDivisionToAdaptive();
+  mapper->SetDivisionTolerance(2e-3);
+  mapper->SetMaximumNumberOfPieces(1 << 25);
+  const FloatImage fine = scene.RenderFloat();
+  EXPECT_LE(mapper->GetDivisionError(), 2e-3);
+  const double before = LargestDifference(split, fine);
+  mapper->SetDivisionTolerance(1.0 / 256.0);
+  double last = 1.0;
+  for (const double budget : { 1.5, 3.0, 8.0, 0.0 })
+  {
+    auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+    told->Observe(mapper);
+    mapper->SetMaximumNumberOfPieces(static_cast<vtkTypeInt64>(budget * fixed));
+    const FloatImage image = scene.RenderFloat();
+    const double limit = budget > 0.0 ? budget * fixed : 100000.0;
+    EXPECT_LE(static_cast<double>(mapper->GetNumberOfTetrahedra()), limit);
+    const double error = mapper->GetDivisionError();
+    EXPECT_EQ(told->Warnings.size(), error > mapper->GetDivisionTolerance() ? 1u : 0u) << budget;
+    const double difference = LargestDifference(image, fine);
+    std::printf("budget %.1f: %lld tetrahedra, error %.3g, picture %.3g of %.3g\n", budget,
+      static_cast<long long>(mapper->GetNumberOfTetrahedra()), error, difference, before);
+    // The bounds of ErrorScale (2) and of a tetrahedron (1.5), and the fine division's own error.
+    EXPECT_LE(difference, 3.0 * (error + 2e-3)) << budget;
+    EXPECT_LT(error, last);
+    EXPECT_LT(difference, before);
+    last = error;
+    mapper->RemoveObserver(told);
+  }
+  // The default budget is enough for the default tolerance here.
+  EXPECT_LE(last, 1.0 / 256.0);
 }

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -159,8 +160,8 @@ struct Block
 DivisionLimits LimitsOf(double place, double value)
 {
   DivisionLimits limits;
-  limits.Place = place;
-  limits.Values.fill(value);
+  limits.Measure.OfPlace = 1.0 / place;
+  limits.Measure.OfValues.fill(ErrorScale::Proportional(value));
   limits.MostLevels = 20;
   return limits;
 }
@@ -419,12 +420,54 @@ TEST(CellDivision, LimitsAreKeptAndReported)
   ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
   EXPECT_GT(division.GetCounts().UnresolvedEdges, 0);
   EXPECT_LE(division.GetCounts().Pieces, 8 * 6 * 8);
-  limits = LimitsOf(1e-5, 1e-5);
-  limits.MostPieces = 1000;
-  EXPECT_EQ(block.Divide(division, limits), DivisionStatus::TooLarge);
   EXPECT_EQ(division.Divide(block.GetPieces(), block.Fields, block.GetFunctions(),
               LimitsOf(1e-5, 1e-5), SerialLoop, [](double) { return false; }),
     DivisionStatus::Aborted);
+}
+
+TEST(CellDivision, TheBudgetIsSpentOnTheLargestErrors)
+{
+  // Waves of the first value, whose errors differ between cells by orders of magnitude.
+  Block block(4, 0.1, 29);
+  block.SetValues([](const glm::dvec3& at) { return std::exp(6.0 * (at.x + at.y * at.z)); });
+  double last = std::numeric_limits<double>::infinity();
+  for (const std::int64_t budget : { 400, 1000, 4000, 16000 })
+  {
+    DivisionLimits limits = LimitsOf(1.0, 1.0);
+    limits.MostPieces = budget;
+    CellDivision division;
+    ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+    const DivisionCounts& counts = division.GetCounts();
+    EXPECT_FALSE(counts.ReachedTolerance);
+    EXPECT_LE(counts.Pieces, budget);
+    EXPECT_GE(counts.Pieces, 0.6 * static_cast<double>(budget));
+    double volume = 0.0;
+    EXPECT_EQ(CountCracks(division, block.Fields, volume), 0);
+    EXPECT_NEAR(volume, 1.0, 1e-12);
+    // The reported error is that of the edges; a cubic function has up to 1.6 times as much inside.
+    const double error = LargestError(division, block);
+    EXPECT_LE(error, 1.6 * counts.Error) << budget;
+    EXPECT_GE(error, 0.2 * counts.Error) << budget;
+    EXPECT_LT(counts.Error, last);
+    last = counts.Error;
+    // A division to that error, without a budget, takes about as many pieces.
+    DivisionLimits same = LimitsOf(1.0, counts.Error);
+    CellDivision free;
+    ASSERT_EQ(block.Divide(free, same), DivisionStatus::Ok);
+    EXPECT_TRUE(free.GetCounts().ReachedTolerance);
+    std::printf("budget %lld: error %.3g, without a budget %lld pieces\n",
+      static_cast<long long>(budget), counts.Error,
+      static_cast<long long>(free.GetCounts().Pieces));
+    EXPECT_GE(free.GetCounts().Pieces, 0.7 * static_cast<double>(counts.Pieces));
+  }
+  // Less than there is at first.
+  DivisionLimits limits = LimitsOf(1.0, 1.0);
+  limits.MostPieces = 10;
+  CellDivision division;
+  ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+  EXPECT_EQ(division.GetCounts().Pieces, 6 * 64);
+  EXPECT_FALSE(division.GetCounts().ReachedTolerance);
+  EXPECT_GT(division.GetCounts().Error, 1.0);
 }
 
 TEST(CellDivision, ProgressAscendsAndEachReportMayAbort)
@@ -489,27 +532,26 @@ TEST(CellDivision, OtherValuesHoldOrDoNot)
   Block block(2, 0.2, 19);
   block.SetValues(Waves);
   const DivisionLimits limits = LimitsOf(1e-2, 1e-2);
-  const DivisionLimits doubled = LimitsOf(2e-2, 2e-2);
   CellDivision division;
   ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
-  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits.Measure, 1.0, SerialLoop));
   division.ForgetPieces();
   block.SetValues([](const glm::dvec3& at) { return 3.0 - 0.5 * Waves(at); });
-  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits.Measure, 1.0, SerialLoop));
   block.SetValues([](const glm::dvec3& at) { return 10.0 * Waves(at); });
-  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), limits, SerialLoop));
+  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), limits.Measure, 1.0, SerialLoop));
   // Moved points: a stretched mesh holds for the same values, a bent one does not.
   block.SetValues(Waves);
   for (std::size_t p = 0; p < block.Points.size(); p += 3)
   {
     block.Points[p] *= 0.5;
   }
-  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), doubled, SerialLoop));
+  EXPECT_TRUE(division.Holds(block.Fields, block.GetFunctions(), limits.Measure, 2.0, SerialLoop));
   for (std::size_t p = 0; p < block.Points.size(); p += 3)
   {
     block.Points[p] += 2.0 * block.Points[p + 1] * block.Points[p + 2];
   }
-  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), doubled, SerialLoop));
+  EXPECT_FALSE(division.Holds(block.Fields, block.GetFunctions(), limits.Measure, 2.0, SerialLoop));
 }
 
 TEST(CellDivision, ValuesThatAreNotFiniteAreNotDivided)

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cell types: Lagrange and Bezier cells of order 1 are linear cells, those of higher order are
+// divided by default, and cells that cannot be drawn or are folded are named.
+#include "IntegralScene.h"
+#include "TrueCellMeshes.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+/** The grid with other numbers of types. */
+Grid WithTypes(vtkUnstructuredGrid* grid, const std::map<int, int>& types)
+{
+  Grid copy = Grid::New();
+  copy->SetPoints(grid->GetPoints());
+  copy->GetPointData()->ShallowCopy(grid->GetPointData());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    grid->GetCellPoints(cell, ids);
+    const auto found = types.find(grid->GetCellType(cell));
+    copy->InsertNextCell(found == types.end() ? grid->GetCellType(cell) : found->second, ids);
+  }
+  return copy;
+}
+
+Filter MakeIntegral(vtkDataObject* input, int size)
+{
+  Filter rays = MakeFilter(input, size, size);
+  rays->ComputeIntegralOn();
+  SetRectangle(rays, { 0.3, -0.5, -1.0 }, 1.2);
+  return rays;
+}
+
+/** A hexahedron of second order, whose middle points of edges are permuted. */
+Grid MakePermuted(const std::vector<vtkIdType>& order)
+{
+  Grid grid = MakeCell({ "", VTK_QUADRATIC_HEXAHEDRON, 20 }, 0.0, 1);
+  grid->GetCells()->ReplaceCellAtId(0, 20, order.data());
+  grid->Modified();
+  return grid;
+}
+
+std::string TextOf(const ErrorObserver* observer)
+{
+  std::string text;
+  for (const std::string& warning : observer->Warnings)
+  {
+    text += warning + "\n";
+  }
+  return text;
+}
+
+}
+
+TEST(CellTypes, OrderOneIsLinear)
+{
+  const std::map<int, int> lagrange{ { VTK_TETRA, VTK_LAGRANGE_TETRAHEDRON },
+    { VTK_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON }, { VTK_WEDGE, VTK_LAGRANGE_WEDGE },
+    { VTK_PYRAMID, VTK_LAGRANGE_PYRAMID } };
+  const std::map<int, int> bezier{ { VTK_TETRA, VTK_BEZIER_TETRAHEDRON },
+    { VTK_HEXAHEDRON, VTK_BEZIER_HEXAHEDRON }, { VTK_WEDGE, VTK_BEZIER_WEDGE },
+    { VTK_PYRAMID, VTK_BEZIER_PYRAMID } };
+  const Grid mixed = MakeMixedBlock(2, false, 5);
+  const Grid tetrahedra =
+    MakeSolids([](double x, double y, double) { return 1.0 + x * y; }).at(1).Mesh;
+  for (const Grid& grid : { mixed, tetrahedra })
+  {
+    for (const auto& types : { lagrange, bezier })
+    {
+      for (const bool adaptive : { false, true })
+      {
+        const Filter linear = MakeIntegral(grid, 24);
+        const Filter same = MakeIntegral(WithTypes(grid, types), 24);
+        vtkNew<ErrorObserver> observer;
+        observer->Observe(same);
+        for (const Filter& rays : { linear, same })
+        {
+          rays->SetCellDivision(adaptive ? rays->ADAPTIVE_DIVISION : rays->FIXED_DIVISION);
+          rays->SetMaximumNumberOfPieces(1 << 25);
+          rays->Update();
+        }
+        EXPECT_EQ(ValuesOf(same, "Integral"), ValuesOf(linear, "Integral"));
+        EXPECT_GT(ValuesOf(same, "Integral").size(), 0u);
+        EXPECT_EQ(same->GetNumberOfTetrahedra(), linear->GetNumberOfTetrahedra());
+        EXPECT_TRUE(observer->Warnings.empty()) << TextOf(observer);
+      }
+    }
+  }
+}
+
+TEST(CellTypes, HigherOrdersAreDrawnByDefault)
+{
+  for (const CellCase& shape : CellCases)
+  {
+    if (shape.Type < VTK_LAGRANGE_CURVE)
+    {
+      continue; // they have a fixed division
+    }
+    SCOPED_TRACE(shape.Name);
+    const Grid grid = MakeCell(shape, 0.01, 3);
+    std::vector<double> adaptive;
+    for (const bool isFixed : { false, true })
+    {
+      const Filter rays = MakeIntegral(grid, 8);
+      EXPECT_EQ(rays->GetCellDivision(), rays->FIXED_DIVISION);
+      if (!isFixed)
+      {
+        rays->SetCellDivisionToAdaptive();
+      }
+      rays->SetDivisionTolerance(0.01);
+      rays->SetMaximumNumberOfPieces(500); // Bezier cells are slow in VTK
+      rays->Update();
+      EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
+      EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
+      // TrueCellTypes compares the values of the adaptive division with the truth.
+      const std::vector<double> found = ValuesOf(rays, "Integral");
+      adaptive = isFixed ? adaptive : found;
+      EXPECT_EQ(found, adaptive);
+      EXPECT_GT(*std::max_element(found.begin(), found.end()), 0.0);
+    }
+  }
+}
+
+TEST(CellTypes, CellsThatVTKCannotEvaluateAreNamed)
+{
+  const Grid grid = MakeCell(CellCases[0], 0.0, 2);
+  vtkIdType ids[14];
+  for (vtkIdType i = 0; i < 14; ++i)
+  {
+    ids[i] = grid->GetPoints()->InsertNextPoint(0.1 * i, 0.2, i % 3);
+    grid->GetPointData()->GetScalars()->InsertTuple(
+      ids[i], ids[0] - 1, grid->GetPointData()->GetScalars());
+  }
+  grid->InsertNextCell(VTK_LAGRANGE_PYRAMID, 14, ids);
+  grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
+  for (const bool adaptive : { false, true })
+  {
+    const Filter rays = MakeIntegral(grid, 8);
+    rays->SetCellDivision(adaptive ? rays->ADAPTIVE_DIVISION : rays->FIXED_DIVISION);
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(rays);
+    rays->Update();
+    const std::string text = TextOf(observer);
+    EXPECT_NE(text.find("VTK cannot evaluate this type; write linear or quadratic cells"),
+      std::string::npos)
+      << text;
+    EXPECT_NE(text.find("1 vtkTriangle (without a volume)"), std::string::npos) << text;
+    EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+  }
+}
+
+TEST(CellTypes, FoldedCellsOfSecondOrderAreCounted)
+{
+  const std::vector<vtkIdType> vtkOrder{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16,
+    17, 18, 19 };
+  // The order of Exodus and others: edges along z come before those of the upper face.
+  std::vector<vtkIdType> other = vtkOrder;
+  std::rotate(other.begin() + 12, other.begin() + 16, other.end());
+  for (const bool adaptive : { false, true })
+  {
+    for (const bool right : { true, false })
+    {
+      const Filter rays = MakeIntegral(MakePermuted(right ? vtkOrder : other), 8);
+      rays->SetCellDivision(adaptive ? rays->ADAPTIVE_DIVISION : rays->FIXED_DIVISION);
+      rays->SetDivisionTolerance(0.1);
+      vtkNew<ErrorObserver> observer;
+      observer->Observe(rays);
+      rays->Update();
+      EXPECT_EQ(rays->GetNumberOfFoldedCells(), right ? 0 : 1) << adaptive;
+      const std::string text = TextOf(observer);
+      EXPECT_EQ(text.find("1 cells are folded inside out") == std::string::npos, right) << text;
+      EXPECT_EQ(observer->Warnings.size(), right ? 0u : 1u) << text;
+    }
+  }
+  // Points in the middle of the edges, and all of them displaced a little: no cell is folded.
+  for (const CellCase& shape : CellCases)
+  {
+    for (const double displacement : { 0.0, 0.02 })
+    {
+      const Filter rays = MakeIntegral(MakeCell(shape, displacement, 4), 4);
+      rays->SetCellDivisionToFixed();
+      rays->Update();
+      EXPECT_EQ(rays->GetNumberOfFoldedCells(), 0) << shape.Name << " " << displacement;
+    }
+  }
+}
