@@ -31,8 +31,8 @@ configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
   __main__ integrals pyvista
-  viewer/__init__ viewer/colors viewer/command viewer/levels viewer/reading viewer/scene viewer/web
-  viewer/window)
+  viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels
+  viewer/reading viewer/scene viewer/series viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
   configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)

@@ -3,11 +3,14 @@
 """Isosurface areas of a scalar, and an opacity function that makes rare values visible."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules import vtkCommonDataModel as model
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
+from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
-from .reading import leaves_of
+from .cells import drawn_cells_of, leaves_of, types_of
 
 BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
@@ -26,15 +29,75 @@ def _as_grid(data):
     return append.GetOutput()
 
 
-def _measure_cells(grid):
+# Tetrahedra of a shape, by the corners of the cell.
+_TETRAHEDRON = [(0, 1, 2, 3)]
+_PYRAMID = [(0, 1, 2, 4), (0, 2, 3, 4)]
+_WEDGE = [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)]
+_HEXAHEDRON = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+_VOXEL = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7)]
+_SHAPES = (
+    (_TETRAHEDRON, "TETRA QUADRATIC_TETRA HIGHER_ORDER_TETRAHEDRON LAGRANGE_TETRAHEDRON "
+                   "BEZIER_TETRAHEDRON"),
+    (_PYRAMID, "PYRAMID QUADRATIC_PYRAMID TRIQUADRATIC_PYRAMID HIGHER_ORDER_PYRAMID "
+               "LAGRANGE_PYRAMID BEZIER_PYRAMID"),
+    (_WEDGE, "WEDGE QUADRATIC_WEDGE QUADRATIC_LINEAR_WEDGE BIQUADRATIC_QUADRATIC_WEDGE "
+             "HIGHER_ORDER_WEDGE LAGRANGE_WEDGE BEZIER_WEDGE"),
+    (_HEXAHEDRON, "HEXAHEDRON QUADRATIC_HEXAHEDRON TRIQUADRATIC_HEXAHEDRON "
+                  "BIQUADRATIC_QUADRATIC_HEXAHEDRON HIGHER_ORDER_HEXAHEDRON LAGRANGE_HEXAHEDRON "
+                  "BEZIER_HEXAHEDRON"),
+    (_VOXEL, "VOXEL"))
+# Tetrahedra by the type of the cell; VTK 9.1 lacks some types.
+_TETRAHEDRA = {getattr(model, "VTK_" + name): numpy.array(shape)
+               for shape, names in _SHAPES for name in names.split()
+               if hasattr(model, "VTK_" + name)}
+
+
+def _measure_corners(grid, cells, tetrahedra):
+    """Volumes of cells of one shape, of the tetrahedra between their corners."""
+    size = tetrahedra.max() + 1
+    ids = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    volumes = numpy.zeros(cells.size)
+    complete = starts[cells + 1] - starts[cells] >= size
+    corners = ids[starts[cells[complete]][:, None] + numpy.arange(size)]
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    for tetrahedron in tetrahedra:
+        a, b, c, d = (points[corners[:, corner]] for corner in tetrahedron)
+        volumes[complete] += abs(numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a)) / 6
+    return volumes
+
+
+def _measure_others(grid, cells):
+    """Volumes of polyhedra and prisms."""
+    chosen = vtkIdList()
+    for cell in cells:
+        chosen.InsertNextId(int(cell))
+    extract = vtkExtractCells()
+    extract.SetInputData(grid)
+    extract.SetCellList(chosen)
     size = vtkCellSizeFilter()
-    size.SetInputDataObject(grid)
+    size.SetInputConnection(extract.GetOutputPort())
     size.ComputeVertexCountOff()
     size.ComputeLengthOff()
     size.ComputeAreaOff()
     size.Update()
-    volumes = vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume"))
-    return numpy.abs(numpy.nan_to_num(volumes.astype(float)))
+    return abs(vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume")).astype(float))
+
+
+def _measure_cells(grid, drawn):
+    """Volumes of the cells that are drawn, 0 for the others. A cell of higher order counts with the
+    volume between its corners."""
+    types = types_of(grid)
+    volumes = numpy.zeros(types.size)
+    others = drawn.copy()
+    for kind in numpy.unique(types[drawn]):
+        if kind in _TETRAHEDRA:
+            cells = numpy.flatnonzero(drawn & (types == kind))
+            volumes[cells] = _measure_corners(grid, cells, _TETRAHEDRA[kind])
+            others[cells] = False
+    if others.any():
+        volumes[others] = _measure_others(grid, numpy.flatnonzero(others))
+    return numpy.nan_to_num(volumes)
 
 
 def _values_of(array, component):
@@ -45,15 +108,19 @@ def _values_of(array, component):
 
 
 def _ranges_of_cells(grid, name, association, component):
-    """Least and largest scalar of each cell."""
+    """Least and largest scalar of each cell; of a cell without points, not a number."""
     if association == "cells":
         values = _values_of(grid.GetCellData().GetArray(name), component)
         return values, values
     values = _values_of(grid.GetPointData().GetArray(name), component)
     cells = grid.GetCells()
     ids = values[vtk_to_numpy(cells.GetConnectivityArray())]
-    starts = vtk_to_numpy(cells.GetOffsetsArray())[:-1]
-    return numpy.minimum.reduceat(ids, starts), numpy.maximum.reduceat(ids, starts)
+    offsets = vtk_to_numpy(cells.GetOffsetsArray())
+    used = numpy.flatnonzero(numpy.diff(offsets))
+    ranges = numpy.full((2, offsets.size - 1), numpy.nan)
+    for limits, find in zip(ranges, (numpy.minimum, numpy.maximum)):
+        limits[used] = find.reduceat(ids, offsets[used])
+    return ranges
 
 
 class Levels:
@@ -64,25 +131,28 @@ class Levels:
     Duffy and Denby, "On histograms and isosurface statistics", 2006). Values that are not finite
     are left out.
 
-    low, high: range of the scalar. areas, volumes: by bin, BINS of them.
+    low, high: range of the scalar in the cells that are drawn; 0 and 1 if is_empty, without any
+    finite value. areas, volumes: by bin, BINS of them.
     """
 
     def __init__(self, data, name, association, component=None):
         lows, highs, volumes = [], [], []
         for leaf in leaves_of(data):
-            grid = _as_grid(leaf)
-            attributes = grid.GetPointData() if association == "points" else grid.GetCellData()
-            if grid.GetNumberOfCells() and attributes.HasArray(name):
+            attributes = leaf.GetPointData() if association == "points" else leaf.GetCellData()
+            drawn = drawn_cells_of(leaf)
+            if drawn.any() and attributes.HasArray(name):
+                grid = _as_grid(leaf)
                 least, largest = _ranges_of_cells(grid, name, association, component)
-                lows.append(least)
-                highs.append(largest)
-                volumes.append(_measure_cells(grid))
+                lows.append(least[drawn])
+                highs.append(largest[drawn])
+                volumes.append(_measure_cells(grid, drawn)[drawn])
         joined = [numpy.concatenate(parts) if parts else numpy.empty(0)
                   for parts in (lows, highs, volumes)]
         finite = numpy.isfinite(joined[0]) & numpy.isfinite(joined[1])
         self._collect(*(part[finite] for part in joined))
 
     def _collect(self, lows, highs, volumes):
+        self.is_empty = lows.size == 0
         self.low = float(lows.min()) if lows.size else 0.0
         self.high = float(highs.max()) if highs.size else 1.0
         width = (self.high - self.low) / BINS

@@ -10,8 +10,8 @@ from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
 from .. import vtkTetrahedraRayCastMapper
 from .colors import COLOR_MAPS, fill_colors, make_table
-from .levels import Levels
-from .reading import ReadingError, arrays_of, leaves_of
+from .levels import BINS, Levels
+from .reading import ReadingError, arrays_of
 
 BLEND_MODES = {
     "composite": vtkVolumeMapper.COMPOSITE_BLEND,
@@ -32,12 +32,6 @@ BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 ISOSURFACE_OPACITY = 0.4
 
 
-def _bounds_of(data):
-    bounds = [leaf.GetBounds() for leaf in leaves_of(data) if leaf.GetNumberOfCells()]
-    return [min(b[i] for b in bounds) if i % 2 == 0 else max(b[i] for b in bounds)
-            for i in range(6)]
-
-
 class MeshScene:
     """The volume of a MeshSeries in a vtkRenderer (attribute renderer).
 
@@ -49,9 +43,6 @@ class MeshScene:
         self.series = series
         self.step = 0
         self.data = series.read(0)
-        self.bounds = _bounds_of(self.data)
-        self.diagonal = sum((self.bounds[2 * i + 1] - self.bounds[2 * i]) ** 2
-                            for i in range(3)) ** 0.5
         self.colors = next(iter(COLOR_MAPS))
         self.density = 1.0
         self.blend = "composite"
@@ -60,6 +51,9 @@ class MeshScene:
         self.clip_axis = None
         self.mapper = vtkTetrahedraRayCastMapper()
         self.mapper.SetInputData(self.data)
+        self.bounds = tuple(self.mapper.GetBounds())
+        self.diagonal = sum((self.bounds[2 * i + 1] - self.bounds[2 * i]) ** 2
+                            for i in range(3)) ** 0.5
         self.volume = vtkVolume()
         self.volume.SetMapper(self.mapper)
         self.renderer = vtkRenderer()
@@ -115,6 +109,9 @@ class MeshScene:
         association, components = arrays[name]
         if limits and not limits[0] < limits[1]:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
+        levels = Levels(self.data, name, association)
+        if levels.is_empty:
+            raise ReadingError(f"The array '{name}' has no finite values")
         self.array = name
         self.limits = limits
         if association == "points":
@@ -124,7 +121,7 @@ class MeshScene:
         self.mapper.SelectScalarArray(name)
         self.mapper.SetVectorMode(self.mapper.MAGNITUDE if components > 1
                                   else self.mapper.DISABLED)
-        self.levels = Levels(self.data, name, association)
+        self.levels = levels
         self._update_functions()
 
     def _update_functions(self):
@@ -246,3 +243,15 @@ class MeshScene:
         self.renderer.ResetCamera(self.bounds)
         camera.Zoom(1.1)
         self.renderer.ResetCameraClippingRange()
+
+    def explain_empty_picture(self):
+        """Reason why a picture of the scene shows nothing of the mesh."""
+        low, high = self.levels.low, self.levels.high
+        opacity = self.volume.GetProperty().GetScalarOpacity()
+        if not any(opacity.GetValue(low + (high - low) * bin / BINS) for bin in range(BINS + 1)):
+            return f"the opacity is 0 for all values of '{self.array}', from {low:g} to {high:g}"
+        if self.clip_axis is not None and self.mapper.GetNumberOfActiveCells() > 0:
+            return "the clipping plane removes all of it"
+        if self.blend == "isosurface":
+            return f"no cell has one of the isovalues; '{self.array}' goes from {low:g} to {high:g}"
+        return "no ray through a pixel meets a cell that can be seen"

@@ -17,6 +17,7 @@ from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -175,6 +176,25 @@ class TestCommand(unittest.TestCase):
                        '<DataSet timestep="0" file="mesh.vtu"/></Collection></VTKFile>')
         self.assertEqual(abs(self.draw(collection, "--step", "1") - last).max(), 0)
 
+    def test_parts_of_a_step(self):
+        """All files of a time are one step: two halves are the whole."""
+        block = reading.MeshSeries([self.mesh]).read(0)
+        for number in range(2):
+            half = vtkExtractCells()
+            half.SetInputData(block)
+            count = block.GetNumberOfCells()
+            half.AddCellRange(number * count // 2, (number + 1) * count // 2 - 1)
+            half.Update()
+            write(vtkXMLUnstructuredGridWriter(), half.GetOutput(), self.name(f"part{number}.vtu"))
+        collection = self.name("parts.pvd")
+        with open(collection, "w") as file:
+            file.write('<VTKFile type="Collection"><Collection>' + "".join(
+                f'<DataSet timestep="{time}" part="{part}" file="part{part}.vtu"/>'
+                for time in (0, 1) for part in (0, 1)) + "</Collection></VTKFile>")
+        self.assertEqual(reading.MeshSeries([collection]).get_times(), [0, 1])
+        # The same cells in another order: the pictures are equal up to rounding.
+        self.assertLessEqual(abs(self.draw(collection) - self.draw(self.mesh)).max(), 2)
+
     def test_other_data_sets(self):
         block = reading.MeshSeries([self.mesh]).read(0)
         blocks = vtkMultiBlockDataSet()
@@ -209,6 +229,10 @@ class TestCommand(unittest.TestCase):
         bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
         bare.GetPointData().Initialize()
         bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
+        damaged = vtkUnstructuredGrid()
+        damaged.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
+        damaged.GetCells().GetConnectivityArray().SetComponent(7, 0, 100000)
+        damaged = write(vtkXMLUnstructuredGridWriter(), damaged, self.name("damaged.vtu"))
         text = self.name("notes.txt")
         open(text, "w").close()
         for arguments, message in (
@@ -218,6 +242,8 @@ class TestCommand(unittest.TestCase):
                 ([broken], "broken.vtu"),
                 ([empty], "no cells"),
                 ([bare], "no arrays"),
+                ([damaged], f"uses point 100000, but there are {(CELLS + 1) ** 3} points"),
+                ([self.water], "no cells with a volume; its cells are: 1 Quad"),
                 ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
                 ([self.mesh, "--colors", "q"], "no colour map 'q'"),
                 ([self.mesh, "--blend", "q"], "no blend mode 'q'"),
@@ -228,6 +254,11 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--clip", "q"], "no axis 'q'"),
                 ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
                 ([self.mesh, "--step", "1"], "no time step 1"),
+                ([self.mesh, "--isovalues", "9"], "isovalues; 'r' goes from 0 to 1.73"),
+                ([self.mesh, "--blend", "maximum", "--range", "5", "6"], "the opacity is 0"),
+                ([self.mesh, "--clip", "x:1"], "clipping plane"),
+                ([self.mesh, "--array", "r", "--blend", "isosurface", "--clip", "z:2"],
+                 "clipping plane"),
                 ([self.mesh, "--water", self.name("absent.stl")], "no such file"),
                 ([self.mesh, "--water", empty], "no surface"),
                 ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),
