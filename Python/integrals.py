@@ -5,6 +5,7 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
+from .leaves import leaves_of
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
 try:
@@ -37,6 +38,33 @@ def _set_bins(rays, bins):
             setter(number, value)
 
 
+def _find_array(mesh, scalars):
+    """The first array of a name, or the first active scalars, of the points or cells of a mesh;
+    None if there is none."""
+    if hasattr(mesh, "GetOutputPort"):
+        mesh.Update()
+        mesh = mesh.GetOutputDataObject(0)
+    for leaf in leaves_of(mesh):
+        for attributes in (leaf.GetPointData(), leaf.GetCellData()):
+            array = attributes.GetArray(scalars) if scalars else attributes.GetScalars()
+            if array is not None:
+                return array
+    return None
+
+
+def _choose_component(rays, array, component):
+    """Sets the component of an array; one of an array with several is a ValueError if none or
+    another is chosen."""
+    count = array.GetNumberOfComponents() if array is not None else 1
+    if component is None and count == 1:
+        return
+    if component not in ("magnitude", *range(count)):
+        raise ValueError('The array \'%s\' has %d components; choose one with component=%s or '
+                         '"magnitude"' % (array.GetName() if array is not None else "", count,
+                                          ", ".join(map(str, range(count)))))
+    rays.SetArrayComponent(-1 if component == "magnitude" else component)
+
+
 def _update(rays):
     """Updates a filter; an error that it reports is a ValueError."""
     errors = []
@@ -57,8 +85,8 @@ def _update(rays):
         raise ValueError(lines[-1].split("): ", 1)[-1])
 
 
-def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), camera=None, bins=None,
-                 **properties):
+def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=(256, 256),
+                 camera=None, bins=None, **properties):
     """Casts one ray per pixel through a mesh and returns what it measures.
 
     mesh: a VTK or PyVista dataset, or a filter whose output is one.
@@ -66,6 +94,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), came
         PathLength, OpticalDepth, FirstDepth, LastDepth, Minimum, MinimumDepth, Maximum,
         MaximumDepth, RGBA, EnergyBins.
     scalars: name of a point or cell array; default: the active scalars.
+    component: number of a component from 0, or "magnitude"; needed for scalars with several.
     size: width and height of the image in pixels.
     camera: a vtkCamera; default: parallel rays along Direction, around the bounding box.
     bins: attenuation coefficients of energy bins, or tuples (attenuation, emission, intensity).
@@ -91,6 +120,8 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), came
     if scalars is not None:
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
+    if "ArrayComponent" not in properties:
+        _choose_component(rays, _find_array(mesh, scalars), component)
     rays.SetImageSize(*size)
     if camera is not None:
         rays.SetCamera(camera)

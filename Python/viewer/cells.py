@@ -1,33 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cells of a mesh: the data sets that have them, those that are drawn, and damaged ones."""
+"""Cells of a mesh: those that are drawn, and damaged ones."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (
-    VTK_POLYHEDRON, vtkCellTypes, vtkCompositeDataSet, vtkDataSet, vtkDataSetAttributes,
-    vtkGenericCell, vtkImageData, vtkPolyData, vtkRectilinearGrid, vtkStructuredGrid,
-    vtkUnstructuredGrid)
+    VTK_POLYHEDRON, vtkCellTypes, vtkDataSetAttributes, vtkGenericCell, vtkImageData, vtkPolyData,
+    vtkRectilinearGrid, vtkStructuredGrid, vtkUnstructuredGrid)
 
+from ..leaves import leaves_of
 from .files import ReadingError
 
 # Cells with one of these bits in the array vtkGhostType are not drawn.
 _LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
-
-
-def leaves_of(data):
-    """The data sets of a data set or a composite one; empty blocks are left out."""
-    if isinstance(data, vtkDataSet):
-        return [data]
-    leaves = []
-    if isinstance(data, vtkCompositeDataSet):
-        iterator = data.NewIterator()
-        iterator.InitTraversal()
-        while not iterator.IsDoneWithTraversal():
-            leaf = iterator.GetCurrentDataObject()
-            if isinstance(leaf, vtkDataSet):
-                leaves.append(leaf)
-            iterator.GoToNextItem()
-    return leaves
 
 
 def types_of(leaf):

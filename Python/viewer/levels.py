@@ -10,7 +10,8 @@ from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
-from .cells import drawn_cells_of, leaves_of, types_of
+from ..leaves import leaves_of
+from .cells import drawn_cells_of, types_of
 
 BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that

@@ -10,8 +10,8 @@ import xml.etree.ElementTree as ElementTree
 
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
+from ..leaves import leaves_of
 from .files import DECOMPOSED, ReadingError, check_exists, ending_of, open_file
-from .cells import leaves_of
 
 
 class _Entry:
