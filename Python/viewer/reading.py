@@ -1,12 +1,25 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes, their time steps and surfaces from files."""
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
 from .cells import check_damage, check_drawable, drawn_leaves_of
 from .files import ReadingError
 from .series import is_collection, open_source
+
+
+# Array of a mesh without arrays.
+UNIFORM = "uniform"
+
+
+def _make_uniform(size):
+    array = vtkDoubleArray()
+    array.SetName(UNIFORM)
+    array.SetNumberOfTuples(size)
+    array.Fill(1.0)
+    return array
 
 
 class MeshSeries:
@@ -34,10 +47,14 @@ class MeshSeries:
         return [time for time, _ in self.steps]
 
     def read(self, step):
-        """The data of a step; if it is damaged or has no volume, it is a ReadingError."""
+        """The data of a step; if it is damaged or has no volume, it is a ReadingError. Without an
+        array it gets one of cells, UNIFORM, with the value 1."""
         data = self.steps[step][1]()
         check_damage(data)
         check_drawable(data)
+        if not arrays_of(data):
+            for leaf in drawn_leaves_of(data):
+                leaf.GetCellData().AddArray(_make_uniform(leaf.GetNumberOfCells()))
         return data
 
 

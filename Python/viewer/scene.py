@@ -69,10 +69,7 @@ class MeshScene:
         look.SetSpecular(0.25)
         look.SetSpecularPower(25.0)
         look.SetScalarOpacityUnitDistance(self.diagonal)
-        names = self.get_arrays()
-        if not names:
-            raise ReadingError("The mesh has no arrays")
-        self.set_array(array or names[0], limits)
+        self.set_array(array or self.get_arrays()[0], limits)
 
     def _add_bar(self):
         self.bar = vtkScalarBarActor()

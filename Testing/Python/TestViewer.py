@@ -218,6 +218,17 @@ class TestCommand(unittest.TestCase):
                      self.name("constant.vtu"))
         self.assertGreater(self.draw(name).std(), 5)
 
+    def test_mesh_without_arrays(self):
+        """It is drawn with the same density everywhere."""
+        bare = vtkUnstructuredGrid()
+        bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
+        bare.GetPointData().Initialize()
+        bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
+        constant = make_block({reading.UNIFORM: lambda *_: 1.0})
+        constant = write(vtkXMLUnstructuredGridWriter(), constant, self.name("constant.vtu"))
+        # Points or cells of one value: equal up to rounding.
+        self.assertLessEqual(abs(self.draw(bare) - self.draw(constant)).max(), 2)
+
     def test_messages(self):
         broken = self.name("broken.vtu")
         with open(broken, "w") as file:
@@ -225,10 +236,6 @@ class TestCommand(unittest.TestCase):
         empty = vtkUnstructuredGrid()
         empty.SetPoints(reading.MeshSeries([self.mesh]).read(0).GetPoints())
         empty = write(vtkXMLUnstructuredGridWriter(), empty, self.name("empty.vtu"))
-        bare = vtkUnstructuredGrid()
-        bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
-        bare.GetPointData().Initialize()
-        bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
         damaged = vtkUnstructuredGrid()
         damaged.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
         damaged.GetCells().GetConnectivityArray().SetComponent(7, 0, 100000)
@@ -241,7 +248,6 @@ class TestCommand(unittest.TestCase):
                 ([text], "'.txt'"),
                 ([broken], "broken.vtu"),
                 ([empty], "no cells"),
-                ([bare], "no arrays"),
                 ([damaged], f"uses point 100000, but there are {(CELLS + 1) ** 3} points"),
                 ([self.water], "no cells with a volume; its cells are: 1 Quad"),
                 ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
