@@ -12,16 +12,17 @@ from .files import ReadingError
 
 # Cells with one of these bits in the array vtkGhostType are not drawn.
 _LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
+_FACE = "a face of a polyhedron"
 
 
 def types_of(leaf):
-    """Type of each cell, as an array; of a data set whose cells are equal, of all one type."""
+    """Type of each cell, as an array."""
     if isinstance(leaf, vtkUnstructuredGrid):
         types = leaf.GetCellTypesArray()
         return vtk_to_numpy(types) if types else numpy.empty(0, numpy.uint8)
     if isinstance(leaf, vtkPolyData):
         return numpy.array([leaf.GetCellType(cell) for cell in range(leaf.GetNumberOfCells())])
-    # Not of the first cell, which may be blanked.
+    # All cells of structured data have one type.
     first = leaf.GetCell(0).GetCellType() if leaf.GetNumberOfCells() else 0
     return numpy.full(leaf.GetNumberOfCells(), first, numpy.uint8)
 
@@ -74,7 +75,7 @@ def _check_ids(ids, points, what):
                            f"are {points} points")
 
 
-def _check_cells(cells, points):
+def _check_cells(cells, points, what="a cell"):
     """Checks a vtkCellArray of a mesh with a number of points."""
     ids = vtk_to_numpy(cells.GetConnectivityArray())
     offsets = vtk_to_numpy(cells.GetOffsetsArray())
@@ -82,11 +83,15 @@ def _check_cells(cells, points):
                          or offsets[-1] > ids.size):
         raise ReadingError("The mesh is damaged: the offsets of the cells are not ascending "
                            f"numbers up to {ids.size}, the number of point indices")
-    _check_ids(ids, points, "a cell")
+    _check_ids(ids, points, what)
 
 
 def _check_faces(grid):
     """Checks the faces of polyhedra."""
+    if hasattr(grid, "GetPolyhedronFaces"):  # VTK 9.4
+        if grid.GetPolyhedronFaces():
+            _check_cells(grid.GetPolyhedronFaces(), grid.GetNumberOfPoints(), _FACE)
+        return
     faces, places = grid.GetFaces(), grid.GetFaceLocations()
     if not faces or not places:
         return
@@ -97,7 +102,7 @@ def _check_faces(grid):
             size = stream[place] if place < stream.size else stream.size
             if not 0 <= size < stream.size - place:
                 raise ReadingError(f"The mesh is damaged: the faces of cell {cell} are incomplete")
-            _check_ids(stream[place + 1:place + 1 + size], points, "a face of a polyhedron")
+            _check_ids(stream[place + 1:place + 1 + size], points, _FACE)
             place += size + 1
 
 

@@ -5,9 +5,8 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules import vtkCommonDataModel as model
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_POLYHEDRON, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 from ..leaves import leaves_of
@@ -70,14 +69,17 @@ def _measure_corners(grid, cells, tetrahedra):
 
 def _measure_others(grid, cells):
     """Volumes of polyhedra and prisms."""
-    chosen = vtkIdList()
-    for cell in cells:
-        chosen.InsertNextId(int(cell))
-    extract = vtkExtractCells()
-    extract.SetInputData(grid)
-    extract.SetCellList(chosen)
+    chosen, ids = vtkUnstructuredGrid(), vtkIdList()
+    chosen.SetPoints(grid.GetPoints())
+    for cell in map(int, cells):
+        kind = grid.GetCellType(cell)
+        if kind == VTK_POLYHEDRON:
+            grid.GetFaceStream(cell, ids)
+        else:
+            grid.GetCellPoints(cell, ids)
+        chosen.InsertNextCell(kind, ids)
     size = vtkCellSizeFilter()
-    size.SetInputConnection(extract.GetOutputPort())
+    size.SetInputDataObject(chosen)
     size.ComputeVertexCountOff()
     size.ComputeLengthOff()
     size.ComputeAreaOff()

@@ -17,7 +17,7 @@ from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
-from vtkmodules.vtkFiltersExtraction import vtkExtractCells
+from vtkmodules.vtkFiltersExtraction import vtkExtractUnstructuredGrid
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -180,10 +180,12 @@ class TestCommand(unittest.TestCase):
         """All files of a time are one step: two halves are the whole."""
         block = reading.MeshSeries([self.mesh]).read(0)
         for number in range(2):
-            half = vtkExtractCells()
+            half = vtkExtractUnstructuredGrid()
             half.SetInputData(block)
+            half.CellClippingOn()
             count = block.GetNumberOfCells()
-            half.AddCellRange(number * count // 2, (number + 1) * count // 2 - 1)
+            half.SetCellMinimum(number * count // 2)
+            half.SetCellMaximum((number + 1) * count // 2 - 1)
             half.Update()
             write(vtkXMLUnstructuredGridWriter(), half.GetOutput(), self.name(f"part{number}.vtu"))
         collection = self.name("parts.pvd")
