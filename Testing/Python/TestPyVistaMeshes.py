@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""meniscus.pyvista with MultiBlock datasets, arrays of several components and logarithmic scales;
-skipped without PyVista.
+"""meniscus.pyvista with MultiBlock datasets, arrays of several components, logarithmic scales and
+the files of Testing/Data/Menagerie; skipped without PyVista.
 
 The exit status is then 125, which CTest counts as skipped.
 """
+import csv
 import itertools
+import os
 import sys
 import unittest
 
@@ -17,9 +19,11 @@ except ImportError:
 
 import numpy
 from meniscus.pyvista import add_volume, refracted
+from vtkmodules.vtkCommonCore import vtkVersion
 
 SIZE = 120
 CELLS = 8
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Data", "Menagerie")
 
 
 def make_cube():
@@ -173,6 +177,37 @@ class TestLogarithms(unittest.TestCase):
         look = volume.GetProperty()
         self.assertAlmostEqual(look.GetScalarOpacity().GetValue(100.0), 0.5, delta=0.005)
         plotter.close()
+
+
+class TestMenagerie(unittest.TestCase):
+    """Each file that PyVista reads has the bounds of the table and is drawn by add_volume()."""
+
+    # Readers of PyVista 0.44 leave these arrays or bases out, or have another name for the ending.
+    OTHER = (".inp", ".series", ".pvd", ".0", ".nc", ".vtkhdf", ".msh", ".cgns", ".vtpd")
+
+    def draw(self, row):
+        mesh = pyvista.read(os.path.join(FOLDER, row["file"]))
+        array = next(iter(row["arrays"].split(", "))).split(" ", 1)
+        plotter = pyvista.Plotter(off_screen=True, window_size=(40, 30))
+        plotter.set_background("black")
+        volume = add_volume(plotter, mesh, array[1], preference=array[0], show_scalar_bar=False,
+                            component="magnitude", render=False)
+        numpy.testing.assert_allclose(volume.GetBounds(),
+                                      [float(x) for x in row["bounds"].split()], atol=1e-9)
+        self.assertGreater(plotter.screenshot(return_img=True).max(), 20)
+        plotter.close()
+
+    def test_files(self):
+        with open(os.path.join(FOLDER, "expected.csv"), newline="") as file:
+            rows = list(csv.DictReader(file, delimiter="|", quoting=csv.QUOTE_NONE))
+        drawn = 0
+        for row in rows:
+            if (float(row["volume"]) and not row["needs"] and row["arrays"] != "cell uniform"
+                    and not row["file"].endswith(self.OTHER)):
+                with self.subTest(file=row["file"], vtk=vtkVersion.GetVTKVersion()):
+                    self.draw(row)
+                    drawn += 1
+        self.assertGreater(drawn, 40)
 
 
 if __name__ == "__main__":
