@@ -224,7 +224,24 @@ class _MeshioFile:
                                ) from None
 
     def get_times(self):
-        return []
+        """Time values of a series of XDMF; empty for other files."""
+        if ending_of(self.name) not in (".xdmf", ".xmf"):
+            return []
+        try:
+            series = self.meshio.xdmf.TimeSeriesReader(self.name)
+            return [float(grid.find("Time").get("Value")) for grid in series.collection]
+        except Exception:  # a single mesh, or a file that read() reports
+            return []
+
+    def _read_mesh(self, time):
+        times = self.get_times()
+        if not times:
+            return self.meshio.read(self.name)
+        step = max((i for i, t in enumerate(times) if time is not None and t <= time), default=0)
+        with self.meshio.xdmf.TimeSeriesReader(self.name) as series:
+            points, cells = series.read_points_cells()
+            _, point_data, cell_data = series.read_data(step)
+        return self.meshio.Mesh(points, cells, point_data, cell_data)
 
     def read(self, time=None):
         printed = io.StringIO()
@@ -232,7 +249,7 @@ class _MeshioFile:
             copy = os.path.join(folder, "mesh.vtu")
             try:
                 with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-                    self.meshio.write(copy, self.meshio.read(self.name))
+                    self.meshio.write(copy, self._read_mesh(time))
             # meshio has no common class of errors, and ends the program for some.
             except (Exception, SystemExit) as error:
                 reason = str(error) if isinstance(error, Exception) else printed.getvalue()

@@ -165,6 +165,10 @@ def add_programs(menagerie):
         arrays="point T, cell CellEntityIds")
     menagerie.add("abaqus/box.inp", other_files.abaqus(HEXAHEDRAL), arrays="cell BOX",
                   needs="meshio")
+    menagerie.add("xdmf/mesh.xdmf", other_files.xdmf(TETRAHEDRAL), arrays="point T",
+                  needs="meshio")
+    menagerie.add("xdmf/steps.xdmf", other_files.xdmf(TETRAHEDRAL, (0.0, 0.5, 2.0)),
+                  arrays="point T", steps=3, needs="meshio")
     menagerie.add("avs/box.inp", other_files.avs(HEXAHEDRAL),
                   arrays="point T, cell Material Id, cell p")
     menagerie.expect("openfoam/case.foam", arrays="point U, point p", steps=2)
@@ -355,6 +359,8 @@ def add_damaged(menagerie):
     bad("index-too-large.vtk", vtk_files.legacy(Mesh(mesh.points, [changed(3, 500)[:8]], [12])),
         "uses point 500", "damaged")
     bad("not-vtk.vtk", "solid box\n", "not-vtk.vtk")
+    bad("not-gmsh.msh", "text\n", "not-gmsh.msh")
+    bad("cut-off.xdmf", other_files.xdmf(TETRAHEDRAL)[:400], "cut-off.xdmf")
     bad("not-hdf.vtkhdf", "text\n", "not-hdf.vtkhdf")
     bad("not-exodus.e", "text\n", "not-exodus.e")
     bad("not-cgns.cgns", "text\n", "not-cgns.cgns")

@@ -327,6 +327,40 @@ def gmsh(mesh):
     return text + "$EndNodeData\n"
 
 
+def _xdmf_item(values):
+    kind = "Float" if values.dtype.kind == "f" else "Int"
+    return (f'<DataItem DataType="{kind}" Precision="8" Format="XML" '
+            f'Dimensions="{" ".join(map(str, values.shape))}">\n'
+            + " ".join(map(str, values.ravel().tolist())) + "\n</DataItem>\n")
+
+
+def _xdmf_grid(mesh):
+    cells = numpy.array(mesh.cells, "i8")
+    return (f'<Topology TopologyType="Tetrahedron" NumberOfElements="{len(cells)}">\n'
+            f'{_xdmf_item(cells)}</Topology>\n<Geometry GeometryType="XYZ">\n'
+            f'{_xdmf_item(mesh.points)}</Geometry>\n')
+
+
+def _xdmf_attribute(name, values):
+    return (f'<Attribute Name="{name}" AttributeType="Scalar" Center="Node">\n'
+            f'{_xdmf_item(values)}</Attribute>\n')
+
+
+def xdmf(mesh, times=()):
+    """Text of an XDMF file of tetrahedra with the point array T, multiplied by 1 + time in a
+    series."""
+    body = f'<Grid Name="mesh" GridType="Uniform">\n{_xdmf_grid(mesh)}'
+    if not times:
+        body += _xdmf_attribute("T", mesh.point_data["T"])
+    body += "</Grid>\n"
+    if times:
+        body += '<Grid Name="T" GridType="Collection" CollectionType="Temporal">\n' + "".join(
+            f'<Grid Name="T" GridType="Uniform">\n<Time Value="{time}"/>\n'
+            + _xdmf_attribute("T", (1 + time) * mesh.point_data["T"]) + "</Grid>\n"
+            for time in times) + "</Grid>\n"
+    return f'<?xml version="1.0"?>\n<Xdmf Version="3.0">\n<Domain>\n{body}</Domain>\n</Xdmf>\n'
+
+
 def abaqus(mesh):
     """Text of an input file of Abaqus."""
     text = "*HEADING\nbox\n*NODE\n"

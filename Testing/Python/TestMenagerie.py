@@ -12,6 +12,7 @@ import unittest
 
 import numpy
 from meniscus import vtkTetrahedraRayIntegral
+from meniscus.leaves import leaves_of
 from meniscus.viewer import reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -87,6 +88,21 @@ class TestMenagerie(unittest.TestCase):
                 if find_missing(row):
                     self.skipTest("no " + find_missing(row))
                 self.check_mesh(row)
+
+    def test_values_of_steps(self):
+        """The point array T of these files grows with 1 + time; it is 7 at most at time 0."""
+        for row in self.rows:
+            if row["file"] not in ("ensight/box.case", "xdmf/steps.xdmf", "vtkhdf/steps.vtkhdf"):
+                continue
+            with self.subTest(file=row["file"]):
+                if find_missing(row):
+                    self.skipTest("no " + find_missing(row))
+                series = reading.MeshSeries([os.path.join(FOLDER, row["file"])])
+                for step, time in enumerate(series.get_times()):
+                    data = series.read(step)
+                    largest = max(leaf.GetPointData().GetArray("T").GetRange()[1]
+                                  for leaf in leaves_of(data))
+                    self.assertAlmostEqual(largest, 7 * (1 + time))
 
     def run_command(self, name):
         """Status, standard error and whether a picture was written."""
