@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Helpers for PyVista: volumes of tetrahedra, and geometry seen through a refracting surface."""
+import math
+
 import numpy
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -267,7 +269,7 @@ def _find_unit_distance(mesh, bounds):
     """Length over which opacities are given: for image data that of plotter.add_volume()."""
     if isinstance(mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
         return mesh.length / max(1, sum(mesh.dimensions) / 3 - 1)
-    length = sum((bounds[2 * i + 1] - bounds[2 * i]) ** 2 for i in range(3)) ** 0.5
+    length = math.hypot(*(bounds[2 * i + 1] - bounds[2 * i] for i in range(3)))
     cells = sum(int(drawn_cells_of(leaf).sum()) for leaf in drawn_leaves_of(mesh))
     return length / max(1, cells) ** (1 / 3)
 

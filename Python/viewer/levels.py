@@ -29,6 +29,8 @@ def _as_grid(data):
     return append.GetOutput()
 
 
+# Cells that are measured at once, which limits the memory of intermediate results.
+_BLOCK_SIZE = 1 << 18
 # Tetrahedra of a shape, by the corners of the cell.
 _TETRAHEDRON = [(0, 1, 2, 3)]
 _PYRAMID = [(0, 1, 2, 4), (0, 2, 3, 4)]
@@ -52,18 +54,20 @@ _TETRAHEDRA = {getattr(model, "VTK_" + name): numpy.array(shape)
                if hasattr(model, "VTK_" + name)}
 
 
-def _measure_corners(grid, cells, tetrahedra):
-    """Volumes of cells of one shape, of the tetrahedra between their corners."""
-    size = tetrahedra.max() + 1
-    ids = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    volumes = numpy.zeros(cells.size)
-    complete = starts[cells + 1] - starts[cells] >= size
-    corners = ids[starts[cells[complete]][:, None] + numpy.arange(size)]
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    for tetrahedron in tetrahedra:
-        a, b, c, d = (points[corners[:, corner]] for corner in tetrahedron)
-        volumes[complete] += abs(numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a)) / 6
+def _measure_corners(points, ids, starts, tetrahedra):
+    """Volumes of cells of one shape, of the tetrahedra between their corners.
+
+    points: coordinates as three arrays. ids: point indices of all cells. starts: place of the first
+    index of each cell to be measured.
+    """
+    volumes = numpy.zeros(starts.size)
+    with numpy.errstate(invalid="ignore", over="ignore"):  # points that are not finite
+        for tetrahedron in tetrahedra:
+            first, *others = (ids[starts + corner] for corner in tetrahedron)
+            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (
+                [axis[other] - axis[first] for axis in points] for other in others)
+            volumes += abs(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz)
+                           + az * (bx * cy - by * cx)) / 6
     return volumes
 
 
@@ -93,14 +97,20 @@ def _measure_cells(grid, drawn):
     types = types_of(grid)
     volumes = numpy.zeros(types.size)
     others = drawn.copy()
+    points = vtk_to_numpy(grid.GetPoints().GetData()).T.astype(float, order="C")
+    ids = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     for kind in numpy.unique(types[drawn]):
         if kind in _TETRAHEDRA:
-            cells = numpy.flatnonzero(drawn & (types == kind))
-            volumes[cells] = _measure_corners(grid, cells, _TETRAHEDRA[kind])
-            others[cells] = False
+            of_kind = drawn & (types == kind)
+            others[of_kind] = False
+            complete = numpy.diff(offsets) > _TETRAHEDRA[kind].max()
+            cells = numpy.flatnonzero(of_kind & complete)
+            for block in numpy.array_split(cells, cells.size // _BLOCK_SIZE + 1):
+                volumes[block] = _measure_corners(points, ids, offsets[block], _TETRAHEDRA[kind])
     if others.any():
         volumes[others] = _measure_others(grid, numpy.flatnonzero(others))
-    return numpy.nan_to_num(volumes)
+    return numpy.where(numpy.isfinite(volumes), volumes, 0.0)
 
 
 def _values_of(array, component):
@@ -119,11 +129,13 @@ def _ranges_of_cells(grid, name, association, component):
     cells = grid.GetCells()
     ids = values[vtk_to_numpy(cells.GetConnectivityArray())]
     offsets = vtk_to_numpy(cells.GetOffsetsArray())
-    used = numpy.flatnonzero(numpy.diff(offsets))
-    ranges = numpy.full((2, offsets.size - 1), numpy.nan)
-    for limits, find in zip(ranges, (numpy.minimum, numpy.maximum)):
-        limits[used] = find.reduceat(ids, offsets[used])
-    return ranges
+    used = numpy.diff(offsets) > 0
+    ranges = [find.reduceat(ids, offsets[:-1][used]) for find in (numpy.minimum, numpy.maximum)]
+    if used.all():
+        return ranges
+    expanded = numpy.full((2, used.size), numpy.nan)
+    expanded[:, used] = ranges
+    return expanded
 
 
 class Levels:
@@ -146,13 +158,14 @@ class Levels:
             if drawn.any() and attributes.HasArray(name):
                 grid = _as_grid(leaf)
                 least, largest = _ranges_of_cells(grid, name, association, component)
-                lows.append(least[drawn])
-                highs.append(largest[drawn])
-                volumes.append(_measure_cells(grid, drawn)[drawn])
+                chosen = slice(None) if drawn.all() else drawn
+                lows.append(least[chosen])
+                highs.append(largest[chosen])
+                volumes.append(_measure_cells(grid, drawn)[chosen])
         joined = [numpy.concatenate(parts) if parts else numpy.empty(0)
                   for parts in (lows, highs, volumes)]
         finite = numpy.isfinite(joined[0]) & numpy.isfinite(joined[1])
-        self._collect(*(part[finite] for part in joined))
+        self._collect(*(joined if finite.all() else [part[finite] for part in joined]))
 
     def _collect(self, lows, highs, volumes):
         self.is_empty = lows.size == 0

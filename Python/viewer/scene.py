@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A mesh as a volume, with its settings; windows, pages and pictures show it."""
+import math
+
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -52,8 +54,8 @@ class MeshScene:
         self.mapper = vtkTetrahedraRayCastMapper()
         self.mapper.SetInputData(self.data)
         self.bounds = tuple(self.mapper.GetBounds())
-        self.diagonal = sum((self.bounds[2 * i + 1] - self.bounds[2 * i]) ** 2
-                            for i in range(3)) ** 0.5
+        self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]
+                                     for i in range(3)))
         self.volume = vtkVolume()
         self.volume.SetMapper(self.mapper)
         self.renderer = vtkRenderer()

@@ -380,6 +380,12 @@ def add_damaged(menagerie):
     # All tetrahedra of the left half have the point.
     menagerie.add("damaged/some-values-not-finite.vtu", vtk_files.vtu(TETRAHEDRAL.with_arrays(
         {"T": holes})), volume=1, arrays="point T")
+    for name, value in (("not-finite", nan), ("infinite", float("inf")), ("huge", 1e300)):
+        # All tetrahedra of the right half have the point.
+        moved = TETRAHEDRAL.moved((0, 0, 0))
+        moved.points[(moved.points == (2, 1, 1)).all(axis=1)] = value
+        menagerie.add(f"damaged/point-{name}.vtu", vtk_files.vtu(moved, encoding="base64"),
+                      volume=1, bounds=(0, 1, 0, 1, 0, 1), needs=BOUNDS)
     menagerie.add("damaged/flat-cell.vtu", vtk_files.vtu(mesh.with_cells(
         [[0, 1, 2, 3], [5, 5, 5, 5]], TETRA)))
 
