@@ -155,7 +155,8 @@ class _Scalars:
             scalars = "Data"
         scalars = scalars or mesh.active_scalars_name
         if scalars is None:
-            raise ValueError("The mesh has no active scalars; name an array with scalars=")
+            raise ValueError("The mesh has no active scalars; name an array with scalars=, one of: "
+                             + ", ".join(mesh.array_names))
         association = mesh.get_array_association(scalars, preference=preference)
         self.mesh, self.name = mesh, scalars
         self.in_points = association == pyvista.FieldAssociation.POINT

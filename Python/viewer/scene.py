@@ -3,6 +3,7 @@
 """A mesh as a volume, with its settings; windows, pages and pictures show it."""
 import math
 
+from vtkmodules.vtkCommonCore import vtkMath
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -153,8 +154,8 @@ class MeshScene:
 
     def set_density(self, factor):
         """Multiplies all attenuation coefficients by a factor > 0; 1 is the default."""
-        if not factor > 0.0:
-            raise ReadingError("The density must be above 0")
+        if not 0.0 < factor < math.inf:
+            raise ReadingError("The density must be a number above 0")
         self.density = factor
         self.volume.GetProperty().SetScalarOpacityUnitDistance(self.diagonal / factor)
 
@@ -191,6 +192,8 @@ class MeshScene:
             return
         if axis not in AXES:
             raise ReadingError(f"There is no axis '{axis}'; they are x, y and z")
+        if not math.isfinite(share):
+            raise ReadingError("The share of a clipped extent must be a finite number")
         number = list(AXES).index(axis)
         low, high = self.bounds[2 * number], self.bounds[2 * number + 1]
         self._clip_plane.SetNormal(*AXES[axis])
@@ -233,7 +236,10 @@ class MeshScene:
         self.renderer.AddActor(actor)
 
     def reset_camera(self, direction=(1.0, 0.7, 1.0), up=(0.0, 1.0, 0.0)):
-        """Looks at the volume from a direction, given as a vector to the eye."""
+        """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is
+        parallel to it, another one is upward."""
+        if vtkMath.AngleBetweenVectors(direction, up) in (0.0, math.pi):
+            up = (up[2], up[0], up[1])
         camera = self.renderer.GetActiveCamera()
         center = [0.5 * (self.bounds[2 * i] + self.bounds[2 * i + 1]) for i in range(3)]
         camera.SetFocalPoint(*center)

@@ -81,6 +81,9 @@ class TestMultiBlocks(unittest.TestCase):
         self.halves[0].set_active_scalars("decades")
         with self.assertRaisesRegex(ValueError, "decades, y; name an array"):
             add_volume(plotter, pyvista.MultiBlock(self.halves))
+        self.cube.set_active_scalars(None)
+        with self.assertRaisesRegex(ValueError, "one of: .*decades"):
+            add_volume(plotter, self.cube)
         plotter.close()
 
     def test_blocks_that_are_not_drawn(self):

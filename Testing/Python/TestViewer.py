@@ -220,6 +220,13 @@ class TestCommand(unittest.TestCase):
                      self.name("constant.vtu"))
         self.assertGreater(self.draw(name).std(), 5)
 
+    def test_view_along_the_upward_axis(self):
+        for view in (("0", "1", "0"), ("0", "-2", "0")):
+            scene = make_scene(make_parser().parse_args([self.mesh, "--view", *view]))
+            camera = scene.renderer.GetActiveCamera()
+            self.assertEqual(camera.GetViewUp(), (0, 0, 1))
+            self.assertGreater(self.draw(self.mesh, "--view", *view).std(), 5)
+
     def test_mesh_without_arrays(self):
         """It is drawn with the same density everywhere."""
         bare = vtkUnstructuredGrid()
@@ -261,6 +268,9 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--range", "nan", "1"], "lower end below the upper"),
                 ([self.mesh, "--clip", "q"], "no axis 'q'"),
                 ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
+                ([self.mesh, "--clip", "x:nan"], "finite"),
+                ([self.mesh, "--density", "inf"], "above 0"),
+                ([self.mesh, "--view", "0", "0", "0"], "shows nothing"),
                 ([self.mesh, "--step", "1"], "no time step 1"),
                 ([self.mesh, "--isovalues", "9"], "isovalues; 'r' goes from 0 to 1.73"),
                 ([self.mesh, "--blend", "maximum", "--range", "5", "6"], "the opacity is 0"),
