@@ -54,9 +54,6 @@ class MeshScene:
         self.clip_axis = None
         self.mapper = vtkTetrahedraRayCastMapper()
         self.mapper.SetInputData(self.data)
-        self.bounds = tuple(self.mapper.GetBounds())
-        self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]
-                                     for i in range(3)))
         self.volume = vtkVolume()
         self.volume.SetMapper(self.mapper)
         self.renderer = vtkRenderer()
@@ -71,8 +68,12 @@ class MeshScene:
         look.SetDiffuse(0.7)
         look.SetSpecular(0.25)
         look.SetSpecularPower(25.0)
-        look.SetScalarOpacityUnitDistance(self.diagonal)
         self.set_array(array or self.get_arrays()[0], limits)
+        # Of the cells that are drawn: blocks without the array are not.
+        self.bounds = tuple(self.mapper.GetBounds())
+        self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]
+                                     for i in range(3)))
+        look.SetScalarOpacityUnitDistance(self.diagonal)
 
     def _add_bar(self):
         self.bar = vtkScalarBarActor()
