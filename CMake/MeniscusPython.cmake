@@ -30,7 +30,7 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ integrals leaves pyvista
+  __main__ data integrals pyvista
   viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels
   viewer/reading viewer/scene viewer/series viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
@@ -54,7 +54,7 @@ install(
     "${_meniscus_package}/__init__.py"
     "${_meniscus_package}/__main__.py"
     "${_meniscus_package}/integrals.py"
-    "${_meniscus_package}/leaves.py"
+    "${_meniscus_package}/data.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
     "${_meniscus_stubs}"

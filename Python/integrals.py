@@ -5,7 +5,7 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
-from .leaves import leaves_of
+from .data import check_component, leaves_of
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
 try:
@@ -17,6 +17,9 @@ except ImportError:
 _SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
 _ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
            "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
+# Arrays that do not depend on scalars, and properties that choose components or arrays of their own.
+_GEOMETRIC = {"PathLength", "FirstDepth", "LastDepth"}
+_OWN_COMPONENTS = {"ArrayComponent", "AttenuationArrayName"}
 
 
 def _as_rows(array, width, height):
@@ -55,13 +58,11 @@ def _find_array(mesh, scalars):
 def _choose_component(rays, array, component):
     """Sets the component of an array; one of an array with several is a ValueError if none or
     another is chosen."""
-    count = array.GetNumberOfComponents() if array is not None else 1
-    if component is None and count == 1:
+    if array is None:
         return
-    if component not in ("magnitude", *range(count)):
-        raise ValueError('The array \'%s\' has %d components; choose one with component=%s or '
-                         '"magnitude"' % (array.GetName() if array is not None else "", count,
-                                          ", ".join(map(str, range(count)))))
+    check_component(array.GetName(), array.GetNumberOfComponents(), component)
+    if component is None:
+        return
     rays.SetArrayComponent(-1 if component == "magnitude" else component)
 
 
@@ -120,7 +121,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
     if scalars is not None:
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
-    if "ArrayComponent" not in properties:
+    if not _OWN_COMPONENTS & set(properties) and set(names) - _GEOMETRIC:
         _choose_component(rays, _find_array(mesh, scalars), component)
     rays.SetImageSize(*size)
     if camera is not None:

@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
+from .data import check_component
 from .viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of
 from .viewer.files import ReadingError
 from .vtkMeniscus import (
@@ -190,13 +191,7 @@ class _Scalars:
 
     def _choose_component(self, component):
         count = self.arrays[0].GetNumberOfComponents()
-        choices = 'component=%s or "magnitude"' % ", ".join(map(str, range(count)))
-        if component is None and count > 1:
-            raise ValueError("The array '%s' has %d components; choose one with %s" % (
-                self.name, count, choices))
-        if component not in (None, "magnitude", *range(count)):
-            raise ValueError("The array '%s' has no component %r; choose one with %s" % (
-                self.name, component, choices))
+        check_component(self.name, count, component)
         if count > 1:
             self.title += "-%s" % component
         self.component = None if component == "magnitude" else component

@@ -7,7 +7,7 @@ from vtkmodules.vtkCommonDataModel import (
     VTK_POLYHEDRON, vtkCellTypes, vtkDataSetAttributes, vtkGenericCell, vtkImageData, vtkPolyData,
     vtkRectilinearGrid, vtkStructuredGrid, vtkUnstructuredGrid)
 
-from ..leaves import leaves_of
+from ..data import leaves_of
 from .files import ReadingError
 
 # Cells with one of these bits in the array vtkGhostType are not drawn.

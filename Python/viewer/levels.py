@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import VTK_POLYHEDRON, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
-from ..leaves import leaves_of
+from ..data import leaves_of
 from .cells import drawn_cells_of, types_of
 
 BINS = 64

@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ElementTree
 
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
-from ..leaves import leaves_of
+from ..data import leaves_of
 from .files import DECOMPOSED, ReadingError, check_exists, ending_of, open_file
 
 

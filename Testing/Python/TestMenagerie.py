@@ -12,7 +12,7 @@ import unittest
 
 import numpy
 from meniscus import vtkTetrahedraRayIntegral
-from meniscus.leaves import leaves_of
+from meniscus.data import leaves_of
 from meniscus.viewer import reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from vtkmodules.util.numpy_support import vtk_to_numpy

@@ -53,6 +53,8 @@ class TestRayIntegral(unittest.TestCase):
                 values = integrals.ray_integral(
                     mesh, scalars="vectors", component=component, size=(8, 4))
                 self.assertAlmostEqual(values[1, 2], 3 * value, delta=7.5 * TOLERANCE)
+            lengths = integrals.ray_integral(mesh, "PathLength", scalars="vectors", size=(8, 4))
+            self.assertAlmostEqual(lengths[1, 2], 3, delta=3 * TOLERANCE)
             for component in (None, 3, "length"):
                 with self.assertRaisesRegex(ValueError, 'component=0, 1, 2 or "magnitude"'):
                     integrals.ray_integral(mesh, scalars="vectors", component=component)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data sets of composite data."""
+"""Data sets of composite data, and components of their arrays."""
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
 
 
@@ -18,3 +18,14 @@ def leaves_of(data):
                 leaves.append(leaf)
             iterator.GoToNextItem()
     return leaves
+
+
+def check_component(name, count, component):
+    """Raises a ValueError unless a component of an array is a number below count or "magnitude";
+    None is allowed if there is only one."""
+    if component in ("magnitude", *range(count)) or (component is None and count == 1):
+        return
+    problem = ("has %d components" % count if component is None
+               else "has no component %r" % component)
+    raise ValueError('The array \'%s\' %s; choose one with component=%s or "magnitude"' % (
+        name, problem, ", ".join(map(str, range(count)))))
