@@ -17,7 +17,7 @@ except ImportError:
 _SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
 _ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
            "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
-# Arrays that do not depend on scalars, and properties that choose components or arrays of their own.
+# Arrays that do not depend on scalars, and properties that choose components or other arrays.
 _GEOMETRIC = {"PathLength", "FirstDepth", "LastDepth"}
 _OWN_COMPONENTS = {"ArrayComponent", "AttenuationArrayName"}
 
