@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_RayCastMapperInternals_h
 #define meniscus_Rendering_RayCastMapperInternals_h
 
+#include "Rendering/Input/DrawnBounds.h"
 #include "Rendering/Integral/RayPicker.h"
 #include "Rendering/Pipeline/RayCastPipeline.h"
 #include "vtkTetrahedraRayCastMapper.h"
@@ -31,6 +32,8 @@ public:
   meniscus::RefractionMedium Medium;
   meniscus::RefractionMedium Surroundings;
 
+  /** Bounds of the input. */
+  meniscus::DrawnBounds Bounds;
   /** Last warning about data sets that are left out. */
   std::string LastInputWarning;
   bool WarnedIntegration = false;

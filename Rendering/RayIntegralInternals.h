@@ -7,7 +7,9 @@
 #include "Rendering/Integral/IntegralCaster.h"
 #include "vtkTetrahedraRayIntegral.h"
 
+#include "vtkDataArray.h"
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolumeProperty.h"
 
 #include <vector>
@@ -19,6 +21,8 @@ public:
   /** Stand in for those of the volume property where nothing depends on it. */
   vtkNew<vtkVolumeProperty> NoProperty;
   meniscus::FunctionFeatures NoFeatures;
+  /** Stand in for scalars where their values do not matter: one array per data set. */
+  std::vector<vtkSmartPointer<vtkDataArray>> Constants;
 };
 
 #endif

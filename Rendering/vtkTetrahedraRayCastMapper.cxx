@@ -111,20 +111,31 @@ int vtkTetrahedraRayCastMapper::GetNumberOfMembranes()
 }
 
 //------------------------------------------------------------------------------
+/** Box of the cells that are drawn; without usable scalars, of all cells that could be. */
+meniscus::PointBox vtkTetrahedraRayCastMapper::MeasureInput()
+{
+  if (this->GetNumberOfInputConnections(0) == 0)
+  {
+    return meniscus::PointBox();
+  }
+  this->GetInputAlgorithm()->Update();
+  meniscus::InputBlocks parts;
+  meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+  return this->Internals->Bounds.Update(
+    parts.Parts.empty() ? meniscus::CollectGrids(this->GetDataObjectInput()) : parts);
+}
+
+//------------------------------------------------------------------------------
 double* vtkTetrahedraRayCastMapper::GetBounds()
 {
-  double* bounds = this->Superclass::GetBounds();
-  if (vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput()))
+  vtkMath::UninitializeBounds(this->Bounds);
+  const meniscus::PointBox ofInput = this->MeasureInput();
+  if (ofInput.IsEmpty())
   {
-    this->GetInputAlgorithm()->Update();
-    vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput())->GetBounds(this->Bounds);
-    bounds = this->Bounds;
+    return this->Bounds;
   }
-  if (this->GetNumberOfMembranes() == 0 || !vtkMath::AreBoundsInitialized(bounds))
-  {
-    return bounds;
-  }
-  vtkBoundingBox box(bounds);
+  vtkBoundingBox box(ofInput.Lower.x, ofInput.Upper.x, ofInput.Lower.y, ofInput.Upper.y,
+    ofInput.Lower.z, ofInput.Upper.z);
   for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
   {
     this->GetInputAlgorithm(1, i)->Update();
@@ -580,6 +591,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
     vtkErrorMacro("Nothing is rendered: " << error << ".");
     return false;
   }
+  this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
   vtkOpenGLCheckErrorMacro("failed after Render");
   return true;
 }

@@ -20,8 +20,9 @@
  * are left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with
  * inverted cells, cells of zero volume, duplicate points and faces of more than two cells. Cells
  * that vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of
- * range, a repeated point or a point that is not finite are left out and counted. Cells with a
- * scalar that is not finite, their own or that of a vertex, are transparent and counted.
+ * range, a repeated point, a point that is not finite, a number of points that their type does not
+ * have, or faces that are incomplete are left out and counted. Cells with a scalar that is not
+ * finite, their own or that of a vertex, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
@@ -105,6 +106,7 @@ namespace meniscus
 struct BlendModel;
 struct InputBlocks;
 struct InputReport;
+struct PointBox;
 class RayCastMembrane;
 struct RayCastFrame;
 struct ViewContext;
@@ -210,7 +212,11 @@ public:
   vtkMTimeType GetMTime() override;
 
   /** @{ */
-  /** Bounds of the input (of all leaves of a composite data set) and of all membranes. */
+  /**
+   * Bounds of the cells of the input that are drawn (of all leaves of a composite data set) and of
+   * all membranes. Points that no such cell uses do not count: unused points, those of hidden cells
+   * and of cells without volume. Not initialized if there are no such cells.
+   */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   /** @} */
@@ -573,7 +579,8 @@ public:
    * Numbers of tetrahedra of the current mesh: those that rays can visit, which are visible with
    * the transfer function and have finite scalars; those with a scalar that is not finite; and
    * those left out because of a point index out of range, a repeated point or a point that is not
-   * finite, or because they have the points of an earlier tetrahedron.
+   * finite, or because they have the points of an earlier tetrahedron. Cells that cannot be divided
+   * into tetrahedra because their arrays do not describe a cell count once each.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();
@@ -714,6 +721,7 @@ private:
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
 
   meniscus::ScalarSelection SelectedScalars();
+  meniscus::PointBox MeasureInput();
   bool CollectInput(meniscus::InputBlocks& parts);
   bool Tell(const meniscus::InputReport& report);
   bool ChooseMixture(const meniscus::InputBlocks& parts, vtkVolume* volume);

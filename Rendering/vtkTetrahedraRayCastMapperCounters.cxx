@@ -115,7 +115,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
-  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
+  return this->Internals->Input.GetNumberOfRejectedCells();
 }
 
 //------------------------------------------------------------------------------

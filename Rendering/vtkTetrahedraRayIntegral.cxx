@@ -17,6 +17,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkVolumeProperty.h"
 #include <vtksys/SystemInformation.hxx>
 
@@ -37,24 +38,6 @@ constexpr double ShareOfMesh = 0.5;
 glm::dvec3 VectorOf(const double (&values)[3])
 {
   return glm::dvec3(values[0], values[1], values[2]);
-}
-
-/** Bounds of all data sets. */
-std::vector<double> BoundsOf(const meniscus::InputBlocks& blocks)
-{
-  std::vector<double> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-  for (const meniscus::InputPart& part : blocks.Parts)
-  {
-    double box[6];
-    part.Grid->GetBounds(box);
-    const bool isFirst = bounds[0] > bounds[1];
-    for (int i = 0; i < 6; i += 2)
-    {
-      bounds[i] = isFirst ? box[i] : std::min(bounds[i], box[i]);
-      bounds[i + 1] = isFirst ? box[i + 1] : std::max(bounds[i + 1], box[i + 1]);
-    }
-  }
-  return bounds;
 }
 
 /** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts.
@@ -127,7 +110,7 @@ meniscus::InputReport CollectNamed(
  * Collects the scalars that SetInputArrayToProcess() describes. A component of -1 stands for the
  * length of the tuple.
  */
-meniscus::InputReport CollectScalars(
+meniscus::InputReport FindScalars(
   vtkDataObject* input, vtkInformation* wanted, int component, meniscus::InputBlocks& blocks)
 {
   const int association = wanted->Get(vtkDataObject::FIELD_ASSOCIATION());
@@ -379,6 +362,38 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
 }
 
 //------------------------------------------------------------------------------
+/** Collects the scalars. Lengths need none: constants stand in if no array is named or active. */
+meniscus::InputReport vtkTetrahedraRayIntegral::CollectScalars(
+  vtkDataObject* input, Request& request)
+{
+  vtkInformation* wanted = this->GetInputArrayInformation(0);
+  const meniscus::InputReport report =
+    FindScalars(input, wanted, this->ArrayComponent, request.Scalars);
+  const bool needsNone = !request.Choice.NeedsScalarValues() && !request.Choice.NeedsProperty();
+  if (report.Error.empty() || !needsNone || wanted->Has(vtkDataObject::FIELD_NAME()))
+  {
+    return report;
+  }
+  meniscus::InputBlocks grids = meniscus::CollectGrids(input);
+  if (grids.Parts.empty())
+  {
+    return report;
+  }
+  std::vector<vtkSmartPointer<vtkDataArray>>& constants = this->Internals->Constants;
+  constants.clear();
+  for (meniscus::InputPart& part : grids.Parts)
+  {
+    auto zeros = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    zeros->SetNumberOfTuples(part.Grid->GetNumberOfPoints());
+    zeros->Fill(0.0);
+    part.Scalars = zeros;
+    constants.push_back(zeros);
+  }
+  request.Scalars = grids;
+  return meniscus::InputReport();
+}
+
+//------------------------------------------------------------------------------
 bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& request)
 {
   const bool withArrays = request.Choice.NeedsBinArrays();
@@ -396,8 +411,7 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
   {
     request.Scalars = request.Attenuation;
   }
-  else if (!this->Tell(CollectScalars(
-             input, this->GetInputArrayInformation(0), this->ArrayComponent, request.Scalars)))
+  else if (!this->Tell(this->CollectScalars(input, request)))
   {
     return false;
   }
@@ -502,7 +516,7 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
   request.Rectangle = { VectorOf(this->FrameOrigin), VectorOf(this->FrameAxis1),
     VectorOf(this->FrameAxis2) };
   if (this->FrameMode == FITTED &&
-    !this->TellError(meniscus::FitRectangle(BoundsOf(request.Scalars).data(),
+    !this->TellError(meniscus::FitRectangle(mesh.GetCenter(), mesh.GetHalfSize(),
       VectorOf(this->Direction), VectorOf(this->ViewUp), this->ImageSize, request.Rectangle)))
   {
     return false;
@@ -551,6 +565,7 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
   {
     return false;
   }
+  this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
   output->SetExtent(0, this->ImageSize[0] - 1, 0, this->ImageSize[1] - 1, 0, 0);
   const ImagePlace place =
     this->FrameMode == CAMERA ? ImagePlace() : PlaceOf(request.Rectangle, this->ImageSize);

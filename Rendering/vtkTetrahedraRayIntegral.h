@@ -12,7 +12,8 @@
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
  * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
  * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
- * else of the cells. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ * else of the cells. Path lengths and first and last depths need none: without active scalars every
+ * cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
  * floats with one tuple per pixel, are switched on separately:
@@ -87,7 +88,7 @@ public:
   /** Rays of the image. */
   enum FrameModes
   {
-    /** Parallel rays along Direction, through a rectangle around the input's bounding box. */
+    /** Parallel rays along Direction, through a rectangle around the box of the cells in use. */
     FITTED = 0,
     /** Parallel rays through the rectangle of FrameOrigin, FrameAxis1 and FrameAxis2. */
     PARALLEL = 1,
@@ -456,6 +457,7 @@ private:
 
   bool Tell(const meniscus::InputReport& report);
   bool TellError(const std::string& error);
+  meniscus::InputReport CollectScalars(vtkDataObject* input, Request& request);
   bool CollectInput(vtkDataObject* input, Request& request);
   bool ChooseEvents(Request& request);
   bool ChooseArrays(Request& request);

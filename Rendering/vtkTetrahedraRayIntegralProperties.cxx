@@ -234,7 +234,7 @@ vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTransparentCells()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfRejectedCells()
 {
-  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
+  return this->Internals->Input.GetNumberOfRejectedCells();
 }
 
 //------------------------------------------------------------------------------

@@ -40,6 +40,8 @@ struct RayCastStatistics
   std::int64_t Rays = 0;
   /** Rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
+  /** Rays that found parts of the mesh to overlap; 0 if the backend does not count them. */
+  std::int64_t Overlaps = 0;
 };
 
 /** Memory and work of a backend, which the mapper adds up over its backends. */

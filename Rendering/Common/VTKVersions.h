@@ -40,6 +40,47 @@ inline void AddFaces(
 #endif
 }
 
+/** Storage of the faces of polyhedra, of which each version of VTK has one kind. */
+struct FaceStorage
+{
+  /** Points of each face, and faces of each cell. */
+  vtkCellArray* Faces = nullptr;
+  vtkCellArray* FacesOfCells = nullptr;
+  /**
+   * For each polyhedron the number of faces, and for each of these the number of points and the
+   * points; and the place where each cell begins.
+   */
+  vtkIdTypeArray* Stream = nullptr;
+  vtkIdTypeArray* Starts = nullptr;
+};
+
+/** Arrays of the faces; null if the grid has none. */
+inline FaceStorage GetFaceStorage(vtkUnstructuredGrid* grid)
+{
+  FaceStorage storage;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  storage.Faces = grid->GetPolyhedronFaces();
+  storage.FacesOfCells = grid->GetPolyhedronFaceLocations();
+#else
+  storage.Stream = grid->GetFaces();
+  storage.Starts = grid->GetFaceLocations();
+#endif
+  return storage;
+}
+
+/** Types of the cells; null if there are none. Later versions lack GetCellTypesArray(). */
+template <typename UnstructuredGrid>
+auto GetTypesOfCells(UnstructuredGrid* grid, int)
+  -> decltype(grid->GetCellTypesArray(), static_cast<vtkDataArray*>(nullptr))
+{
+  return grid->GetCellTypesArray();
+}
+template <typename UnstructuredGrid>
+vtkDataArray* GetTypesOfCells(UnstructuredGrid* grid, long)
+{
+  return grid->GetCellTypes();
+}
+
 /**
  * Whether an array keeps each component in an array of its own now. Since VTK 9.2 it may hold whole
  * tuples instead, and does so unless it was given component arrays; versions without

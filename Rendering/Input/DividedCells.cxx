@@ -332,6 +332,7 @@ DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeL
     const TetrahedraView& view = source.GetView();
     this->MatchPositions = view.MatchPositions;
     this->Omitted = source.DescribeOmitted();
+    this->Unusable = source.GetUnusable();
     this->PositionsDecide = source.SplitsByPosition();
     PieceCollector collector(grids, view, points.GetView());
     collector.Collect(pieces, invalid);

@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Input_DividedCells_h
 
 #include "Common/RangeLoop.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Division/CellDivision.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -74,6 +75,8 @@ public:
   bool SplitsByPosition() const { return this->PositionsDecide; }
   /** Types and numbers of the cells that are not drawn; empty if there are none. */
   const std::string& GetOmitted() const { return this->Omitted; }
+  /** Cells that are not used because their arrays do not describe a cell. */
+  const UnusableCells& GetUnusable() const { return this->Unusable; }
 
   /**
    * True if the division is good enough for other positions or scalars: differences are at most
@@ -98,6 +101,7 @@ private:
   bool MatchPositions = false;
   bool PositionsDecide = false;
   std::string Omitted;
+  UnusableCells Unusable;
   std::int64_t Divisions = 0;
   /** Tables of the view. */
   std::vector<double> Positions;

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Input/InputBlocks.h"
 
+#include "Rendering/Input/CellReader.h"
+
 #include "vtkAbstractMapper.h"
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
@@ -25,11 +30,81 @@ struct FoundScalars
   std::string Problem;
 };
 
+/** Names of the numeric arrays of points, cells or fields; empty if there are none. */
+std::string NamesOf(vtkFieldData* arrays)
+{
+  std::ostringstream names;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays->GetArray(i);
+    // Flags of ghosts are no scalars.
+    if (array &&
+      std::string(vtkDataSetAttributes::GhostArrayName()) !=
+        (array->GetName() ? array->GetName() : ""))
+    {
+      names << (names.str().empty() ? "" : ", ") << "'"
+            << (array->GetName() ? array->GetName() : "without a name") << "'";
+    }
+  }
+  return names.str();
+}
+
+/** Message about scalars that a data set does not have, with the names of those that it has. */
+std::string DescribeMissing(vtkDataSet* grid, const ScalarSelection& selection)
+{
+  const bool byField = selection.ScalarMode == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA ||
+    selection.ScalarMode == VTK_SCALAR_MODE_USE_CELL_FIELD_DATA ||
+    selection.ScalarMode == VTK_SCALAR_MODE_USE_FIELD_DATA;
+  std::ostringstream text;
+  text << "The input has no ";
+  if (!byField)
+  {
+    text << "active scalars";
+  }
+  else if (selection.AccessMode == VTK_GET_ARRAY_BY_NAME)
+  {
+    text << "scalar array named '" << (selection.ArrayName ? selection.ArrayName : "") << "'";
+  }
+  else
+  {
+    text << "scalar array of number " << selection.ArrayId;
+  }
+  switch (selection.ScalarMode)
+  {
+    case VTK_SCALAR_MODE_USE_POINT_DATA:
+    case VTK_SCALAR_MODE_USE_POINT_FIELD_DATA:
+      text << " in its point data";
+      break;
+    case VTK_SCALAR_MODE_USE_CELL_DATA:
+    case VTK_SCALAR_MODE_USE_CELL_FIELD_DATA:
+      text << " in its cell data";
+      break;
+    default:
+      break;
+  }
+  const std::string ofPoints = NamesOf(grid->GetPointData());
+  const std::string ofCells = NamesOf(grid->GetCellData());
+  if (ofPoints.empty() && ofCells.empty())
+  {
+    text << " and no arrays of points or cells";
+    return text.str();
+  }
+  text << "; there are " << (ofPoints.empty() ? "" : "point arrays ") << ofPoints
+       << (ofPoints.empty() || ofCells.empty() ? "" : " and ")
+       << (ofCells.empty() ? "" : "cell arrays ") << ofCells;
+  return text.str();
+}
+
 FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
 {
   constexpr int cellData = 1;
   constexpr int fieldData = 2;
   FoundScalars found;
+  found.Problem = DescribeFault(grid);
+  if (!found.Problem.empty())
+  {
+    return found;
+  }
   int place = 0;
   found.Scalars = vtkAbstractMapper::GetScalars(grid, selection.ScalarMode, selection.AccessMode,
     selection.ArrayId, selection.ArrayName, place);
@@ -37,12 +112,7 @@ FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
   std::ostringstream problem;
   if (!found.Scalars)
   {
-    problem << "The input has no scalar array";
-    if (selection.AccessMode == VTK_GET_ARRAY_BY_NAME && selection.ArrayName)
-    {
-      problem << " named '" << selection.ArrayName << "'";
-    }
-    found.Problem = problem.str();
+    found.Problem = DescribeMissing(grid, selection);
     return found;
   }
   const char* name = found.Scalars->GetName();
@@ -158,6 +228,29 @@ InputReport CollectInputBlocks(
     parts.Place = found.Place;
   }
   return report;
+}
+
+//------------------------------------------------------------------------------
+InputBlocks CollectGrids(vtkDataObject* input)
+{
+  std::vector<vtkDataSet*> grids;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    grids = LeavesOf(composite);
+  }
+  else if (vtkDataSet* grid = vtkDataSet::SafeDownCast(input))
+  {
+    grids.push_back(grid);
+  }
+  InputBlocks blocks;
+  for (vtkDataSet* grid : grids)
+  {
+    if (grid->GetNumberOfCells() > 0 && DescribeFault(grid).empty())
+    {
+      blocks.Parts.push_back({ grid, nullptr });
+    }
+  }
+  return blocks;
 }
 
 }

@@ -70,6 +70,13 @@ struct InputBlocks
 InputReport CollectInputBlocks(
   vtkDataObject* input, const ScalarSelection& selection, InputBlocks& parts);
 
+/**
+ * Data sets with cells that can be drawn, without scalars: the input itself or the leaves of a
+ * composite one. Surfaces (vtkPolyData) and data sets whose arrays contradict each other are left
+ * out.
+ */
+InputBlocks CollectGrids(vtkDataObject* input);
+
 }
 
 #endif

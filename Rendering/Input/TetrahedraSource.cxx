@@ -8,11 +8,9 @@
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/GridLayout.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -28,9 +26,6 @@ namespace meniscus
 {
 namespace
 {
-
-constexpr unsigned char LeftOut =
-  vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
 
 constexpr int NoPoint = -1;
 
@@ -90,7 +85,7 @@ FaceSplit SplitFace(vtkCell* face)
       return SplitAbout(6, { 0, 3, 1, 4, 2, 5 });
     case VTK_BIQUADRATIC_QUAD:
       return SplitAbout(8, { 0, 4, 1, 5, 2, 6, 3, 7 });
-    case VTK_POLYGON:
+    case VTK_POLYGON: // of prisms
     {
       std::vector<int> around(face->GetNumberOfPoints());
       std::iota(around.begin(), around.end(), 0);
@@ -151,7 +146,17 @@ bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
   {
     ++cell;
   }
-  return cell == cells;
+  return cell == cells && CellLists(grid->GetCells()).HaveSize(4);
+}
+
+/**
+ * True for types whose faces are read from a cell object: those without a rule of their own that
+ * are drawn, and types with more points than their rule takes.
+ */
+bool HasFaceObjects(int type)
+{
+  return TetrahedraOf(type) > 1 || type == VTK_TETRA || type == VTK_PENTAGONAL_PRISM ||
+    type == VTK_HEXAGONAL_PRISM || type == VTK_CONVEX_POINT_SET;
 }
 
 }
@@ -162,30 +167,33 @@ struct TetrahedraSource::Part
   Tetrahedralizer Tetrahedra;
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
+  UnusableCells Unusable;
   bool SplitsByPosition = false;
   /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
   CellPoints Used = CellPoints::All;
 
-  void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
+  void AddBlock(const CellReader& cells, std::size_t first, std::size_t last);
 
 private:
-  void AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids);
+  void AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids);
+  void AddPolyhedron(const CellReader& cells, vtkIdType cell);
   bool AddByFaces(vtkCell* cell);
+
+  std::vector<std::int64_t> Faces;
 };
 
 //------------------------------------------------------------------------------
-void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last)
+void TetrahedraSource::Part::AddBlock(const CellReader& cells, std::size_t first, std::size_t last)
 {
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
   vtkNew<vtkIdList> ids;
   for (std::size_t c = first; c < last; ++c)
   {
     const auto cell = static_cast<vtkIdType>(c);
-    if (!ghosts || !(ghosts->GetValue(cell) & LeftOut))
+    if (!cells.IsLeftOut(cell))
     {
-      this->AddCell(grid, cell, grid->GetCellType(cell), ids);
+      this->AddCell(cells, cell, ids);
       this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
         static_cast<std::int32_t>(this->FirstCell + cell));
     }
@@ -193,16 +201,30 @@ void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::
 }
 
 //------------------------------------------------------------------------------
-void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids)
+void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids)
 {
+  int type = cells.GetType(cell);
   if (type == VTK_EMPTY_CELL)
   {
     return; // blanked cell
   }
+  if (!HasVolume(type))
+  {
+    ++this->Omitted[type];
+    return;
+  }
+  if (type == VTK_POLYHEDRON)
+  {
+    this->AddPolyhedron(cells, cell);
+    return;
+  }
+  if (!cells.ReadPoints(cell, ids, this->Unusable))
+  {
+    return;
+  }
   // Largest number of points of a cell type with its own rule.
   constexpr vtkIdType mostPoints = 20;
   std::array<std::int64_t, mostPoints> points{};
-  grid->GetCellPoints(cell, ids);
   vtkIdType size = ids->GetNumberOfIds();
   const CellShape shape = this->Used == CellPoints::Corners ? ShapeOf(type) : CellShape();
   if (shape.IsKnown() && size >= shape.NumberOfCorners)
@@ -259,12 +281,34 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
     // Its faces are those of the convex hull of its points.
     this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
     vtkNew<vtkGenericCell> generic;
-    grid->GetCell(cell, generic);
-    if (generic->GetCellDimension() != 3 || !this->AddByFaces(generic))
+    if (HasFaceObjects(type))
+    {
+      cells.GetGrid()->GetCell(cell, generic);
+    }
+    if (!this->AddByFaces(generic))
     {
       ++this->Omitted[type];
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Part::AddPolyhedron(const CellReader& cells, vtkIdType cell)
+{
+  std::size_t numberOfFaces = 0;
+  if (!cells.ReadFaces(cell, this->Faces, numberOfFaces, this->Unusable))
+  {
+    return;
+  }
+  std::int64_t* face = this->Faces.data();
+  for (std::size_t f = 0; f < numberOfFaces; ++f, face += 1 + face[0])
+  {
+    for (std::int64_t k = 1; k <= face[0]; ++k)
+    {
+      face[k] += this->FirstPoint;
+    }
+  }
+  this->Tetrahedra.AddPolyhedron(this->Faces.data(), numberOfFaces);
 }
 
 //------------------------------------------------------------------------------
@@ -337,26 +381,13 @@ TetrahedraSource::TetrahedraSource(
 void TetrahedraSource::ViewTetrahedra(vtkUnstructuredGrid* grid)
 {
   this->View.NumberOfCells = grid->GetNumberOfCells();
-  vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
-  if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
-  {
-    // VTK's 64-bit integer and the standard's may be different types.
-    static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
-    this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
-  }
-  else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
-  {
-    this->View.ShortCells = ints->GetPointer(0);
-  }
-  else
-  {
-    this->Ids = CopyValues<std::int64_t>(ids);
-    this->View.Cells = this->Ids.data();
-  }
+  this->Stored = IdView(grid->GetCells()->GetConnectivityArray());
+  this->View.ShortCells = this->Stored.GetInts();
+  this->View.Cells = this->View.ShortCells ? nullptr : this->Stored.GetLongs();
   if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
   {
     this->View.CellFlags = ghosts->GetPointer(0);
-    this->View.LeftOutBits = LeftOut;
+    this->View.LeftOutBits = CellReader::GetLeftOutFlags();
   }
 }
 
@@ -374,7 +405,7 @@ void TetrahedraSource::Tetrahedralize(
     parts.resize(firstPart + NumberOfBlocks(size));
     // Objects that VTK creates on first access must exist before several threads access them.
     grid->GetCellType(0);
-    grid->GetCellGhostArray();
+    const CellReader cells(grid);
     ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
       [&](std::size_t block, std::size_t first, std::size_t last)
       {
@@ -382,7 +413,7 @@ void TetrahedraSource::Tetrahedralize(
         part.FirstPoint = firstPoint;
         part.FirstCell = firstCell;
         part.Used = used;
-        part.AddBlock(grid, first, last);
+        part.AddBlock(cells, first, last);
       });
     firstPoint += grid->GetNumberOfPoints();
     firstCell += grid->GetNumberOfCells();
@@ -400,6 +431,7 @@ void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop
     starts.push_back(size);
     size += part.Sources.size();
     this->PositionsDecide = this->PositionsDecide || part.SplitsByPosition;
+    this->Unusable.Add(part.Unusable);
     for (const auto& omitted : part.Omitted)
     {
       this->Omitted[omitted.first] += omitted.second;

@@ -3,6 +3,8 @@
 #ifndef meniscus_Rendering_Input_TetrahedraSource_h
 #define meniscus_Rendering_Input_TetrahedraSource_h
 
+#include "Rendering/Input/CellReader.h"
+#include "Rendering/Input/IdView.h"
 #include "Rendering/Input/PointsSource.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
@@ -50,6 +52,11 @@ public:
    * none.
    */
   std::string DescribeOmitted() const;
+  /**
+   * Cells that are not used, because their arrays do not describe a cell. Those of a view are
+   * tetrahedra with a point out of range, which the mesh counts.
+   */
+  const UnusableCells& GetUnusable() const { return this->Unusable; }
   /** True if other positions of the points could divide a cell into other tetrahedra. */
   bool SplitsByPosition() const { return this->PositionsDecide; }
 
@@ -63,11 +70,14 @@ private:
 
   PointsSource Points;
   TetrahedraView View;
+  /** Cells of a view, or points of the tetrahedra. */
+  IdView Stored;
   std::vector<std::int64_t> Ids;
   /** Cell of each tetrahedron. */
   std::vector<std::int32_t> Sources;
   /** Number of cells that are not drawn, by type. */
   std::map<int, std::int64_t> Omitted;
+  UnusableCells Unusable;
   bool PositionsDecide = false;
 };
 

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace meniscus
 {
@@ -139,6 +140,7 @@ InputReport VolumeInput::BuildMesh(const std::vector<vtkDataSet*>& grids,
   this->LinkVersion.Bump();
   this->InputCells = std::vector<std::int32_t>();
   this->Divided.Clear();
+  this->Unusable = UnusableCells();
 
   InputReport report;
   std::ostringstream text;
@@ -192,6 +194,7 @@ InputReport VolumeInput::BuildFromCells(
 {
   InputReport report;
   const TetrahedraSource source(grids, ThreadedLoop);
+  this->Unusable = source.GetUnusable();
   this->BuildTables(source.GetView(), control, source.DescribeOmitted(), report);
   this->SplitsByPosition = source.SplitsByPosition();
   return report;
@@ -215,6 +218,7 @@ InputReport VolumeInput::BuildDivided(const MeshBuildControl& control)
     report.Warning += std::to_string(counts.FoldedCells) +
       " cells are folded inside out in parts, where their pieces overlap. ";
   }
+  this->Unusable = this->Divided.GetUnusable();
   this->BuildTables(this->Divided.GetView(), control, this->Divided.GetOmitted(), report);
   this->Divided.FreeView();
   this->SplitsByPosition = this->Divided.SplitsByPosition();
@@ -236,17 +240,65 @@ void VolumeInput::BuildTables(TetrahedraView view, const MeshBuildControl& contr
   {
     text << "Cells that are not drawn, because of their type: " << omitted << ". ";
   }
-  const RejectedCells& rejected = this->Mesh.GetRejectedCells();
-  if (rejected.Total() > 0)
-  {
-    text << rejected.Total() << " of " << view.NumberOfCells
-         << " cells are left out: " << rejected.IndexOutOfRange
-         << " with a point index out of range, " << rejected.RepeatedVertex
-         << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite, " << rejected.Duplicate
-         << " equal to earlier cells.";
-  }
+  text << this->DescribeRejected(view.NumberOfCells) << this->DescribeImprecise();
   report.Warning = text.str();
+  if (!report.Warning.empty() && report.Warning.back() == ' ')
+  {
+    report.Warning.pop_back();
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Numbers of the cells that are left out, by reason. @param cells number of tetrahedra. */
+std::string VolumeInput::DescribeRejected(std::int64_t cells) const
+{
+  if (this->GetNumberOfRejectedCells() == 0)
+  {
+    return std::string();
+  }
+  const RejectedCells& rejected = this->Mesh.GetRejectedCells();
+  const std::pair<std::int64_t, const char*> reasons[] = {
+    { rejected.IndexOutOfRange + this->Unusable.PointOutOfRange,
+      " with a point index out of range" },
+    { this->Unusable.WrongNumberOfPoints,
+      " with a number of points that their type does not have" },
+    { this->Unusable.OutsideOfArray, " with points or faces outside of their array" },
+    { this->Unusable.MissingFaces, " polyhedra without usable faces" },
+    { rejected.RepeatedVertex, " with a repeated point" },
+    { rejected.PointNotFinite, " with a point that is not finite" },
+    { rejected.Duplicate, " equal to earlier cells" },
+  };
+  std::ostringstream text;
+  text << this->GetNumberOfRejectedCells() << " of " << cells + this->Unusable.Total()
+       << " cells are left out";
+  const char* separator = ": ";
+  for (const auto& reason : reasons)
+  {
+    if (reason.first > 0)
+    {
+      text << separator << reason.first << reason.second;
+      separator = ", ";
+    }
+  }
+  text << ". ";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+/** Number of cells that are too thin or too small for the precision of coordinates. */
+std::string VolumeInput::DescribeImprecise() const
+{
+  const std::int64_t cells = this->Mesh.GetNumberOfImpreciseCells();
+  if (cells == 0)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << cells << " of " << this->Mesh.GetNumberOfCells() << " cells have an edge shorter than "
+       << TetrahedralMesh::ShortestPreciseEdge * this->Mesh.GetRadius()
+       << ", 1/131072 of the mesh's radius: lengths of rays in such layers and small cells may be "
+          "off by more than 1 %. ";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -400,6 +452,21 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
   this->OthersVersion = others.Version;
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
+}
+
+//------------------------------------------------------------------------------
+std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
+{
+  // Folded cells overlap, and are reported when they are divided.
+  if (rays == 0 || this->OverlapsReported == this->BuildVersion ||
+    this->Divided.GetCounts().FoldedCells > 0)
+  {
+    return std::string();
+  }
+  this->OverlapsReported = this->BuildVersion;
+  return std::to_string(rays) +
+    " rays enter cells before they have left others: parts of the mesh overlap there, and the part "
+    "that a ray enters first is the only one to count.";
 }
 
 //------------------------------------------------------------------------------

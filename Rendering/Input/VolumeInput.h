@@ -5,6 +5,7 @@
 
 #include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
+#include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/DividedCells.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -73,6 +74,11 @@ public:
   void UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others);
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
+  /** Number of the input's cells that are left out because they cannot be used. */
+  std::int64_t GetNumberOfRejectedCells() const
+  {
+    return this->Mesh.GetRejectedCells().Total() + this->Unusable.Total();
+  }
   FieldAssociation GetFieldAssociation() const { return this->BuiltPlace; }
   /**
    * One normalised scalar per vertex; NaN if the input's is not finite. Empty for scalars of cells.
@@ -113,6 +119,13 @@ public:
   /** Tree over the boundary of the active cells; built when first requested. */
   const BoundaryTree& GetBoundaryTree();
 
+  /**
+   * Warning that parts of the mesh overlap; empty if there are no such rays, and after the first
+   * warning about this mesh.
+   * @param rays number of rays that found it.
+   */
+  std::string WarnOfOverlaps(std::int64_t rays);
+
   /** Number of bytes of the tables. */
   std::int64_t GetBytes() const;
 
@@ -138,11 +151,15 @@ private:
   InputReport BuildDivided(const MeshBuildControl& control);
   void BuildTables(TetrahedraView view, const MeshBuildControl& control, const std::string& omitted,
     InputReport& report);
+  std::string DescribeRejected(std::int64_t cells) const;
+  std::string DescribeImprecise() const;
   bool HasNewFields(const DivisionRequest& division);
   bool IsNewDivision(const DivisionSettings& settings);
   bool MovePoints(const InputBlocks& input);
 
   TetrahedralMesh Mesh;
+  /** Cells that are left out before the mesh is built. */
+  UnusableCells Unusable;
   BoundaryTree Tree;
   /** Empty until asked for, and if the mesh has them. */
   std::vector<std::int32_t> InputCells;
@@ -175,6 +192,8 @@ private:
   /** True if other positions may divide the input's cells into other tetrahedra. */
   bool SplitsByPosition = false;
   bool ActiveSetStale = true;
+  /** Mesh whose overlaps were reported. */
+  TableVersion OverlapsReported;
   /** Versions of the links and positions that the tree is of. */
   TableVersion LinksOfTree;
   TableVersion MeshOfTree;

@@ -66,10 +66,12 @@ bool IntegralCaster::Cast(
     sums.Rays += tile.Rays;
     sums.Steps += tile.Steps;
     sums.Lost += tile.Lost;
+    sums.Overlaps += tile.Overlaps;
   }
   this->Statistics.Rays = sums.Rays;
   this->Statistics.Steps += sums.Steps;
   this->Statistics.Lost += sums.Lost;
+  this->Statistics.Overlaps = sums.Overlaps;
   ++this->Casts;
   ++this->DoneCasts;
   return !this->Aborted;

@@ -96,8 +96,9 @@ std::string DescribeFault(const ParallelRectangle& rectangle)
 }
 
 //------------------------------------------------------------------------------
-std::string FitRectangle(const double bounds[6], const glm::dvec3& direction, const glm::dvec3& up,
-  const int size[2], ParallelRectangle& rectangle)
+std::string FitRectangle(const glm::dvec3& middle, const glm::dvec3& half,
+  const glm::dvec3& direction, const glm::dvec3& up, const int size[2],
+  ParallelRectangle& rectangle)
 {
   const glm::dvec3 across = glm::cross(direction, up);
   const double area = glm::length(across);
@@ -107,10 +108,6 @@ std::string FitRectangle(const double bounds[6], const glm::dvec3& direction, co
   }
   const glm::dvec3 axes[3] = { across / area, glm::normalize(glm::cross(across, direction)),
     glm::normalize(direction) };
-  const glm::dvec3 middle =
-    0.5 * glm::dvec3(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
-  const glm::dvec3 half =
-    0.5 * glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
   double reach[3];
   for (int k = 0; k < 3; ++k)
   {

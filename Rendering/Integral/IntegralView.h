@@ -44,14 +44,16 @@ std::string DescribeFault(const ParallelRectangle& rectangle);
 
 /**
  * Rectangle perpendicular to a direction around a box, through the box's nearest corner.
- * @param bounds (xmin, xmax, ymin, ymax, zmin, zmax) in world coordinates.
+ * @param middle centre of the box in world coordinates.
+ * @param half half edges of the box.
  * @param up direction that is drawn upwards.
  * @param size pixels of the image; the rectangle is widened to square pixels.
  * @param rectangle replaced by the result.
  * @return an error, or an empty text.
  */
-std::string FitRectangle(const double bounds[6], const glm::dvec3& direction, const glm::dvec3& up,
-  const int size[2], ParallelRectangle& rectangle);
+std::string FitRectangle(const glm::dvec3& middle, const glm::dvec3& half,
+  const glm::dvec3& direction, const glm::dvec3& up, const int size[2],
+  ParallelRectangle& rectangle);
 
 /**
  * Rays of a camera, from its position on, or from the plane through it. Clipping planes of the

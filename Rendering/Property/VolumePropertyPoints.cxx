@@ -2,218 +2,176 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Property/VolumePropertyPoints.h"
 
-#include "vtkColorTransferFunction.h"
-#include "vtkPiecewiseFunction.h"
+#include "Rendering/Property/PropertyFunction.h"
+
 #include "vtkVolumeProperty.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
-#include <cmath>
-#include <set>
+#include <cstddef>
+#include <memory>
+#include <utility>
 
 namespace meniscus
 {
 namespace
 {
 
-/** Largest accepted deviation of linear interpolation, in colour and in alpha per unit distance. */
-constexpr double SamplingBound = 1.0 / 32768.0;
-/** Halvings of an interval: 2^12 samples resolve a unit step of a smooth function to the bound. */
-constexpr int MaximumHalvings = 12;
-/** Largest opacity below 1 that a float can represent. */
-constexpr double LargestOpacity = 1.0 - 1.0 / 16777216.0;
-
-/**
- * Smaller jumps cannot be distinguished from the change of a continuous function between adjacent
- * doubles.
- */
-constexpr double SmallestJump = 1.0 / 1073741824.0;
-
-/** The property's functions, evaluated on a given side of jumps. */
-class PropertyCurve
+/** Values of straight pieces at scalars in ascending order. */
+class PieceReader
 {
 public:
-  PropertyCurve(vtkVolumeProperty* property, int component, OpacityMeaning meaning)
-    : Opacity(property->GetScalarOpacity(component))
-    , Gray(property->GetColorChannels(component) == 1 ? property->GetGrayTransferFunction(component)
-                                                      : nullptr)
-    , Color(this->Gray ? nullptr : property->GetRGBTransferFunction(component))
-    , Unit(property->GetScalarOpacityUnitDistance(component))
-    , Meaning(meaning)
+  explicit PieceReader(const std::vector<TransferFunctionPoint>& points)
+    : Points(points)
   {
   }
 
-  /** A function of opacity without colour. */
-  explicit PropertyCurve(vtkPiecewiseFunction* opacity)
-    : Opacity(opacity)
+  struct Limits
   {
-  }
+    TransferFunctionPoint Below;
+    TransferFunctionPoint Above;
+    bool IsJump = false;
+  };
 
-  /** Scalars where a function has a node. */
-  std::set<double> Nodes() const
+  /** @param scalar not less than that of the last call. */
+  Limits Read(double scalar)
   {
-    std::set<double> nodes;
-    AddNodes(this->Opacity, nodes);
-    AddNodes(this->Gray, nodes);
-    double node[6];
-    for (int i = 0; this->Color && i < this->Color->GetSize(); ++i)
+    const std::size_t size = this->Points.size();
+    while (this->Next < size && this->Points[this->Next].Scalar < scalar)
     {
-      this->Color->GetNodeValue(i, node);
-      nodes.insert(node[0]);
+      ++this->Next;
     }
-    return nodes;
-  }
-
-  bool HasOpacity() const { return this->Opacity->GetSize() > 0; }
-
-  TransferFunctionPoint At(double scalar) const
-  {
-    TransferFunctionPoint point{ scalar, this->AttenuationOf(this->Opacity->GetValue(scalar)),
-      glm::dvec3(0.0) };
-    if (this->Gray)
+    if (size == 0)
     {
-      point.Color = glm::dvec3(this->Gray->GetValue(scalar));
+      const TransferFunctionPoint none{ scalar, 0.0, glm::dvec3(0.0) };
+      return { none, none };
     }
-    else if (this->Color)
+    // Before the first point, after the last one, or not a number.
+    if (this->Next == size || (this->Next == 0 && this->Points[0].Scalar != scalar))
     {
-      this->Color->GetColor(scalar, &point.Color[0]);
+      const TransferFunctionPoint& end = this->Points[this->Next == 0 ? 0 : size - 1];
+      return { end, end };
     }
-    return point;
-  }
-
-  /** Largest difference in colour and in alpha over the unit distance. */
-  double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const
-  {
-    const glm::dvec3 color = glm::abs(a.Color - b.Color);
-    const double alpha = this->Meaning == OpacityMeaning::Alpha
-      ? std::abs(a.Attenuation - b.Attenuation)
-      : std::abs(std::exp(-a.Attenuation * this->Unit) - std::exp(-b.Attenuation * this->Unit));
-    return std::max({ color.r, color.g, color.b, alpha });
+    const TransferFunctionPoint& next = this->Points[this->Next];
+    if (next.Scalar == scalar)
+    {
+      std::size_t last = this->Next;
+      while (last + 1 < size && this->Points[last + 1].Scalar == scalar)
+      {
+        ++last;
+      }
+      return { next, this->Points[last], last != this->Next };
+    }
+    const TransferFunctionPoint& before = this->Points[this->Next - 1];
+    // Halves keep the difference of scalars in the range of double.
+    const double fraction =
+      (0.5 * scalar - 0.5 * before.Scalar) / (0.5 * next.Scalar - 0.5 * before.Scalar);
+    const TransferFunctionPoint between{ scalar,
+      before.Attenuation + fraction * (next.Attenuation - before.Attenuation),
+      before.Color + fraction * (next.Color - before.Color) };
+    return { between, between };
   }
 
 private:
-  static void AddNodes(vtkPiecewiseFunction* function, std::set<double>& nodes)
-  {
-    double node[4];
-    for (int i = 0; function && i < function->GetSize(); ++i)
-    {
-      function->GetNodeValue(i, node);
-      nodes.insert(node[0]);
-    }
-  }
-
-  double AttenuationOf(double opacity) const
-  {
-    const double positive = opacity > 0.0 ? opacity : 0.0;
-    switch (this->Meaning)
-    {
-      case OpacityMeaning::Attenuation:
-        return positive / this->Unit;
-      case OpacityMeaning::AlphaPerUnitDistance:
-        return -std::log1p(-std::min(positive, LargestOpacity)) / this->Unit;
-      default:
-        return positive;
-    }
-  }
-
-  vtkPiecewiseFunction* Opacity;
-  vtkPiecewiseFunction* Gray = nullptr;
-  vtkColorTransferFunction* Color = nullptr;
-  double Unit = 1.0;
-  OpacityMeaning Meaning = OpacityMeaning::Alpha;
+  const std::vector<TransferFunctionPoint>& Points;
+  std::size_t Next = 0;
 };
 
-TransferFunctionPoint Middle(const TransferFunctionPoint& a, const TransferFunctionPoint& b)
+std::vector<double> ScalarsOf(
+  const std::vector<TransferFunctionPoint>& a, const std::vector<TransferFunctionPoint>& b)
 {
-  return { 0.5 * a.Scalar + 0.5 * b.Scalar, 0.5 * (a.Attenuation + b.Attenuation),
-    0.5 * (a.Color + b.Color) };
-}
-
-/** Appends the points strictly between a and b that linear interpolation needs. */
-void Refine(const PropertyCurve& curve, const TransferFunctionPoint& a,
-  const TransferFunctionPoint& b, int halvings, std::vector<TransferFunctionPoint>& points)
-{
-  const TransferFunctionPoint linear = Middle(a, b);
-  if (halvings == 0 || !(linear.Scalar > a.Scalar && linear.Scalar < b.Scalar))
+  std::vector<double> scalars;
+  scalars.reserve(a.size() + b.size());
+  for (const auto* points : { &a, &b })
   {
-    return;
-  }
-  // Besides the middle, two places that are not symmetric about it are tested, so that an odd curve
-  // is detected.
-  const TransferFunctionPoint quarter = Middle(a, linear);
-  const TransferFunctionPoint fiveEighths = Middle(linear, Middle(linear, b));
-  const auto isClose = [&curve](const TransferFunctionPoint& p)
-  { return curve.Difference(curve.At(p.Scalar), p) < SamplingBound; };
-  const bool straight = isClose(linear) && isClose(quarter) && isClose(fiveEighths);
-  if (straight)
-  {
-    return;
-  }
-  const TransferFunctionPoint middle = curve.At(linear.Scalar);
-  Refine(curve, a, middle, halvings - 1, points);
-  points.push_back(middle);
-  Refine(curve, middle, b, halvings - 1, points);
-}
-
-/** The curve's limit at `node` from the side of `toward`. */
-TransferFunctionPoint LimitAt(const PropertyCurve& curve, double node, double toward)
-{
-  TransferFunctionPoint limit = curve.At(std::nextafter(node, toward));
-  limit.Scalar = node;
-  return limit;
-}
-
-std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyCurve& curve)
-{
-  std::vector<TransferFunctionPoint> points;
-  if (!curve.HasOpacity())
-  {
-    return points;
-  }
-  for (const double node : curve.Nodes())
-  {
-    if (!std::isfinite(node))
+    for (const TransferFunctionPoint& point : *points)
     {
-      continue;
-    }
-    const TransferFunctionPoint below = LimitAt(curve, node, -HUGE_VAL);
-    const TransferFunctionPoint above = LimitAt(curve, node, HUGE_VAL);
-    const bool jump = curve.Difference(below, above) > SmallestJump;
-    const TransferFunctionPoint end = jump ? below : curve.At(node);
-    if (!points.empty())
-    {
-      const TransferFunctionPoint previous = points.back();
-      Refine(curve, previous, end, MaximumHalvings, points);
-    }
-    points.push_back(end);
-    if (jump)
-    {
-      points.push_back(above);
+      scalars.push_back(point.Scalar);
     }
   }
-  return points;
+  std::sort(scalars.begin(), scalars.end());
+  scalars.erase(std::unique(scalars.begin(), scalars.end()), scalars.end());
+  return scalars;
+}
+
+/** Points of both functions: straight pieces of one are divided where the other one has a point. */
+std::vector<TransferFunctionPoint> Merge(const std::vector<TransferFunctionPoint>& opacity,
+  const std::vector<TransferFunctionPoint>& color)
+{
+  std::vector<TransferFunctionPoint> merged;
+  PieceReader opacities(opacity);
+  PieceReader colors(color);
+  for (const double scalar : ScalarsOf(opacity, color))
+  {
+    const PieceReader::Limits attenuation = opacities.Read(scalar);
+    const PieceReader::Limits shade = colors.Read(scalar);
+    merged.push_back({ scalar, attenuation.Below.Attenuation, shade.Below.Color });
+    if (attenuation.IsJump || shade.IsJump)
+    {
+      merged.push_back({ scalar, attenuation.Above.Attenuation, shade.Above.Color });
+    }
+  }
+  return merged;
+}
+
+std::unique_ptr<PropertyFunction> ColorsOf(vtkVolumeProperty* property, int component)
+{
+  if (property->GetColorChannels(component) == 1)
+  {
+    return std::make_unique<GrayFunction>(property->GetGrayTransferFunction(component));
+  }
+  return std::make_unique<ColorFunction>(property->GetRGBTransferFunction(component));
 }
 
 }
 
 //------------------------------------------------------------------------------
-std::vector<TransferFunctionPoint> ReducePropertyToPoints(
+PropertyPoints ReducePropertyToPoints(
   vtkVolumeProperty* property, int component, OpacityMeaning meaning)
 {
-  return ReduceToPoints(PropertyCurve(property, component, meaning));
+  PropertyPoints result;
+  const std::vector<TransferFunctionPoint> opacity =
+    ReduceToPoints(OpacityFunction(property->GetScalarOpacity(component), meaning,
+      property->GetScalarOpacityUnitDistance(component)));
+  if (opacity.empty())
+  {
+    return result;
+  }
+  const std::vector<TransferFunctionPoint> color = ReduceToPoints(*ColorsOf(property, component));
+  result.Points = Merge(opacity, color);
+  result.Features = FeaturesOf(opacity);
+  const std::vector<ScalarFeature> ofColor = FeaturesOf(color);
+  result.Features.insert(result.Features.end(), ofColor.begin(), ofColor.end());
+  return result;
 }
 
 //------------------------------------------------------------------------------
-TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar)
+std::vector<TransferFunctionPoint> EvaluateProperty(
+  vtkVolumeProperty* property, const std::vector<double>& scalars)
 {
-  return PropertyCurve(property, 0, OpacityMeaning::Alpha).At(scalar);
+  const std::unique_ptr<PropertyFunction> colors = ColorsOf(property, 0);
+  const OpacityFunction opacity(property->GetScalarOpacity(0), OpacityMeaning::Alpha, 1.0);
+  // Interpolated colours where each evaluation has a high cost.
+  std::vector<TransferFunctionPoint> reduced;
+  if (colors->HasCostlyCalls())
+  {
+    reduced = ReduceToPoints(*colors);
+  }
+  std::vector<TransferFunctionPoint> points;
+  for (const double scalar : scalars)
+  {
+    TransferFunctionPoint point = opacity.Sample(scalar, scalar, 1).front();
+    point.Color = colors->HasCostlyCalls() ? PieceReader(reduced).Read(scalar).Below.Color
+                                           : colors->Sample(scalar, scalar, 1).front().Color;
+    points.push_back(point);
+  }
+  return points;
 }
 
 //------------------------------------------------------------------------------
 std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property)
 {
-  return ReduceToPoints(PropertyCurve(property->GetGradientOpacity(0)));
+  return ReduceToPoints(
+    OpacityFunction(property->GetGradientOpacity(0), OpacityMeaning::Alpha, 1.0));
 }
 
 }

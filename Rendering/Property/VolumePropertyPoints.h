@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Property_VolumePropertyPoints_h
 
 #include "Volume/Optics/BlendModels.h"
+#include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/TransferFunction.h"
 
 #include <vector>
@@ -13,17 +14,29 @@ class vtkVolumeProperty;
 namespace meniscus
 {
 
+/** A transfer function as straight pieces. */
+struct PropertyPoints
+{
+  /**
+   * Control points of attenuation (per world length, or alpha) and colour, ascending. Empty if
+   * nothing is visible: no opacity node.
+   */
+  std::vector<TransferFunctionPoint> Points;
+  /** Features of the opacity and of the colour, each on its own; see FeaturesOf(). */
+  std::vector<ScalarFeature> Features;
+};
+
 /**
- * The transfer function of a property's component as control points of attenuation (per world
- * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Between
- * two nodes, the error of linear interpolation is less than 1/32768 in colour and in alpha (over
- * the unit distance).
+ * The transfer function of a property's component. Opacity and colour are sampled by VTK's tables,
+ * once between two nodes of each or in few tables of growing size. Between two nodes, the error of
+ * linear interpolation is less than 1/32768 in colour and in alpha (over the unit distance).
  */
-std::vector<TransferFunctionPoint> ReducePropertyToPoints(
+PropertyPoints ReducePropertyToPoints(
   vtkVolumeProperty* property, int component, OpacityMeaning meaning);
 
-/** Colour and alpha of a property at a scalar. */
-TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar);
+/** Colours and alphas of a property's first component at scalars in any order. */
+std::vector<TransferFunctionPoint> EvaluateProperty(
+  vtkVolumeProperty* property, const std::vector<double>& scalars);
 
 /**
  * The gradient opacity function of a property's first component as points: Attenuation holds the

@@ -40,15 +40,14 @@ int NumberOfUsedComponents(ComponentMixture mixture, int components)
   return mixture == ComponentMixture::Independent ? components : 1;
 }
 
-std::vector<TransferFunctionPoint> ReduceWeighted(
-  vtkVolumeProperty* property, int component, OpacityMeaning meaning)
+PropertyPoints ReduceWeighted(vtkVolumeProperty* property, int component, OpacityMeaning meaning)
 {
-  std::vector<TransferFunctionPoint> points = ReducePropertyToPoints(property, component, meaning);
-  for (TransferFunctionPoint& point : points)
+  PropertyPoints reduced = ReducePropertyToPoints(property, component, meaning);
+  for (TransferFunctionPoint& point : reduced.Points)
   {
     point.Attenuation *= property->GetComponentWeight(component);
   }
-  return points;
+  return reduced;
 }
 
 }
@@ -96,22 +95,22 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode
   OpacityMeaning meaning, ComponentMixture mixture, int components)
 {
   this->PointVersion.Bump();
-  this->OtherPoints.clear();
+  this->Others.clear();
   switch (mixture)
   {
     case ComponentMixture::Independent:
-      this->Points = ReduceWeighted(property, 0, meaning);
+      this->Main = ReduceWeighted(property, 0, meaning);
       for (int component = 1; component < components; ++component)
       {
-        this->OtherPoints.push_back(ReduceWeighted(property, component, meaning));
+        this->Others.push_back(ReduceWeighted(property, component, meaning));
       }
       break;
     case ComponentMixture::ColorAndOpacity:
-      this->Points = ReducePropertyToPoints(property, 0, meaning);
-      this->OtherPoints.push_back(this->Points);
+      this->Main = ReducePropertyToPoints(property, 0, meaning);
+      this->Others.push_back(this->Main);
       break;
     default:
-      this->Points = ReducePropertyToPoints(property, 0, meaning);
+      this->Main = ReducePropertyToPoints(property, 0, meaning);
   }
   this->HasGradientOpacity = GetBlendModel(mode).IsMedium() && UsesGradientOpacity(property);
   this->GradientPoints.clear();
@@ -123,10 +122,12 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode
   if (GetBlendModel(mode).Visible == VisibleBy::Isovalues)
   {
     vtkContourValues* values = property->GetIsoSurfaceValues();
+    std::vector<double> scalars;
     for (int i = 0; i < values->GetNumberOfContours(); ++i)
     {
-      this->SurfacePoints.push_back(EvaluateProperty(property, values->GetValue(i)));
+      scalars.push_back(values->GetValue(i));
     }
+    this->SurfacePoints = EvaluateProperty(property, scalars);
   }
 }
 
@@ -134,7 +135,7 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode
 void VolumePropertyTables::FindFeatures()
 {
   this->Features.Version = this->PointVersion;
-  this->Features.OfScalars.assign(1, FeaturesOf(this->Points));
+  this->Features.OfScalars.assign(1, this->Main.Features);
   if (GetBlendModel(this->BuiltMode).Visible == VisibleBy::Isovalues)
   {
     this->Features.OfScalars[0].clear();
@@ -143,9 +144,9 @@ void VolumePropertyTables::FindFeatures()
       this->Features.OfScalars[0].push_back({ point.Scalar, 0.0 });
     }
   }
-  for (const auto& points : this->OtherPoints)
+  for (const PropertyPoints& other : this->Others)
   {
-    this->Features.OfScalars.push_back(FeaturesOf(points));
+    this->Features.OfScalars.push_back(other.Features);
   }
 }
 
@@ -153,12 +154,13 @@ void VolumePropertyTables::FindFeatures()
 void VolumePropertyTables::NormalizeTables(
   const ScalarNormalization& normalization, const VolumeComponents& components)
 {
-  this->Intervals = BuildIntervals(this->Points, normalization);
+  this->Intervals = BuildIntervals(this->Main.Points, normalization);
   this->OtherIntervals.clear();
-  for (const auto& points : this->OtherPoints)
+  for (const PropertyPoints& function : this->Others)
   {
     const int other = static_cast<int>(this->OtherIntervals.size());
-    this->OtherIntervals.push_back(BuildIntervals(points, components.GetNormalization(other)));
+    this->OtherIntervals.push_back(
+      BuildIntervals(function.Points, components.GetNormalization(other)));
   }
   this->GradientIntervals.clear();
   if (this->HasGradientOpacity)

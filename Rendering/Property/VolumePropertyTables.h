@@ -48,7 +48,7 @@ public:
    */
   void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
 
-  const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
+  const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Main.Points; }
   /** Scalars at which the functions change, or surfaces are; for the normalisation of scalars. */
   const FunctionFeatures& GetFeatures() const { return this->Features; }
   /** Intervals of the main scalar's function. */
@@ -86,8 +86,9 @@ private:
   void NormalizeTables(
     const ScalarNormalization& normalization, const VolumeComponents& components);
 
-  std::vector<TransferFunctionPoint> Points;
-  std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
+  /** Function of the main scalar, and those of the other components that are scalars. */
+  PropertyPoints Main;
+  std::vector<PropertyPoints> Others;
   std::vector<TransferFunctionPoint> GradientPoints;
   /** True if a gradient opacity function is used; without points it is 0 everywhere. */
   bool HasGradientOpacity = false;

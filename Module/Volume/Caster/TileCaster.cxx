@@ -162,6 +162,7 @@ void TileCaster::Show(const LegBatch& batch, const TileLeg& leg,
   {
     const PacketResult& result = results[i];
     sums.Lost += result.Lost;
+    sums.Overlaps += result.Overlaps;
     if (result.Steps == 0)
     {
       continue;
@@ -275,6 +276,7 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
         }
         workspace.Joined.EndAt(batch->Origins[i], result);
         work.Sums.Lost += result.Lost;
+        work.Sums.Overlaps += result.Overlaps;
       }
     }
   }

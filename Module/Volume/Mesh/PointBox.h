@@ -29,6 +29,12 @@ struct PointBox
     this->Lower = glm::min(this->Lower, point);
     this->Upper = glm::max(this->Upper, point);
   }
+  void Add(const PointBox& box)
+  {
+    this->Lower = glm::min(this->Lower, box.Lower);
+    this->Upper = glm::max(this->Upper, box.Upper);
+  }
+  bool IsEmpty() const { return !(this->Lower.x <= this->Upper.x); }
   glm::dvec3 GetCenter() const { return 0.5 * this->Lower + 0.5 * this->Upper; }
   glm::dvec3 GetHalfSize() const { return 0.5 * this->Upper - 0.5 * this->Lower; }
 };
@@ -39,8 +45,7 @@ inline PointBox Enclose(const std::vector<PointBox>& boxes)
   PointBox all;
   for (const PointBox& box : boxes)
   {
-    all.Lower = glm::min(all.Lower, box.Lower);
-    all.Upper = glm::max(all.Upper, box.Upper);
+    all.Add(box);
   }
   return all;
 }

@@ -125,6 +125,7 @@ void TetrahedralMesh::ForgetAllButTables()
   this->HalfSize = glm::dvec3(0.0);
   this->Radius = 0.0;
   this->SmallestCell = 1.0;
+  this->ImpreciseCells = 0;
 }
 
 //------------------------------------------------------------------------------
@@ -178,7 +179,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
     return MeshStatus::Aborted;
   }
   this->IsMovable = this->Radius > 0.0 && this->Rejected.PointNotFinite == 0;
-  this->MeasureSmallestCell(control.Loop);
+  this->MeasureCells(input.Points, control.Loop);
   this->OrientCells(control.Loop);
   this->ActiveCells = this->GetNumberOfCells();
   this->IsActive.Assign(this->Cells.size(), true);

@@ -131,6 +131,12 @@ public:
   static constexpr std::int64_t MaximumNumberOfCells = (std::int64_t{ 1 } << 29) - 1;
   /** Unit of fixed-point positions. Positions are rounded once, to within 2^-31 of the radius. */
   static constexpr double PositionUnit = 1.0 / (std::int64_t{ 1 } << 30);
+  /**
+   * Least length of an edge, in units of the radius, that rays measure to 1/128. Depths along a ray
+   * are rounded to 24 bits relative to a place in the mesh, by up to 2^-25 of the radius each. The
+   * difference of two is off by up to 2^-24, which is 1/128 of this length.
+   */
+  static constexpr double ShortestPreciseEdge = 1.0 / (1 << 17);
   /** Link of a face without a neighbour. */
   static constexpr std::int32_t NoNeighbor = -1;
 
@@ -253,6 +259,8 @@ public:
    * GetRadius(); 1 without such cells.
    */
   double GetSmallestCell() const { return this->SmallestCell; }
+  /** Number of cells with an edge, between different points, below ShortestPreciseEdge. */
+  std::int64_t GetNumberOfImpreciseCells() const { return this->ImpreciseCells; }
 
 private:
   class Builder;
@@ -261,7 +269,8 @@ private:
   void ForgetAllButTables();
   bool MeasurePoints(const PointsView& points, const RangeLoop& loop);
   void RoundPositions(const PointsView& points, const RangeLoop& loop);
-  void MeasureSmallestCell(const RangeLoop& loop);
+  void MeasureCells(const PointsView& points, const RangeLoop& loop);
+  bool HasShortEdge(const Cell& cell, const PointsView& points) const;
   std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
   std::int32_t ComponentOf(std::size_t cell) const
   {
@@ -300,6 +309,7 @@ private:
   glm::dvec3 HalfSize{ 0.0 };
   double Radius = 0.0;
   double SmallestCell = 1.0;
+  std::int64_t ImpreciseCells = 0;
 };
 
 }

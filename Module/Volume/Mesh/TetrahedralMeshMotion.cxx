@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace meniscus
@@ -23,21 +24,29 @@ namespace meniscus
 namespace
 {
 
-/** In units of positions. */
-double SquareOfLongestEdge(
+/** Squares of the lengths of a cell's edges, in units of positions. */
+struct EdgeSquares
+{
+  double Longest = 0.0;
+  double Shortest = std::numeric_limits<double>::infinity();
+};
+
+EdgeSquares MeasureEdges(
   const std::vector<glm::ivec3>& positions, const std::array<std::int32_t, 4>& vertices)
 {
-  double longest = 0.0;
+  EdgeSquares edges;
   for (int i = 0; i < 4; ++i)
   {
     for (int j = i + 1; j < 4; ++j)
     {
       const glm::dvec3 edge =
         glm::dvec3(positions[vertices[j]]) - glm::dvec3(positions[vertices[i]]);
-      longest = std::max(longest, glm::dot(edge, edge));
+      const double square = glm::dot(edge, edge);
+      edges.Longest = std::max(edges.Longest, square);
+      edges.Shortest = std::min(edges.Shortest, square);
     }
   }
-  return longest;
+  return edges;
 }
 
 /** Volume of the cells of one component that follow one another in the table. */
@@ -57,7 +66,7 @@ bool TetrahedralMesh::MovePoints(const PointsView& points, const RangeLoop& loop
     return false;
   }
   this->RoundPositions(points, loop);
-  this->MeasureSmallestCell(loop);
+  this->MeasureCells(points, loop);
   return this->TurnComponents(loop);
 }
 
@@ -119,28 +128,52 @@ void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& 
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::MeasureSmallestCell(const RangeLoop& loop)
+void TetrahedralMesh::MeasureCells(const PointsView& points, const RangeLoop& loop)
 {
+  constexpr double limit = ShortestPreciseEdge / PositionUnit;
   std::vector<double> smallest(
     NumberOfBlocks(this->Cells.size()), std::numeric_limits<double>::infinity());
+  std::vector<std::int64_t> imprecise(smallest.size(), 0);
   ForEachBlock(this->Cells.size(), loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       double least = smallest[block];
       for (std::size_t c = first; c < last; ++c)
       {
-        const double square = SquareOfLongestEdge(this->Positions, this->Cells[c].Vertices);
+        const EdgeSquares edges = MeasureEdges(this->Positions, this->Cells[c].Vertices);
         // Cells without volume are never crossed, so their size does not matter.
-        if (square < least && SignedVolume(this->Positions, this->Cells[c]) != 0.0)
+        if (edges.Longest < least && SignedVolume(this->Positions, this->Cells[c]) != 0.0)
         {
-          least = square;
+          least = edges.Longest;
         }
+        imprecise[block] +=
+          edges.Shortest < limit * limit && this->HasShortEdge(this->Cells[c], points);
       }
       smallest[block] = least;
     });
   const auto least = std::min_element(smallest.begin(), smallest.end());
   this->SmallestCell =
     least != smallest.end() && std::isfinite(*least) ? PositionUnit * std::sqrt(*least) : 1.0;
+  this->ImpreciseCells = std::accumulate(imprecise.begin(), imprecise.end(), std::int64_t{ 0 });
+}
+
+//------------------------------------------------------------------------------
+/** True if an edge between different points is shorter than ShortestPreciseEdge. */
+bool TetrahedralMesh::HasShortEdge(const Cell& cell, const PointsView& points) const
+{
+  for (int i = 0; i < 4; ++i)
+  {
+    const glm::dvec3 p = points[this->SourcePoints[cell.Vertices[i]]];
+    for (int j = i + 1; j < 4; ++j)
+    {
+      const double length = glm::length(points[this->SourcePoints[cell.Vertices[j]]] - p);
+      if (length > 0.0 && length < ShortestPreciseEdge * this->Radius)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------

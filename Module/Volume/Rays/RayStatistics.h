@@ -17,6 +17,8 @@ struct RayStatistics
   std::int64_t Rays = 0;
   /** Number of rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
+  /** Number of rays, of each leg, that found parts of the mesh to overlap. */
+  std::int64_t Overlaps = 0;
 };
 
 }

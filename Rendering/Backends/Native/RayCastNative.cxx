@@ -173,6 +173,7 @@ RayCastStatistics RayCastNative::GetStatistics()
     total.Steps += tile.Steps;
     total.Rays += tile.Rays;
     total.Lost += tile.Lost;
+    total.Overlaps += tile.Overlaps;
   }
   return total;
 }

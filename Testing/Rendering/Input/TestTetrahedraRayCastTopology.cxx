@@ -4,17 +4,22 @@
 #include "RayCastScene.h"
 
 #include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
 #include <vtkDoubleArray.h>
+#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -343,4 +348,74 @@ TEST(TetrahedraRayCastTopology, ListsOfEntriesAreMadeWhereRaysOrBoundaryChange)
   LookAt(connected.GetRenderer(), Bounds, 40.0, 20.0);
   connected.GetWindow()->Render();
   EXPECT_EQ(connected.GetRayCaster()->GetNumberOfEntryListBuilds(), 0);
+}
+
+/**
+ * Three bars over the sides of a triangle, seen from above: at each corner, one lies over the next.
+ * No order of the cells shows them from back to front.
+ */
+TEST(TetrahedraRayCastTopology, VisibilityCycle)
+{
+  const auto cornerOf = [](int i)
+  {
+    const double angle = 2.0 * vtkMath::Pi() * i / 3.0;
+    return std::array<double, 2>{ 0.6 * std::cos(angle), 0.6 * std::sin(angle) };
+  };
+  std::vector<double> points;
+  std::vector<vtkIdType> cells;
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::array<double, 2> from = cornerOf(i);
+    const std::array<double, 2> to = cornerOf(i + 1);
+    const double along[2] = { to[0] - from[0], to[1] - from[1] };
+    // Low at its beginning and high at its end, and longer than the side.
+    const double places[4][3] = { { -0.3, 0.15, -0.4 }, { -0.3, -0.15, -0.4 }, { 1.3, 0.1, 0.35 },
+      { 1.3, -0.1, 0.45 } };
+    for (const auto& place : places)
+    {
+      cells.push_back(static_cast<vtkIdType>(points.size() / 3));
+      points.insert(points.end(),
+        { from[0] + place[0] * along[0] - place[1] * along[1],
+          from[1] + place[0] * along[1] + place[1] * along[0], place[2] });
+    }
+  }
+  const Grid grid = MakeGrid(points, cells, ConstantField(0.0));
+  for (vtkIdType i = 0; i < 12; ++i)
+  {
+    grid->GetPointData()->GetScalars()->SetComponent(i, 0, static_cast<double>(i / 4) - 1.0);
+  }
+  vtkNew<vtkColorTransferFunction> color;
+  vtkNew<vtkPiecewiseFunction> opacity;
+  for (int i = 0; i < 3; ++i)
+  {
+    color->AddRGBPoint(i - 1.0, i == 0, i == 1, i == 2);
+    opacity->AddPoint(i - 1.0, 1.0);
+  }
+  vtkNew<vtkVolumeProperty> property;
+  property->SetColor(color);
+  property->SetScalarOpacity(opacity);
+  for (const int backend : Backends)
+  {
+    RayCastScene scene(grid, property, Size, Size);
+    scene.GetRayCaster()->SetBackend(backend);
+    LookAlongAxis(scene.GetRenderer(), Bounds, 2, 1.0);
+    property->SetScalarOpacityUnitDistance(0.05);
+    ExpectMatchesReference(scene, "cycle, translucent");
+    // Opaque: the colour at each corner is that of the bar that ends there.
+    property->SetScalarOpacityUnitDistance(1.0e-4);
+    const FloatImage image = scene.RenderFloat();
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::array<double, 2> corner = cornerOf(i + 1);
+      vtkRenderer* renderer = scene.GetRenderer();
+      renderer->SetWorldPoint(corner[0], corner[1], 0.0, 1.0);
+      renderer->WorldToDisplay();
+      const double* place = renderer->GetDisplayPoint();
+      const float* pixel = image.GetPixel(static_cast<int>(place[0]), static_cast<int>(place[1]));
+      for (int k = 0; k < 3; ++k)
+      {
+        EXPECT_NEAR(pixel[k], k == i ? 1.0 : 0.0, 1.0e-4) << "corner " << i << ", channel " << k;
+      }
+    }
+  }
 }

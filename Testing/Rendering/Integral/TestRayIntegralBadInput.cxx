@@ -6,10 +6,12 @@
 
 #include <vtkCamera.h>
 #include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -93,7 +95,7 @@ TEST(RayIntegralBadInput, Arrays)
   grid->GetPointData()->Initialize();
   rays = MakeGood();
   rays->SetInputData(grid);
-  ExpectError(rays, "no scalar array");
+  ExpectError(rays, "no active scalars and no arrays of points or cells");
   AddArray(grid->GetPointData(), "short", grid->GetNumberOfPoints() - 1, 1, 1.0);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "short");
   ExpectError(rays, "values for");
@@ -104,6 +106,62 @@ TEST(RayIntegralBadInput, Arrays)
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "pair");
   rays->SetArrayComponent(2);
   ExpectError(rays, "none of number 2");
+}
+
+//------------------------------------------------------------------------------
+// The message names the arrays that can be chosen.
+TEST(RayIntegralBadInput, NoActiveScalars)
+{
+  Grid grid = MakeMesh();
+  grid->GetPointData()->SetActiveScalars(nullptr);
+  AddArray(grid->GetPointData(), "heat", grid->GetNumberOfPoints(), 1, 1.0);
+  AddArray(grid->GetCellData(), "flux", grid->GetNumberOfCells(), 3, 1.0);
+  grid->GetPointData()->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
+  grid->GetCellData()->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
+  Filter rays = MakeGood();
+  rays->SetInputData(grid);
+  const std::string there =
+    std::string("there are point arrays '") + ScalarName + "', 'heat' and cell arrays 'flux'";
+  ExpectError(rays, "The input has no active scalars; " + there);
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flux");
+  ExpectError(rays, "no scalar array named 'flux' in its point data; " + there);
+}
+
+//------------------------------------------------------------------------------
+// Lengths need no scalars: all cells count if none are active, but a named array must exist.
+TEST(RayIntegralBadInput, LengthsWithoutArrays)
+{
+  Grid grid = MakeMesh();
+  grid->GetPointData()->Initialize();
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, vtkSmartPointer<vtkPolyData>::New());
+  blocks->SetBlock(1, grid);
+  for (vtkDataObject* input :
+    { static_cast<vtkDataObject*>(grid), static_cast<vtkDataObject*>(blocks.Get()) })
+  {
+    Filter rays = MakeFilter(input, 8, 8);
+    rays->ComputePathLengthOn();
+    rays->ComputeFirstDepthOn();
+    rays->ComputeLastDepthOn();
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(rays);
+    rays->Update();
+    EXPECT_TRUE(observer->GetText().empty()) << observer->GetText();
+    const std::vector<double> lengths = ValuesOf(rays, "PathLength");
+    const std::vector<double> first = ValuesOf(rays, "FirstDepth");
+    const std::vector<double> last = ValuesOf(rays, "LastDepth");
+    ASSERT_EQ(lengths.size(), 64u);
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+    {
+      EXPECT_NEAR(lengths[i], 2.0, 1.0e-6);
+      EXPECT_NEAR(last[i] - first[i], 2.0, 1.0e-6);
+    }
+    rays->ComputeIntegralOn();
+    ExpectError(rays, "no active scalars");
+    rays->ComputeIntegralOff();
+    rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "missing");
+    ExpectError(rays, "no scalar array named 'missing'");
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -24,6 +24,8 @@
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -171,6 +173,34 @@ TEST_F(TetrahedraRayCastRepeats, EveryChangeIsCast)
     EXPECT_GT(this->Mapper()->GetNumberOfCastImages(), images) << change.first;
     EXPECT_FALSE(before.Rgba == after.Rgba) << change.first << " does not show";
     ExpectEqualBits(after, this->RenderAnew(), change.first);
+  }
+}
+
+/** The error of a pixel is at most the transmittance at which its ray ends, and steps are saved. */
+TEST_F(TetrahedraRayCastRepeats, TerminationKeepsItsErrorAndSavesSteps)
+{
+  constexpr float rounding = 2.0e-5f;
+  this->Property->ShadeOff();
+  this->Property->SetScalarOpacityUnitDistance(
+    0.05 * this->Property->GetScalarOpacityUnitDistance());
+  this->Mapper()->SetEarlyTerminationOpacity(1.0);
+  const FloatImage whole = this->Settle();
+  vtkTypeInt64 steps = this->Mapper()->GetNumberOfTraversalSteps();
+  for (const double opacity : { 1.0 - 1.0 / 131072.0, 0.99, 0.9, 0.5 })
+  {
+    this->Mapper()->SetEarlyTerminationOpacity(opacity);
+    const FloatImage image = this->Settle();
+    float worst = 0.0f;
+    for (std::size_t i = 0; i < image.Rgba.size(); ++i)
+    {
+      worst = std::max(worst, std::abs(image.Rgba[i] - whole.Rgba[i]));
+    }
+    EXPECT_LE(worst, static_cast<float>(1.0 - opacity) + rounding) << opacity;
+    // At least a tenth of the error that is accepted is made.
+    EXPECT_GE(worst, static_cast<float>(0.1 * (1.0 - opacity)) - rounding) << opacity;
+    const vtkTypeInt64 saved = steps - this->Mapper()->GetNumberOfTraversalSteps();
+    EXPECT_GT(saved, steps / 50) << opacity;
+    steps = this->Mapper()->GetNumberOfTraversalSteps();
   }
 }
 

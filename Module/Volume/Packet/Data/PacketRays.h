@@ -93,6 +93,16 @@ struct PacketResult
   std::int32_t Steps;
   /** 1 if a walk did not end on the boundary, which cannot happen with IEEE arithmetic. */
   std::int32_t Lost;
+  /**
+   * 1 if the ray entered the mesh again by more than OverlapDepth, in grid units, in front of the
+   * place that it had reached: parts of the mesh overlap.
+   */
+  std::int32_t Overlaps;
+  /**
+   * 2^-10 of the mesh's radius. Shallower overlaps are common and hard to see: faces that are not
+   * planar, tangled cells, seams between parts.
+   */
+  static constexpr float OverlapDepth = static_cast<float>(PacketVertex::GridPerDepth / 1024.0);
 };
 
 /** A boundary face, counter-clockwise about the rays that enter by it. */

@@ -186,6 +186,7 @@ private:
   std::int32_t Ids[3][Width];
   std::int32_t CellFaces[Width];
   std::int32_t StepsOf[Width];
+  std::int32_t Overlaps[Width];
   float DepthsNow[Width];
   float StartDepths[Width];
   float EndDepths[Width];
@@ -224,7 +225,7 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   {
     this->Ray[lane] = -1;
     this->Ids[0][lane] = this->Ids[1][lane] = this->Ids[2][lane] = 0;
-    this->CellFaces[lane] = this->StepsOf[lane] = 0;
+    this->CellFaces[lane] = this->StepsOf[lane] = this->Overlaps[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
     for (int axis = 0; axis < 2; ++axis)
@@ -500,6 +501,7 @@ bool PacketWalk<Simd, Model>::NextEntry(int lane)
   }
   this->Entry[lane] = next;
   const PacketEntry& entry = this->Job.Entries[next];
+  this->Overlaps[lane] |= this->DepthsNow[lane] - entry.Depth > PacketResult::OverlapDepth ? 1 : 0;
   for (int i = 0; i < 3; ++i)
   {
     this->Ids[i][lane] = entry.Vertices[i];
@@ -536,7 +538,7 @@ bool PacketWalk<Simd, Model>::TakeRay(int lane)
     this->StartDepths[lane] = ray.StartDepth;
     this->EndDepths[lane] = ray.EndDepth;
     this->DepthsNow[lane] = -1.0e+30f;
-    this->StepsOf[lane] = 0;
+    this->StepsOf[lane] = this->Overlaps[lane] = 0;
     this->CellFaces[lane] = -1;
     this->Ray[lane] = number;
     this->Entry[lane] = ray.FirstEntry - 1;
@@ -581,6 +583,7 @@ void PacketWalk<Simd, Model>::Finish(int lane)
   }
   result.End = this->EndOf(lane);
   result.Steps = this->StepsOf[lane];
+  result.Overlaps = this->Overlaps[lane];
   result.Lost = this->StepsOf[lane] >= this->StepLimit && this->CellFaces[lane] >= 0 ? 1 : 0;
 }
 

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Input_DrawnBounds_h
+#define meniscus_Rendering_Input_DrawnBounds_h
+
+#include "Rendering/Common/ContentWatch.h"
+#include "Rendering/Input/InputBlocks.h"
+#include "Volume/Mesh/PointBox.h"
+
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Box around the points of the cells that are drawn: cells with a volume that are not left out.
+ * Points that no such cell uses do not count.
+ */
+class DrawnBounds
+{
+public:
+  /**
+   * Box of the data sets of an input; empty if they have no such cells. It is kept until an object
+   * is modified that stores their points or cells.
+   */
+  const PointBox& Update(const InputBlocks& input);
+
+private:
+  std::vector<ObjectVersion> Versions;
+  PointBox Box;
+};
+
+}
+
+#endif

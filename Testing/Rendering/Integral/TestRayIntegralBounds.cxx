@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bounds are those of the cells that are drawn: of the mapper, for cameras, and of fitted rays.
+#include "IntegralScene.h"
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSphereSource.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUniformGrid.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+/** A corner of the drawn cells in the middle of Germany, in metres of UTM. */
+constexpr double Place[3] = { 561000.0, 5700000.0, 100.0 };
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/** The cube of side 10 at Place, in tetrahedra. */
+Grid MakeCube()
+{
+  const Grid grid = MakeCubeOfFive(ConstantField(1.0));
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double at[3];
+    grid->GetPoint(i, at);
+    grid->GetPoints()->SetPoint(
+      i, Place[0] + 10.0 * at[0], Place[1] + 10.0 * at[1], Place[2] + 10.0 * at[2]);
+  }
+  return grid;
+}
+
+/** Adds a point with a scalar; returns its number. */
+vtkIdType AddPoint(vtkUnstructuredGrid* grid, double x, double y, double z)
+{
+  vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars())->InsertNextValue(1.0);
+  return grid->GetPoints()->InsertNextPoint(x, y, z);
+}
+
+/** Adds a cell between the origin and the points (1, 0, 0), (0, 1, 0), (0, 0, 1). */
+void AddFarCell(vtkUnstructuredGrid* grid, int type, vtkIdType size)
+{
+  vtkIdType ids[4];
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    ids[i] = AddPoint(grid, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0, i == 3 ? 1.0 : 0.0);
+  }
+  grid->InsertNextCell(type, size, ids);
+}
+
+void AddFlags(vtkDataSet* grid, unsigned char flag)
+{
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName(vtkDataSetAttributes::GhostArrayName());
+  flags->SetNumberOfTuples(grid->GetNumberOfCells());
+  flags->Fill(0.0);
+  flags->SetValue(grid->GetNumberOfCells() - 1, flag);
+  grid->GetCellData()->AddArray(flags);
+}
+
+struct BoundsCase
+{
+  const char* Name;
+  vtkSmartPointer<vtkDataObject> Input;
+};
+
+vtkSmartPointer<vtkDataObject> MakeBlocks(const std::vector<vtkSmartPointer<vtkDataObject>>& parts)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const auto& part : parts)
+  {
+    blocks->SetBlock(blocks->GetNumberOfBlocks(), part);
+  }
+  return blocks;
+}
+
+Grid MakeHalf(int axisSide)
+{
+  const Grid half = MakeCube();
+  for (vtkIdType i = 0; i < half->GetNumberOfPoints(); ++i)
+  {
+    double at[3];
+    half->GetPoint(i, at);
+    at[0] = Place[0] + 0.5 * (at[0] - Place[0]) + 5.0 * axisSide;
+    half->GetPoints()->SetPoint(i, at);
+  }
+  return half;
+}
+
+/** Inputs of which the cube alone is drawn. */
+std::vector<BoundsCase> MakeCases()
+{
+  std::vector<BoundsCase> cases;
+  const auto add = [&cases](const char* name, auto&& change)
+  {
+    const Grid grid = MakeCube();
+    change(grid.Get());
+    cases.push_back({ name, grid });
+  };
+  add("unused point", [](vtkUnstructuredGrid* grid) { AddPoint(grid, 0.0, 0.0, 0.0); });
+  add("triangle", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_TRIANGLE, 3); });
+  add("vertex", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_VERTEX, 1); });
+  add("hidden cell",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      AddFlags(grid, vtkDataSetAttributes::HIDDENCELL);
+    });
+  add("ghost cell",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      AddFlags(grid, vtkDataSetAttributes::DUPLICATECELL);
+    });
+  add("too few points", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_HEXAHEDRON, 4); });
+  add("point that is not finite",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      grid->GetPoints()->SetPoint(grid->GetNumberOfPoints() - 1, 0.0, NaN, 0.0);
+    });
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  const Grid other = MakeCube();
+  AddPoint(other, 0.0, 0.0, 0.0);
+  cases.push_back(
+    { "blocks", MakeBlocks({ MakeHalf(0), sphere->GetOutput(), MakeHalf(1), Grid::New() }) });
+  const Grid nameless = MakeSingleTetrahedron(ConstantField(1.0));
+  nameless->GetPointData()->Initialize();
+  cases.push_back({ "block without the array", MakeBlocks({ nameless, other }) });
+  auto image = vtkSmartPointer<vtkUniformGrid>::New();
+  image->SetDimensions(4, 3, 2);
+  image->SetOrigin(Place[0], Place[1], Place[2]);
+  image->SetSpacing(5.0, 5.0, 10.0);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(ScalarName);
+  values->SetNumberOfTuples(24);
+  values->Fill(1.0);
+  image->GetPointData()->SetScalars(values);
+  image->BlankCell(2);
+  image->BlankCell(5);
+  cases.push_back({ "blanked cells of an image", image });
+  return cases;
+}
+
+void ExpectCube(const double* bounds, const char* name)
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_DOUBLE_EQ(bounds[i], Place[i / 2] + 10.0 * (i % 2)) << name << ", bound " << i;
+  }
+}
+
+}
+
+TEST(DrawnBounds, OfTheMapper)
+{
+  for (const BoundsCase& bounds : MakeCases())
+  {
+    vtkNew<vtkTetrahedraRayCastMapper> mapper;
+    mapper->SetInputDataObject(bounds.Input);
+    ExpectCube(mapper->GetBounds(), bounds.Name);
+  }
+}
+
+TEST(DrawnBounds, OfFittedRays)
+{
+  for (const BoundsCase& bounds : MakeCases())
+  {
+    const Filter rays = MakeFilter(bounds.Input, 8, 8);
+    rays->ComputePathLengthOn();
+    vtkNew<ErrorObserver> quiet;
+    quiet->Observe(rays);
+    rays->Update();
+    EXPECT_TRUE(quiet->Errors.empty()) << bounds.Name << ": " << quiet->GetText();
+    const std::vector<double> lengths = ValuesOf(rays, "PathLength");
+    ASSERT_EQ(lengths.size(), 64u) << bounds.Name;
+    for (const double length : lengths)
+    {
+      EXPECT_NEAR(length, 10.0, 1.0e-4) << bounds.Name;
+    }
+  }
+}
+
+TEST(DrawnBounds, FollowTheInput)
+{
+  const Grid grid = MakeCube();
+  AddFarCell(grid, VTK_TETRA, 4);
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputData(grid);
+  EXPECT_DOUBLE_EQ(mapper->GetBounds()[0], 0.0);
+  // The cell is hidden, shown and moved.
+  AddFlags(grid, vtkDataSetAttributes::HIDDENCELL);
+  grid->Modified();
+  ExpectCube(mapper->GetBounds(), "hidden");
+  grid->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  EXPECT_DOUBLE_EQ(mapper->GetBounds()[0], 0.0);
+  for (vtkIdType i = 8; i < 12; ++i)
+  {
+    grid->GetPoints()->SetPoint(
+      i, Place[0] + (i == 9 ? 1.0 : 0.0), Place[1] + (i == 10 ? 1.0 : 0.0), Place[2] + (i == 11));
+  }
+  grid->GetPoints()->Modified();
+  ExpectCube(mapper->GetBounds(), "moved");
+}
+
+TEST(DrawnBounds, OfNothing)
+{
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  EXPECT_FALSE(vtkMath::AreBoundsInitialized(mapper->GetBounds()));
+  mapper->SetInputData(Grid::New());
+  EXPECT_FALSE(vtkMath::AreBoundsInitialized(mapper->GetBounds()));
+  // Pixels are no volumes.
+  vtkNew<vtkImageData> flat;
+  flat->SetDimensions(4, 4, 1);
+  mapper->SetInputData(flat);
+  EXPECT_FALSE(vtkMath::AreBoundsInitialized(mapper->GetBounds()));
+  // Without scalars nothing is drawn, but the place of the cells is known.
+  const Grid grid = MakeCube();
+  grid->GetPointData()->Initialize();
+  mapper->SetInputData(grid);
+  ExpectCube(mapper->GetBounds(), "without scalars");
+}

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that are measured, but not as their owner may expect: a warning with numbers, once.
+#include "IntegralScene.h"
+
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+/** The cube [0, 1]^3 in n x n x 2 hexahedra; the upper ones have a thickness. */
+Grid MakeLayers(int n, double thickness)
+{
+  const double heights[3] = { 0.0, 1.0 - thickness, 1.0 };
+  Grid grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName(ScalarName);
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      for (int i = 0; i <= n; ++i)
+      {
+        points->InsertNextPoint(static_cast<double>(i) / n, static_cast<double>(j) / n, heights[k]);
+        scalars->InsertNextValue(1.0);
+      }
+    }
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(scalars);
+  const auto at = [n](int i, int j, int k)
+  { return static_cast<vtkIdType>(i + (n + 1) * (j + (n + 1) * k)); };
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k),
+          at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
+          at(i, j + 1, k + 1) };
+        grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+      }
+    }
+  }
+  return grid;
+}
+
+/** Warnings of a filter's update. */
+std::vector<std::string> UpdateAndListen(vtkTetrahedraRayIntegral* rays)
+{
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(rays);
+  rays->Update();
+  rays->RemoveObserver(observer);
+  EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
+  return observer->Warnings;
+}
+
+/** Largest relative error of the way through the upper layer alone, seen aslant. */
+double ErrorOfLayer(int n, double thickness)
+{
+  Grid grid = MakeLayers(n, thickness);
+  // The lower cells do not count.
+  for (vtkIdType i = 0; i < (n + 1) * (n + 1); ++i)
+  {
+    grid->GetPointData()->GetScalars()->SetComponent(i, 0, std::nan(""));
+  }
+  const Filter rays = MakeFilter(grid, 64, 64);
+  rays->ComputePathLengthOn();
+  rays->SetFrameModeToParallel();
+  rays->SetFrameOrigin(0.25, 0.25, 3.0);
+  rays->SetFrameAxis1(0.5, 0.0, 0.0);
+  rays->SetFrameAxis2(0.0, 0.5, 0.0);
+  UpdateAndListen(rays);
+  double error = 0.0;
+  for (const double length : ValuesOf(rays, "PathLength"))
+  {
+    error = std::max(error, std::abs(length / thickness - 1.0));
+  }
+  return error;
+}
+
+}
+
+/** Layers below the precision of coordinates are counted; others are measured to 1 %. */
+TEST(MeshWarnings, ThinLayers)
+{
+  for (const int n : { 1, 4, 16 })
+  {
+    for (const double thickness : { 1.0e-2, 1.0e-4, 1.0e-5, 1.0e-6, 1.0e-8, 1.0e-12 })
+    {
+      const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
+      const Grid grid = MakeLayers(n, thickness);
+      const Filter rays = MakeFilter(grid, 4, 4);
+      rays->ComputePathLengthOn();
+      const std::vector<std::string> warnings = UpdateAndListen(rays);
+      const double error = ErrorOfLayer(n, thickness);
+      std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
+      if (warnings.empty())
+      {
+        EXPECT_LE(error, 0.01) << what;
+        EXPECT_GE(thickness, 1.0e-6) << what;
+        continue;
+      }
+      EXPECT_LE(thickness, 1.0e-5) << what;
+      ASSERT_EQ(warnings.size(), 1u) << what;
+      const std::string count = std::to_string(6 * n * n) + " of " + std::to_string(12 * n * n);
+      EXPECT_NE(warnings[0].find(count + " cells have an edge shorter than"), std::string::npos)
+        << warnings[0];
+      // The warning is about the mesh, and is not repeated for other rays.
+      rays->SetImageSize(5, 5);
+      EXPECT_TRUE(UpdateAndListen(rays).empty());
+    }
+  }
+}
+
+/** Points given twice make edges without length, and flat cells have no layer. */
+TEST(MeshWarnings, NoThinLayers)
+{
+  const Grid grid = MakeLayers(2, 0.5);
+  const vtkIdType twice = grid->GetPoints()->InsertNextPoint(0.0, 0.0, 0.0);
+  vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars())->InsertNextValue(1.0);
+  const vtkIdType ids[2][4] = { { 0, twice, 1, 9 }, { 0, 1, 2, 3 } };
+  grid->InsertNextCell(VTK_TETRA, 4, ids[0]);
+  grid->InsertNextCell(VTK_TETRA, 4, ids[1]);
+  const Filter rays = MakeFilter(grid, 4, 4);
+  rays->ComputePathLengthOn();
+  EXPECT_TRUE(UpdateAndListen(rays).empty());
+}
+
+/** A filled body in a filled body: rays count the first one that they enter. */
+TEST(MeshWarnings, OverlappingBodies)
+{
+  const Grid outer = MakeBlock(4, ConstantField(1.0));
+  const Grid inner = MakeBlock(3, ConstantField(5.0));
+  TransformPoints(inner, { 0.0, 0.0, 0.0 }, 0.5);
+  const Grid beside = MakeBlock(2, ConstantField(5.0));
+  TransformPoints(beside, { 2.0, 0.0, 0.0 }, 1.0);
+  for (const bool overlaps : { true, false })
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, outer);
+    blocks->SetBlock(1, overlaps ? inner : beside);
+    const Filter rays = MakeFilter(blocks, 64, 64);
+    rays->ComputeIntegralOn();
+    rays->SetDirection(0.11, 0.07, -1.0);
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    if (!overlaps)
+    {
+      EXPECT_TRUE(warnings.empty());
+      continue;
+    }
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("parts of the mesh overlap"), std::string::npos) << warnings[0];
+    // The inner body covers a quarter of the outer one's front, seen nearly along an axis.
+    const double share = std::stod(warnings[0].substr(warnings[0].find("): ") + 3)) / (64.0 * 64.0);
+    EXPECT_GT(share, 0.15);
+    EXPECT_LT(share, 0.35);
+    rays->SetImageSize(32, 32);
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
+  }
+}
