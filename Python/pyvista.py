@@ -13,7 +13,8 @@ from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
 from .data import check_component
-from .viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of
+from .viewer.cells import (
+    check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of)
 from .viewer.files import ReadingError
 from .vtkMeniscus import (
     vtkRefractedGeometryFilter, vtkRefractingInterface, vtkRefractingInterfaceCollection,
@@ -182,10 +183,12 @@ class _Scalars:
         raise KeyError("No block has an array '%s'" % scalars)
 
     def _take_arrays(self, leaves):
-        attributes = [leaf.GetPointData() if self.in_points else leaf.GetCellData()
-                      for leaf in leaves]
-        self.arrays = [each.GetArray(self.name) for each in attributes
-                       if each.HasArray(self.name)]
+        self.arrays, self._leaves = [], []
+        for leaf in leaves:
+            attributes = leaf.GetPointData() if self.in_points else leaf.GetCellData()
+            if attributes.HasArray(self.name):
+                self.arrays.append(attributes.GetArray(self.name))
+                self._leaves.append(leaf)
         if None in self.arrays:
             raise TypeError("The array '%s' is not numeric" % self.name)
 
@@ -212,8 +215,10 @@ class _Scalars:
             mapper.SetVectorComponent(self.component)
 
     def get_values(self):
-        """All values, of all blocks, as an array."""
-        values = [vtk_to_numpy(array) for array in self.arrays]
+        """The values of all cells that are drawn, of all blocks, as an array."""
+        drawn = drawn_points_of if self.in_points else drawn_cells_of
+        values = [vtk_to_numpy(array)[drawn(leaf)]
+                  for array, leaf in zip(self.arrays, self._leaves)]
         if values[0].ndim > 1:
             values = [numpy.linalg.norm(each, axis=1) if self.component is None
                       else each[:, self.component] for each in values]

@@ -53,6 +53,19 @@ def drawn_cells_of(leaf):
     return drawn & (vtk_to_numpy(ghosts) & _LEFT_OUT == 0) if ghosts else drawn
 
 
+def drawn_points_of(leaf):
+    """True for each point of a cell that is drawn; of structured data, for all points."""
+    points = leaf.GetNumberOfPoints()
+    if not isinstance(leaf, vtkUnstructuredGrid):
+        return numpy.full(points, True)
+    ids = vtk_to_numpy(leaf.GetCells().GetConnectivityArray())
+    sizes = numpy.diff(vtk_to_numpy(leaf.GetCells().GetOffsetsArray()))
+    ids = ids[numpy.repeat(drawn_cells_of(leaf), sizes)]
+    drawn = numpy.full(points, False)
+    drawn[ids[(ids >= 0) & (ids < points)]] = True
+    return drawn
+
+
 def drawn_leaves_of(data):
     """The data sets with at least one cell that is drawn."""
     return [leaf for leaf in leaves_of(data) if drawn_cells_of(leaf).any()]
