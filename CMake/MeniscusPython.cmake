@@ -30,9 +30,9 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ integrals pyvista
-  viewer/__init__ viewer/colors viewer/command viewer/levels viewer/reading viewer/scene viewer/web
-  viewer/window)
+  __main__ data integrals pyvista
+  viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels
+  viewer/reading viewer/scene viewer/series viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
   configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
@@ -54,6 +54,7 @@ install(
     "${_meniscus_package}/__init__.py"
     "${_meniscus_package}/__main__.py"
     "${_meniscus_package}/integrals.py"
+    "${_meniscus_package}/data.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
     "${_meniscus_stubs}"

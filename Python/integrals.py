@@ -5,6 +5,7 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
+from .data import check_component, leaves_of
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
 try:
@@ -16,6 +17,9 @@ except ImportError:
 _SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
 _ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
            "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
+# Arrays that do not depend on scalars, and properties that choose components or other arrays.
+_GEOMETRIC = {"PathLength", "FirstDepth", "LastDepth"}
+_OWN_COMPONENTS = {"ArrayComponent", "AttenuationArrayName"}
 
 
 def _as_rows(array, width, height):
@@ -35,6 +39,31 @@ def _set_bins(rays, bins):
         setters = (rays.SetBinAttenuation, rays.SetBinEmission, rays.SetBinIntensity)
         for setter, value in zip(setters, values):
             setter(number, value)
+
+
+def _find_array(mesh, scalars):
+    """The first array of a name, or the first active scalars, of the points or cells of a mesh;
+    None if there is none."""
+    if hasattr(mesh, "GetOutputPort"):
+        mesh.Update()
+        mesh = mesh.GetOutputDataObject(0)
+    for leaf in leaves_of(mesh):
+        for attributes in (leaf.GetPointData(), leaf.GetCellData()):
+            array = attributes.GetArray(scalars) if scalars else attributes.GetScalars()
+            if array is not None:
+                return array
+    return None
+
+
+def _choose_component(rays, array, component):
+    """Sets the component of an array; one of an array with several is a ValueError if none or
+    another is chosen."""
+    if array is None:
+        return
+    check_component(array.GetName(), array.GetNumberOfComponents(), component)
+    if component is None:
+        return
+    rays.SetArrayComponent(-1 if component == "magnitude" else component)
 
 
 def _update(rays):
@@ -57,8 +86,8 @@ def _update(rays):
         raise ValueError(lines[-1].split("): ", 1)[-1])
 
 
-def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), camera=None, bins=None,
-                 **properties):
+def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=(256, 256),
+                 camera=None, bins=None, **properties):
     """Casts one ray per pixel through a mesh and returns what it measures.
 
     mesh: a VTK or PyVista dataset, or a filter whose output is one.
@@ -66,6 +95,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), came
         PathLength, OpticalDepth, FirstDepth, LastDepth, Minimum, MinimumDepth, Maximum,
         MaximumDepth, RGBA, EnergyBins.
     scalars: name of a point or cell array; default: the active scalars.
+    component: number of a component from 0, or "magnitude"; needed for scalars with several.
     size: width and height of the image in pixels.
     camera: a vtkCamera; default: parallel rays along Direction, around the bounding box.
     bins: attenuation coefficients of energy bins, or tuples (attenuation, emission, intensity).
@@ -91,6 +121,8 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), came
     if scalars is not None:
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
+    if not _OWN_COMPONENTS & set(properties) and set(names) - _GEOMETRIC:
+        _choose_component(rays, _find_array(mesh, scalars), component)
     rays.SetImageSize(*size)
     if camera is not None:
         rays.SetCamera(camera)

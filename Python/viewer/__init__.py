@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command `meniscus`: draws meshes from files as volumes, in a window, a page or a picture.
 
+files: data of single files, with all of their arrays.
+series: time steps and parts that a file names.
+cells: which cells are drawn, and damaged ones.
 reading: meshes, time steps and surfaces from files.
 levels: isosurface areas of a scalar, and the transfer function that is derived from them.
 scene: the volume and its settings; has no window of its own.

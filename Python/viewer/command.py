@@ -8,7 +8,7 @@ import sys
 from .colors import COLOR_MAPS
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, BACKENDS, BLEND_MODES, MeshScene
-from .window import Window, make_window, write_picture
+from .window import Window, draw_picture, write_picture
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
@@ -30,7 +30,8 @@ def _size(text):
 
 def make_parser():
     parser = argparse.ArgumentParser(prog="meniscus", description=DESCRIPTION)
-    parser.add_argument("mesh", nargs="+", metavar="MESH", help="file that VTK can read, or a .pvd")
+    parser.add_argument("mesh", nargs="+", metavar="MESH",
+                        help="file of a mesh, or a collection (.pvd, .series)")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
@@ -100,9 +101,10 @@ def make_scene(options):
 
 def _show(scene, options):
     if options.output:
-        window = make_window(scene, options.size, offscreen=True)
-        window.Render()
-        write_picture(window, options.output)
+        picture, warnings = draw_picture(scene, options.size)
+        write_picture(picture, options.output)
+        for warning in warnings:
+            print(f"meniscus: warning: {warning}", file=sys.stderr)
     elif options.web:
         from .web import make_server
         make_server(scene).start(port=options.port, open_browser=False)

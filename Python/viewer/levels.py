@@ -3,11 +3,14 @@
 """Isosurface areas of a scalar, and an opacity function that makes rare values visible."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules import vtkCommonDataModel as model
+from vtkmodules.vtkCommonDataModel import VTK_POLYHEDRON, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
-from .reading import leaves_of
+from ..data import leaves_of
+from .cells import drawn_cells_of, types_of
 
 BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
@@ -26,15 +29,88 @@ def _as_grid(data):
     return append.GetOutput()
 
 
-def _measure_cells(grid):
+# Cells that are measured at once, which limits the memory of intermediate results.
+_BLOCK_SIZE = 1 << 18
+# Tetrahedra of a shape, by the corners of the cell.
+_TETRAHEDRON = [(0, 1, 2, 3)]
+_PYRAMID = [(0, 1, 2, 4), (0, 2, 3, 4)]
+_WEDGE = [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)]
+_HEXAHEDRON = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+_VOXEL = [(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7)]
+_SHAPES = (
+    (_TETRAHEDRON, "TETRA QUADRATIC_TETRA HIGHER_ORDER_TETRAHEDRON LAGRANGE_TETRAHEDRON "
+                   "BEZIER_TETRAHEDRON"),
+    (_PYRAMID, "PYRAMID QUADRATIC_PYRAMID TRIQUADRATIC_PYRAMID HIGHER_ORDER_PYRAMID "
+               "LAGRANGE_PYRAMID BEZIER_PYRAMID"),
+    (_WEDGE, "WEDGE QUADRATIC_WEDGE QUADRATIC_LINEAR_WEDGE BIQUADRATIC_QUADRATIC_WEDGE "
+             "HIGHER_ORDER_WEDGE LAGRANGE_WEDGE BEZIER_WEDGE"),
+    (_HEXAHEDRON, "HEXAHEDRON QUADRATIC_HEXAHEDRON TRIQUADRATIC_HEXAHEDRON "
+                  "BIQUADRATIC_QUADRATIC_HEXAHEDRON HIGHER_ORDER_HEXAHEDRON LAGRANGE_HEXAHEDRON "
+                  "BEZIER_HEXAHEDRON"),
+    (_VOXEL, "VOXEL"))
+# Tetrahedra by the type of the cell; VTK 9.1 lacks some types.
+_TETRAHEDRA = {getattr(model, "VTK_" + name): numpy.array(shape)
+               for shape, names in _SHAPES for name in names.split()
+               if hasattr(model, "VTK_" + name)}
+
+
+def _measure_corners(points, ids, starts, tetrahedra):
+    """Volumes of cells of one shape, of the tetrahedra between their corners.
+
+    points: coordinates as three arrays. ids: point indices of all cells. starts: place of the first
+    index of each cell to be measured.
+    """
+    volumes = numpy.zeros(starts.size)
+    with numpy.errstate(invalid="ignore", over="ignore"):  # points that are not finite
+        for tetrahedron in tetrahedra:
+            first, *others = (ids[starts + corner] for corner in tetrahedron)
+            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (
+                [axis[other] - axis[first] for axis in points] for other in others)
+            volumes += abs(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz)
+                           + az * (bx * cy - by * cx)) / 6
+    return volumes
+
+
+def _measure_others(grid, cells):
+    """Volumes of polyhedra and prisms."""
+    chosen, ids = vtkUnstructuredGrid(), vtkIdList()
+    chosen.SetPoints(grid.GetPoints())
+    for cell in map(int, cells):
+        kind = grid.GetCellType(cell)
+        if kind == VTK_POLYHEDRON:
+            grid.GetFaceStream(cell, ids)
+        else:
+            grid.GetCellPoints(cell, ids)
+        chosen.InsertNextCell(kind, ids)
     size = vtkCellSizeFilter()
-    size.SetInputDataObject(grid)
+    size.SetInputDataObject(chosen)
     size.ComputeVertexCountOff()
     size.ComputeLengthOff()
     size.ComputeAreaOff()
     size.Update()
-    volumes = vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume"))
-    return numpy.abs(numpy.nan_to_num(volumes.astype(float)))
+    return abs(vtk_to_numpy(size.GetOutput().GetCellData().GetArray("Volume")).astype(float))
+
+
+def _measure_cells(grid, drawn):
+    """Volumes of the cells that are drawn, 0 for the others. A cell of higher order counts with the
+    volume between its corners."""
+    types = types_of(grid)
+    volumes = numpy.zeros(types.size)
+    others = drawn.copy()
+    points = vtk_to_numpy(grid.GetPoints().GetData()).T.astype(float, order="C")
+    ids = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    for kind in numpy.unique(types[drawn]):
+        if kind in _TETRAHEDRA:
+            of_kind = drawn & (types == kind)
+            others[of_kind] = False
+            complete = numpy.diff(offsets) > _TETRAHEDRA[kind].max()
+            cells = numpy.flatnonzero(of_kind & complete)
+            for block in numpy.array_split(cells, cells.size // _BLOCK_SIZE + 1):
+                volumes[block] = _measure_corners(points, ids, offsets[block], _TETRAHEDRA[kind])
+    if others.any():
+        volumes[others] = _measure_others(grid, numpy.flatnonzero(others))
+    return numpy.where(numpy.isfinite(volumes), volumes, 0.0)
 
 
 def _values_of(array, component):
@@ -45,15 +121,21 @@ def _values_of(array, component):
 
 
 def _ranges_of_cells(grid, name, association, component):
-    """Least and largest scalar of each cell."""
+    """Least and largest scalar of each cell; of a cell without points, not a number."""
     if association == "cells":
         values = _values_of(grid.GetCellData().GetArray(name), component)
         return values, values
     values = _values_of(grid.GetPointData().GetArray(name), component)
     cells = grid.GetCells()
     ids = values[vtk_to_numpy(cells.GetConnectivityArray())]
-    starts = vtk_to_numpy(cells.GetOffsetsArray())[:-1]
-    return numpy.minimum.reduceat(ids, starts), numpy.maximum.reduceat(ids, starts)
+    offsets = vtk_to_numpy(cells.GetOffsetsArray())
+    used = numpy.diff(offsets) > 0
+    ranges = [find.reduceat(ids, offsets[:-1][used]) for find in (numpy.minimum, numpy.maximum)]
+    if used.all():
+        return ranges
+    expanded = numpy.full((2, used.size), numpy.nan)
+    expanded[:, used] = ranges
+    return expanded
 
 
 class Levels:
@@ -64,25 +146,29 @@ class Levels:
     Duffy and Denby, "On histograms and isosurface statistics", 2006). Values that are not finite
     are left out.
 
-    low, high: range of the scalar. areas, volumes: by bin, BINS of them.
+    low, high: range of the scalar in the cells that are drawn; 0 and 1 if is_empty, without any
+    finite value. areas, volumes: by bin, BINS of them.
     """
 
     def __init__(self, data, name, association, component=None):
         lows, highs, volumes = [], [], []
         for leaf in leaves_of(data):
-            grid = _as_grid(leaf)
-            attributes = grid.GetPointData() if association == "points" else grid.GetCellData()
-            if grid.GetNumberOfCells() and attributes.HasArray(name):
+            attributes = leaf.GetPointData() if association == "points" else leaf.GetCellData()
+            drawn = drawn_cells_of(leaf)
+            if drawn.any() and attributes.HasArray(name):
+                grid = _as_grid(leaf)
                 least, largest = _ranges_of_cells(grid, name, association, component)
-                lows.append(least)
-                highs.append(largest)
-                volumes.append(_measure_cells(grid))
+                chosen = slice(None) if drawn.all() else drawn
+                lows.append(least[chosen])
+                highs.append(largest[chosen])
+                volumes.append(_measure_cells(grid, drawn)[chosen])
         joined = [numpy.concatenate(parts) if parts else numpy.empty(0)
                   for parts in (lows, highs, volumes)]
         finite = numpy.isfinite(joined[0]) & numpy.isfinite(joined[1])
-        self._collect(*(part[finite] for part in joined))
+        self._collect(*(joined if finite.all() else [part[finite] for part in joined]))
 
     def _collect(self, lows, highs, volumes):
+        self.is_empty = lows.size == 0
         self.low = float(lows.min()) if lows.size else 0.0
         self.high = float(highs.max()) if highs.size else 1.0
         width = (self.high - self.low) / BINS

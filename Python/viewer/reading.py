@@ -1,175 +1,60 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes, their time steps and surfaces from files, by VTK's readers."""
-import contextlib
-import importlib
-import os
-import xml.etree.ElementTree as ElementTree
-
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
-from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+"""Meshes, their time steps and surfaces from files."""
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
-# Reader by the ending of the file's name, as VTK module and class. VTK's modules are loaded when
-# they are used, because a build of VTK may lack some.
-READERS = {
-    ".vtu": ("vtkIOXML", "vtkXMLUnstructuredGridReader"),
-    ".pvtu": ("vtkIOXML", "vtkXMLPUnstructuredGridReader"),
-    ".vti": ("vtkIOXML", "vtkXMLImageDataReader"),
-    ".vtr": ("vtkIOXML", "vtkXMLRectilinearGridReader"),
-    ".vts": ("vtkIOXML", "vtkXMLStructuredGridReader"),
-    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
-    ".vtm": ("vtkIOXML", "vtkXMLMultiBlockDataReader"),
-    ".vtk": ("vtkIOLegacy", "vtkDataSetReader"),
-    ".vtkhdf": ("vtkIOHDF", "vtkHDFReader"),
-    ".hdf": ("vtkIOHDF", "vtkHDFReader"),
-    ".e": ("vtkIOExodus", "vtkExodusIIReader"),
-    ".ex2": ("vtkIOExodus", "vtkExodusIIReader"),
-    ".exo": ("vtkIOExodus", "vtkExodusIIReader"),
-    ".case": ("vtkIOEnSight", "vtkGenericEnSightReader"),
-    ".cgns": ("vtkIOCGNSReader", "vtkCGNSReader"),
-    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
-    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
-    ".ply": ("vtkIOPLY", "vtkPLYReader"),
-}
+from .cells import check_damage, check_drawable, drawn_leaves_of
+from .files import ReadingError
+from .series import is_collection, open_source
 
 
-class ReadingError(Exception):
-    """A file that cannot be used; the message names the file and the reason."""
+# Array of a mesh without arrays.
+UNIFORM = "uniform"
 
 
-def _make_reader(name):
-    suffix = os.path.splitext(name)[1].lower()
-    if not os.path.exists(name):
-        raise ReadingError(f"{name}: there is no such file")
-    if os.path.isdir(name):
-        raise ReadingError(f"{name}: this is a folder, not a file")
-    if suffix not in READERS:
-        raise ReadingError(f"{name}: files that end in '{suffix}' cannot be read; known endings "
-                           "are " + ", ".join([*READERS, ".pvd"]))
-    module, reader = READERS[suffix]
-    try:
-        return getattr(importlib.import_module("vtkmodules." + module), reader)()
-    except (ImportError, AttributeError):
-        raise ReadingError(f"{name}: this build of VTK has no {reader}") from None
-
-
-@contextlib.contextmanager
-def _reading(name):
-    """Turns the first error that VTK reports into a ReadingError, and prints none."""
-    shown, kept = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
-    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
-    vtkOutputWindow.SetInstance(kept)
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-    try:
-        yield
-    finally:
-        vtkOutputWindow.SetInstance(shown)
-        vtkLogger.SetStderrVerbosity(vtkLogger.ConvertToVerbosity(verbosity))
-    for report in kept.GetOutput().split("ERROR: ")[1:]:
-        message = report.split("\n", 1)[-1].split("): ", 1)[-1]
-        raise ReadingError(f"{name}: {message.splitlines()[0]}")
-
-
-class _Source:
-    """A reader of one file."""
-
-    def __init__(self, name):
-        self.name = name
-        self.reader = _make_reader(name)
-        if hasattr(self.reader, "SetFileName"):
-            self.reader.SetFileName(name)
-        else:
-            self.reader.SetCaseFileName(name)
-        with _reading(name):
-            self.reader.UpdateInformation()
-        if self.reader.GetClassName() == "vtkExodusIIReader":
-            for kind in (self.reader.NODAL, self.reader.ELEM_BLOCK):
-                self.reader.SetAllArrayStatus(kind, 1)
-        if self.reader.GetClassName() == "vtkDataSetReader":
-            self.reader.ReadAllScalarsOn()
-            self.reader.ReadAllVectorsOn()
-            self.reader.ReadAllFieldsOn()
-
-    def get_times(self):
-        """Time values of the file's steps; empty if it has none."""
-        information = self.reader.GetOutputInformation(0)
-        key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
-        return list(information.Get(key)) if information.Has(key) else []
-
-    def read(self, time=None):
-        with _reading(self.name):
-            if time is None:
-                self.reader.Update()
-            else:
-                self.reader.UpdateTimeStep(time)
-        return self.reader.GetOutputDataObject(0)
-
-
-def _read_collection(name):
-    """Files and times of a ParaView data file (.pvd)."""
-    if not os.path.exists(name):
-        raise ReadingError(f"{name}: there is no such file")
-    try:
-        sets = ElementTree.parse(name).getroot().findall("./Collection/DataSet")
-        steps = [(float(item.get("timestep", number)), item.get("file"))
-                 for number, item in enumerate(sets)]
-    except (ElementTree.ParseError, ValueError) as error:
-        raise ReadingError(f"{name}: {error}") from None
-    if not steps or not all(file for _, file in steps):
-        raise ReadingError(f"{name}: the collection names no files")
-    folder = os.path.dirname(name)
-    return [(time, os.path.join(folder, file)) for time, file in sorted(steps)]
-
-
-def leaves_of(data):
-    """The data sets of a data set or a composite one; empty blocks are left out."""
-    if isinstance(data, vtkDataSet):
-        return [data]
-    leaves = []
-    if isinstance(data, vtkCompositeDataSet):
-        iterator = data.NewIterator()
-        iterator.InitTraversal()
-        while not iterator.IsDoneWithTraversal():
-            leaf = iterator.GetCurrentDataObject()
-            if isinstance(leaf, vtkDataSet):
-                leaves.append(leaf)
-            iterator.GoToNextItem()
-    return leaves
+def _make_uniform(size):
+    array = vtkDoubleArray()
+    array.SetName(UNIFORM)
+    array.SetNumberOfTuples(size)
+    array.Fill(1.0)
+    return array
 
 
 class MeshSeries:
-    """Time steps of a mesh: those of one file, of a .pvd file, or one file per step."""
+    """Time steps of a mesh: those of one file or collection, or one step per file."""
 
     def __init__(self, names):
-        """names: file names. Several files are the steps of one mesh, in this order."""
+        """names: file names. Several files are the steps of one mesh, in this order; among them, a
+        collection (.pvd, .series) counts with all of its steps."""
         self.steps = []  # pairs of time and a function that reads
-        if len(names) == 1 and names[0].lower().endswith(".pvd"):
-            named = _read_collection(names[0])
-        else:
-            named = [(float(number), name) for number, name in enumerate(names)]
-        for time, name in named:
-            self.steps.append((time, self._make_reading(name)))
-        if len(named) == 1:
-            source = _Source(named[0][1])
-            times = source.get_times()
-            self.steps = [(time, lambda time=time: source.read(time)) for time in times] or [
-                (0.0, source.read)]
+        for name in names:
+            if len(names) > 1 and not is_collection(name):
+                self.steps.append((float(len(self.steps)), self._make_reading(name)))
+            else:
+                self._add_source(open_source(name))
 
     @staticmethod
     def _make_reading(name):
-        return lambda: _Source(name).read()
+        return lambda: open_source(name).read()
+
+    def _add_source(self, source):
+        self.steps += [(time, lambda time=time: source.read(time)) for time in source.get_times()
+                       ] or [(float(len(self.steps)), source.read)]
 
     def get_times(self):
         return [time for time, _ in self.steps]
 
     def read(self, step):
-        """The data of a step; without cells or arrays it is a ReadingError."""
+        """The data of a step; if it is damaged or has no volume, it is a ReadingError. Without an
+        array it gets one of cells, UNIFORM, with the value 1."""
         data = self.steps[step][1]()
-        leaves = leaves_of(data)
-        if not any(leaf.GetNumberOfCells() for leaf in leaves):
-            raise ReadingError("The mesh has no cells")
+        check_damage(data)
+        check_drawable(data)
+        if not arrays_of(data):
+            for leaf in drawn_leaves_of(data):
+                leaf.GetCellData().AddArray(_make_uniform(leaf.GetNumberOfCells()))
         return data
 
 
@@ -177,7 +62,7 @@ def arrays_of(data):
     """Arrays of points and cells as {name: (association, components)}; points come first."""
     arrays = {}
     for association in ("points", "cells"):
-        for leaf in leaves_of(data):
+        for leaf in drawn_leaves_of(data):
             attributes = leaf.GetPointData() if association == "points" else leaf.GetCellData()
             for index in range(attributes.GetNumberOfArrays()):
                 array = attributes.GetArray(index)
@@ -195,7 +80,8 @@ def _is_internal(name):
 
 def read_surface(name):
     """The surface of a file's data, as vtkPolyData."""
-    data = _Source(name).read()
+    data = open_source(name).read()
+    check_damage(data)
     composite = isinstance(data, vtkCompositeDataSet)
     surface = vtkCompositeDataGeometryFilter() if composite else vtkDataSetSurfaceFilter()
     surface.SetInputDataObject(data)

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A mesh as a volume, with its settings; windows, pages and pictures show it."""
+import math
+
+from vtkmodules.vtkCommonCore import vtkMath
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -10,8 +13,8 @@ from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
 from .. import vtkTetrahedraRayCastMapper
 from .colors import COLOR_MAPS, fill_colors, make_table
-from .levels import Levels
-from .reading import ReadingError, arrays_of, leaves_of
+from .levels import BINS, Levels
+from .reading import ReadingError, arrays_of
 
 BLEND_MODES = {
     "composite": vtkVolumeMapper.COMPOSITE_BLEND,
@@ -32,12 +35,6 @@ BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 ISOSURFACE_OPACITY = 0.4
 
 
-def _bounds_of(data):
-    bounds = [leaf.GetBounds() for leaf in leaves_of(data) if leaf.GetNumberOfCells()]
-    return [min(b[i] for b in bounds) if i % 2 == 0 else max(b[i] for b in bounds)
-            for i in range(6)]
-
-
 class MeshScene:
     """The volume of a MeshSeries in a vtkRenderer (attribute renderer).
 
@@ -49,9 +46,6 @@ class MeshScene:
         self.series = series
         self.step = 0
         self.data = series.read(0)
-        self.bounds = _bounds_of(self.data)
-        self.diagonal = sum((self.bounds[2 * i + 1] - self.bounds[2 * i]) ** 2
-                            for i in range(3)) ** 0.5
         self.colors = next(iter(COLOR_MAPS))
         self.density = 1.0
         self.blend = "composite"
@@ -74,11 +68,12 @@ class MeshScene:
         look.SetDiffuse(0.7)
         look.SetSpecular(0.25)
         look.SetSpecularPower(25.0)
+        self.set_array(array or self.get_arrays()[0], limits)
+        # Of the cells that are drawn: blocks without the array are not.
+        self.bounds = tuple(self.mapper.GetBounds())
+        self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]
+                                     for i in range(3)))
         look.SetScalarOpacityUnitDistance(self.diagonal)
-        names = self.get_arrays()
-        if not names:
-            raise ReadingError("The mesh has no arrays")
-        self.set_array(array or names[0], limits)
 
     def _add_bar(self):
         self.bar = vtkScalarBarActor()
@@ -115,6 +110,9 @@ class MeshScene:
         association, components = arrays[name]
         if limits and not limits[0] < limits[1]:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
+        levels = Levels(self.data, name, association)
+        if levels.is_empty:
+            raise ReadingError(f"The array '{name}' has no finite values")
         self.array = name
         self.limits = limits
         if association == "points":
@@ -124,7 +122,7 @@ class MeshScene:
         self.mapper.SelectScalarArray(name)
         self.mapper.SetVectorMode(self.mapper.MAGNITUDE if components > 1
                                   else self.mapper.DISABLED)
-        self.levels = Levels(self.data, name, association)
+        self.levels = levels
         self._update_functions()
 
     def _update_functions(self):
@@ -157,8 +155,8 @@ class MeshScene:
 
     def set_density(self, factor):
         """Multiplies all attenuation coefficients by a factor > 0; 1 is the default."""
-        if not factor > 0.0:
-            raise ReadingError("The density must be above 0")
+        if not 0.0 < factor < math.inf:
+            raise ReadingError("The density must be a number above 0")
         self.density = factor
         self.volume.GetProperty().SetScalarOpacityUnitDistance(self.diagonal / factor)
 
@@ -195,6 +193,8 @@ class MeshScene:
             return
         if axis not in AXES:
             raise ReadingError(f"There is no axis '{axis}'; they are x, y and z")
+        if not math.isfinite(share):
+            raise ReadingError("The share of a clipped extent must be a finite number")
         number = list(AXES).index(axis)
         low, high = self.bounds[2 * number], self.bounds[2 * number + 1]
         self._clip_plane.SetNormal(*AXES[axis])
@@ -237,7 +237,10 @@ class MeshScene:
         self.renderer.AddActor(actor)
 
     def reset_camera(self, direction=(1.0, 0.7, 1.0), up=(0.0, 1.0, 0.0)):
-        """Looks at the volume from a direction, given as a vector to the eye."""
+        """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is
+        parallel to it, another one is upward."""
+        if vtkMath.AngleBetweenVectors(direction, up) in (0.0, math.pi):
+            up = (up[2], up[0], up[1])
         camera = self.renderer.GetActiveCamera()
         center = [0.5 * (self.bounds[2 * i] + self.bounds[2 * i + 1]) for i in range(3)]
         camera.SetFocalPoint(*center)
@@ -246,3 +249,15 @@ class MeshScene:
         self.renderer.ResetCamera(self.bounds)
         camera.Zoom(1.1)
         self.renderer.ResetCameraClippingRange()
+
+    def explain_empty_picture(self):
+        """Reason why a picture of the scene shows nothing of the mesh."""
+        low, high = self.levels.low, self.levels.high
+        opacity = self.volume.GetProperty().GetScalarOpacity()
+        if not any(opacity.GetValue(low + (high - low) * bin / BINS) for bin in range(BINS + 1)):
+            return f"the opacity is 0 for all values of '{self.array}', from {low:g} to {high:g}"
+        if self.clip_axis is not None and self.mapper.GetNumberOfActiveCells() > 0:
+            return "the clipping plane removes all of it"
+        if self.blend == "isosurface":
+            return f"no cell has one of the isovalues; '{self.array}' goes from {low:g} to {high:g}"
+        return "no ray through a pixel meets a cell that can be seen"

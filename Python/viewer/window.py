@@ -5,6 +5,7 @@ import ctypes
 import os
 import sys
 
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
@@ -14,7 +15,7 @@ from vtkmodules.vtkRenderingCore import (
 
 from .. import vtkTetrahedraVolumePicker
 from .colors import COLOR_MAPS
-from .reading import ReadingError
+from .files import ReadingError, collecting_reports
 from .scene import AXES, BLEND_MODES
 
 KEYS = """a      next array
@@ -76,20 +77,45 @@ def make_window(scene, size, offscreen):
     return window
 
 
-def write_picture(window, name):
-    """Writes the window's picture; a file that cannot be written is a ReadingError."""
+def grab_picture(window):
+    """The picture of a window after a frame, as vtkImageData."""
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    picture.ShouldRerenderOff()
+    picture.Update()
+    return picture.GetOutput()
+
+
+def write_picture(picture, name):
+    """Writes a PNG file; a file that cannot be written is a ReadingError."""
     try:
         with open(name, "wb"):
             pass
     except OSError as error:
         raise ReadingError(f"{name}: {error.strerror}") from None
-    picture = vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
     writer = vtkPNGWriter()
-    writer.SetInputConnection(picture.GetOutputPort())
+    writer.SetInputData(picture)
     writer.SetFileName(name)
     writer.Write()
+
+
+def draw_picture(scene, size):
+    """The picture of a scene without a window on the screen, and VTK's warnings about it. A picture
+    that shows nothing of the mesh is a ReadingError."""
+    window = make_window(scene, size, offscreen=True)
+    with collecting_reports() as reports:
+        picture = grab_picture(window)
+        scene.volume.VisibilityOff()
+        without = grab_picture(window)
+        scene.volume.VisibilityOn()
+        errors, warnings = reports()
+    pixels = [vtk_to_numpy(image.GetPointData().GetScalars()) for image in (picture, without)]
+    if (pixels[0] == pixels[1]).all():
+        raise ReadingError("The picture shows nothing of the mesh: "
+                           + (errors[0] if errors else scene.explain_empty_picture()))
+    return picture, errors + warnings
 
 
 def _next_of(names, name, forward=True):
@@ -221,7 +247,7 @@ class Window:
         return f"{self.scene.array} {picker.GetValue():.5g} at ({place}), cell {picker.GetCellId()}"
 
     def _save(self):
-        write_picture(self.window, "meniscus.png")
+        write_picture(grab_picture(self.window), "meniscus.png")
 
     def _apply(self, action):
         """Runs an action; shows the text that it returns, or the state of the scene."""

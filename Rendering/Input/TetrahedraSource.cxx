@@ -391,7 +391,9 @@ bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
   // in no plane of another face.
   const int inside = CenterOfCell(cell->GetCellType());
   std::int64_t apex = inside == NoPoint ? NoPoint : pointOf(cell, inside);
-  for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
+  // Asked once: a vtkConvexPointSet of VTK 9.1 has no faces when asked again.
+  const int size = cell->GetNumberOfFaces();
+  for (int f = 0; f < size; ++f)
   {
     vtkCell* face = cell->GetFace(f);
     const FaceSplit split = SplitFace(face);

@@ -126,16 +126,25 @@ class TestPyVistaFunctions(unittest.TestCase):
             pyvista.version_info = (0, 44, 2)
         self.assertEqual(volume.GetProperty().GetScalarOpacity().GetSize(), 2) # vtkVolumeProperty's
 
-    def test_logarithmic_colors(self):
-        """Entries lie on the logarithm, nodes of the functions on the value."""
+    def test_logarithmic_functions(self):
+        """Colour and opacity depend on the logarithm of the value, for all versions of PyVista."""
         table = make_table((1.0, 1000.0))
         table.SetScaleToLog10()
         plotter = Plotter()
         plotter.add_volume = lambda *_, **__: self.make_volume(table)
-        colors = add_volume(plotter, Mesh()).GetProperty().GetRGBTransferFunction()
-        # The node at 334 is at 84 % of the three decades: entry 3 of 4, white.
-        self.assertEqual([colors.GetRedValue(value) for value in (1.0, 334.0, 667.0, 1000.0)],
-                         [0.0, 1.0, 1.0, 1.0])
+        for pyvista.version_info in ((0, 49, 1), (0, 44, 2)):
+            look = add_volume(plotter, Mesh()).GetProperty()
+            for decades in (0.0, 0.3, 1.0, 1.7, 2.5, 3.0):
+                # Two nodes are a factor of 1000^(1/258) apart: linear in the value between them,
+                # the functions are off by 0.4 % of the step between two nodes.
+                place = 10.0 ** decades
+                self.assertAlmostEqual(look.GetRGBTransferFunction().GetRedValue(place),
+                                       decades / 3, delta=0.5 / 255 + 1e-4)
+                entry = min(int(decades), ENTRIES - 2)
+                expected = OPACITIES[entry] + (decades - entry) * (
+                    OPACITIES[entry + 1] - OPACITIES[entry])
+                self.assertAlmostEqual(look.GetScalarOpacity().GetValue(place), expected,
+                                       delta=0.5 / 255 + 1e-4)
 
     @staticmethod
     def make_volume(table):

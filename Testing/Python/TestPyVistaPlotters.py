@@ -111,6 +111,9 @@ def subplots(plotter, add):
     add(plotter, FIRST, "height", opacity=[0.0, 0.3])
 
 
+# PyVista's functions have nodes at equal distances of the value, so that most of the logarithm's
+# range lies between two of them; see test_logarithmic_functions of TestPyVistaFunctions.py.
+LOGARITHMIC = (log_scale, log_scale_from_zero)
 SCENES = (
     one_volume, limits, symmetric_limits, shared_bar, two_arrays, log_scale, log_scale_from_zero,
     table_of_the_user, bar_of_the_user, no_bar, same_name, with_a_surface, values_without_a_name,
@@ -174,8 +177,10 @@ class TestPyVistaPlotters(unittest.TestCase):
         if pyvista.version_info < (0, 45):
             self.skipTest("PyVista's functions run over the indices of table entries")
 
-        def check(_, own, ours):
+        def check(scene, own, ours):
             self.assertEqual(len(volumes_of(ours)), len(volumes_of(own)))
+            if scene in LOGARITHMIC:
+                return
             for expected, volume in zip(volumes_of(own), volumes_of(ours)):
                 for name in ("GetRGBTransferFunction", "GetScalarOpacity"):
                     functions = [getattr(each.GetProperty(), name)()
@@ -199,7 +204,7 @@ class TestPyVistaPlotters(unittest.TestCase):
         self.each_scene(check)
 
     def test_pictures(self):
-        def check(_, own, ours):
+        def check(scene, own, ours):
             for plotter in (own, ours):
                 for renderer in range(len(plotter.renderers)):
                     plotter.renderers[renderer].camera_position = [
@@ -207,7 +212,8 @@ class TestPyVistaPlotters(unittest.TestCase):
             pictures = [picture_of(plotter) for plotter in (own, ours)]
             inside = (pictures[0].max(axis=2) > 30) & (pictures[1].max(axis=2) > 30)
             self.assertGreater(inside.sum(), 500)
-            if pyvista.version_info >= (0, 45):  # before, PyVista maps the scalars to [0, 255]
+            # Up to version 0.44 PyVista maps the scalars to [0, 255].
+            if pyvista.version_info >= (0, 45) and scene not in LOGARITHMIC:
                 # See TestPyVista.py: PyVista samples, and its silhouette is of another extent.
                 difference = abs(pictures[0] - pictures[1])[inside]
                 self.assertLessEqual(numpy.percentile(difference, 75), 4)

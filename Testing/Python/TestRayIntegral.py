@@ -6,7 +6,7 @@ import unittest
 
 from meniscus import integrals, vtkTetrahedraRayIntegral
 from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 # The goal of the class, relative to the largest value.
@@ -37,6 +37,30 @@ class TestRayIntegral(unittest.TestCase):
         for row in range(4):
             for column in range(8):
                 self.assertAlmostEqual(values[row, column], 7.5, delta=7.5 * TOLERANCE)
+
+    def test_components(self):
+        """A vector is measured by the component that is chosen, and by none silently."""
+        vectors = vtkDoubleArray()
+        vectors.SetName("vectors")
+        vectors.SetNumberOfComponents(3)
+        for i in range(self.block.GetNumberOfPoints()):
+            vectors.InsertNextTuple3(-2.0, 0.0, 1.5)
+        self.block.GetPointData().AddArray(vectors)
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, self.block)
+        for mesh in (self.block, blocks):
+            for component, value in ((0, -2.0), (1, 0.0), (2, 1.5), ("magnitude", 2.5)):
+                values = integrals.ray_integral(
+                    mesh, scalars="vectors", component=component, size=(8, 4))
+                self.assertAlmostEqual(values[1, 2], 3 * value, delta=7.5 * TOLERANCE)
+            lengths = integrals.ray_integral(mesh, "PathLength", scalars="vectors", size=(8, 4))
+            self.assertAlmostEqual(lengths[1, 2], 3, delta=3 * TOLERANCE)
+            for component in (None, 3, "length"):
+                with self.assertRaisesRegex(ValueError, 'component=0, 1, 2 or "magnitude"'):
+                    integrals.ray_integral(mesh, scalars="vectors", component=component)
+        values = integrals.ray_integral(
+            self.block, scalars="vectors", ArrayComponent=2, size=(8, 4))
+        self.assertAlmostEqual(values[1, 2], 4.5, delta=4.5 * TOLERANCE)
 
     def test_without_numpy(self):
         numpy, integrals.numpy = integrals.numpy, None

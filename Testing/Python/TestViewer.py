@@ -17,6 +17,7 @@ from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersExtraction import vtkExtractUnstructuredGrid
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -175,6 +176,27 @@ class TestCommand(unittest.TestCase):
                        '<DataSet timestep="0" file="mesh.vtu"/></Collection></VTKFile>')
         self.assertEqual(abs(self.draw(collection, "--step", "1") - last).max(), 0)
 
+    def test_parts_of_a_step(self):
+        """All files of a time are one step: two halves are the whole."""
+        block = reading.MeshSeries([self.mesh]).read(0)
+        for number in range(2):
+            half = vtkExtractUnstructuredGrid()
+            half.SetInputData(block)
+            half.CellClippingOn()
+            count = block.GetNumberOfCells()
+            half.SetCellMinimum(number * count // 2)
+            half.SetCellMaximum((number + 1) * count // 2 - 1)
+            half.Update()
+            write(vtkXMLUnstructuredGridWriter(), half.GetOutput(), self.name(f"part{number}.vtu"))
+        collection = self.name("parts.pvd")
+        with open(collection, "w") as file:
+            file.write('<VTKFile type="Collection"><Collection>' + "".join(
+                f'<DataSet timestep="{time}" part="{part}" file="part{part}.vtu"/>'
+                for time in (0, 1) for part in (0, 1)) + "</Collection></VTKFile>")
+        self.assertEqual(reading.MeshSeries([collection]).get_times(), [0, 1])
+        # The same cells in another order: the pictures are equal up to rounding.
+        self.assertLessEqual(abs(self.draw(collection) - self.draw(self.mesh)).max(), 2)
+
     def test_other_data_sets(self):
         block = reading.MeshSeries([self.mesh]).read(0)
         blocks = vtkMultiBlockDataSet()
@@ -198,6 +220,24 @@ class TestCommand(unittest.TestCase):
                      self.name("constant.vtu"))
         self.assertGreater(self.draw(name).std(), 5)
 
+    def test_view_along_the_upward_axis(self):
+        for view in (("0", "1", "0"), ("0", "-2", "0")):
+            scene = make_scene(make_parser().parse_args([self.mesh, "--view", *view]))
+            camera = scene.renderer.GetActiveCamera()
+            self.assertEqual(camera.GetViewUp(), (0, 0, 1))
+            self.assertGreater(self.draw(self.mesh, "--view", *view).std(), 5)
+
+    def test_mesh_without_arrays(self):
+        """It is drawn with the same density everywhere."""
+        bare = vtkUnstructuredGrid()
+        bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
+        bare.GetPointData().Initialize()
+        bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
+        constant = make_block({reading.UNIFORM: lambda *_: 1.0})
+        constant = write(vtkXMLUnstructuredGridWriter(), constant, self.name("constant.vtu"))
+        # Points or cells of one value: equal up to rounding.
+        self.assertLessEqual(abs(self.draw(bare) - self.draw(constant)).max(), 2)
+
     def test_messages(self):
         broken = self.name("broken.vtu")
         with open(broken, "w") as file:
@@ -205,10 +245,10 @@ class TestCommand(unittest.TestCase):
         empty = vtkUnstructuredGrid()
         empty.SetPoints(reading.MeshSeries([self.mesh]).read(0).GetPoints())
         empty = write(vtkXMLUnstructuredGridWriter(), empty, self.name("empty.vtu"))
-        bare = vtkUnstructuredGrid()
-        bare.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
-        bare.GetPointData().Initialize()
-        bare = write(vtkXMLUnstructuredGridWriter(), bare, self.name("bare.vtu"))
+        damaged = vtkUnstructuredGrid()
+        damaged.DeepCopy(reading.MeshSeries([self.mesh]).read(0))
+        damaged.GetCells().GetConnectivityArray().SetComponent(7, 0, 100000)
+        damaged = write(vtkXMLUnstructuredGridWriter(), damaged, self.name("damaged.vtu"))
         text = self.name("notes.txt")
         open(text, "w").close()
         for arguments, message in (
@@ -217,7 +257,8 @@ class TestCommand(unittest.TestCase):
                 ([text], "'.txt'"),
                 ([broken], "broken.vtu"),
                 ([empty], "no cells"),
-                ([bare], "no arrays"),
+                ([damaged], f"uses point 100000, but there are {(CELLS + 1) ** 3} points"),
+                ([self.water], "no cells with a volume; its cells are: 1 Quad"),
                 ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
                 ([self.mesh, "--colors", "q"], "no colour map 'q'"),
                 ([self.mesh, "--blend", "q"], "no blend mode 'q'"),
@@ -227,7 +268,15 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--range", "nan", "1"], "lower end below the upper"),
                 ([self.mesh, "--clip", "q"], "no axis 'q'"),
                 ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
+                ([self.mesh, "--clip", "x:nan"], "finite"),
+                ([self.mesh, "--density", "inf"], "above 0"),
+                ([self.mesh, "--view", "0", "0", "0"], "shows nothing"),
                 ([self.mesh, "--step", "1"], "no time step 1"),
+                ([self.mesh, "--isovalues", "9"], "isovalues; 'r' goes from 0 to 1.73"),
+                ([self.mesh, "--blend", "maximum", "--range", "5", "6"], "the opacity is 0"),
+                ([self.mesh, "--clip", "x:1"], "clipping plane"),
+                ([self.mesh, "--array", "r", "--blend", "isosurface", "--clip", "z:2"],
+                 "clipping plane"),
                 ([self.mesh, "--water", self.name("absent.stl")], "no such file"),
                 ([self.mesh, "--water", empty], "no surface"),
                 ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),

@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cells of a mesh: those that are drawn, and damaged ones."""
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import (
+    VTK_POLYHEDRON, vtkCellTypes, vtkDataSetAttributes, vtkGenericCell, vtkImageData, vtkPolyData,
+    vtkRectilinearGrid, vtkStructuredGrid, vtkUnstructuredGrid)
+
+from ..data import leaves_of
+from .files import ReadingError
+
+# Cells with one of these bits in the array vtkGhostType are not drawn.
+_LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
+_FACE = "a face of a polyhedron"
+
+
+def types_of(leaf):
+    """Type of each cell, as an array."""
+    if isinstance(leaf, vtkUnstructuredGrid):
+        types = leaf.GetCellTypesArray()
+        return vtk_to_numpy(types) if types else numpy.empty(0, numpy.uint8)
+    if isinstance(leaf, vtkPolyData):
+        return numpy.array([leaf.GetCellType(cell) for cell in range(leaf.GetNumberOfCells())])
+    # All cells of structured data have one type.
+    first = leaf.GetCell(0).GetCellType() if leaf.GetNumberOfCells() else 0
+    return numpy.full(leaf.GetNumberOfCells(), first, numpy.uint8)
+
+
+def _is_solid(kind):
+    cell = vtkGenericCell()
+    cell.SetCellType(int(kind))
+    return cell.GetCellDimension() == 3
+
+
+def solid_cells_of(leaf):
+    """True for each cell with a volume."""
+    if isinstance(leaf, (vtkImageData, vtkRectilinearGrid, vtkStructuredGrid)):
+        solid = leaf.GetDataDimension() == 3
+        return numpy.full(leaf.GetNumberOfCells(), solid)
+    types = types_of(leaf)
+    solid = numpy.zeros(256, bool)
+    for kind in numpy.unique(types):
+        solid[kind] = _is_solid(kind)
+    return solid[types]
+
+
+def drawn_cells_of(leaf):
+    """True for each cell with a volume that is neither hidden nor the duplicate of a cell of
+    another data set."""
+    drawn = solid_cells_of(leaf)
+    ghosts = leaf.GetCellGhostArray()
+    return drawn & (vtk_to_numpy(ghosts) & _LEFT_OUT == 0) if ghosts else drawn
+
+
+def drawn_points_of(leaf):
+    """True for each point of a cell that is drawn; of structured data, for all points."""
+    points = leaf.GetNumberOfPoints()
+    if not isinstance(leaf, vtkUnstructuredGrid):
+        return numpy.full(points, True)
+    ids = vtk_to_numpy(leaf.GetCells().GetConnectivityArray())
+    sizes = numpy.diff(vtk_to_numpy(leaf.GetCells().GetOffsetsArray()))
+    ids = ids[numpy.repeat(drawn_cells_of(leaf), sizes)]
+    drawn = numpy.full(points, False)
+    drawn[ids[(ids >= 0) & (ids < points)]] = True
+    return drawn
+
+
+def drawn_leaves_of(data):
+    """The data sets with at least one cell that is drawn."""
+    return [leaf for leaf in leaves_of(data) if drawn_cells_of(leaf).any()]
+
+
+def _count_types(leaves):
+    """Text such as '12 Triangle, 3 Line'."""
+    counts = {}
+    for leaf in leaves:
+        for kind, count in zip(*numpy.unique(types_of(leaf), return_counts=True)):
+            counts[int(kind)] = counts.get(int(kind), 0) + int(count)
+    return ", ".join(f"{count} {vtkCellTypes.GetClassNameFromTypeId(kind).replace('vtk', '', 1)}"
+                     for kind, count in sorted(counts.items()))
+
+
+def _check_ids(ids, points, what):
+    wrong = (ids < 0) | (ids >= points)
+    if wrong.any():
+        raise ReadingError(f"The mesh is damaged: {what} uses point {ids[wrong][0]}, but there "
+                           f"are {points} points")
+
+
+def _check_cells(cells, points, what="a cell"):
+    """Checks a vtkCellArray of a mesh with a number of points."""
+    ids = vtk_to_numpy(cells.GetConnectivityArray())
+    offsets = vtk_to_numpy(cells.GetOffsetsArray())
+    if offsets.size and (offsets[0] != 0 or (numpy.diff(offsets) < 0).any()
+                         or offsets[-1] > ids.size):
+        raise ReadingError("The mesh is damaged: the offsets of the cells are not ascending "
+                           f"numbers up to {ids.size}, the number of point indices")
+    _check_ids(ids, points, what)
+
+
+def _check_faces(grid):
+    """Checks the faces of polyhedra."""
+    if hasattr(grid, "GetPolyhedronFaces"):  # VTK 9.4
+        if grid.GetPolyhedronFaces():
+            _check_cells(grid.GetPolyhedronFaces(), grid.GetNumberOfPoints(), _FACE)
+        return
+    faces, places = grid.GetFaces(), grid.GetFaceLocations()
+    if not faces or not places:
+        return
+    stream, points = vtk_to_numpy(faces), grid.GetNumberOfPoints()
+    for cell in numpy.flatnonzero(types_of(grid) == VTK_POLYHEDRON):
+        place = places.GetValue(int(cell)) + 1
+        for _ in range(stream[place - 1] if 0 < place <= stream.size else 0):
+            size = stream[place] if place < stream.size else stream.size
+            if not 0 <= size < stream.size - place:
+                raise ReadingError(f"The mesh is damaged: the faces of cell {cell} are incomplete")
+            _check_ids(stream[place + 1:place + 1 + size], points, _FACE)
+            place += size + 1
+
+
+def _check_arrays(leaf):
+    """Checks that arrays have a value for each point or cell."""
+    for kind, attributes, size in (("points", leaf.GetPointData(), leaf.GetNumberOfPoints()),
+                                   ("cells", leaf.GetCellData(), leaf.GetNumberOfCells())):
+        for index in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetArray(index)
+            if array is not None and array.GetNumberOfTuples() != size:
+                raise ReadingError(f"The mesh is damaged: the array '{array.GetName()}' has "
+                                   f"{array.GetNumberOfTuples()} values for {size} {kind}")
+
+
+def check_damage(data):
+    """Raises a ReadingError for indices that are out of range and arrays of a wrong size."""
+    for leaf in leaves_of(data):
+        if isinstance(leaf, vtkUnstructuredGrid):
+            if types_of(leaf).size != leaf.GetNumberOfCells():
+                raise ReadingError(f"The mesh is damaged: it has {types_of(leaf).size} types for "
+                                   f"{leaf.GetNumberOfCells()} cells")
+            _check_cells(leaf.GetCells(), leaf.GetNumberOfPoints())
+            _check_faces(leaf)
+        elif isinstance(leaf, vtkPolyData):
+            for cells in (leaf.GetVerts(), leaf.GetLines(), leaf.GetPolys(), leaf.GetStrips()):
+                _check_cells(cells, leaf.GetNumberOfPoints())
+        _check_arrays(leaf)
+
+
+def check_drawable(data):
+    """Raises a ReadingError if nothing can be drawn as a volume."""
+    leaves = leaves_of(data)
+    if not any(leaf.GetNumberOfCells() for leaf in leaves):
+        raise ReadingError("The mesh has no cells")
+    if not any(solid_cells_of(leaf).any() for leaf in leaves):
+        raise ReadingError("The mesh has no cells with a volume; its cells are: "
+                           + _count_types(leaves))
+    if not drawn_leaves_of(data):
+        raise ReadingError("All cells with a volume are hidden or duplicates, by the array "
+                           "vtkGhostType")

@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data of single files, by VTK's readers or by meshio, with all of their arrays."""
+import contextlib
+import importlib
+import io
+import os
+import re
+import struct
+import tempfile
+
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+_EXODUS = ("vtkIOExodus", "vtkExodusIIReader")
+_ENSIGHT = ("vtkIOEnSight", "vtkGenericEnSightReader")
+# Reader by the ending of the file's name, as VTK module and class. VTK's modules are loaded when
+# they are used, because a build of VTK may lack some.
+READERS = {
+    ".vtu": ("vtkIOXML", "vtkXMLUnstructuredGridReader"),
+    ".pvtu": ("vtkIOXML", "vtkXMLPUnstructuredGridReader"),
+    ".vti": ("vtkIOXML", "vtkXMLImageDataReader"),
+    ".pvti": ("vtkIOXML", "vtkXMLPImageDataReader"),
+    ".vtr": ("vtkIOXML", "vtkXMLRectilinearGridReader"),
+    ".pvtr": ("vtkIOXML", "vtkXMLPRectilinearGridReader"),
+    ".vts": ("vtkIOXML", "vtkXMLStructuredGridReader"),
+    ".pvts": ("vtkIOXML", "vtkXMLPStructuredGridReader"),
+    ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader"),
+    ".vtm": ("vtkIOXML", "vtkXMLMultiBlockDataReader"),
+    ".vtpd": ("vtkIOXML", "vtkXMLPartitionedDataSetReader"),
+    ".vtpc": ("vtkIOXML", "vtkXMLPartitionedDataSetCollectionReader"),
+    ".vtk": ("vtkIOLegacy", "vtkGenericDataObjectReader"),
+    ".vtkhdf": ("vtkIOHDF", "vtkHDFReader"),
+    ".hdf": ("vtkIOHDF", "vtkHDFReader"),
+    ".e": _EXODUS,
+    ".ex2": _EXODUS,
+    ".exo": _EXODUS,
+    ".exii": _EXODUS,
+    ".g": _EXODUS,
+    ".case": _ENSIGHT,
+    ".encas": _ENSIGHT,
+    ".cgns": ("vtkIOCGNSReader", "vtkCGNSReader"),
+    ".foam": ("vtkIOGeometry", "vtkOpenFOAMReader"),
+    ".nc": ("vtkIONetCDF", "vtkNetCDFCFReader"),
+    ".avs": ("vtkIOGeometry", "vtkAVSucdReader"),
+    ".inp": ("vtkIOGeometry", "vtkAVSucdReader"),
+    ".stl": ("vtkIOGeometry", "vtkSTLReader"),
+    ".obj": ("vtkIOGeometry", "vtkOBJReader"),
+    ".ply": ("vtkIOPLY", "vtkPLYReader"),
+}
+# First bytes of files of libraries whose messages do not say that a file is of another kind, or
+# that end the process.
+_HDF = b"\x89HDF\r\n\x1a\n"
+_SIGNATURES = {".cgns": (_HDF, b"@(#)ADF"), ".vtkhdf": (_HDF,), ".hdf": (_HDF,)}
+# Endings that meshio reads, if it is installed.
+MESHIO_ENDINGS = (".msh", ".med", ".xdmf", ".xmf", ".mesh", ".meshb", ".bdf", ".nas", ".fem",
+                  ".su2", ".vol", ".mdpa")
+# Methods by which readers select arrays and parts, most of which are off by default in some.
+_ENABLING = ("EnableAllBases", "EnableAllFamilies", "EnableAllPointArrays", "EnableAllCellArrays",
+             "ReadAllVariablesOn", "ReadAllScalarsOn", "ReadAllVectorsOn", "ReadAllNormalsOn",
+             "ReadAllTensorsOn", "ReadAllTCoordsOn", "ReadAllColorScalarsOn", "ReadAllFieldsOn")
+_SELECTIONS = ("GetPointDataArraySelection", "GetCellDataArraySelection")
+
+
+# One part of a decomposed Exodus file, such as mesh.e.4.0: name and number of parts.
+DECOMPOSED = re.compile(r"(.*\.(?:e|ex2|exo|exii|g))\.(\d+)\.\d+$", re.IGNORECASE)
+
+
+class ReadingError(Exception):
+    """A file that cannot be used; the message names the file and the reason."""
+
+
+def check_exists(name):
+    if not os.path.exists(name):
+        raise ReadingError(f"{name}: there is no such file")
+    if os.path.isdir(name):
+        raise ReadingError(f"{name}: this is a folder, not a file")
+
+
+def ending_of(name):
+    """Ending of a file's name, or of the whole file if it is a part of a decomposed one."""
+    part = DECOMPOSED.match(name)
+    return os.path.splitext(part[1] if part else name)[1].lower()
+
+
+def _check_signature(name):
+    """Checks the first bytes, and that an HDF5 file is as long as they say: the library of CGNS
+    ends the process if it cannot read a file."""
+    with open(name, "rb") as file:
+        start = file.read(52)
+    signatures = _SIGNATURES.get(ending_of(name))
+    if signatures and not start.startswith(signatures):
+        raise ReadingError(f"{name}: this is not a file of the kind that ends in "
+                           f"'{ending_of(name)}'")
+    if start.startswith(_HDF) and len(start) > 8:
+        # Place of the end-of-file address in the superblock, by its version, for 8-byte addresses.
+        place = {0: 40, 1: 44, 2: 28, 3: 28}.get(start[8], len(start))
+        end, size = start[place:place + 8], os.path.getsize(name)
+        if len(end) == 8 and size < struct.unpack("<Q", end)[0]:
+            raise ReadingError(f"{name}: the file is cut off: it has {size} of "
+                               f"{struct.unpack('<Q', end)[0]} bytes")
+
+
+@contextlib.contextmanager
+def _without_standard_error():
+    """Discards what C libraries such as HDF5 and netCDF write to the standard error stream."""
+    kept = os.dup(2)
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(null)
+
+
+def _messages_of(text, kind):
+    """First lines of the errors or warnings in the text of an output window."""
+    messages = []
+    for report in text.split(kind + ": ")[1:]:
+        message = report.split("\n", 1)[-1].split("): ", 1)[-1].strip()
+        messages.append((message.splitlines() or ["unknown error"])[0])
+    return messages
+
+
+@contextlib.contextmanager
+def collecting_reports():
+    """Keeps VTK's errors and warnings from the console; yields a function that returns them so
+    far, as two lists of messages."""
+    shown, kept = vtkOutputWindow.GetInstance(), vtkStringOutputWindow()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkOutputWindow.SetInstance(kept)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    try:
+        yield lambda: tuple(_messages_of(kept.GetOutput(), kind) for kind in ("ERROR", "Warning"))
+    finally:
+        vtkOutputWindow.SetInstance(shown)
+        vtkLogger.SetStderrVerbosity(vtkLogger.ConvertToVerbosity(verbosity))
+
+
+@contextlib.contextmanager
+def _reading(name):
+    """Turns the first error that VTK reports into a ReadingError, and prints none."""
+    with collecting_reports() as reports, _without_standard_error():
+        yield
+        errors, _ = reports()
+    if errors:
+        # The pipeline only repeats that the reader failed.
+        reasons = [error for error in errors if "returned failure for request" not in error]
+        raise ReadingError(f"{name}: {(reasons or ['VTK cannot read this file'])[0]}")
+
+
+def _make_reader(name):
+    suffix = ending_of(name)
+    if suffix not in READERS:
+        known = ", ".join([*READERS, ".pvd", ".series", *MESHIO_ENDINGS])
+        raise ReadingError(f"{name}: files that end in '{suffix}' cannot be read; known endings "
+                           "are " + known)
+    module, reader = READERS[suffix]
+    try:
+        return getattr(importlib.import_module("vtkmodules." + module), reader)()
+    except (ImportError, AttributeError):
+        raise ReadingError(f"{name}: this build of VTK has no {reader}") from None
+
+
+def _select_all(reader):
+    """Switches all arrays and parts on that a reader knows after UpdateInformation()."""
+    for method in _ENABLING:
+        if hasattr(reader, method):
+            getattr(reader, method)()
+    for selection in _SELECTIONS:
+        if hasattr(reader, selection):
+            getattr(reader, selection)().EnableAllArrays()
+    if hasattr(reader, "SetAllArrayStatus"):  # Exodus
+        for kind in (reader.NODAL, reader.ELEM_BLOCK):
+            reader.SetAllArrayStatus(kind, 1)
+    if hasattr(reader, "GetAllDimensions"):  # netCDF: variables of one set of dimensions
+        dimensions = [reader.GetAllDimensions().GetValue(index)
+                      for index in range(reader.GetAllDimensions().GetNumberOfValues())]
+        if dimensions:
+            reader.SetDimensions(max(dimensions, key=lambda names: names.count(",")))
+
+
+class _VTKFile:
+    """A file that a reader of VTK reads."""
+
+    def __init__(self, name):
+        self.name = name
+        self.reader = _make_reader(name)
+        if hasattr(self.reader, "SetFileName"):
+            self.reader.SetFileName(name)
+        else:
+            self.reader.SetCaseFileName(name)
+        with _reading(name):
+            self.reader.UpdateInformation()
+            _select_all(self.reader)
+
+    def get_times(self):
+        """Time values of the file's steps; empty if it has none."""
+        information = self.reader.GetOutputInformation(0)
+        key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+        return list(information.Get(key)) if information.Has(key) else []
+
+    def read(self, time=None):
+        with _reading(self.name):
+            if time is None:
+                self.reader.Update()
+            else:
+                self.reader.UpdateTimeStep(time)
+        return self.reader.GetOutputDataObject(0)
+
+
+class _MeshioFile:
+    """A file that meshio reads; the way to VTK is a temporary file."""
+
+    def __init__(self, name):
+        self.name = name
+        try:
+            self.meshio = importlib.import_module("meshio")
+        except ImportError:
+            raise ReadingError(f"{name}: files that end in '{ending_of(name)}' are read by the "
+                               "package meshio, which is not installed (pip install meshio)"
+                               ) from None
+
+    def get_times(self):
+        """Time values of a series of XDMF; empty for other files."""
+        if ending_of(self.name) not in (".xdmf", ".xmf"):
+            return []
+        try:
+            series = self.meshio.xdmf.TimeSeriesReader(self.name)
+            return [float(grid.find("Time").get("Value")) for grid in series.collection]
+        except Exception:  # a single mesh, or a file that read() reports
+            return []
+
+    def _read_mesh(self, time):
+        times = self.get_times()
+        if not times:
+            return self.meshio.read(self.name)
+        step = max((i for i, t in enumerate(times) if time is not None and t <= time), default=0)
+        with self.meshio.xdmf.TimeSeriesReader(self.name) as series:
+            points, cells = series.read_points_cells()
+            _, point_data, cell_data = series.read_data(step)
+        return self.meshio.Mesh(points, cells, point_data, cell_data)
+
+    def read(self, time=None):
+        printed = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder:
+            copy = os.path.join(folder, "mesh.vtu")
+            try:
+                with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+                    self.meshio.write(copy, self._read_mesh(time))
+            # meshio has no common class of errors, and ends the program for some.
+            except (Exception, SystemExit) as error:
+                reason = str(error) if isinstance(error, Exception) else printed.getvalue()
+                reason = (reason.strip().splitlines() or [type(error).__name__])[0]
+                raise ReadingError(f"{self.name}: meshio cannot read it: {reason}") from None
+            return _VTKFile(copy).read()
+
+
+def _first_line(name):
+    """First line that is not empty. In an input file of Abaqus it starts with a *, in a file of
+    AVS, which has the same ending, it does not."""
+    with open(name, errors="replace") as file:
+        return next((line.strip() for line in file if line.strip()), "")
+
+
+def open_file(name):
+    """A file with get_times() and read(time), whose endings are those of READERS and
+    MESHIO_ENDINGS; a folder may be a case of OpenFOAM."""
+    if os.path.isfile(os.path.join(name, "system", "controlDict")):
+        name = os.path.join(name, "case.foam")
+    else:
+        check_exists(name)
+    _check_signature(name)
+    suffix = ending_of(name)
+    if suffix in MESHIO_ENDINGS or (suffix == ".inp" and _first_line(name).startswith("*")):
+        return _MeshioFile(name)
+    return _VTKFile(name)

@@ -1,0 +1,217 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""meniscus.pyvista with MultiBlock datasets, arrays of several components, logarithmic scales and
+the files of Testing/Data/Menagerie; skipped without PyVista.
+
+The exit status is then 125, which CTest counts as skipped.
+"""
+import csv
+import itertools
+import os
+import sys
+import unittest
+
+try:
+    import pyvista
+except ImportError:
+    print("skipped: no pyvista")
+    sys.exit(125)
+
+import numpy
+from meniscus.pyvista import add_volume, refracted
+from vtkmodules.vtkCommonCore import vtkVersion
+
+SIZE = 120
+CELLS = 8
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Data", "Menagerie")
+
+
+def make_cube():
+    image = pyvista.ImageData(dimensions=(CELLS + 1,) * 3, spacing=(1 / CELLS,) * 3)
+    image["y"] = image.points[:, 1].astype(float)
+    image["decades"] = 10.0 ** (4 * image["y"] - 2)
+    image["U"] = numpy.stack([image.points[:, 0], 2 * image["y"], -image["y"]], axis=1)
+    return image.cast_to_unstructured_grid()
+
+
+def picture_of(mesh, *arguments, **named):
+    plotter = pyvista.Plotter(off_screen=True, window_size=(SIZE, SIZE))
+    plotter.set_background("black")
+    add_volume(plotter, mesh, *arguments, show_scalar_bar=False, opacity_unit_distance=0.5, **named)
+    plotter.camera_position = [(2.5, -1.8, 1.7), (0.5, 0.5, 0.5), (0.0, 0.0, 1.0)]
+    picture = plotter.screenshot(return_img=True)
+    plotter.close()
+    return picture[:, :, :3].astype(int)
+
+
+class TestMultiBlocks(unittest.TestCase):
+    def setUp(self):
+        self.cube = make_cube()
+        centers = self.cube.cell_centers().points[:, 1]
+        self.halves = [self.cube.extract_cells(centers < 0.5),
+                       self.cube.extract_cells(centers > 0.5)]
+
+    def test_blocks_are_one_mesh(self):
+        for limits, opacity in ((None, "linear"), ((0.0, 1.0), [0.1, 0.9])):
+            whole = picture_of(self.cube, "y", clim=limits, opacity=opacity, cmap="coolwarm")
+            self.assertGreater(whole.max(), 100)
+            for order in itertools.permutations(self.halves):
+                blocks = picture_of(pyvista.MultiBlock(list(order)), "y", clim=limits,
+                                    opacity=opacity, cmap="coolwarm")
+                # The same cells in another order: rounded to bytes.
+                self.assertLessEqual(abs(blocks - whole).max(), 1, limits)
+
+    def test_one_range(self):
+        nested = pyvista.MultiBlock([self.halves[0], None, pyvista.MultiBlock([self.halves[1]])])
+        plotter = pyvista.Plotter(off_screen=True)
+        volume = add_volume(plotter, nested, "y", name="cube")
+        self.assertIsInstance(volume, pyvista.plotting.volume.Volume)
+        self.assertEqual(tuple(volume.mapper.scalar_range), (0.0, 1.0))
+        self.assertEqual(tuple(volume.GetBounds()), (0, 1, 0, 1, 0, 1))
+        self.assertEqual(list(plotter.scalar_bars.keys()), ["y"])
+        self.assertIn("cube", plotter.actors)
+        plotter.close()
+
+    def test_active_scalars(self):
+        for half in self.halves:
+            half.set_active_scalars("y")
+        plotter = pyvista.Plotter(off_screen=True)
+        volume = add_volume(plotter, pyvista.MultiBlock(self.halves))
+        self.assertEqual(tuple(volume.mapper.scalar_range), (0.0, 1.0))
+        self.halves[0].set_active_scalars("decades")
+        with self.assertRaisesRegex(ValueError, "decades, y; name an array"):
+            add_volume(plotter, pyvista.MultiBlock(self.halves))
+        self.cube.set_active_scalars(None)
+        with self.assertRaisesRegex(ValueError, "one of: .*decades"):
+            add_volume(plotter, self.cube)
+        plotter.close()
+
+    def test_blocks_that_are_not_drawn(self):
+        """Surfaces and blocks without the array do not count."""
+        surface = pyvista.Sphere(center=(50, 0, 0))
+        surface["y"] = numpy.full(surface.n_points, 9.0)
+        for half in self.halves:
+            half.cell_data.clear()
+        blocks = pyvista.MultiBlock([surface, *self.halves])
+        self.assertLessEqual(
+            abs(picture_of(blocks, "y") - picture_of(self.cube, "y")).max(), 1)
+        plotter = pyvista.Plotter(off_screen=True)
+        for mesh, scalars, error in (
+                (blocks, "q", KeyError), (blocks, numpy.zeros(3), TypeError),
+                (pyvista.MultiBlock([surface]), "y", ValueError),
+                (pyvista.MultiBlock(), "y", ValueError), (surface, "y", ValueError)):
+            with self.assertRaises(error):
+                add_volume(plotter, mesh, scalars)
+        self.assertEqual(len(plotter.actors), 0)
+        plotter.close()
+
+    def test_refracted(self):
+        water = pyvista.Plane(center=(0.5, 0.5, 2), i_size=9, j_size=9)
+        eye = (0.5, 0.5, 5.0)
+        whole = refracted(self.cube, water, eye)
+        parts = refracted(pyvista.MultiBlock(self.halves), water, eye)
+        numpy.testing.assert_allclose(parts.bounds, whole.bounds, atol=1e-6)
+
+
+class TestComponents(unittest.TestCase):
+    def test_a_choice_is_needed(self):
+        cube = make_cube()
+        plotter = pyvista.Plotter(off_screen=True)
+        colors = numpy.zeros((cube.n_points, 4), numpy.uint8)
+        for scalars, count in (("U", 3), (cube["U"], 3), (colors, 4)):
+            choices = 'component=%s or "magnitude"' % ", ".join(map(str, range(count)))
+            with self.assertRaisesRegex(ValueError, choices):
+                add_volume(plotter, cube, scalars)
+        cube.set_active_scalars("U")
+        with self.assertRaisesRegex(ValueError, "'U' has 3 components"):
+            add_volume(plotter, cube)
+        with self.assertRaisesRegex(ValueError, "'U' has 3 components"):
+            add_volume(plotter, pyvista.MultiBlock([cube]))
+        for component in (3, -1, "length"):
+            with self.assertRaisesRegex(ValueError, "component=0, 1, 2"):
+                add_volume(plotter, cube, "U", component=component)
+        self.assertEqual(len(plotter.actors), 0)
+        plotter.close()
+
+    def test_components(self):
+        cube = make_cube()
+        cube["magnitude"] = numpy.linalg.norm(cube["U"], axis=1)
+        for number in range(3):
+            cube[str(number)] = cube["U"][:, number].copy()
+        for component in (0, 1, 2, "magnitude"):
+            for mesh in (cube, pyvista.MultiBlock([cube])):
+                plotter = pyvista.Plotter(off_screen=True)
+                volume = add_volume(plotter, mesh, "U", component=component)
+                expected = cube.get_data_range(str(component))
+                numpy.testing.assert_allclose(volume.mapper.scalar_range, expected)
+                self.assertEqual(list(plotter.scalar_bars.keys()), ["U-%s" % component])
+                plotter.close()
+            numpy.testing.assert_array_equal(picture_of(cube, "U", component=component),
+                                             picture_of(cube, str(component)))
+
+
+class TestLogarithms(unittest.TestCase):
+    def test_functions_of_the_logarithm(self):
+        """At 10 of 0.01 to 100 the opacity is 0.75, at 0.1 the colour is that at a quarter of the
+        map."""
+        plotter = pyvista.Plotter(off_screen=True)
+        look = add_volume(plotter, make_cube(), "decades", log_scale=True, opacity="linear",
+                          cmap="viridis").GetProperty()
+        self.assertAlmostEqual(look.GetScalarOpacity().GetValue(10.0), 0.75, delta=0.005)
+        # Entries of the table are bytes.
+        numpy.testing.assert_allclose(look.GetRGBTransferFunction().GetColor(0.1),
+                                      (0.2297, 0.3224, 0.5457), atol=1.5 / 255)
+        plotter.close()
+
+    def test_values_at_and_below_zero(self):
+        cube = make_cube()
+        plotter = pyvista.Plotter(off_screen=True)
+        volume = add_volume(plotter, cube, "y", log_scale=True)
+        self.assertEqual(tuple(volume.mapper.scalar_range), (1 / CELLS, 1.0))
+        cube["none"] = -cube["y"]
+        with self.assertRaisesRegex(ValueError, "no value above 0"):
+            add_volume(plotter, cube, "none", log_scale=True)
+        plotter.close()
+
+    def test_a_bar_that_changes(self):
+        plotter = pyvista.Plotter(off_screen=True)
+        volume = add_volume(plotter, make_cube(), "decades", log_scale=True, opacity="linear")
+        plotter.update_scalar_bar_range((1.0, 10000.0))
+        look = volume.GetProperty()
+        self.assertAlmostEqual(look.GetScalarOpacity().GetValue(100.0), 0.5, delta=0.005)
+        plotter.close()
+
+
+class TestMenagerie(unittest.TestCase):
+    """Each file that PyVista reads has the bounds of the table and is drawn by add_volume()."""
+
+    # Readers of PyVista 0.44 leave these arrays or bases out, or have another name for the ending.
+    OTHER = (".inp", ".series", ".pvd", ".0", ".nc", ".vtkhdf", ".msh", ".cgns", ".vtpd")
+
+    def draw(self, row):
+        mesh = pyvista.read(os.path.join(FOLDER, row["file"]))
+        array = next(iter(row["arrays"].split(", "))).split(" ", 1)
+        plotter = pyvista.Plotter(off_screen=True, window_size=(40, 30))
+        plotter.set_background("black")
+        volume = add_volume(plotter, mesh, array[1], preference=array[0], show_scalar_bar=False,
+                            component="magnitude", render=False)
+        numpy.testing.assert_allclose(volume.GetBounds(),
+                                      [float(x) for x in row["bounds"].split()], atol=1e-9)
+        self.assertGreater(plotter.screenshot(return_img=True).max(), 20)
+        plotter.close()
+
+    def test_files(self):
+        with open(os.path.join(FOLDER, "expected.csv"), newline="") as file:
+            rows = list(csv.DictReader(file, delimiter="|", quoting=csv.QUOTE_NONE))
+        drawn = 0
+        for row in rows:
+            if (float(row["volume"]) and not row["needs"] and row["arrays"] != "cell uniform"
+                    and not row["file"].endswith(self.OTHER)):
+                with self.subTest(file=row["file"], vtk=vtkVersion.GetVTKVersion()):
+                    self.draw(row)
+                    drawn += 1
+        self.assertGreater(drawn, 40)
+
+
+if __name__ == "__main__":
+    unittest.main()
