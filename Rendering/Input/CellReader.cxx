@@ -245,6 +245,22 @@ int CellReader::GetType(vtkIdType cell) const
 }
 
 //------------------------------------------------------------------------------
+bool CellReader::HasOnlyTetrahedra() const
+{
+  const vtkIdType cells = this->Grid->GetNumberOfCells();
+  if (!this->HasLists || this->GetIds().GetSize() != 4 * cells)
+  {
+    return false;
+  }
+  vtkIdType cell = 0;
+  while (cell < cells && this->GetType(cell) == VTK_TETRA)
+  {
+    ++cell;
+  }
+  return cell == cells && this->Cells.HaveSize(4);
+}
+
+//------------------------------------------------------------------------------
 unsigned char CellReader::GetLeftOutFlags()
 {
   return vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;

@@ -133,22 +133,6 @@ int TetrahedraOf(int type)
   }
 }
 
-/** True if the grid contains only tetrahedra of four points each. */
-bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
-{
-  const vtkIdType cells = grid->GetNumberOfCells();
-  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != 4 * cells)
-  {
-    return false;
-  }
-  vtkIdType cell = 0;
-  while (cell < cells && grid->GetCellType(cell) == VTK_TETRA)
-  {
-    ++cell;
-  }
-  return cell == cells && CellLists(grid->GetCells()).HaveSize(4);
-}
-
 /**
  * True for types whose faces are read from a cell object: those without a rule of their own that
  * are drawn, and types with more points than their rule takes.
@@ -365,7 +349,7 @@ TetrahedraSource::TetrahedraSource(
   this->View.NumberOfPoints = this->Points.GetNumberOfPoints();
   this->View.MatchPositions = grids.size() > 1;
   auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
-  if (single && HasOnlyTetrahedra(single))
+  if (single && CellReader(single).HasOnlyTetrahedra())
   {
     this->ViewTetrahedra(single);
   }
