@@ -3,6 +3,7 @@
 #include "Rendering/Input/CellReader.h"
 
 #include "Rendering/Common/VTKVersions.h"
+#include "Rendering/Input/CellShapes.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -244,6 +245,23 @@ CellReader::CellReader(vtkDataSet* grid)
 int CellReader::GetType(vtkIdType cell) const
 {
   return this->Grid->GetCellType(cell);
+}
+
+//------------------------------------------------------------------------------
+bool CellReader::HasOnlyTetrahedra() const
+{
+  constexpr vtkIdType points = 4;
+  const vtkIdType cells = this->Grid->GetNumberOfCells();
+  if (!this->HasLists || this->GetIds().GetSize() != points * cells)
+  {
+    return false;
+  }
+  vtkIdType cell = 0;
+  while (cell < cells && ResolveCellType(this->GetType(cell), points) == VTK_TETRA)
+  {
+    ++cell;
+  }
+  return cell == cells && this->Cells.HaveSize(points);
 }
 
 //------------------------------------------------------------------------------

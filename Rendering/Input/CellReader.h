@@ -96,6 +96,13 @@ public:
   int GetType(vtkIdType cell) const;
   /** True for duplicate, hidden and blanked cells. */
   bool IsLeftOut(vtkIdType cell) const;
+  /**
+   * True if all cells are tetrahedra of four points each, whatever their type, one after another in
+   * GetIds().
+   */
+  bool HasOnlyTetrahedra() const;
+  /** Points of all cells; empty if the data set does not store them. */
+  const IdView& GetIds() const { return this->Cells.GetIds(); }
   /** Flags of the cells (vtkGhostType); null if there are none. */
   vtkUnsignedCharArray* GetGhosts() const { return this->Ghosts; }
   /** Flags of cells that are left out. */

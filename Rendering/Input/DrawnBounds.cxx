@@ -101,6 +101,35 @@ private:
   std::vector<std::int64_t> Faces;
 };
 
+/**
+ * Box around the points that are listed, each added once. Returns false if one of them does not
+ * exist or is not finite.
+ */
+bool AddListed(const IdView& ids, const PointsSource& points, PointBox& box)
+{
+  std::vector<std::uint8_t> isUsed(static_cast<std::size_t>(points.GetNumberOfPoints()), 0);
+  for (std::int64_t i = 0; i < ids.GetSize(); ++i)
+  {
+    const std::int64_t id = ids[i];
+    if (id < 0 || id >= points.GetNumberOfPoints())
+    {
+      return false;
+    }
+    isUsed[static_cast<std::size_t>(id)] = 1;
+  }
+  bool isFinite = true;
+  for (std::size_t p = 0; p < isUsed.size(); ++p)
+  {
+    if (isUsed[p])
+    {
+      const glm::dvec3 at = points.GetView()[p];
+      isFinite = isFinite && IsFinite(at);
+      box.Add(at);
+    }
+  }
+  return isFinite;
+}
+
 PointBox BoxOf(vtkDataSet* grid)
 {
   PointBox box;
@@ -124,6 +153,12 @@ PointBox BoxOf(vtkDataSet* grid)
     return box;
   }
   const PointsSource points({ grid }, ThreadedLoop);
+  PointBox ofTetrahedra;
+  if (!cells.GetGhosts() && cells.HasOnlyTetrahedra() &&
+    AddListed(cells.GetIds(), points, ofTetrahedra))
+  {
+    return ofTetrahedra;
+  }
   std::vector<PointBox> boxes(NumberOfBlocks(static_cast<std::size_t>(size)));
   ForEachBlock(static_cast<std::size_t>(size),
     IsThreadSafe(grid) ? RangeLoop(ThreadedLoop) : RangeLoop(SerialLoop),

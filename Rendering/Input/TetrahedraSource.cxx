@@ -156,23 +156,6 @@ std::string ReasonOf(int type)
                                       : "its points or faces do not fit its type";
 }
 
-/** True if the grid contains only tetrahedra of four points each, whatever their type. */
-bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
-{
-  constexpr vtkIdType points = 4;
-  const vtkIdType cells = grid->GetNumberOfCells();
-  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != points * cells)
-  {
-    return false;
-  }
-  vtkIdType cell = 0;
-  while (cell < cells && ResolveCellType(grid->GetCellType(cell), points) == VTK_TETRA)
-  {
-    ++cell;
-  }
-  return cell == cells && CellLists(grid->GetCells()).HaveSize(4);
-}
-
 /**
  * True for types whose faces are read from a cell object: those without a rule of their own that
  * are drawn, and types with more points than their rule takes.
@@ -436,7 +419,7 @@ TetrahedraSource::TetrahedraSource(
   this->View.NumberOfPoints = this->Points.GetNumberOfPoints();
   this->View.MatchPositions = grids.size() > 1;
   auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
-  if (single && HasOnlyTetrahedra(single))
+  if (single && CellReader(single).HasOnlyTetrahedra())
   {
     this->ViewTetrahedra(single);
   }
