@@ -14,7 +14,8 @@ namespace
 // Newton's method starts near the root of a nearly linear map.
 constexpr int ShotSteps = 16;
 
-// Divisions of a patch in one search.
+// Divisions of a patch in a search for one image, and of all patches in a search for all: a ring of
+// images needs as many as are allowed.
 constexpr int MostDivisions = 2000;
 
 // In a search for all images, parts whose rays all pass are divided down to 2^-14, as in
@@ -40,7 +41,7 @@ double GetLargest(const glm::dvec2& v)
 void StackSearch::Begin(std::int32_t facet)
 {
   this->Facet = facet;
-  this->Divisions = 0;
+  this->Divisions = this->Images ? this->Divisions : 0;
   this->CoarseLevels = BeamDivision::CountCoarseLevels(this->Stack, facet, this->Target.Count);
 }
 

@@ -198,6 +198,23 @@ INSTANTIATE_TEST_SUITE_P(StackSearches, RightScenes, ::testing::ValuesIn(MakeRig
   [](const ::testing::TestParamInfo<Scene>& scene) { return scene.param.Name; });
 
 //------------------------------------------------------------------------------
+// A point on the axis, nearer than the focus of the middle rays, is seen as a ring as well: some of
+// any number of images.
+TEST(StackSearches, ARingOfImagesIsUndecided)
+{
+  const auto filter = MakeStack({ "", { 0.0, 0.0, 6.0 },
+    [] {
+      return MakePoints({ { 0.0, 0.0, -1.6 } });
+    },
+    [](vtkRefractedGeometryFilter* stack) { AddGlassBall(stack, 6); } });
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 1);
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 1);
+}
+
+//------------------------------------------------------------------------------
 // Cells behind planes whose images are straight keep their points, as with FIRST_IMAGE.
 TEST(StackSearches, StraightImagesBehindPlanesKeepTheirCells)
 {
