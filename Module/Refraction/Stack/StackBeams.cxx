@@ -15,42 +15,8 @@ namespace meniscus
 namespace
 {
 
-// As in PatchRoots: size of the part of second degree, relative to the linear part, above which
-// the interpolant is only a guess, and the assumed part of higher degree relative to it.
-constexpr double LargestDeflection = 0.5;
+// Assumed part of higher degree, relative to that of second degree, as in PatchRoots.
 constexpr double HigherDegree = 0.5;
-
-// Deflection of unit directions below which their linear part does not matter: beams may be
-// parallel. The margin is then as large as for a guess.
-constexpr double SmallDeflection = 1e-3;
-constexpr double HigherDegreeOfGuess = 2.0;
-
-// Places of the six rays: corners, then the middles of the opposite edges.
-const glm::dvec2 Places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 }, { 0.0, 0.5 },
-  { 0.5, 0.0 } };
-
-// Box of the control points of a map of second degree with the given values, widened for its part
-// of higher degree. Returns false if that is not known.
-bool BoundMap(const std::array<glm::dvec3, 6>& f, double least, AxisBox& box)
-{
-  double bend = 0.0;
-  double size = 0.0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec3& a = f[(k + 1) % 3];
-    const glm::dvec3& b = f[(k + 2) % 3];
-    const glm::dvec3 control = 2.0 * f[k + 3] - 0.5 * (a + b);
-    box.Add({ f[k], f[k] });
-    box.Add({ control, control });
-    bend = std::max(bend, glm::length(f[k + 3] - 0.5 * (a + b)));
-    size = std::max(size, glm::length(b - a));
-  }
-  const bool isGuess = !(bend <= LargestDeflection * size);
-  const double margin = (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend;
-  box.Low -= margin;
-  box.High += margin;
-  return !isGuess || bend < least;
-}
 
 }
 
@@ -68,6 +34,9 @@ void StackBeams::Update(const RefractionStack& stack, const RangeLoop& loop)
   this->Bounds.assign(links.size(), std::vector<TubeBounds>(facets));
   this->Middles.assign(links.size(), std::vector<RayJet>(facets));
   this->PassedByMiddle.assign(facets, 0);
+  this->Parts.clear();
+  this->Parts.resize(facets);
+  this->PartsOnce = std::make_unique<std::once_flag[]>(facets);
   loop(facets,
     [this](std::size_t begin, std::size_t end)
     {
@@ -134,7 +103,7 @@ void StackBeams::Bound(std::int32_t facet, Samples& samples)
   {
     // The places of another ray are good guesses.
     samples[k] = k == 0 ? path : samples[k - 1];
-    this->Stack->Trace({ facet, Places[k] }, count, false, samples[k]);
+    this->Stack->Trace({ facet, BeamPlaces[k] }, count, false, samples[k]);
   }
   for (std::size_t k = 1; k < count && leg.IsValid(); ++k)
   {
@@ -162,7 +131,8 @@ bool StackBeams::BoundBySamples(const Samples& samples, std::size_t leg, TubeBou
   }
   AxisBox start;
   AxisBox direction;
-  if (!BoundMap(origins, 0.0, start) || !BoundMap(directions, SmallDeflection, direction))
+  if (!BoundBeamMap(origins, 0.0, HigherDegree, start) ||
+    !BoundBeamMap(directions, SmallBeamDeflection, HigherDegree, direction))
   {
     return false;
   }
@@ -182,6 +152,15 @@ TubeBounds StackBeams::BoundFirstLeg(std::int32_t facet) const
     leg.StartHigh += first.Shift;
   }
   return leg;
+}
+
+//------------------------------------------------------------------------------
+const StackBeamParts& StackBeams::GetParts(std::int32_t facet) const
+{
+  const auto i = static_cast<std::size_t>(facet);
+  std::call_once(this->PartsOnce[i],
+    [this, facet, i] { this->Parts[i] = std::make_unique<StackBeamParts>(*this->Stack, facet); });
+  return *this->Parts[i];
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #define meniscus_Refraction_Stack_StackBeams_h
 
 #include "Common/RangeLoop.h"
+#include "Refraction/Stack/StackBeamParts.h"
 #include "Refraction/Stack/StackShot.h"
 #include "Refraction/Stack/StackTubes.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -12,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace meniscus
@@ -41,6 +44,10 @@ public:
     glm::dvec2 Move; ///< from the patch's middle, to first order
     double Size;     ///< of the move; infinite if the ray from the middle does not pass
   };
+
+  /** The beam of a patch in parts, divided at the first call. May be called from several threads.
+   */
+  const StackBeamParts& GetParts(std::int32_t facet) const;
 
   /** Replaces `candidates` by all patches that may show the target, the best guess first. */
   void FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const;
@@ -87,6 +94,8 @@ private:
   std::vector<std::vector<RayJet>> Middles;    ///< per interface and facet
   std::vector<std::uint32_t> PassedByMiddle;   ///< per facet: interfaces that its middle ray passes
   const StackSurface* TreesOver = nullptr;     ///< used for comparison only
+  mutable std::vector<std::unique_ptr<StackBeamParts>> Parts; ///< per facet
+  mutable std::unique_ptr<std::once_flag[]> PartsOnce;
 };
 
 }

@@ -14,17 +14,9 @@ namespace
 // Newton's method starts near the root of a nearly linear map.
 constexpr int ShotSteps = 16;
 
-// Divisions of a part that is as wide as the smallest later surface. Along a border or a critical
-// angle the number of parts doubles with each level. Parts none of whose rays passes the list are
-// divided less often: they are most of the parts where surfaces cross, or where most rays are
-// totally reflected.
-constexpr int DeepestLevel = 6;
-constexpr int DeepestBlind = 4;
+// Divisions of a patch in a search for one image, and of all patches in a search for all: a ring of
+// images needs as many as are allowed.
 constexpr int MostDivisions = 2000;
-
-// Levels up to a part that is as wide as the smallest later surface; for bodies of less than 2^-6
-// of a facet's size the search would take too long.
-constexpr int MostCoarseLevels = 6;
 
 // In a search for all images, parts whose rays all pass are divided down to 2^-14, as in
 // PatchRoots: a smaller undecided one holds a double root, on a caustic.
@@ -34,18 +26,6 @@ constexpr int DeepestOfAll = 14;
 // and distance of two roots, in units of the facet, below which they are one.
 constexpr double FarthestEvidence = 0.5;
 constexpr double SameRoot = 1e-5;
-
-// As in PatchRoots: size of the part of second degree above which the interpolant is only a guess.
-constexpr double LargestDeflection = 0.5;
-
-// The assumed part of higher degree relative to that of second degree. It is four times that of one
-// surface (PatchRoots), because each surface adds parts of higher degree: with half as much, pairs
-// of images next to caustics behind three surfaces were missed.
-constexpr double HigherDegree = 2.0;
-
-// Newton's step from a place in a smallest part, in units of that part, beyond which there is no
-// root in the part: rays are nearly linear there.
-constexpr double FarthestRoot = 4.0;
 
 // Cosine between a ray and the plane's normal below which its place in the plane is not used.
 constexpr double SmallestCosine = 0.1;
@@ -58,33 +38,71 @@ double GetLargest(const glm::dvec2& v)
 }
 
 //------------------------------------------------------------------------------
+void StackSearch::Begin(std::int32_t facet)
+{
+  this->Facet = facet;
+  this->Divisions = this->Images ? this->Divisions : 0;
+  this->CoarseLevels = BeamDivision::CountCoarseLevels(this->Stack, facet, this->Target.Count);
+}
+
+//------------------------------------------------------------------------------
 bool StackSearch::Find(std::int32_t facet, StackPath& path)
 {
   this->Images = nullptr;
-  return this->Search(facet, path);
-}
-
-//------------------------------------------------------------------------------
-void StackSearch::FindAll(std::int32_t facet, StackPath& path, std::vector<StackPath>& images)
-{
-  this->Images = &images;
-  this->Search(facet, path);
-}
-
-//------------------------------------------------------------------------------
-bool StackSearch::Search(std::int32_t facet, StackPath& path)
-{
-  this->Facet = facet;
-  this->Divisions = 0;
-  this->CoarseLevels = this->CountCoarseLevels();
-  const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
-    { 0.0, 0.5 }, { 0.5, 0.0 } };
+  this->Begin(facet);
   Part whole;
   for (std::size_t i = 0; i < 6; ++i)
   {
-    whole[i] = this->Evaluate(places[i], path);
+    whole[i] = this->Evaluate(BeamPlaces[i], path);
   }
   return this->SearchPart(whole, 0, path);
+}
+
+//------------------------------------------------------------------------------
+void StackSearch::FindAll(
+  const StackBeamParts& beam, StackPath& path, std::vector<StackPath>& images)
+{
+  this->Images = &images;
+  const double slack =
+    this->Stack.GetLinks().front().Surface->GetSlack(glm::length(this->Target.Point));
+  beam.Visit(this->Target.Count, this->Target.Point, slack,
+    [this, &beam, &path](const StackBeamParts::Part& part)
+    {
+      if (this->Facet != beam.GetFacet())
+      {
+        this->Begin(beam.GetFacet());
+      }
+      this->SearchPart(this->TakePart(beam, part, path), part.Depth, path);
+    });
+}
+
+//------------------------------------------------------------------------------
+// Where all rays pass, the steps of Newton's method are not needed, and no ray is traced.
+StackSearch::Part StackSearch::TakePart(
+  const StackBeamParts& beam, const StackBeamParts::Part& part, StackPath& path)
+{
+  const auto passes = [this, &beam](std::int32_t sample)
+  { return beam.GetPassed(sample) >= this->Target.Count; };
+  const bool isWhole = std::all_of(part.Samples.begin(), part.Samples.end(), passes);
+  Part result;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    const std::int32_t sample = part.Samples[i];
+    result[i].B = beam.GetPlace(sample);
+    if (isWhole)
+    {
+      const StackBeamParts::Ray& ray = beam.GetRay(sample, this->Target.Count - 1);
+      result[i].Away = this->Target.Point - ray.Origin;
+      result[i].Direction = ray.Direction;
+      result[i].Footprint = ray.Footprint;
+      result[i].IsValid = true;
+    }
+    else if (passes(sample))
+    {
+      result[i] = this->Evaluate(result[i].B, path);
+    }
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -107,27 +125,9 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
 }
 
 //------------------------------------------------------------------------------
-int StackSearch::CountCoarseLevels() const
-{
-  const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
-  double smallest = std::numeric_limits<double>::max();
-  for (std::size_t k = 1; k < this->Target.Count; ++k)
-  {
-    smallest = std::min(smallest, links[k].Surface->GetWidth());
-  }
-  const double size = links[0].Surface->GetPatches().GetPatch(this->Facet).GetSize();
-  int levels = 0;
-  while (levels < MostCoarseLevels && std::ldexp(size, -levels) > smallest)
-  {
-    ++levels;
-  }
-  return levels;
-}
-
-//------------------------------------------------------------------------------
 int StackSearch::GetDeepest() const
 {
-  return this->Images ? DeepestOfAll : DeepestLevel + this->CoarseLevels;
+  return this->Images ? DeepestOfAll : BeamDivision::DeepestLevel + this->CoarseLevels;
 }
 
 //------------------------------------------------------------------------------
@@ -136,11 +136,16 @@ bool StackSearch::TakeShot(const Part& part, const glm::dvec2& b, StackPath& pat
 {
   // The nearest crossings first: Shoot follows them.
   const StackPlace place{ this->Facet, b };
-  const bool converged =
-    this->Stack.Trace(place, this->Target.Count, false, path) == PathEnd::Passed &&
-    Shoot(this->Stack, this->Target, place, ShotSteps, path);
-  shot = converged ? this->Judge(part, path) : Shot::Failed;
-  if (!converged || !IsImage(this->Stack, this->Target, path))
+  const ShotEnd end = this->Stack.Trace(place, this->Target.Count, false, path) == PathEnd::Passed
+    ? Shoot(this->Stack, this->Target, place, ShotSteps, path)
+    : ShotEnd::Failed;
+  if (end != ShotEnd::Converged)
+  {
+    shot = end == ShotEnd::Outside ? Shot::Elsewhere : Shot::Failed;
+    return false;
+  }
+  shot = this->Judge(part, path);
+  if (!IsImage(this->Stack, this->Target, path))
   {
     return false;
   }
@@ -258,9 +263,9 @@ bool StackSearch::SearchWhole(
   {
     return this->DivideWhere(part, depth, path);
   }
-  const bool isGuess = !(bend <= LargestDeflection * size);
+  const bool isGuess = !(bend <= BeamDivision::LargestDeflection * size);
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-  const double margin = HigherDegree * bend + rounding * (reach + size);
+  const double margin = BeamDivision::HigherDegree * bend + rounding * (reach + size);
   if (IsSeparated(control, margin))
   {
     return false;
@@ -270,11 +275,8 @@ bool StackSearch::SearchWhole(
   {
     return isGuess ? this->DivideWhere(part, depth, path) : this->Divide(part, depth, path);
   }
-  const auto nearest = std::min_element(places.begin(), places.end(),
-    [](const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
-  const glm::dvec2& start = part[static_cast<std::size_t>(nearest - places.begin())].B;
   Shot shot;
-  if (this->TakeShot(part, start, path, shot))
+  if (this->TakeShot(part, this->GuessRoot(part, places), path, shot))
   {
     return true;
   }
@@ -291,11 +293,30 @@ bool StackSearch::SearchWhole(
 }
 
 //------------------------------------------------------------------------------
+// Place from which Newton's method starts: the root of the linear part if that is near the part,
+// otherwise the place whose ray passes the target most closely.
+glm::dvec2 StackSearch::GuessRoot(const Part& part, const TriangleMap& places) const
+{
+  const glm::dvec2 u = places[1] - places[0];
+  const glm::dvec2 v = places[2] - places[0];
+  const glm::dvec2 inside = glm::dvec2(Cross(-places[0], v), Cross(u, -places[0])) / Cross(u, v);
+  // Written so that a NaN fails.
+  if (this->Images && FindOutside(inside).Least >= -FarthestEvidence)
+  {
+    return part[0].B + inside.x * (part[1].B - part[0].B) + inside.y * (part[2].B - part[0].B);
+  }
+  const auto nearest = std::min_element(places.begin(), places.end(),
+    [](const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
+  return part[static_cast<std::size_t>(nearest - places.begin())].B;
+}
+
+//------------------------------------------------------------------------------
 bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 {
   const bool isBlind =
     std::none_of(part.begin(), part.end(), [](const Sample& s) { return s.IsValid; });
-  const int deepest = this->CoarseLevels + (isBlind ? DeepestBlind : DeepestLevel);
+  const int deepest =
+    this->CoarseLevels + (isBlind ? BeamDivision::DeepestBlind : BeamDivision::DeepestLevel);
   if (depth < deepest && this->Divisions < MostDivisions)
   {
     return this->DivideWhere(part, depth, path);
@@ -305,7 +326,7 @@ bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
   const double size = std::ldexp(1.0, -depth);
   for (const Sample& sample : part)
   {
-    if (sample.IsValid && GetLargest(sample.Move) < FarthestRoot * size)
+    if (sample.IsValid && GetLargest(sample.Move) < BeamDivision::FarthestRoot * size)
     {
       Shot shot;
       if (this->TakeShot(part, sample.B, path, shot))

@@ -26,6 +26,8 @@ namespace meniscus
  * are divided until the image of each is injective, which its control points prove with the same
  * margin; such a part has one path at most.
  *
+ * A search for all paths begins with the parts of the patch that StackBeamParts has prepared.
+ *
  * Six rays tell nothing about a part if some or all of them do not pass the stack, or if they go to
  * all sides: next to borders and critical angles, or if the surfaces behind are small. Such parts
  * are divided down to 2^-6 of the patch or of the smallest surface behind it, whichever is smaller,
@@ -46,10 +48,10 @@ public:
   bool Find(std::int32_t facet, StackPath& path);
 
   /**
-   * Adds the paths of all images in the patch to `images`, unless they are there already. `path` is
-   * used as memory.
+   * Adds the paths of all images in the patch of a beam to `images`, unless they are there already.
+   * `path` is used as memory.
    */
-  void FindAll(std::int32_t facet, StackPath& path, std::vector<StackPath>& images);
+  void FindAll(const StackBeamParts& beam, StackPath& path, std::vector<StackPath>& images);
 
   /** False if some part of a patch could be neither excluded nor settled by Newton's method. */
   bool IsComplete() const { return this->Complete; }
@@ -67,13 +69,14 @@ private:
   enum class Shot
   {
     Here,      ///< converged in the patch; in a search for all images, in the part or next to it
-    Elsewhere, ///< converged in another place
+    Elsewhere, ///< in another place, or where there are no rays
     Failed
   };
   /** Corners, then the middles of the opposite edges. */
   using Part = std::array<Sample, 6>;
 
-  bool Search(std::int32_t facet, StackPath& path);
+  void Begin(std::int32_t facet);
+  Part TakePart(const StackBeamParts& beam, const StackBeamParts::Part& part, StackPath& path);
   Sample Evaluate(const glm::dvec2& b, StackPath& path);
   bool SearchPart(const Part& part, int depth, StackPath& path);
   bool Divide(const Part& part, int depth, StackPath& path);
@@ -81,12 +84,12 @@ private:
   bool SearchQuarters(
     const Part& part, const std::array<bool, 4>& quarters, int depth, StackPath& path);
   static bool MeetPlane(const Part& part, TriangleMap& places);
+  glm::dvec2 GuessRoot(const Part& part, const TriangleMap& places) const;
   bool SearchWhole(const Part& part, const TriangleMap& places, int depth, StackPath& path);
   bool SearchBroken(const Part& part, int depth, StackPath& path);
   bool TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot);
   Shot Judge(const Part& part, const StackPath& path) const;
   void Add(const StackPath& path);
-  int CountCoarseLevels() const;
   int GetDeepest() const;
 
   const RefractionStack& Stack;

@@ -39,7 +39,10 @@ constexpr double Stagnation = 0.5;
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
 constexpr int LongestWalk = 64;
 
-// Halvings of a step that leads to a ray which does not pass the stack.
+// Halvings of steps that lead to rays which do not pass the stack. After the last of them the end
+// of the rays that pass is within 2^-6 of the way to the root, which is beyond. So it is next to a
+// critical angle, where the map is the square root of a linear one: a step to a root on this side
+// is at most twice as long as the way to the end.
 constexpr int Halvings = 6;
 
 double GetLargest(const glm::dvec2& v)
@@ -123,13 +126,16 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
 // Newton's method; `trace(place, off)` sets the path, with an error of the order of the square of
 // `off`.
 template <typename Tracing>
-bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
-  StackPath& path, const Tracing& trace)
+ShotEnd Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace place,
+  int steps, StackPath& path, const Tracing& trace)
 {
   StackPlace known = place;
   glm::dvec2 move(0.0);
   int halvings = 0;
   bool isTraced = false;
+  // Why a step ends off the surface: it is too long to mean anything, or leads beyond the border.
+  const auto leave = [&place]()
+  { return GetLargest(place.B) <= LongestWalk ? ShotEnd::Outside : ShotEnd::Failed; };
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < steps; ++i)
   {
@@ -139,14 +145,14 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
       // Back towards the last place whose ray passes.
       if (!isTraced || ++halvings > Halvings)
       {
-        return false;
+        return isTraced ? ShotEnd::Outside : ShotEnd::Failed;
       }
       move *= 0.5;
       place = known;
       before = std::numeric_limits<double>::infinity(); // the next step is no remainder of this one
       if (!Advance(stack, move, place))
       {
-        return false;
+        return leave();
       }
       continue;
     }
@@ -157,14 +163,14 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
     const double size = std::max(GetLargestMove(path, move), off);
     if (!(size <= std::numeric_limits<double>::max()))
     {
-      return false;
+      return ShotEnd::Failed;
     }
     const bool isLast = IsLast(stack, path, move, size, before);
     before = size;
     if (isLast && FindOutside(place.B + move).Least >= -Border)
     {
       Correct(path, move);
-      return true;
+      return ShotEnd::Converged;
     }
     if (isLast)
     {
@@ -175,7 +181,7 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
       const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
       if (next == CurvedPatches::NoFacet)
       {
-        return false;
+        return ShotEnd::Outside;
       }
       place = { next, patches.GetPatch(next).ProjectToFacet(flat) };
       continue;
@@ -184,10 +190,10 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
     // The next step is shorter, so that a place that is farther outside does not come back.
     if (!Advance(stack, move, place, std::min(FollowReach, size)))
     {
-      return false;
+      return leave();
     }
   }
-  return false;
+  return ShotEnd::Failed;
 }
 
 }
@@ -247,7 +253,7 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
 }
 
 //------------------------------------------------------------------------------
-bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+ShotEnd Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
   StackPath& path)
 {
   return Iterate(stack, target, place, steps, path,
@@ -256,8 +262,8 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
 }
 
 //------------------------------------------------------------------------------
-bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
-  StackPath& path, std::vector<HeldPatch>& held)
+ShotEnd ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place,
+  int steps, StackPath& path, std::vector<HeldPatch>& held)
 {
   return Iterate(stack, target, place, steps, path,
     [&stack, &target, &path, &held](const StackPlace& at, double& off)

@@ -47,12 +47,24 @@ constexpr double FollowReach = 0.3;
 bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place,
   double reach = FollowReach);
 
+/** End of Newton's method for a target. */
+enum class ShotEnd
+{
+  Converged,
+  /**
+   * The steps lead beyond the border of the first surface, or to rays that do not pass. Where rays
+   * are nearly linear, the only root is there, and it is no image.
+   */
+  Outside,
+  Failed
+};
+
 /**
  * Newton's method from `place` with at most `steps` steps. Crossings with later surfaces are
- * looked for near those of the path. Returns true if it converges in the surface; the path then
- * ends at the target. It need not be an image: see IsImage.
+ * looked for near those of the path. If it converges in the surface, the path ends at the target.
+ * It need not be an image: see IsImage.
  */
-bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+ShotEnd Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
   StackPath& path);
 
 /**
@@ -60,8 +72,8 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
  * surfaces converge together with the place, one step at a time, so that each patch is evaluated
  * once per step.
  */
-bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
-  StackPath& path, std::vector<HeldPatch>& held);
+ShotEnd ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place,
+  int steps, StackPath& path, std::vector<HeldPatch>& held);
 
 /**
  * True if a path that Shoot found is physical: each leg goes on to its nearest crossing, and the

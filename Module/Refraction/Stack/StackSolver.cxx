@@ -54,6 +54,7 @@ glm::dvec2 GetParameters(const RayJet& ray, const glm::dvec3& shift)
 MediaChain StackSolver::SetInterfaces(const std::vector<StackInterface>& list)
 {
   this->Beams.Clear();
+  this->Planes.Clear();
   return this->Stack.SetInterfaces(list);
 }
 
@@ -61,11 +62,48 @@ MediaChain StackSolver::SetInterfaces(const std::vector<StackInterface>& list)
 EyeStatus StackSolver::SetEye(const glm::dvec3& eye, const RangeLoop& loop)
 {
   const EyeStatus status = this->Stack.SetEye(eye);
+  this->Planes.Clear();
   if (status == EyeStatus::Ready && !this->Stack.GetLinks().empty())
   {
     this->Beams.Update(this->Stack, loop);
+    this->Planes.Set(this->Stack);
+    this->BoundLegs();
   }
   return status;
+}
+
+//------------------------------------------------------------------------------
+// A leg between two interfaces is inside of the hull of both.
+void StackSolver::BoundLegs()
+{
+  this->LegBoxes.clear();
+  AxisBox last;
+  for (const RefractionStack::Link& link : this->Stack.GetLinks())
+  {
+    AxisBox box;
+    const auto facets = static_cast<std::int32_t>(link.Surface->GetMembrane().GetFacets().size());
+    for (std::int32_t facet = 0; facet < facets; ++facet)
+    {
+      box.Add(link.Surface->GetBounds(facet).Box);
+    }
+    box.Low += link.Shift;
+    box.High += link.Shift;
+    if (&link != &this->Stack.GetLinks().front())
+    {
+      last.Add(box);
+      this->LegBoxes.push_back(last);
+    }
+    last = box;
+  }
+}
+
+//------------------------------------------------------------------------------
+// False if no ray can show a point between interface `count`, counted from 1, and the next one.
+bool StackSolver::MayBeOnLeg(const glm::dvec3& local, std::size_t count) const
+{
+  const double slack = this->Stack.GetLinks().front().Surface->GetSlack(glm::length(local));
+  return count > this->LegBoxes.size() ||
+    Overlap({ local - slack, local + slack }, this->LegBoxes[count - 1]);
 }
 
 //------------------------------------------------------------------------------
@@ -137,7 +175,7 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory) con
   }
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
   {
-    isFound = this->FindFirst({ local, count }, memory.Next);
+    isFound = this->MayBeOnLeg(local, count) && this->FindFirst({ local, count }, memory.Next);
   }
   if (!isFound)
   {
@@ -184,7 +222,7 @@ bool StackSolver::Follow(const glm::dvec3& local, Memory& memory) const
   }
   StackPlace place = known.Points[0].Place;
   return Advance(this->Stack, first, place, PredictedBorder) &&
-    ShootNear(this->Stack, target, place, FollowSteps, path, memory.Held) &&
+    ShootNear(this->Stack, target, place, FollowSteps, path, memory.Held) == ShotEnd::Converged &&
     IsImage(this->Stack, target, path);
 }
 
@@ -200,7 +238,8 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
     StackPlace place{ candidates[i].Facet, glm::dvec2(1.0 / 3.0) };
     if (Advance(this->Stack, candidates[i].Move, place) &&
       this->Stack.Trace(place, target.Count, false, path) == PathEnd::Passed &&
-      Shoot(this->Stack, target, place, QuickSteps, path) && IsImage(this->Stack, target, path))
+      Shoot(this->Stack, target, place, QuickSteps, path) == ShotEnd::Converged &&
+      IsImage(this->Stack, target, path))
     {
       return true;
     }
@@ -226,18 +265,19 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
   {
     return ImageState::NotFinite;
   }
-  thread_local std::vector<StackBeams::Candidate> candidates; // kept so that its memory is reused
   StackPath path;
   bool isComplete = true;
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0; --count)
   {
-    const StackTarget target{ local, count };
-    this->Beams.FindCandidates(target, candidates);
-    StackSearch search(this->Stack, this->Beams, target);
-    for (const StackBeams::Candidate& candidate : candidates)
+    if (!this->MayBeOnLeg(local, count))
     {
-      search.FindAll(candidate.Facet, path, images);
+      continue;
     }
+    const StackTarget target{ local, count };
+    StackSearch search(this->Stack, this->Beams, target);
+    this->Beams.VisitFacets(count, local, 0.0,
+      [this, &search, &path, &images](std::int32_t facet)
+      { search.FindAll(this->Beams.GetParts(facet), path, images); });
     isComplete = isComplete && search.IsComplete();
   }
   this->Undecided += isComplete ? 0 : 1;
@@ -261,6 +301,30 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
     images.emplace_back();
   }
   return images.empty() ? ImageState::NoImage : ImageState::Found;
+}
+
+//------------------------------------------------------------------------------
+ImageState StackSolver::FindImages(
+  const glm::dvec3& point, Memory& memory, std::vector<StackPath>& images) const
+{
+  const glm::dvec3 local = point - this->Stack.GetOrigin();
+  const int inFront = this->IsInReach(local) ? this->Planes.CountInFront(local) : -1;
+  if (inFront > 0 && static_cast<std::size_t>(inFront) == memory.Path.Count &&
+    this->Follow(local, memory))
+  {
+    std::swap(memory.Path, memory.Next);
+    memory.Point = local;
+    images.assign(1, memory.Path);
+    return ImageState::Found;
+  }
+  const ImageState state = this->FindImages(point, images);
+  if (inFront > 0 && images.size() == 1)
+  {
+    memory.Path = images[0];
+    memory.Point = local;
+    memory.Changes.clear();
+  }
+  return state;
 }
 
 //------------------------------------------------------------------------------

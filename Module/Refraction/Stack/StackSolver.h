@@ -27,6 +27,7 @@
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Stack/ParallelPlanes.h"
 #include "Refraction/Stack/StackBeams.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
@@ -102,6 +103,12 @@ public:
    * `Found` if there are any.
    */
   ImageState FindImages(const glm::dvec3& point, std::vector<StackPath>& images) const;
+  /**
+   * As above, but where a point is known to have one image at most, the search begins at the image
+   * of the point before it, as in SolvePoint.
+   */
+  ImageState FindImages(
+    const glm::dvec3& point, Memory& memory, std::vector<StackPath>& images) const;
 
   /** The vertex of a point in world coordinates that a path leads to. */
   StackVertex MakeVertex(const glm::dvec3& point, const StackPath& path) const
@@ -111,6 +118,8 @@ public:
   }
 
   const StackBeams& GetBeams() const { return this->Beams; }
+  /** The surfaces, if they are parallel planes; otherwise empty. */
+  const ParallelPlanes& GetPlanes() const { return this->Planes; }
   bool IsInReach(const glm::dvec3& local) const;
 
   /**
@@ -135,7 +144,14 @@ public:
   /** Counts another one, of a user of this object. */
   void CountUndecided() const { ++this->Undecided; }
 
+  /** Number of parts of cells since construction that were left out and are too narrow to be seen.
+   */
+  std::int64_t GetNumberOfNarrowParts() const { return this->NarrowParts; }
+  void CountNarrowPart() const { ++this->NarrowParts; }
+
 private:
+  void BoundLegs();
+  bool MayBeOnLeg(const glm::dvec3& local, std::size_t count) const;
   bool Follow(const glm::dvec3& local, Memory& memory) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
@@ -143,7 +159,10 @@ private:
 
   RefractionStack Stack;
   StackBeams Beams;
+  ParallelPlanes Planes;
+  std::vector<AxisBox> LegBoxes; ///< of all legs between two interfaces
   mutable std::atomic<std::int64_t> Undecided{ 0 };
+  mutable std::atomic<std::int64_t> NarrowParts{ 0 };
 };
 
 }

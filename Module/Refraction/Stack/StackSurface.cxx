@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackSurface.h"
 
+#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Curved/PatchCrossings.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +12,18 @@
 
 namespace meniscus
 {
+namespace
+{
+
+// Newton's method converges quadratically: the remaining error is of the order of the square of
+// the last step, 1e-14 of a facet.
+constexpr double LastStep = 1e-7;
+
+// Slant of most rays. The cheap bound of the largest slant is enough if it is above; another value
+// changes the time only.
+constexpr double CommonSlant = 4.0;
+
+}
 
 //------------------------------------------------------------------------------
 MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
@@ -29,6 +42,15 @@ MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const Range
         PatchBounds& bounds = this->Bounds[i];
         bounds.Bulge = BoundBulge(patch) + slack;
         bounds.Normals = BoundNormals(patch);
+        bounds.LargestSlant = PatchCrossings::BoundLargestSlant(patch);
+        if (bounds.LargestSlant < CommonSlant)
+        {
+          bounds.LargestSlant = PatchCrossings(patch, HeightFrame()).GetLargestSlant();
+        }
+        const glm::dvec3 winding = glm::normalize(
+          glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
+        const glm::dvec3 normal = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
+        bounds.Facing = glm::dot(winding, normal) < 0.0 ? -winding : winding;
         bounds.Box = AxisBox();
         for (const glm::dvec3& corner : patch.Corner)
         {
@@ -94,41 +116,95 @@ bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& dire
 {
   const HeightFrame frame(direction);
   const glm::dvec2 place = frame.Project(origin);
-  const double start = frame.GetHeight(origin);
   const double pad = this->GetSlack(glm::length(origin));
   const TubeBounds ray{ origin - pad, origin + pad, direction, direction };
   nearest.Facet = CurvedPatches::NoFacet;
   this->Tree.Visit(ray, most,
     [&](std::int32_t facet, const TubeRange&)
     {
-      if (!this->MayCross(facet, frame, place))
+      const PatchBounds& bounds = this->GetBounds(facet);
+      const double cosine = glm::dot(bounds.Facing, direction);
+      // Written so that a NaN fails.
+      const bool isOnce = bounds.LargestSlant * std::fabs(cosine) >= 1.0;
+      const bool isOtherWay = isOnce && side * cosine < 0.0;
+      if (!isOtherWay && this->MayCross(facet, frame, place))
       {
-        return most;
-      }
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
-      PatchCrossings crossings(patch, frame);
-      crossings.Find(place, start + least, start + most);
-      if (!crossings.IsComplete())
-      {
-        ++this->Undecided;
-      }
-      for (const PatchCrossing& crossing : crossings)
-      {
-        const double distance = crossing.Height - start;
-        if (distance >= least && distance <= most && (side == 0 || crossing.Side == side))
-        {
-          // If two are at one distance, on a common edge, the smaller facet counts.
-          if (nearest.Facet == CurvedPatches::NoFacet || distance < nearest.Distance ||
-            facet < nearest.Facet)
-          {
-            nearest = { facet, crossing.B, distance, crossing.Side };
-          }
-          most = distance;
-        }
+        this->FindInPatch(facet, origin, frame, side, least, most, nearest);
       }
       return most;
     });
   return nearest.Facet != CurvedPatches::NoFacet;
+}
+
+//------------------------------------------------------------------------------
+// The place where a line that crosses a patch once at most meets the surface of which the patch is
+// a part, next to the patch. Returns false if Newton's method does not find it there.
+bool StackSurface::FindOnly(const CurvedPatch& patch, const PatchBounds& bounds,
+  const glm::dvec3& origin, const glm::dvec3& direction, SurfaceCrossing& crossing)
+{
+  const double cosine = glm::dot(bounds.Facing, direction);
+  // Written so that a NaN fails.
+  if (!(bounds.LargestSlant * std::fabs(cosine) >= 1.0))
+  {
+    return false;
+  }
+  const double distance = glm::dot(bounds.Facing, patch.Corner[0] - origin) / cosine;
+  crossing.B = patch.ProjectToFacet(origin + distance * direction);
+  // Scaled so that the parameter is about 1 or less.
+  const double scale = std::max(patch.GetSize(), std::fabs(distance));
+  double l = distance / scale;
+  glm::dvec3 normal;
+  if (!MeetPatch(patch, { origin, scale * direction }, LastStep, crossing.B, l, normal))
+  {
+    return false;
+  }
+  const double outside = FindOutside(crossing.B).Least;
+  crossing.Distance = l * scale;
+  crossing.Side = cosine > 0.0 ? 1 : -1;
+  return outside >= -PatchCrossings::Reach;
+}
+
+//------------------------------------------------------------------------------
+// Takes the crossings with a patch that are nearer than those known, and reduces `most` to their
+// distance.
+void StackSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin,
+  const HeightFrame& frame, int side, double least, double& most, SurfaceCrossing& nearest) const
+{
+  const CurvedPatch patch = this->Patches.GetPatch(facet);
+  const auto take = [&](const glm::dvec2& b, double distance, int crossed)
+  {
+    if (!(distance >= least && distance <= most && (side == 0 || crossed == side)))
+    {
+      return;
+    }
+    // If two are at one distance, on a common edge, the smaller facet counts.
+    if (nearest.Facet == CurvedPatches::NoFacet || distance < nearest.Distance ||
+      facet < nearest.Facet)
+    {
+      nearest = { facet, b, distance, crossed };
+    }
+    most = distance;
+  };
+  SurfaceCrossing only;
+  if (FindOnly(patch, this->GetBounds(facet), origin, frame.Axis, only))
+  {
+    if (FindOutside(only.B).Least >= -PatchCrossings::Border)
+    {
+      take(only.B, only.Distance, only.Side);
+    }
+    return;
+  }
+  const double start = frame.GetHeight(origin);
+  PatchCrossings crossings(patch, frame);
+  crossings.Find(frame.Project(origin), start + least, start + most);
+  if (!crossings.IsComplete())
+  {
+    ++this->Undecided;
+  }
+  for (const PatchCrossing& crossing : crossings)
+  {
+    take(crossing.B, crossing.Height - start, crossing.Side);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -55,6 +55,9 @@ public:
     AxisBox Box;          ///< widened by the rounding of positions
     DirectionBox Normals; ///< unit normals, not flipped
     double Bulge;
+    glm::dvec3 Facing; ///< unit normal of the facet, on the side of the patch's normals
+    /** As PatchCrossings::GetLargestSlant, of lines that cross the patch once at most. */
+    double LargestSlant;
   };
   const PatchBounds& GetBounds(std::int32_t facet) const
   {
@@ -103,6 +106,10 @@ public:
 
 private:
   bool MayCross(std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const;
+  static bool FindOnly(const CurvedPatch& patch, const PatchBounds& bounds,
+    const glm::dvec3& origin, const glm::dvec3& direction, SurfaceCrossing& crossing);
+  void FindInPatch(std::int32_t facet, const glm::dvec3& origin, const HeightFrame& frame, int side,
+    double least, double& most, SurfaceCrossing& nearest) const;
 
   Membrane Surface;
   CurvedPatches Patches;

@@ -19,6 +19,13 @@
 namespace meniscus
 {
 
+/** True if two boxes have a common point. */
+inline bool Overlap(const AxisBox& a, const AxisBox& b)
+{
+  return a.Low.x <= b.High.x && a.Low.y <= b.High.y && a.Low.z <= b.High.z && b.Low.x <= a.High.x &&
+    b.Low.y <= a.High.y && b.Low.z <= a.High.z;
+}
+
 /** Corners of a triangle in a patch. */
 using PatchTriangle = std::array<glm::dvec2, 3>;
 

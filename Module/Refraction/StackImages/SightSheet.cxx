@@ -25,9 +25,6 @@ constexpr int LimitSteps = 16;
 // allows for other rays between them.
 constexpr int DeepestBlind = 5;
 
-// Divisions of a cell, each at a side that has at most half of its length before, or at a limit.
-constexpr int DeepestCell = 24;
-
 // Levels to which a side is tested where it passes over many patches of a later surface.
 constexpr int DeepestTest = 6;
 
@@ -69,6 +66,7 @@ public:
     whole.Nodes = { this->Add({ 0.0, 0.0 }), this->Add({ 1.0, 0.0 }), this->Add({ 0.0, 1.0 }) };
     this->Result.Cells.push_back(whole);
     this->Divide(0, 0);
+    this->BoundCells();
   }
 
 private:
@@ -376,6 +374,61 @@ private:
     }
   }
 
+  // Adds the bounds of a cell's rays on a leg, and those of their ends, with as much again on all
+  // sides: cells are clipped by interpolated moments of the rays, which differ from those of
+  // interpolated rays.
+  void BoundCell(const LegCell& cell, bool isLast, TubeBounds& rays, AxisBox& ends) const
+  {
+    TubeBounds tube;
+    AxisBox end;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      tube.Add(cell.Nodes[k].From.At.Position, cell.Nodes[k].From.Ray);
+      end.Add({ tube.StartLow, tube.StartHigh });
+      if (!isLast)
+      {
+        end.Add({ cell.Ends[k], cell.Ends[k] });
+      }
+    }
+    const glm::dvec3 wide = tube.StartHigh - tube.StartLow;
+    const glm::dvec3 turn = tube.DirectionHigh - tube.DirectionLow;
+    rays.Add(tube.StartLow - wide, tube.DirectionLow - turn);
+    rays.Add(tube.StartHigh + wide, tube.DirectionHigh + turn);
+    const glm::dvec3 far = end.High - end.Low;
+    ends.Add({ end.Low - far, end.High + far });
+  }
+
+  // Children come behind their parents.
+  void BoundCells()
+  {
+    const std::size_t legs = this->Sheet.Links + 1;
+    std::vector<TubeBounds> bounds(this->Result.Cells.size() * legs);
+    this->Result.Boxes.resize(legs);
+    LegCell part;
+    for (std::size_t i = this->Result.Cells.size(); i-- > 0;)
+    {
+      const Cell& cell = this->Result.Cells[i];
+      for (std::size_t leg = 0; leg < legs; ++leg)
+      {
+        TubeBounds& own = bounds[i * legs + leg];
+        if (cell.Children == 0 && this->Sheet.GetLeg(this->Result, cell, leg, part))
+        {
+          this->BoundCell(part, leg + 1 == legs, own, this->Result.Boxes[leg]);
+        }
+        for (std::int32_t k = 0; k < cell.Children; ++k)
+        {
+          const TubeBounds& child =
+            bounds[static_cast<std::size_t>(cell.FirstChild + k) * legs + leg];
+          own.StartLow = glm::min(own.StartLow, child.StartLow);
+          own.StartHigh = glm::max(own.StartHigh, child.StartHigh);
+          own.DirectionLow = glm::min(own.DirectionLow, child.DirectionLow);
+          own.DirectionHigh = glm::max(own.DirectionHigh, child.DirectionHigh);
+        }
+      }
+    }
+    this->Result.Tubes = std::vector<TubeClip>(bounds.begin(), bounds.end());
+  }
+
   const SightSheet& Sheet;
   const RefractionStack& Stack;
   std::int32_t Facet;
@@ -412,6 +465,15 @@ const SightSheet::Patch& SightSheet::GetPatch(std::int32_t facet) const
       Builder(*this, facet, *this->Patches[i]).Run();
     });
   return *this->Patches[i];
+}
+
+//------------------------------------------------------------------------------
+bool SightSheet::MayShow(
+  const Patch& patch, std::size_t cell, std::size_t leg, const AxisBox& box) const
+{
+  const TubeRange range =
+    patch.Tubes[cell * (this->Links + 1) + leg].Clip(box, std::numeric_limits<double>::max());
+  return range.From <= range.To;
 }
 
 //------------------------------------------------------------------------------

@@ -56,11 +56,12 @@ public:
   static const CurvedPatch& GetSurface(const Patch& patch);
 
   /**
-   * Calls `map(cell)` for each cell of a patch in which leg `leg` is seen, and leaves out parts for
-   * which `isOutside(nodes)` is true.
+   * Calls `map(cell)` for each cell of a patch in which leg `leg` is seen and may show a place in
+   * the box, unless `isOutside(nodes)` is true.
    */
   template <typename IsOutside, typename Map>
-  void Visit(const Patch& patch, std::size_t leg, const IsOutside& isOutside, const Map& map) const;
+  void Visit(const Patch& patch, std::size_t leg, const AxisBox& box, const IsOutside& isOutside,
+    const Map& map) const;
 
   /** Largest error of linear interpolation in a cell, as an angle in radians at the eye. */
   double GetTolerance() const { return this->Tolerance; }
@@ -69,6 +70,11 @@ public:
   std::size_t GetNumberOfLinks() const { return this->Links; }
 
 private:
+  /** Divisions of a cell, each at a side that has at most half of its length before, or a limit. */
+  static constexpr int DeepestCell = 24;
+  /** Each division leaves at most three more cells to visit. */
+  static constexpr std::size_t StackSize = 3 * DeepestCell + 4;
+
   struct Node
   {
     glm::dvec2 B;
@@ -86,6 +92,8 @@ private:
   class Builder;
 
   bool GetLeg(const Patch& patch, const Cell& cell, std::size_t leg, LegCell& result) const;
+  /** False if no ray of a cell can be in a box on leg `leg`. */
+  bool MayShow(const Patch& patch, std::size_t cell, std::size_t leg, const AxisBox& box) const;
 
   const StackSolver& Solver;
   double Tolerance;
@@ -99,7 +107,9 @@ struct SightSheet::Patch
 {
   CurvedPatch Surface;
   std::vector<Node> Nodes;
-  std::vector<Cell> Cells; ///< the whole patch first
+  std::vector<Cell> Cells;     ///< the whole patch first
+  std::vector<TubeClip> Tubes; ///< bounds of the rays, per cell and leg
+  std::vector<AxisBox> Boxes;  ///< bounds of all of a leg, per leg; not used for the last one
   // One value per node and leg:
   std::vector<glm::dvec3> Points; ///< where the leg begins
   std::vector<glm::dvec3> Directions;
@@ -107,25 +117,30 @@ struct SightSheet::Patch
 
 //------------------------------------------------------------------------------
 template <typename IsOutside, typename Map>
-void SightSheet::Visit(
-  const Patch& patch, std::size_t leg, const IsOutside& isOutside, const Map& map) const
+void SightSheet::Visit(const Patch& patch, std::size_t leg, const AxisBox& box,
+  const IsOutside& isOutside, const Map& map) const
 {
-  std::vector<std::int32_t> open{ 0 };
-  LegCell legCell;
-  while (!open.empty())
+  if (leg < this->Links && !Overlap(box, patch.Boxes[leg]))
   {
-    const Cell& cell = patch.Cells[static_cast<std::size_t>(open.back())];
-    open.pop_back();
-    const bool isWhole = this->GetLeg(patch, cell, leg, legCell);
-    if (isWhole && isOutside(legCell.Nodes))
+    return;
+  }
+  std::array<std::int32_t, StackSize> open;
+  std::size_t depth = 0;
+  open[depth++] = 0;
+  LegCell legCell;
+  while (depth > 0)
+  {
+    const auto index = static_cast<std::size_t>(open[--depth]);
+    if (!this->MayShow(patch, index, leg, box))
     {
       continue;
     }
+    const Cell& cell = patch.Cells[index];
     for (std::int32_t k = cell.Children; k-- > 0;)
     {
-      open.push_back(cell.FirstChild + k);
+      open[depth++] = cell.FirstChild + k;
     }
-    if (cell.Children == 0 && isWhole)
+    if (cell.Children == 0 && this->GetLeg(patch, cell, leg, legCell) && !isOutside(legCell.Nodes))
     {
       map(legCell);
     }

@@ -23,10 +23,15 @@ void StackImages::SetPoints(const double* points, std::size_t count)
 void StackImages::SolvePoints(std::size_t begin, std::size_t end)
 {
   std::vector<StackPath> paths;
+  StackSolver::Memory memory;
   for (std::size_t i = begin; i < end; ++i)
   {
+    if (i % Chunk == 0)
+    {
+      memory = StackSolver::Memory();
+    }
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
-    this->States[i] = this->Solver.FindImages(point, paths);
+    this->States[i] = this->Solver.FindImages(point, memory, paths);
     this->Counts[i] = static_cast<std::uint32_t>(paths.size());
     for (const StackPath& path : paths)
     {
@@ -84,6 +89,52 @@ bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
 }
 
 //------------------------------------------------------------------------------
+// True if a cell is behind parallel planes, on one leg, and its image is straight: the middles of
+// its sides and its own middle are drawn within the tolerance of their exact sight rays.
+bool StackImages::IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count) const
+{
+  const ParallelPlanes& planes = this->Solver.GetPlanes();
+  const RefractionStack& stack = this->Solver.GetStack();
+  const bool isOnOneLeg = !planes.IsEmpty() &&
+    std::all_of(ids, ids + count,
+      [this, &planes, &stack, ids](std::int64_t id)
+      {
+        return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
+          this->GetFirstImage(id).Passed == this->GetFirstImage(ids[0]).Passed &&
+          planes.CountInFront(this->GetPoint(id) - stack.GetOrigin()) ==
+          this->GetFirstImage(id).Passed;
+      });
+  if (!isOnOneLeg || count == 0 || this->GetFirstImage(ids[0]).Passed == 0)
+  {
+    return false;
+  }
+  const auto passed = static_cast<std::size_t>(this->GetFirstImage(ids[0]).Passed);
+  const auto isDrawn = [this, &planes, &stack, passed](
+                         const glm::dvec3& place, const glm::dvec3& image)
+  {
+    const glm::dvec3 drawn = image - stack.GetOrigin() - stack.GetEye();
+    const glm::dvec3 sight = planes.FindSight(place - stack.GetOrigin(), passed);
+    // Written so that a NaN fails.
+    return glm::length(glm::cross(drawn, sight)) <= this->Tolerance * glm::length(drawn);
+  };
+  glm::dvec3 middle(0.0);
+  glm::dvec3 image(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::int64_t next = ids[(i + 1) % count];
+    const glm::dvec3& seen = this->GetFirstImage(ids[i]).Vertex.Position;
+    if (!isDrawn(0.5 * (this->GetPoint(ids[i]) + this->GetPoint(next)),
+          0.5 * (seen + this->GetFirstImage(next).Vertex.Position)))
+    {
+      return false;
+    }
+    middle += this->GetPoint(ids[i]) / static_cast<double>(count);
+    image += seen / static_cast<double>(count);
+  }
+  return isDrawn(middle, image);
+}
+
+//------------------------------------------------------------------------------
 CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
@@ -94,7 +145,7 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
-    if (this->AreInFront(ids, count))
+    if (this->AreInFront(ids, count) || this->IsDrawnBehindPlanes(ids, count))
     {
       this->AddWhole(ids, count, names[i], whole);
       ++report.Whole;
@@ -137,7 +188,7 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
       ++report.Without;
       continue;
     }
-    bool isWhole = this->AreInFront(ids, count);
+    bool isWhole = this->AreInFront(ids, count) || this->IsDrawnBehindPlanes(ids, count);
     triangles.clear();
     if (!isWhole)
     {

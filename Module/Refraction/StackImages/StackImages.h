@@ -63,6 +63,7 @@ private:
     const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
   void MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
     const glm::dvec3& eye, ImagePoint& point) const;
+  bool IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
 
   const StackSolver& Solver;

@@ -75,6 +75,16 @@ void StackMapper::Clip(const ObjectPrimitive& primitive, std::vector<Part>& part
   {
     return; // a primitive without area covers no pixel; neither does a line along the line of sight
   }
+  AxisBox box;
+  for (const glm::dvec3& corner : primitive.Corners)
+  {
+    double slack = 0.0;
+    for (std::size_t surface = 1; surface <= links; ++surface)
+    {
+      slack = std::max(slack, this->GetSlack(surface, corner));
+    }
+    box.Add({ corner - slack, corner + slack });
+  }
   std::vector<std::int32_t> facets;
   for (std::size_t leg = 0; leg <= links; ++leg)
   {
@@ -82,7 +92,7 @@ void StackMapper::Clip(const ObjectPrimitive& primitive, std::vector<Part>& part
     for (const std::int32_t facet : facets)
     {
       this->Sheet.Visit(
-        this->Sheet.GetPatch(facet), leg,
+        this->Sheet.GetPatch(facet), leg, box,
         [&primitive](const SubCell& nodes) { return primitive.IsOutside(nodes); },
         [&](const LegCell& cell) {
           this->ClipCell(primitive, { leg, facet, cell, {}, 0.0 }, parts);
@@ -259,12 +269,40 @@ void StackMapper::Emit(
   {
     const Context context{ primitive, part.Leg, part.Facet,
       SightSheet::GetSurface(this->Sheet.GetPatch(part.Facet)), part.Cell };
-    if (!(primitive.IsLine ? this->EmitLine(context, part.Corners, images)
-                           : this->EmitPolygon(context, part, images)))
+    const bool isEmitted = primitive.IsLine ? this->EmitLine(context, part.Corners, images)
+                                            : this->EmitPolygon(context, part, images);
+    if (!isEmitted && this->IsVisible(context, part.Corners))
     {
       this->Solver.CountUndecided();
     }
+    else if (!isEmitted)
+    {
+      this->Solver.CountNarrowPart();
+    }
   }
+}
+
+//------------------------------------------------------------------------------
+// False if a part is seen as a strip, or as a dot, narrower than the tolerance: interpolation may
+// have found it where the rays only come near the primitive.
+bool StackMapper::IsVisible(const Context& context, const Polygon& polygon) const
+{
+  const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
+  std::vector<glm::dvec3> sights;
+  for (const Corner& corner : polygon)
+  {
+    sights.push_back(glm::normalize(context.Patch.Evaluate(corner.B).Position - eye));
+  }
+  double longest = 0.0;
+  double area = 0.0;
+  for (std::size_t i = 1; i < sights.size(); ++i)
+  {
+    longest = std::max(longest, glm::length(sights[i] - sights[0]));
+    area += 0.5 * glm::length(glm::cross(sights[i - 1] - sights[0], sights[i] - sights[0]));
+  }
+  // A polygon of area A and length L has a width of A / L at least, and 2 A / L at most.
+  const double width = context.Primitive.IsLine ? longest : area / longest;
+  return width > this->Sheet.GetTolerance();
 }
 
 //------------------------------------------------------------------------------
@@ -464,8 +502,8 @@ StackMapper::MappedPoint StackMapper::MakeEnd(
     return { this->Finish(context, nullptr, local, weight), without };
   }
   StackPath shot = path;
-  const bool isFound =
-    Shoot(this->Stack, { local, context.Leg }, { context.Facet, guess }, ShotSteps, shot) &&
+  const bool isFound = Shoot(this->Stack, { local, context.Leg }, { context.Facet, guess },
+                         ShotSteps, shot) == ShotEnd::Converged &&
     glm::length(shot.Points[0].Ray.Origin - path.Points[0].Ray.Origin) <= size;
   return { this->Finish(context, isFound ? &shot : &path, local, weight),
     isFound ? Finding::Found : without };
@@ -569,7 +607,7 @@ StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, s
   StackPath path;
   const StackTarget target{ local, surface - 1 };
   const bool isFound = this->TracePlace(inFront, b, surface - 1, path) &&
-    Shoot(this->Stack, target, { context.Facet, b }, ShotSteps, path) &&
+    Shoot(this->Stack, target, { context.Facet, b }, ShotSteps, path) == ShotEnd::Converged &&
     this->ShootAgain(target, path);
   return { this->Finish(inFront, isFound ? &path : nullptr, local, place),
     isFound ? Finding::Found : Finding::Elsewhere };
@@ -581,7 +619,7 @@ bool StackMapper::ShootAgain(const StackTarget& target, StackPath& path) const
   StackPlace place = path.Points[0].Place;
   place.B = glm::round(Grid * place.B) / Grid;
   return this->Stack.Trace(place, target.Count, true, path) == PathEnd::Passed &&
-    Shoot(this->Stack, target, place, ShotSteps, path);
+    Shoot(this->Stack, target, place, ShotSteps, path) == ShotEnd::Converged;
 }
 
 //------------------------------------------------------------------------------

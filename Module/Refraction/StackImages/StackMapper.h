@@ -62,8 +62,8 @@ public:
 
   /**
    * Adds the parts with exact corners: convex polygons with the winding of the triangle, or lines
-   * of two points. Parts whose corners contradict each other are left out, and counted by the
-   * solver as undecided.
+   * of two points. Parts whose corners contradict each other are left out; the solver counts them
+   * as undecided if they are wider than the tolerance.
    */
   void Emit(
     const ObjectPrimitive& primitive, const std::vector<Part>& parts, ImageMesh& images) const;
@@ -95,6 +95,7 @@ private:
   void ClipCell(const ObjectPrimitive& primitive, const Part& cell, std::vector<Part>& parts) const;
   double GetSlack(std::size_t surface, const glm::dvec3& place) const;
   bool ResolveTies(const ObjectPrimitive& primitive, const Part& cell, Polygon& whole) const;
+  bool IsVisible(const Context& context, const Polygon& polygon) const;
   bool EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const;
   int GetOrientation(const CurvedPatch& patch, const Part& part, double area) const;
   bool EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;

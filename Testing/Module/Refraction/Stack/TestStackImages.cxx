@@ -4,6 +4,7 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -17,8 +18,10 @@ namespace
 {
 
 using meniscus::ImageState;
+using meniscus::ParallelPlanes;
 using meniscus::PathEnd;
 using meniscus::RefractionStack;
+using meniscus::StackBeamParts;
 using meniscus::StackPath;
 using meniscus::StackPlace;
 using meniscus::StackSolver;
@@ -475,6 +478,103 @@ TEST(RefractionStackImages, RaysOfOneFacetGoToAllSides)
     { 3.6, 215.0, -28.0 });
   Random random(26);
   FindPlantedPoints(solver, random, 40, 1.2);
+}
+
+//------------------------------------------------------------------------------
+// A point on a ray, on any leg, is looked for in the part of the patch from which the ray comes.
+// The facets of the second surface are much smaller than those of the first, so that patches are
+// divided.
+TEST(RefractionStackImages, PartsHoldTheRaysOfTheirPatch)
+{
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakeWaves(100.0, 0.0, 1.3, 8.0, 8)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(100.0, -12.0, 0.6, 9.0, 60)), { 1.5, 1.2 } } },
+    { 5.0, 90.0, -8.0 });
+  const RefractionStack& stack = solver.GetStack();
+  const auto facets =
+    static_cast<std::int32_t>(stack.GetLinks()[0].Surface->GetMembrane().GetFacets().size());
+  Random random(28);
+  int rays = 0;
+  std::size_t parts = 0;
+  for (std::int32_t facet = 0; facet < facets; ++facet)
+  {
+    const StackBeamParts beam(stack, facet);
+    for (int i = 0; i < 40; ++i)
+    {
+      glm::dvec2 b(random(0.0, 1.0), random(0.0, 1.0));
+      b = b.x + b.y > 1.0 ? 1.0 - b : b;
+      StackPath path;
+      path.Forget(2);
+      if (stack.Trace({ facet, b }, 2, false, path) != PathEnd::Passed)
+      {
+        continue;
+      }
+      ++rays;
+      const glm::dvec3 between =
+        glm::mix(path.Points[0].Ray.Origin, path.Points[1].Ray.Origin, random(0.0, 1.0));
+      const glm::dvec3 behind =
+        path.GetLast().Origin + random(0.0, 200.0) * path.GetLast().Direction;
+      for (const std::size_t count : { 1u, 2u })
+      {
+        bool isFound = false;
+        beam.Visit(count, count == 1 ? between : behind, 1e-10,
+          [&](const StackBeamParts::Part& part)
+          {
+            ++parts;
+            const glm::dvec2 u = beam.GetPlace(part.Samples[1]) - beam.GetPlace(part.Samples[0]);
+            const glm::dvec2 v = beam.GetPlace(part.Samples[2]) - beam.GetPlace(part.Samples[0]);
+            const glm::dvec2 away = b - beam.GetPlace(part.Samples[0]);
+            const double area = u.x * v.y - u.y * v.x;
+            const double s = (away.x * v.y - away.y * v.x) / area;
+            const double t = (u.x * away.y - u.y * away.x) / area;
+            isFound = isFound || std::min({ s, t, 1.0 - s - t }) > -1e-9;
+          });
+        EXPECT_TRUE(isFound) << "facet " << facet << ", leg " << count;
+      }
+    }
+  }
+  EXPECT_GT(rays, 2000);
+  RecordProperty("parts", std::to_string(parts));
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStackImages, SightRaysBehindParallelPlanesAreThoseOfTheSearch)
+{
+  const glm::dvec3 eye(3.0, 80.0, -5.0);
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 400.0, 10)), { 1.0, 1.5 } },
+      { MakeSurface(MakePlane(-20.0, 400.0, 7)), { 1.5, 1.1 } },
+      { MakeSurface(MakePlane(-30.0, 400.0, 3)), { 1.1, 1.4 } } },
+    eye);
+  const ParallelPlanes& planes = solver.GetPlanes();
+  ASSERT_FALSE(planes.IsEmpty());
+  Random random(29);
+  for (int i = 0; i < 400; ++i)
+  {
+    const double heights[4] = { random(1.0, 70.0), random(-19.0, -1.0), random(-29.0, -21.0),
+      random(-90.0, -31.0) };
+    const glm::dvec3 point(random(-40.0, 40.0), heights[i % 4], random(-40.0, 40.0));
+    const glm::dvec3 local = point - solver.GetStack().GetOrigin();
+    ASSERT_EQ(planes.CountInFront(local), i % 4);
+    if (i % 4 == 0)
+    {
+      continue;
+    }
+    const StackVertex vertex = SolveAlone(solver, point);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    const glm::dvec3 sight = planes.FindSight(local, static_cast<std::size_t>(i % 4));
+    EXPECT_LT(glm::length(sight - glm::normalize(vertex.SightPoint - eye)), 1e-12);
+  }
+  EXPECT_EQ(planes.CountInFront({ 0.0, -20.0, 0.0 }), -1);
+  // The point straight below the eye.
+  EXPECT_EQ(planes.FindSight({ 3.0, -50.0, -5.0 }, 3), glm::dvec3(0.0, -1.0, 0.0));
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 400.0, 10)), { 1.0, 1.5 } },
+      { MakeSurface(MakeWaves(400.0, -20.0, 1e-3, 5.0, 20)), { 1.5, 1.1 } } },
+    eye);
+  EXPECT_TRUE(solver.GetPlanes().IsEmpty());
 }
 
 //------------------------------------------------------------------------------

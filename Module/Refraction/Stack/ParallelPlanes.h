@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Refraction_Stack_ParallelPlanes_h
+#define meniscus_Refraction_Stack_ParallelPlanes_h
+
+#include "Refraction/Stack/RefractionStack.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * A stack of parallel planes with convex outlines. A point behind them has one image at most, since
+ * n sin t is the same in all layers and the lateral distance, the sum of d_i tan t_i, increases
+ * with it. Its sight ray is the root of one equation. Positions are relative to the stack's origin.
+ */
+class ParallelPlanes
+{
+public:
+  /** Sets the planes; none if the stack has other surfaces or another order along its axis. */
+  void Set(const RefractionStack& stack);
+  void Clear() { this->Depths.clear(); }
+
+  bool IsEmpty() const { return this->Depths.empty(); }
+
+  /**
+   * Number of planes in front of a point; -1 if there are no planes, or if the point is on one
+   * within rounding, or behind the eye.
+   */
+  int CountInFront(const glm::dvec3& point) const;
+
+  /** Unit direction of the sight ray to a point behind `count` planes, at least one. */
+  glm::dvec3 FindSight(const glm::dvec3& point, std::size_t count) const;
+
+private:
+  glm::dvec3 Eye{ 0.0 };
+  glm::dvec3 Axis{ 0.0 };      ///< away from the eye
+  std::vector<double> Depths;  ///< distances of the planes from the eye, in their order
+  std::vector<double> Indices; ///< of the media, one more
+  double Slack = 0.0;          ///< rounding of the planes
+};
+
+}
+
+#endif
