@@ -16,19 +16,19 @@
  * cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
- * floats with one tuple per pixel, are switched on separately:
- *
- * | array | switch | components | value | rays that miss the mesh |
- * |---|---|---|---|---|
- * | `Integral` | ComputeIntegral | 1 | integral of the scalar: scalar times length | 0 |
- * | `PathLength` | ComputePathLength | 1 | length in cells | 0 |
- * | `OpticalDepth` | ComputeOpticalDepth | 1 | integral of the attenuation coefficient | 0 |
- * | `FirstDepth`, `LastDepth` | ComputeFirstDepth, ComputeLastDepth | 1 | distance along the ray at
- *   which its first cell begins, and its last one ends | NaN |
- * | `Minimum`, `MinimumDepth` | ComputeMinimum | 1 | smallest scalar, and the first distance at
- * which it is reached | NaN | | `Maximum`, `MaximumDepth` | ComputeMaximum | 1 | the same of the
- * largest scalar | NaN | | `RGBA` | ComputeRGBA | 4 | premultiplied colour and opacity | 0 | |
- * `EnergyBins` | ComputeEnergyBins | one per bin | transmitted intensity | the bin's intensity |
+ * floats with one tuple per pixel, are switched on separately. Here are their switches and, in
+ * brackets, the value of rays that miss the mesh:
+ * - `Integral` (ComputeIntegral): integral of the scalar, scalar times length [0];
+ * - `PathLength` (ComputePathLength): length in cells [0];
+ * - `OpticalDepth` (ComputeOpticalDepth): integral of the attenuation coefficient [0];
+ * - `FirstDepth` (ComputeFirstDepth), `LastDepth` (ComputeLastDepth): distance along the ray at
+ * which its first cell begins and its last one ends [NaN];
+ * - `Minimum` and `MinimumDepth` (ComputeMinimum): smallest scalar, and the first distance at which
+ *   it is reached [NaN];
+ * - `Maximum` and `MaximumDepth` (ComputeMaximum): largest scalar, likewise [NaN];
+ * - `RGBA` (ComputeRGBA), 4 components: premultiplied colour and opacity [0];
+ * - `EnergyBins` (ComputeEnergyBins), one component per bin: transmitted intensity [the intensity
+ * of the bin].
  *
  * Lengths are in world coordinates, the coordinates of the input. Distances count along the ray,
  * also where it is refracted: from the camera's position (with parallel projection, from the plane
