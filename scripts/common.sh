@@ -129,12 +129,14 @@ configure_and_build()
 # while the packages are being installed.
 install_packages_and_kernel()
 {
+  local kernel
   install_packages "${PACKAGES_KERNEL[@]}"
   configure kernel > /dev/null
   build kernel > build-kernel/build.log 2>&1 &
+  kernel="$!"
   install_packages "$@"
   say "Building the kernel"
-  wait "$!" || { cat build-kernel/build.log >&2; die "the kernel cannot be built"; }
+  wait "$kernel" || { cat build-kernel/build.log >&2; die "the kernel cannot be built"; }
 }
 # Makes a build use that kernel.
 WITH_KERNEL="-DMENISCUS_KERNEL_BUILD=$ROOT/build-kernel"
