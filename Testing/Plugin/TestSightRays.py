@@ -16,6 +16,16 @@ def sine_to_vertical(start, end):
     return math.hypot(along[0], along[1]) / math.hypot(*along)
 
 
+def check_depths(water):
+    """A point seen straight down, one unit behind the surface: how deep it is by each meaning."""
+    seen = simple.PointSource(Center=[EYE[0], EYE[1], -1], NumberOfPoints=1, Radius=0)
+    truth = simple.TruePosition(Input=seen, Membrane=water, EyePosition=EYE)
+    for depth, length in (("Apparent", WATER), ("Optical", 1 / WATER), ("Geometric", 1)):
+        truth.Depth = depth
+        place = servermanager.Fetch(truth).GetPoint(0)
+        assert abs(place[2] + length) < 1e-6, (depth, place)
+
+
 def test():
     PluginTesting.load_plugin()
     water = simple.Plane(Origin=[-4, -4, 0], Point1=[4, -4, 0], Point2=[-4, 4, 0])
@@ -38,6 +48,7 @@ def test():
             assert abs(WATER * sine_to_vertical(*ends) - before) < 1e-9, cell
             point = legs.GetArray("PointId").GetValue(cell)
             assert math.dist(ends[1], truth.GetPoint(point)) < 1e-9, cell
+    check_depths(water)
     assert rays.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
 
 
