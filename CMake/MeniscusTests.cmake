@@ -56,9 +56,15 @@ function (meniscus_add_room_tests target label prefix)
   endforeach ()
 endfunction ()
 
-# Adds the room of each discovered test to its labels, when ctest reads the list TESTS.
+# Adds the room of each discovered test to its labels, when ctest reads the list TESTS, and limits
+# its time to ten times the usual one of Testing/TestTimes.cmake, 3 s if it is not listed there.
+# Tests that are listed have the label "long" as well.
 function (meniscus_label_discovered target label tests)
-  set(script "")
+  set(script "include(\"${PROJECT_SOURCE_DIR}/Testing/TestTimes.cmake\")\n")
+  set(limit 10)
+  if (MENISCUS_SANITIZER OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+    set(limit 100)
+  endif ()
   foreach (room IN LISTS meniscus_rooms)
     foreach (suite IN LISTS meniscus_suites_${room})
       string(APPEND script "set(meniscus_room_${suite} \"${room}\")\n")
@@ -66,11 +72,19 @@ function (meniscus_label_discovered target label tests)
   endforeach ()
   string(APPEND script
     "foreach (test IN LISTS ${tests})\n"
+    "  set(labels \"${label}\")\n"
+    "  set(seconds 3)\n"
+    "  if (DEFINED \"meniscus_seconds_\${test}\")\n"
+    "    set(seconds \"\${meniscus_seconds_\${test}}\")\n"
+    "    list(APPEND labels long)\n"
+    "  endif ()\n"
+    "  math(EXPR seconds \"${limit} * \${seconds}\")\n"
     "  if (test MATCHES \"(^|[./])([A-Za-z0-9_]+)(/[0-9]+)?\\\\.[A-Za-z0-9_]+(/[^.]*)?$\" AND\n"
     "      DEFINED meniscus_room_\${CMAKE_MATCH_2})\n"
-    "    set_tests_properties(\"\${test}\" PROPERTIES\n"
-    "      LABELS \"${label};\${meniscus_room_\${CMAKE_MATCH_2}}\")\n"
+    "    list(APPEND labels \"\${meniscus_room_\${CMAKE_MATCH_2}}\")\n"
     "  endif ()\n"
+    "  set_tests_properties(\"\${test}\" PROPERTIES\n"
+    "    LABELS \"\${labels}\" TIMEOUT \${seconds})\n"
     "endforeach ()\n")
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${tests}_rooms.cmake")
   file(GENERATE OUTPUT "${file}" CONTENT "${script}")

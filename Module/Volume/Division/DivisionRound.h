@@ -49,7 +49,7 @@ public:
     double Error;
   };
 
-  /** @param pieces what is divided; this and all other arguments must outlive this object. */
+  /** @param pieces source of the cells to divide. All arguments must outlive this object. */
   DivisionRound(std::vector<CellPiece>& pieces, const PointFields& fields,
     const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop);
 

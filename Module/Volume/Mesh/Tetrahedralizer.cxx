@@ -25,7 +25,7 @@ constexpr int QuadraticParts[8][4] = { { 0, 4, 6, 7 }, { 1, 5, 4, 8 }, { 2, 6, 5
   { 3, 7, 9, 8 }, { 4, 9, 5, 6 }, { 4, 9, 6, 7 }, { 4, 9, 7, 8 }, { 4, 9, 8, 5 } };
 
 // Tetrahedra at the corners of quadratic cells, and the faces of the remaining core. All have the
-// same orientation in a cell, so that cells that are folded can be told (see TetrahedraSource).
+// same orientation in a cell, so that folded cells can be recognised (see TetrahedraSource).
 constexpr int HexahedronCorners[8][4] = { { 0, 8, 11, 16 }, { 1, 9, 8, 17 }, { 2, 10, 9, 18 },
   { 3, 11, 10, 19 }, { 4, 15, 12, 16 }, { 5, 12, 13, 17 }, { 6, 13, 14, 18 }, { 7, 14, 15, 19 } };
 constexpr int HexahedronCore[] = { 3, 8, 16, 11, 3, 9, 17, 8, 3, 10, 18, 9, 3, 11, 19, 10, 3, 15,

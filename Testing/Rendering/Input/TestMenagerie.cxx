@@ -121,7 +121,7 @@ double LookDown(vtkRenderer* renderer, const double bounds[6])
   return height * height / (Height * Height);
 }
 
-/** Volume of what a picture of a constant attenuation shows, from the depth of each pixel. */
+/** Volume that a picture of a constant attenuation shows, from the depth of each pixel. */
 double MeasureVolume(const FloatImage& image, double pixelArea)
 {
   double depth = 0.0;
