@@ -106,8 +106,7 @@ void ExpectCube(
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.0, 0.0, 2.0);
   rays->SetCellDivision(isAdaptive);
-  rays->SetDivisionPlaceTolerance(0.01);
-  rays->SetDivisionScalarTolerance(0.01);
+  rays->SetDivisionTolerance(0.01);
   vtkNew<ErrorObserver> observer;
   observer->Observe(rays);
   rays->Update();
