@@ -36,5 +36,6 @@ foreach (room
 endforeach ()
 meniscus_target_flags(meniscus_kernel)
 meniscus_precompile_headers(meniscus_kernel kernel)
-# For other build trees: MENISCUS_KERNEL_BUILD.
-export(TARGETS meniscus_kernel FILE "${CMAKE_BINARY_DIR}/MeniscusKernel.cmake")
+if (PROJECT_NAME STREQUAL "Meniscus") # for other build trees: MENISCUS_KERNEL_BUILD
+  export(TARGETS meniscus_kernel FILE "${CMAKE_BINARY_DIR}/MeniscusKernel.cmake")
+endif ()
