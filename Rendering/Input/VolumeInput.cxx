@@ -474,8 +474,7 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
 std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
 {
   // Folded cells overlap, and are reported when they are divided.
-  if (rays == 0 || this->OverlapsReported == this->BuildVersion ||
-    this->Divided.GetCounts().FoldedCells > 0)
+  if (rays == 0 || this->OverlapsReported == this->BuildVersion || this->FoldedCells > 0)
   {
     return std::string();
   }
