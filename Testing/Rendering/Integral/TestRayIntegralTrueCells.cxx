@@ -658,18 +658,29 @@ TEST(TrueCells, BlocksMayDifferInComponents)
 
 TEST(TrueCells, LengthsOfInterpolatedVectorsAreDrawn)
 {
-  // A vector that turns along z: its length is 1 at the points and less between them.
-  const Grid grid = MakeCell(CellCases[0], 0.0, 2);
+  // A vector that turns along z, in layers: its length is less in a layer than between its ends.
+  const Grid grid = Grid::New();
+  vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName("v");
   vectors->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < 8; ++i)
+  constexpr vtkIdType layers = 16;
+  for (vtkIdType i = 0; i < 4 * (layers + 1); ++i)
   {
-    i < 4 ? vectors->InsertNextTuple3(1.0, 0.0, 0.0) : vectors->InsertNextTuple3(0.0, 2.0, 0.0);
+    const double t = static_cast<double>(i / 4) / layers;
+    points->InsertNextPoint(i % 4 == 1 || i % 4 == 2 ? 0.5 : -0.5, i % 4 < 2 ? -0.5 : 0.5, 1.2 * t);
+    vectors->InsertNextTuple3(1.0 - t, 2.0 * t, 0.0);
+  }
+  grid->SetPoints(points);
+  for (vtkIdType i = 0; i < layers; ++i)
+  {
+    const vtkIdType ids[] = { 4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4, 4 * i + 5,
+      4 * i + 6, 4 * i + 7 };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   grid->GetPointData()->AddArray(vectors);
   const Filter rays = MakeAdaptive(grid, 12);
-  rays->SetDivisionTolerance(5e-4);
+  rays->SetDivisionTolerance(1e-4);
   SetRectangle(rays, { 0.0, 0.0, -1.0 }, 0.3);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "v");
   rays->SetArrayComponent(-1);
