@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compiles each header by itself, without precompiled headers: a header includes what it uses.
 
-usage: check_headers.py BUILD [FOLDER...]
+usage: check_headers.py BUILD...
 
-BUILD is a configured build folder; its compile_commands.json has the flags. Without folders, the
-headers of Module, Filters, Rendering and Testing are checked.
+The flags are those of compile_commands.json in the build folders. The headers of Module, Filters,
+Rendering and Testing are checked.
 """
 import concurrent.futures
 import json
@@ -21,26 +21,35 @@ LEFT_OUT = {"Module/Simd/SimdNEON.h", "Module/Simd/SimdAVX2.h", "Module/Simd/Sim
             "Module/Simd/SimdRowLoads.h"}
 
 
-def flags_of_folders(build):
-    """Flags of one source per folder, without the source, the output, and precompiled headers."""
-    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
-        commands = json.load(file)
+def flags_of_folders(builds):
+    """Flags of one source per folder, without the source, the output, and precompiled headers, and
+    all include folders: a header of the tests may be for sources of several folders."""
     flags = {}
-    for command in commands:
-        path = os.path.relpath(os.path.join(command["directory"], command["file"]), ROOT)
-        words = shlex.split(command["command"])
-        kept = [words[1] if os.path.basename(words[0]) == "ccache" else words[0]]
-        i = words.index(kept[0]) + 1
-        while i < len(words):
-            if words[i] in ("-o", "-MF", "-MT", "-include", "-c", "-Xclang", "-include-pch"):
-                i += 2
-            elif words[i].startswith(("-MD", "-Winvalid-pch", "-fpch")):
-                i += 1
-            else:
-                kept.append(words[i])
-                i += 1
-        flags.setdefault(os.path.dirname(path), (kept, command["directory"]))
-    return flags
+    includes = []
+    for build in builds:
+        with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+            commands = json.load(file)
+        for command in commands:
+            kept = kept_words(shlex.split(command["command"]))
+            path = os.path.relpath(os.path.join(command["directory"], command["file"]), ROOT)
+            flags.setdefault(os.path.dirname(path), (kept, command["directory"]))
+            includes += [word for word in kept if word.startswith("-I") and word not in includes]
+    return {folder: (kept + includes, directory) for folder, (kept, directory) in flags.items()}
+
+
+def kept_words(words):
+    """The words of a compiler's command that matter for a header alone."""
+    kept = [words[1] if os.path.basename(words[0]) == "ccache" else words[0]]
+    i = words.index(kept[0]) + 1
+    while i < len(words):
+        if words[i] in ("-o", "-MF", "-MT", "-include", "-c", "-Xclang", "-include-pch"):
+            i += 2
+        elif words[i].startswith(("-MD", "-Winvalid-pch", "-fpch")):
+            i += 1
+        else:
+            kept.append(words[i])
+            i += 1
+    return kept
 
 
 def find_flags(flags, folder):
@@ -67,9 +76,8 @@ def main():
     """Checks all headers; returns the number of headers that fail."""
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    flags = flags_of_folders(sys.argv[1])
-    folders = sys.argv[2:] or ["Module", "Filters", "Rendering", "Testing"]
-    patterns = [folder + "/*.h" for folder in folders]
+    flags = flags_of_folders(sys.argv[1:])
+    patterns = [folder + "/*.h" for folder in ("Module", "Filters", "Rendering", "Testing")]
     listed = subprocess.run(
         ["git", "-c", "safe.directory=" + ROOT, "ls-files"] + patterns,
         cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()

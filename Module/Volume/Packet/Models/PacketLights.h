@@ -7,6 +7,7 @@
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketOptics.h"
+#include "Volume/Packet/Data/PacketRays.h"
 
 #include <array>
 #include <cstdint>
