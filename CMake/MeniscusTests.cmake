@@ -57,10 +57,15 @@ function (meniscus_add_room_tests target label prefix)
 endfunction ()
 
 # Adds the room of each discovered test to its labels, when ctest reads the list TESTS, and limits
-# its time to ten times the usual one of Testing/TestTimes.cmake, 3 s if it is not listed there.
+# its time to ten times the usual one of Testing/TestTimes.txt, 3 s if it is not listed there.
 # Tests that are listed have the label "long" as well.
 function (meniscus_label_discovered target label tests)
-  set(script "include(\"${PROJECT_SOURCE_DIR}/Testing/TestTimes.cmake\")\n")
+  string(CONCAT script
+    "file(STRINGS \"${PROJECT_SOURCE_DIR}/Testing/TestTimes.txt\" lines REGEX \"^[0-9]+ \")\n"
+    "foreach (line IN LISTS lines)\n"
+    "  string(REGEX MATCH \"^([0-9]+) (.*)$\" line \"\${line}\")\n"
+    "  set(\"meniscus_seconds_\${CMAKE_MATCH_2}\" \"\${CMAKE_MATCH_1}\")\n"
+    "endforeach ()\n")
   set(limit 10)
   if (MENISCUS_SANITIZER OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(limit 100)

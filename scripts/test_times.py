@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes Testing/TestTimes.cmake: the usual seconds of the tests that take long.
+"""Writes Testing/TestTimes.txt: the usual seconds of the tests that take long.
 
 usage: test_times.py BUILD
 
@@ -36,12 +36,12 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     times = times_of(sys.argv[1])
-    target = os.path.join(ROOT, "Testing", "TestTimes.cmake")
+    target = os.path.join(ROOT, "Testing", "TestTimes.txt")
     with open(target, "w", encoding="utf-8") as file:
         file.write(HEADER.format(short=SHORT, script="scripts/test_times.py"))
         for name in sorted(times):
             if times[name] >= SHORT:
-                file.write(f'set("meniscus_seconds_{name}" {math.ceil(times[name])})\n')
+                file.write(f'{math.ceil(times[name])} {name}\n')
 
 
 if __name__ == "__main__":
