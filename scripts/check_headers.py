@@ -5,8 +5,8 @@
 
 usage: check_headers.py BUILD...
 
-The flags are those of compile_commands.json in the build folders. The headers of Module, Filters,
-Rendering and Testing are checked.
+The flags are those of compile_commands.json in the build folders. The headers of Module, Filters
+and Rendering are checked.
 """
 import concurrent.futures
 import json
@@ -22,10 +22,8 @@ LEFT_OUT = {"Module/Simd/SimdNEON.h", "Module/Simd/SimdAVX2.h", "Module/Simd/Sim
 
 
 def flags_of_folders(builds):
-    """Flags of one source per folder, without the source, the output, and precompiled headers, and
-    all include folders: a header of the tests may be for sources of several folders."""
+    """Flags of one source per folder, without the source, the output, and precompiled headers."""
     flags = {}
-    includes = []
     for build in builds:
         with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
             commands = json.load(file)
@@ -33,8 +31,7 @@ def flags_of_folders(builds):
             kept = kept_words(shlex.split(command["command"]))
             path = os.path.relpath(os.path.join(command["directory"], command["file"]), ROOT)
             flags.setdefault(os.path.dirname(path), (kept, command["directory"]))
-            includes += [word for word in kept if word.startswith("-I") and word not in includes]
-    return {folder: (kept + includes, directory) for folder, (kept, directory) in flags.items()}
+    return flags
 
 
 def kept_words(words):
@@ -77,7 +74,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     flags = flags_of_folders(sys.argv[1:])
-    patterns = [folder + "/*.h" for folder in ("Module", "Filters", "Rendering", "Testing")]
+    patterns = [folder + "/*.h" for folder in ("Module", "Filters", "Rendering")]
     listed = subprocess.run(
         ["git", "-c", "safe.directory=" + ROOT, "ls-files"] + patterns,
         cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()

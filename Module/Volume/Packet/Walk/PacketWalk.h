@@ -5,6 +5,7 @@
 #define meniscus_Volume_Packet_Walk_PacketWalk_h
 
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketIntervals.h"
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/VertexAttributes.h"
 #include "Volume/Packet/Walk/PacketCorners.h"
