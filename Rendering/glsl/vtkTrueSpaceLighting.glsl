@@ -24,6 +24,7 @@ struct LightRay
   vec3 fromLight;   // unit vector at the light
   float path;       // length of a positional light's ray
   float inMedium;   // length of the part behind the membrane
+  float flux;       // light across the ray, relative to a straight ray of the same length
   bool arrives;
 };
 
@@ -31,6 +32,15 @@ struct LightRay
 float heightOfLight(vec4 light)
 {
   return dot(surfacePlane, light);
+}
+
+// Flux across a refracted beam as a share of the flux across the incident one, for the cosines of
+// both angles: Fresnel's transmittance of unpolarised light, and the ratio of the beams' widths.
+float transmittedFlux(float incident, float refracted)
+{
+  float s = (incident - surfaceIndex * refracted) / (incident + surfaceIndex * refracted);
+  float p = (surfaceIndex * incident - refracted) / (surfaceIndex * incident + refracted);
+  return (1.0 - 0.5 * (s * s + p * p)) * incident / max(refracted, 1.0e-6);
 }
 
 // Ray of a light at infinity in front of the membrane to a point behind it, by Snell's law.
@@ -46,12 +56,14 @@ LightRay refractDistantLight(vec3 toLight, float depth)
   ray.fromLight = -toLight;
   ray.path = 0.0;
   ray.inMedium = cosine > 0.0 ? depth / cosine : 0.0;
+  ray.flux = transmittedFlux(dot(toLight, n), cosine);
   return ray;
 }
 
 // Ray of a light at a point. The place x where the ray meets the membrane, from below the light
 // towards the point below it, is the root of x / |(x, height)| - n (r - x) / |(r - x, depth)|,
-// which grows with x: 24 bisections leave 2^-24 of r, the precision of floats.
+// which grows with x: 24 bisections leave 2^-24 of r, the precision of floats. The distances of the
+// two images of the light behind a plane (Coddington) tell how a thin beam spreads.
 LightRay refractNearLight(vec3 light, float height, vec3 point, float depth)
 {
   LightRay ray;
@@ -76,6 +88,13 @@ LightRay refractNearLight(vec3 light, float height, vec3 point, float depth)
   ray.fromLight = -(x * along + height * n) / before;
   ray.path = before + behind;
   ray.inMedium = behind;
+  float incident = height / before;
+  float refracted = depth / behind;
+  float ratio = incident / refracted;
+  float sagittal = before + behind / surfaceIndex;
+  float tangential = before + behind / surfaceIndex * ratio * ratio;
+  ray.flux =
+    transmittedFlux(incident, refracted) * (ray.path / sagittal) * (ray.path / tangential);
   ray.arrives = true;
   return ray;
 }
@@ -97,6 +116,7 @@ LightRay traceLight(vec4 light, vec3 point, bool isBehind)
   ray.fromLight = -ray.toLight;
   ray.path = far;
   ray.inMedium = isBehind && light.w != 0.0 && height < 0.0 ? far : 0.0;
+  ray.flux = 1.0;
   ray.arrives = far > 0.0;
   return ray;
 }
@@ -122,7 +142,7 @@ vec3 lightInTrueSpace(
   for (int i = 0; i < trueLights; ++i)
   {
     LightRay ray = traceLight(trueLightPosition[i], position, isBehind);
-    float strength = ray.arrives ? 1.0 : 0.0;
+    float strength = ray.arrives ? ray.flux : 0.0;
     if (trueLightPosition[i].w != 0.0)
     {
       strength /= dot(trueLightFalloff[i].xyz, vec3(1.0, ray.path, ray.path * ray.path));

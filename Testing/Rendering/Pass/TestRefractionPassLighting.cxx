@@ -3,6 +3,7 @@
 // Lighting in true space, compared with closed forms: the floor of a pool under flat water.
 #include "FlatPool.h"
 #include "RayCastScene.h"
+#include "Refraction/Membrane/Optics.h"
 
 #include <vtkActor.h>
 #include <vtkLight.h>
@@ -25,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace meniscus::test;
@@ -73,7 +75,39 @@ struct LampRay
   glm::dvec3 FromLamp;
   double Path;
   double InWater;
+  /** Flux across the ray, relative to a straight ray of the same length. */
+  double Flux = 1.0;
 };
+
+/**
+ * Flux across the refracted beam as a share of the flux across the beam in air, for the angle in
+ * air.
+ */
+double TransmittedFlux(double angle)
+{
+  const double cosine = std::cos(angle);
+  const double refracted = std::cos(std::asin(std::sin(angle) / Water));
+  return (1.0 - meniscus::FresnelReflectance(cosine, 1.0, Water)) * cosine / refracted;
+}
+
+/**
+ * Flux of a lamp at a height across a ray that ends at a depth, as the solid angle of a thin beam
+ * over its cross-section, times the square of the ray's length.
+ */
+double FluxOfLamp(double angle, double height, double depth)
+{
+  const auto across = [&](double at)
+  { return height * std::tan(at) + depth * std::tan(std::asin(std::sin(at) / Water)); };
+  const double step = 1.0e-4 * std::max(angle, 1.0e-2);
+  const double low = std::max(angle - step, 0.0);
+  const double high = std::min(angle + step, 0.5 * vtkMath::Pi() - 1.0e-9);
+  const double solidAngle = std::cos(low) - std::cos(high);
+  const double area = 0.5 * (across(high) * across(high) - across(low) * across(low));
+  const double refracted = std::cos(std::asin(std::sin(angle) / Water));
+  const double path = height / std::cos(angle) + depth / refracted;
+  const double lost = meniscus::FresnelReflectance(std::cos(angle), 1.0, Water);
+  return (1.0 - lost) * solidAngle / (area * refracted) * path * path;
+}
 
 /** Ray from a light to a point below the water z = 0, by Snell's law. */
 LampRay TraceLamp(const Lamp& lamp, const glm::dvec3& point)
@@ -84,7 +118,8 @@ LampRay TraceLamp(const Lamp& lamp, const glm::dvec3& point)
     const glm::dvec3 to = glm::normalize(lamp.Place);
     const glm::dvec3 across = glm::dvec3(to.x, to.y, 0.0) / Water;
     const double cosine = std::sqrt(1.0 - glm::dot(across, across));
-    return { across + cosine * up, -to, 0.0, -point.z / cosine };
+    return { across + cosine * up, -to, 0.0, -point.z / cosine,
+      TransmittedFlux(std::acos(glm::dot(to, up))) };
   }
   const glm::dvec3 between = lamp.Place - point;
   if (lamp.Place.z < 0.0)
@@ -108,7 +143,8 @@ LampRay TraceLamp(const Lamp& lamp, const glm::dvec3& point)
   const double below = inWater(low);
   return { std::sin(below) * along + std::cos(below) * up,
     -(std::sin(low) * along + std::cos(low) * up),
-    lamp.Place.z / std::cos(low) - point.z / std::cos(below), -point.z / std::cos(below) };
+    lamp.Place.z / std::cos(low) - point.z / std::cos(below), -point.z / std::cos(below),
+    FluxOfLamp(low, lamp.Place.z, -point.z) };
 }
 
 /** The place of the floor that a pixel shows, and the direction from there to its sight point. */
@@ -136,7 +172,7 @@ glm::dvec3 LitColor(
   for (const Lamp& lamp : lamps)
   {
     const LampRay ray = TraceLamp(lamp, floor.Place);
-    double strength = 1.0;
+    double strength = ray.Flux;
     if (!lamp.IsDistant)
     {
       strength /= lamp.Falloff.x + ray.Path * (lamp.Falloff.y + ray.Path * lamp.Falloff.z);
@@ -234,6 +270,22 @@ TEST(RefractionPassLighting, LightsAtInfinityAreRefracted)
   pool.ExpectLit("from above", { Distant(0.0, 0.0, 1.0) });
   pool.ExpectLit("aslant", { Distant(0.8, -0.3, 0.4) });
   pool.ExpectLit("grazing", { Distant(1.0, 0.2, 0.01) });
+}
+
+/** Light of a sun on a floor under flat water: cos i (1 - F), of light across the sun's rays. */
+TEST(RefractionPassLighting, TheFloorHasTheFluxThatTheWaterTransmits)
+{
+  LitPool pool;
+  const std::pair<double, double> expected[] = { { 0.0, 0.9796 }, { 45.0, 0.6874 },
+    { 75.0, 0.2039 } };
+  for (const auto& [degrees, share] : expected)
+  {
+    const double angle = vtkMath::RadiansFromDegrees(degrees);
+    const Lamp sun = Distant(std::sin(angle), 0.0, std::cos(angle));
+    const LampRay ray = TraceLamp(sun, glm::dvec3(0.0, 0.0, -Depth));
+    EXPECT_NEAR(ray.Flux * ray.ToLamp.z, share, 1.0e-4) << degrees;
+    pool.ExpectLit("sun", { sun });
+  }
 }
 
 TEST(RefractionPassLighting, LampsInTheWater)
