@@ -102,6 +102,7 @@
 #include <array>  // For std::array
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 class vtkRefractingInterfaceCollection;
 class vtkCamera;
@@ -253,18 +254,20 @@ public:
    * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
    * seen through the first one. RefractionDepth is the sum of the legs behind the first sight
    * point. Point arrays added: `LegLengths` (a length behind each refracting interface),
-   * `LastSightPoint` (3 doubles, world), `Transmittance` (product of 1 - Fresnel reflectance) and
-   * `InnerReflectance` (1 minus that product without the first interface).
+   * `LastSightPoint` (3 doubles, world), `Transmittance` (share of unpolarised light, with the
+   * reflections between the interfaces as parallel plates have them) and `InnerReflectance`
+   * (1 minus Transmittance / (1 - Reflectance)).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
   /**
-   * Index of refraction behind the first interface that sight rays meet, relative to that in front
-   * of it. With several interfaces, as of the last update: the eye chooses the first one.
+   * Index of refraction behind each interface that sight rays meet, relative to the medium in front
+   * of the first one. With several interfaces, the list is that of the last update, because the eye
+   * chooses the first one.
    */
-  double GetRelativeIndexOfRefraction();
+  std::vector<double> GetRelativeIndicesOfRefraction();
 
   /** @{ */
   /**

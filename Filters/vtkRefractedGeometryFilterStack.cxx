@@ -190,12 +190,17 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetStackOption
 }
 
 //------------------------------------------------------------------------------
-double vtkRefractedGeometryFilter::GetRelativeIndexOfRefraction()
+std::vector<double> vtkRefractedGeometryFilter::GetRelativeIndicesOfRefraction()
 {
   const auto& links = this->Internals->Stack.GetSolver().GetStack().GetLinks();
-  if (this->Interfaces->GetNumberOfItems() > 1 && !links.empty())
+  if (this->Interfaces->GetNumberOfItems() < 2 || links.empty())
   {
-    return links.front().Passage.Behind / links.front().Passage.Before;
+    return { this->GetInteriorIndexOfRefraction() / this->GetExteriorIndexOfRefraction() };
   }
-  return this->GetInteriorIndexOfRefraction() / this->GetExteriorIndexOfRefraction();
+  std::vector<double> indices;
+  for (const auto& link : links)
+  {
+    indices.push_back(link.Passage.Behind / links.front().Passage.Before);
+  }
+  return indices;
 }

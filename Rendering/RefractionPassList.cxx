@@ -28,34 +28,25 @@ vtkPolyDataMapper* Refraction::GetMapper() const
 }
 
 //------------------------------------------------------------------------------
-double Refraction::GetRelativeIndex() const
+std::vector<double> Refraction::ListRelativeIndices() const
 {
-  vtkRefractingInterfaceCollection* interfaces = nullptr;
   if (this->Filter)
   {
-    return this->Filter->GetRelativeIndexOfRefraction();
+    return this->Filter->GetRelativeIndicesOfRefraction();
   }
-  if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
-  {
-    interfaces = mapper->GetInterfaces();
-  }
+  vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume());
+  vtkRefractingInterfaceCollection* interfaces = mapper ? mapper->GetInterfaces() : nullptr;
   if (!interfaces)
   {
-    return 1.0;
+    return { 1.0 };
   }
-  vtkRefractingInterface* first = interfaces->GetFirstInterface();
-  return first->GetInteriorIndexOfRefraction() / first->GetExteriorIndexOfRefraction();
-}
-
-//------------------------------------------------------------------------------
-double Refraction::GetLastRelativeIndex() const
-{
-  vtkRefractingInterfaceCollection* interfaces =
-    this->Filter ? this->Filter->GetInterfaces() : nullptr;
-  const int number = interfaces ? interfaces->GetNumberOfItems() : 0;
-  return number > 1 ? interfaces->GetInterface(number - 1)->GetInteriorIndexOfRefraction() /
-      interfaces->GetFirstInterface()->GetExteriorIndexOfRefraction()
-                    : this->GetRelativeIndex();
+  const double exterior = interfaces->GetFirstInterface()->GetExteriorIndexOfRefraction();
+  std::vector<double> indices;
+  for (int i = 0; i < interfaces->GetNumberOfItems(); ++i)
+  {
+    indices.push_back(interfaces->GetInterface(i)->GetInteriorIndexOfRefraction() / exterior);
+  }
+  return indices;
 }
 
 //------------------------------------------------------------------------------

@@ -43,10 +43,8 @@ struct Refraction
   vtkVolume* GetVolume() const { return vtkVolume::SafeDownCast(this->Object); }
   /** Mapper of an object; null for others. */
   vtkPolyDataMapper* GetMapper() const;
-  /** Index of the interior relative to the exterior. */
-  double GetRelativeIndex() const;
-  /** Index behind the last of the filter's interfaces relative to that in front of the first. */
-  double GetLastRelativeIndex() const;
+  /** Index of refraction behind each interface, relative to the medium in front of the first. */
+  std::vector<double> ListRelativeIndices() const;
 
   /**
    * Decides whether the object is lit in true space, and maps the arrays that this needs. Returns

@@ -254,7 +254,7 @@ bool vtkRefractionPass::SetShaderParameters(
   if (refraction && object)
   {
     internals.Lighting.SetUniforms(
-      program, object, refraction->GetLastRelativeIndex(), this->LightAttenuation);
+      program, object, refraction->ListRelativeIndices().back(), this->LightAttenuation);
   }
   return true;
 }
@@ -480,7 +480,7 @@ void vtkRefractionPass::Compose(
       int(Model::Fresnel) == FRESNEL && int(Model::Mirror) == MIRROR,
     "the same numbers");
   look.Reflectance = static_cast<Model>(this->ReflectanceModel);
-  look.RelativeIndex = internals.Refractions.FirstOf(membrane).GetRelativeIndex();
+  look.RelativeIndices = internals.Refractions.FirstOf(membrane).ListRelativeIndices();
   const std::string error = internals.Composer.Compose(renderer, window, look);
   if (!error.empty())
   {

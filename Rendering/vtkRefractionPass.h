@@ -36,9 +36,11 @@
  * that of a cube map in the direction of the reflected ray, or the background.
  *
  * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
- * Fresnel's transmittance of the interfaces behind the first one, from the array InnerReflectance,
- * with either model of the reflectance. F and R are those of the first interface. The membrane's
- * actor shows the surface of the first one.
+ * Fresnel's transmittance of the interfaces behind the first one that are in front of the object,
+ * from the array InnerReflectance, with either model of the reflectance. The share of R and of the
+ * background is the reflectance of all interfaces, the first 16 of them, as parallel plates have it
+ * with the light that is reflected between them: a pane in air reflects 0.077 of the light at
+ * vertical incidence. The membrane's actor shows the surface of the first interface.
  *
  * Deviation from the thesis: T is drawn to a separate image, which is then composited at the
  * membrane's pixels, instead of using the stencil buffer of the window. The result is therefore the
@@ -50,7 +52,7 @@
  * the same depth look alike, unless their mapper has a medium of its own.
  *
  * @note The membrane and the image behind it have one sample per pixel.
- * @note The background, and volumes, are dimmed by the first of several interfaces only.
+ * @note Volumes are dimmed by the first of several interfaces only.
  * @note A membrane behind another one is not visible through it.
  *
  * @sa vtkRefractedGeometryFilter
@@ -240,9 +242,13 @@ public:
    * Behind several interfaces, lights in front of the first one are refracted as if the media
    * between were not there, which is exact for parallel planes and lights at infinity.
    *
-   * Not modelled: shadows, Fresnel loss and focusing of the light at the membrane, light that the
-   * membrane reflects back into the water, and light that has more than one way to a point. The
-   * material is the ambient, diffuse and specular one; physically based shading has no effect.
+   * Refracted light has the flux that this plane transmits: Fresnel's loss and the change of a
+   * beam's width are included. Of a light at infinity at the angle of incidence i, the share
+   * (1 - F) cos i / cos r arrives across the refracted rays, which have the angle r.
+   *
+   * Not modelled: shadows, focusing of the light by waves, light that the membrane reflects back
+   * into the water, and light that has more than one way to a point. The material is the ambient,
+   * diffuse and specular one; physically based shading has no effect.
    */
   void SetLighting(int lighting);
   vtkGetMacro(Lighting, int);

@@ -52,7 +52,7 @@ void AddVirtualNormals(
   output->GetPointData()->SetActiveNormals(normals->GetName());
 }
 
-// Share of the light that the interfaces behind the first one reflect.
+// Share of the light behind the first interface that the others keep from the eye.
 double ComputeInnerReflectance(const StackPoint& point, const OutputOptions& options)
 {
   const double first = point.Detail.Passed > 0

@@ -35,7 +35,8 @@ std::string MembraneShaderSource(bool hasCubeMap)
     define("HAS_ENVIRONMENT", hasCubeMap ? 1 : 0) +
       define("NO_REFLECTANCE", static_cast<int>(Model::None)) +
       define("SCHLICK", static_cast<int>(Model::Schlick)) +
-      define("MIRROR", static_cast<int>(Model::Mirror)));
+      define("MIRROR", static_cast<int>(Model::Mirror)) +
+      define("MAXIMUM_OF_INTERFACES", MembraneLook::LargestNumber));
   return source;
 }
 
@@ -135,7 +136,12 @@ void MembraneComposer::SetOptics(
   program->SetUniform3f("backdrop", backdrop);
   program->SetUniformi("parallelView", camera->GetParallelProjection());
   program->SetUniformi("reflectanceModel", static_cast<int>(look.Reflectance));
-  program->SetUniformf("relativeIndex", static_cast<float>(look.RelativeIndex));
+  const int interfaces =
+    std::min(static_cast<int>(look.RelativeIndices.size()), MembraneLook::LargestNumber);
+  float indices[MembraneLook::LargestNumber];
+  std::copy_n(look.RelativeIndices.begin(), interfaces, indices);
+  program->SetUniformi("interfaces", interfaces);
+  program->SetUniform1fv("relativeIndices", interfaces, indices);
 }
 
 //------------------------------------------------------------------------------

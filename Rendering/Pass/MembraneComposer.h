@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
@@ -41,8 +42,10 @@ struct MembraneLook
   /** Colour where nothing lies behind the membrane. */
   std::array<double, 3> Backdrop{ 0.0, 0.0, 0.0 };
   Reflectances Reflectance = Reflectances::None;
-  /** Index of refraction of the interior relative to the exterior. */
-  double RelativeIndex = 1.0;
+  /** Largest number of interfaces whose reflections are drawn. */
+  static constexpr int LargestNumber = 16;
+  /** Index of refraction behind each interface, relative to the medium in front of the first. */
+  std::vector<double> RelativeIndices{ 1.0 };
 };
 
 /** Fragment shader of membranes, with or without a cube map that they reflect. */

@@ -26,35 +26,69 @@ uniform bool parallelView;
 uniform vec3 background;
 uniform vec3 backdrop;             // background, seen through the medium behind the membrane
 uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK, MIRROR, else Fresnel's
-uniform float relativeIndex;       // index of the interior relative to the exterior
+uniform int interfaces;            // number of interfaces, at least 1
+// Index of refraction behind each interface, relative to the medium in front of the first one.
+uniform float relativeIndices[MAXIMUM_OF_INTERFACES];
 
-// Reflectance of unpolarised light; c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of
-// the thesis.
-float reflectance(float c)
+// Reflectances of light polarised across and within the plane of incidence, at the first interface;
+// c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of the thesis.
+vec2 reflectance(float c)
 {
+  float n = relativeIndices[0];
   if (reflectanceModel == NO_REFLECTANCE)
   {
-    return 0.0;
+    return vec2(0.0);
   }
   if (reflectanceModel == MIRROR)
   {
-    return 1.0;
+    return vec2(1.0);
   }
   if (reflectanceModel == SCHLICK)
   {
-    float r = (relativeIndex - 1.0) / (relativeIndex + 1.0);
+    float r = (n - 1.0) / (n + 1.0);
     float x = 1.0 - c;
-    return r * r + (1.0 - r * r) * x * x * x * x * x;
+    return vec2(r * r + (1.0 - r * r) * x * x * x * x * x);
   }
-  float g2 = relativeIndex * relativeIndex + c * c - 1.0;
+  float g2 = n * n + c * c - 1.0;
   if (g2 <= 0.0)
   {
-    return 1.0;
+    return vec2(1.0);
   }
   float g = sqrt(g2);
-  float s = (g - c) / (g + c);
-  float t = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
-  return 0.5 * s * s * (1.0 + t * t);
+  vec2 r = vec2((g - c) / (g + c), (n * n * c - g) / (n * n * c + g));
+  return r * r;
+}
+
+// Reflectances of all interfaces, with the light that is reflected between them, as parallel plates
+// have it.
+vec2 reflectanceOfPlates(float c, vec2 first)
+{
+  if (reflectanceModel == NO_REFLECTANCE || reflectanceModel == MIRROR)
+  {
+    return first;
+  }
+  vec2 passed = 1.0 - first;
+  vec2 back = first;
+  float sine2 = 1.0 - c * c;
+  for (int i = 1; i < interfaces; ++i)
+  {
+    // Cosines in front of and behind the interface, each times the index of its medium.
+    float before = sqrt(max(relativeIndices[i - 1] * relativeIndices[i - 1] - sine2, 0.0));
+    float square = relativeIndices[i] * relativeIndices[i] - sine2;
+    if (square <= 0.0 || before <= 0.0)
+    {
+      return vec2(1.0);
+    }
+    float behind = sqrt(square);
+    float ratio = relativeIndices[i] / relativeIndices[i - 1];
+    vec2 r = vec2((before - behind) / (before + behind),
+      (ratio * ratio * before - behind) / (ratio * ratio * before + behind));
+    r *= r;
+    vec2 once = 1.0 - back * r;
+    passed *= (1.0 - r) / once;
+    back = r + (1.0 - r) * (1.0 - r) * back / once;
+  }
+  return 1.0 - passed;
 }
 
 void main()
@@ -71,7 +105,6 @@ void main()
   float cosine = clamp(-dot(n, sight), 0.0, 1.0);
 
   vec4 behind = texture(refracted, texCoord);
-  vec3 transmitted = behind.rgb + (1.0 - behind.a) * backdrop;
 #if HAS_ENVIRONMENT
   vec3 mirrored = texture(environment, viewToWorld * reflect(sight, n)).rgb;
 #else
@@ -82,6 +115,12 @@ void main()
     vec4 inFront = texture(mirroredScene, texCoord);
     mirrored = inFront.rgb + (1.0 - inFront.a) * mirrored;
   }
-  gl_FragData[0] = vec4(mix(transmitted, mirrored, reflectance(cosine)), 1.0);
+  // Objects carry the transmittance of the interfaces in front of them, without the first one.
+  vec2 atFirst = reflectance(cosine);
+  vec2 atAll = reflectanceOfPlates(cosine, atFirst);
+  float first = 0.5 * (atFirst.x + atFirst.y);
+  float all = 0.5 * (atAll.x + atAll.y);
+  vec3 color = (1.0 - first) * behind.rgb + (1.0 - all) * (1.0 - behind.a) * backdrop;
+  gl_FragData[0] = vec4(color + all * mirrored, 1.0);
   gl_FragDepth = depth;
 }

@@ -95,6 +95,77 @@ inline double FresnelReflectance(double cosine, double exterior, double interior
   return exterior == interior ? 0.0 : reflectance;
 }
 
+/** Fresnel reflectances of light polarised across the plane of incidence, and within it. */
+struct PolarizedReflectance
+{
+  double Across;
+  double Within;
+};
+
+/** The two reflectances whose mean is FresnelReflectance(). */
+inline PolarizedReflectance ComputePolarizedReflectance(
+  double cosine, double exterior, double interior)
+{
+  const double c = std::clamp(cosine, 0.0, 1.0);
+  const double n = interior / exterior;
+  const double squared = n * n + c * c - 1.0;
+  if (exterior == interior)
+  {
+    return { 0.0, 0.0 };
+  }
+  if (squared <= 0.0)
+  {
+    return { 1.0, 1.0 };
+  }
+  const double g = std::sqrt(squared);
+  const double across = (c - g) / (c + g);
+  const double within = (n * n * c - g) / (n * n * c + g);
+  return { across * across, within * within };
+}
+
+/**
+ * Light that passes interfaces one behind another, with the reflections between them to all orders,
+ * as parallel plates without absorption have them. Interfaces are added from the eye on.
+ */
+class PlateTransmittance
+{
+public:
+  /** Adds an interface; `cosine` is the cosine of the angle of incidence in front of it. */
+  void Add(double cosine, double before, double behind)
+  {
+    const PolarizedReflectance r = ComputePolarizedReflectance(cosine, before, behind);
+    this->Across.Add(r.Across);
+    this->Within.Add(r.Within);
+  }
+
+  /** Transmitted share of unpolarised light, in [0, 1]. */
+  double Get() const { return 0.5 * (this->Across.Passed + this->Within.Passed); }
+
+private:
+  /** Shares of one polarisation. */
+  struct Shares
+  {
+    double Passed = 1.0;
+    double ReflectedBack = 0.0; ///< of light that comes from behind
+
+    void Add(double reflectance)
+    {
+      if (!(reflectance < 1.0))
+      {
+        this->Passed = 0.0;
+        return;
+      }
+      const double passed = 1.0 - reflectance;
+      const double once = 1.0 - this->ReflectedBack * reflectance;
+      this->Passed *= passed / once;
+      this->ReflectedBack = reflectance + passed * passed * this->ReflectedBack / once;
+    }
+  };
+
+  Shares Across;
+  Shares Within;
+};
+
 /**
  * Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis uses for drawing:
  * r + (1 - r) (1 - c)^5 with r = ((n1 - n2) / (n1 + n2))^2. It ignores the critical angle. The

@@ -337,6 +337,7 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
   vertex.State = ImageState::Found;
   vertex.Passed = static_cast<std::int32_t>(path.Count);
   double optical = 0.0;
+  PlateTransmittance transmittance;
   for (std::size_t k = 0; k < path.Count; ++k)
   {
     const PathPoint& point = path.Points[k];
@@ -345,11 +346,12 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
     const double length = glm::length(next - point.Ray.Origin);
     vertex.Depth += length;
     optical += length / passage.Behind;
-    const double reflectance = FresnelReflectance(point.Cosine, passage.Before, passage.Behind);
-    vertex.Transmittance *= 1.0 - reflectance;
-    vertex.Reflectance = k == 0 ? reflectance : vertex.Reflectance;
+    transmittance.Add(point.Cosine, passage.Before, passage.Behind);
     vertex.LastSightPoint = point.Ray.Origin + origin;
   }
+  vertex.Transmittance = transmittance.Get();
+  vertex.Reflectance =
+    FresnelReflectance(first.Cosine, links[0].Passage.Before, links[0].Passage.Behind);
   vertex.SightPoint = first.Ray.Origin + origin;
   vertex.Position = first.Ray.Origin + path.Sight * (links[0].Passage.Before * optical) + origin;
   vertex.Cosine = first.Cosine;

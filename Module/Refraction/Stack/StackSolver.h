@@ -43,7 +43,7 @@ namespace meniscus
 struct StackDetail
 {
   glm::dvec3 LastSightPoint{ 0.0 }; ///< on the last interface in front of the point
-  double Transmittance = 1.0;       ///< product of 1 - Fresnel reflectance over the interfaces
+  double Transmittance = 1.0;       ///< of the interfaces in front of it: PlateTransmittance
   std::int32_t Passed = 0;          ///< number of interfaces in front of the point
 };
 

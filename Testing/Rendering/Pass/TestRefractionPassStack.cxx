@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
@@ -37,14 +39,30 @@ void AddPane(Pool& pool)
   pool.Bottom->SetResolution(240, 240);
 }
 
-/** Reflectance of unpolarised light for an angle of incidence with this sine in air. */
-double MakeFresnelAt(double sine, double before, double behind)
+/** Reflectances of both polarisations for an angle of incidence with this sine in air. */
+std::array<double, 2> MakeFresnelAt(double sine, double before, double behind)
 {
   const double c = std::sqrt(1.0 - std::pow(sine / before, 2.0));
   const double d = std::sqrt(1.0 - std::pow(sine / behind, 2.0));
   const double s = (before * c - behind * d) / (before * c + behind * d);
   const double p = (behind * c - before * d) / (behind * c + before * d);
-  return 0.5 * (s * s + p * p);
+  return { s * s, p * p };
+}
+
+/**
+ * Transmittance of a plate for unpolarised light: the sum of the geometric series of the light that
+ * is reflected between its sides, for each polarisation.
+ */
+double MakePlateTransmittance(double sine, double glass, double behind)
+{
+  const std::array<double, 2> upper = MakeFresnelAt(sine, 1.0, glass);
+  const std::array<double, 2> lower = MakeFresnelAt(sine, glass, behind);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    sum += (1.0 - upper[k]) * (1.0 - lower[k]) / (1.0 - upper[k] * lower[k]);
+  }
+  return 0.5 * sum;
 }
 
 double SineOf(const Sight& sight)
@@ -54,22 +72,35 @@ double SineOf(const Sight& sight)
 
 }
 
-TEST(RefractionPassStack, FresnelsProductAlongAPane)
+/** White objects behind a pane, on water and in air, and the background that it reflects. */
+TEST(RefractionPassStack, APaneReflectsByBothSides)
+{
+  for (const double behind : { Water, 1.0 })
+  {
+    Pool pool;
+    AddPane(pool);
+    pool.Filter->GetInterfaces()->GetInterface(1)->SetInteriorIndexOfRefraction(behind);
+    // To the side, where the second interface reflects most.
+    for (const double x : { 0.0, 3.0, 6.0 })
+    {
+      pool.LookFrom(x, 0.0);
+      ExpectColors(pool, "pane",
+        [&](const Sight& sight, int channel)
+        {
+          const double passed = MakePlateTransmittance(SineOf(sight), Glass, behind);
+          return passed + (1.0 - passed) * Background[channel];
+        });
+    }
+  }
+}
+
+/** The background is seen through the pane as objects are, and in it. */
+TEST(RefractionPassStack, TheBackgroundIsNotDimmed)
 {
   Pool pool;
   AddPane(pool);
-  // To the side, where the second interface reflects most.
-  for (const double x : { 0.0, 3.0, 6.0 })
-  {
-    pool.LookFrom(x, 0.0);
-    ExpectColors(pool, "product",
-      [&](const Sight& sight, int channel)
-      {
-        const double first = MakeFresnelAt(SineOf(sight), 1.0, Glass);
-        const double second = MakeFresnelAt(SineOf(sight), Glass, Water);
-        return (1.0 - first) * (1.0 - second) + first * Background[channel];
-      });
-  }
+  pool.Floor->SetVisibility(false);
+  ExpectColors(pool, "empty", [&](const Sight&, int channel) { return Background[channel]; });
 }
 
 /** The second interface of a glass that is much denser dims visibly: more than the rounding. */
@@ -80,14 +111,13 @@ TEST(RefractionPassStack, TheSecondInterfaceCounts)
   constexpr double dense = 2.4;
   pool.Filter->SetInteriorIndexOfRefraction(dense);
   pool.Filter->GetInterfaces()->GetInterface(1)->SetExteriorIndexOfRefraction(dense);
-  const double second = MakeFresnelAt(0.0, dense, Water);
+  const double second = MakeFresnelAt(0.0, dense, Water)[0];
   ASSERT_GT(second, 10.0 * Rounding);
   ExpectColors(pool, "dense",
     [&](const Sight& sight, int channel)
     {
-      const double first = MakeFresnelAt(SineOf(sight), 1.0, dense);
-      const double behind = MakeFresnelAt(SineOf(sight), dense, Water);
-      return (1.0 - first) * (1.0 - behind) + first * Background[channel];
+      const double passed = MakePlateTransmittance(SineOf(sight), dense, Water);
+      return passed + (1.0 - passed) * Background[channel];
     });
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
   ExpectColors(pool, "clear", [](const Sight&, int) { return 1.0; });

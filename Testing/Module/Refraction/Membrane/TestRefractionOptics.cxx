@@ -3,9 +3,12 @@
 // Snell's law, its extrapolations and Fresnel's equations against closed forms.
 #include "Refraction/Membrane/Optics.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 namespace
 {
@@ -132,6 +135,58 @@ TEST(RefractionOptics, FresnelLimits)
   EXPECT_EQ(FresnelReflectance(0.0, 1.333, 1.333), 0.0);
   EXPECT_EQ(FresnelReflectance(-0.5, 1.0, 1.5), FresnelReflectance(0.0, 1.0, 1.5));
   EXPECT_NEAR(SchlickReflectance(0.0, 1.0, 1.5), 1.0, Rounding);
+}
+
+TEST(RefractionOptics, PolarizedReflectancesHaveTheUnpolarisedOneAsTheirMean)
+{
+  for (const double interior : { 1.0, 1.333, 2.4, 0.75 })
+  {
+    for (double cosine = 0.0; cosine <= 1.0; cosine += 0.01)
+    {
+      const meniscus::PolarizedReflectance r =
+        meniscus::ComputePolarizedReflectance(cosine, 1.0, interior);
+      EXPECT_NEAR(0.5 * (r.Across + r.Within), FresnelReflectance(cosine, 1.0, interior), 1.0e-13);
+    }
+  }
+}
+
+/** A pane of glass in air: (1 - R) / (1 + R) for each polarisation. */
+TEST(RefractionOptics, APaneTransmitsWithAllReflectionsInIt)
+{
+  const std::pair<double, double> expected[] = { { 0.0, 0.9231 }, { 75.0, 0.6182 } };
+  for (const auto& [degrees, share] : expected)
+  {
+    const double cosine = std::cos(glm::radians(degrees));
+    const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (1.5 * 1.5));
+    const meniscus::PolarizedReflectance r =
+      meniscus::ComputePolarizedReflectance(cosine, 1.0, 1.5);
+    meniscus::PlateTransmittance pane;
+    pane.Add(cosine, 1.0, 1.5);
+    EXPECT_NEAR(pane.Get(), 1.0 - FresnelReflectance(cosine, 1.0, 1.5), Rounding);
+    pane.Add(inside, 1.5, 1.0);
+    EXPECT_NEAR(pane.Get(), share, 1.0e-4);
+    EXPECT_NEAR(pane.Get(),
+      0.5 * ((1.0 - r.Across) / (1.0 + r.Across) + (1.0 - r.Within) / (1.0 + r.Within)), Rounding);
+    // m panes transmit (1 - R) / (1 + (2 m - 1) R).
+    pane.Add(cosine, 1.0, 1.5);
+    pane.Add(inside, 1.5, 1.0);
+    EXPECT_NEAR(pane.Get(),
+      0.5 * ((1.0 - r.Across) / (1.0 + 3.0 * r.Across) + (1.0 - r.Within) / (1.0 + 3.0 * r.Within)),
+      Rounding);
+  }
+}
+
+TEST(RefractionOptics, NothingPassesATotalReflection)
+{
+  meniscus::PlateTransmittance plates;
+  plates.Add(0.0, 1.0, 1.5); // grazing
+  EXPECT_EQ(plates.Get(), 0.0);
+  plates.Add(0.1, 1.5, 1.0);
+  EXPECT_EQ(plates.Get(), 0.0);
+  meniscus::PlateTransmittance beyond;
+  beyond.Add(0.1, 1.5, 1.0);
+  beyond.Add(0.5, 1.0, 1.5);
+  EXPECT_EQ(beyond.Get(), 0.0);
 }
 
 }
