@@ -93,10 +93,14 @@ function (meniscus_add_suite suite target label room prefix all)
 endfunction ()
 
 # To be called once for a program, after its tests are added. No test may be missed because its
-# suite has not been found in the sources: one more process runs all others, usually none.
+# suite has not been found in the sources: one more process runs all others, usually none. Builds
+# with clang's counters of blocks record which code is run (scripts/check_reach.py).
 function (meniscus_complete_tests target label)
   get_target_property(found ${target} meniscus_filter)
   meniscus_add_process("${target}.OtherSuites" ${target} "-${found}" 20 "${label}" ${ARGN})
+  if (MENISCUS_SANITIZER MATCHES "fuzzer-no-link")
+    target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing/Support/CoverageRecorder.cxx")
+  endif ()
 endfunction ()
 
 # meniscus_discover_tests(TARGET LABEL [PREFIX prefix] [SOURCES source...] [PROPERTIES ...]): adds
