@@ -2,11 +2,6 @@
 # code that a test is about. Testing/Module/Volume/Mesh has the tests of the room
 # Module/Volume/Mesh. scripts/check builds and runs the tests of rooms by these labels.
 
-option(MENISCUS_GROUP_TESTS "Run the tests of a program and a room in one process" OFF)
-set(MENISCUS_LEFT_OUT_TESTS "" CACHE STRING
-  "Tests that MENISCUS_GROUP_TESTS leaves out, in the syntax of --gtest_filter")
-mark_as_advanced(MENISCUS_GROUP_TESTS MENISCUS_LEFT_OUT_TESTS)
-
 # Makes a program a part of the target meniscus_tests_LABEL, which builds all tests of a kind.
 function (meniscus_label_tests target label)
   if (NOT TARGET meniscus_tests_${label})
@@ -15,14 +10,12 @@ function (meniscus_label_tests target label)
   add_dependencies(meniscus_tests_${label} ${target})
 endfunction ()
 
-# Finds the rooms of a GoogleTest program, by the folders of its sources. Sets meniscus_rooms, and
+# Finds the rooms of sources of a GoogleTest program, by their folders. Sets meniscus_rooms, and
 # meniscus_suites_ROOM to the test suites of each room.
-function (meniscus_find_rooms target)
-  get_target_property(sources ${target} SOURCES)
-  get_target_property(folder ${target} SOURCE_DIR)
+function (meniscus_find_rooms)
   set(rooms)
-  foreach (source IN LISTS sources)
-    get_filename_component(path "${source}" ABSOLUTE BASE_DIR "${folder}")
+  foreach (source IN LISTS ARGN)
+    get_filename_component(path "${source}" ABSOLUTE)
     file(RELATIVE_PATH room "${PROJECT_SOURCE_DIR}/Testing" "${path}")
     get_filename_component(room "${room}" DIRECTORY)
     if (NOT EXISTS "${path}")
@@ -42,79 +35,98 @@ function (meniscus_find_rooms target)
   set(meniscus_rooms ${rooms} PARENT_SCOPE)
 endfunction ()
 
-# One test per room of a program: all its suites in one process.
-function (meniscus_add_room_tests target label prefix)
-  foreach (room IN LISTS meniscus_rooms)
-    set(filter "")
-    foreach (suite IN LISTS meniscus_suites_${room})
-      string(APPEND filter "${suite}.*:*/${suite}.*:${suite}/*.*:")
-    endforeach ()
-    set(name "${prefix}${target}.${room}")
-    add_test(NAME "${name}"
-      COMMAND ${target} "--gtest_filter=${filter}-${MENISCUS_LEFT_OUT_TESTS}" --gtest_brief=1)
-    set_tests_properties("${name}" PROPERTIES ${ARGN} LABELS "${label};${room}" TIMEOUT 3000)
+# Reads Testing/TestTimes.txt: meniscus_long_tests has the names of the tests that take long, and
+# meniscus_seconds_NAME their usual time.
+function (meniscus_read_times)
+  set(file "${PROJECT_SOURCE_DIR}/Testing/TestTimes.txt")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  file(STRINGS "${file}" lines REGEX "^[0-9]+ ")
+  set(names)
+  foreach (line IN LISTS lines)
+    string(REGEX MATCH "^([0-9]+) ([^ ]+)" line "${line}")
+    list(APPEND names "${CMAKE_MATCH_2}")
+    set("meniscus_seconds_${CMAKE_MATCH_2}" "${CMAKE_MATCH_1}" PARENT_SCOPE)
   endforeach ()
+  set(meniscus_long_tests ${names} PARENT_SCOPE)
 endfunction ()
 
-# Adds the room of each discovered test to its labels, when ctest reads the list TESTS, and limits
-# its time to ten times the usual one of Testing/TestTimes.txt, 3 s if it is not listed there.
-# Tests that are listed have the label "long" as well.
-function (meniscus_label_discovered target label tests)
-  string(CONCAT script
-    "file(STRINGS \"${PROJECT_SOURCE_DIR}/Testing/TestTimes.txt\" lines REGEX \"^[0-9]+ \")\n"
-    "foreach (line IN LISTS lines)\n"
-    "  string(REGEX MATCH \"^([0-9]+) (.*)$\" line \"\${line}\")\n"
-    "  set(\"meniscus_seconds_\${CMAKE_MATCH_2}\" \"\${CMAKE_MATCH_1}\")\n"
-    "endforeach ()\n")
+# meniscus_add_process(NAME TARGET FILTER SECONDS LABELS [PROPERTY VALUE]...): one process for the
+# tests of a filter. It fails after ten times its usual seconds, so that a hang is seen, and writes
+# the time of each of its tests for scripts/test_times.py.
+function (meniscus_add_process name target filter seconds labels)
   set(limit 10)
   if (MENISCUS_SANITIZER OR CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(limit 100)
   endif ()
-  foreach (room IN LISTS meniscus_rooms)
-    foreach (suite IN LISTS meniscus_suites_${room})
-      string(APPEND script "set(meniscus_room_${suite} \"${room}\")\n")
-    endforeach ()
-  endforeach ()
-  string(APPEND script
-    "foreach (test IN LISTS ${tests})\n"
-    "  set(labels \"${label}\")\n"
-    "  set(seconds 3)\n"
-    "  if (DEFINED \"meniscus_seconds_\${test}\")\n"
-    "    set(seconds \"\${meniscus_seconds_\${test}}\")\n"
-    "    list(APPEND labels long)\n"
-    "  endif ()\n"
-    "  math(EXPR seconds \"${limit} * \${seconds}\")\n"
-    "  if (test MATCHES \"(^|[./])([A-Za-z0-9_]+)(/[0-9]+)?\\\\.[A-Za-z0-9_]+(/[^.]*)?$\" AND\n"
-    "      DEFINED meniscus_room_\${CMAKE_MATCH_2})\n"
-    "    list(APPEND labels \"\${meniscus_room_\${CMAKE_MATCH_2}}\")\n"
-    "  endif ()\n"
-    "  set_tests_properties(\"\${test}\" PROPERTIES\n"
-    "    LABELS \"\${labels}\" TIMEOUT \${seconds})\n"
-    "endforeach ()\n")
-  set(file "${CMAKE_CURRENT_BINARY_DIR}/${tests}_rooms.cmake")
-  file(GENERATE OUTPUT "${file}" CONTENT "${script}")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
+  math(EXPR limit "${limit} * ${seconds}")
+  add_test(NAME "${name}" COMMAND ${target} "--gtest_filter=${filter}"
+    "--gtest_output=json:${CMAKE_BINARY_DIR}/Testing/Temporary/Times/${name}.json")
+  # ctest starts tests of a high cost first.
+  set_tests_properties("${name}" PROPERTIES ${ARGN}
+    LABELS "${labels}" TIMEOUT ${limit} COST ${seconds})
 endfunction ()
 
-# meniscus_discover_tests(TARGET LABEL [PREFIX prefix] [PROPERTY VALUE]...): adds the tests of a
-# GoogleTest program. With a prefix the program can be added several times.
+# Adds the tests of a suite: one process for those that are quick, and one for each that takes long.
+# The label "sanitized" marks what scripts/sanitize runs: unit tests, and quick pipeline tests.
+function (meniscus_add_suite suite target label room prefix all)
+  set(quick_labels "${label};${room}")
+  set(long_labels "${label};${room};long")
+  if (label STREQUAL "unit")
+    list(APPEND long_labels sanitized)
+  endif ()
+  if (label MATCHES "^(unit|pipeline)$")
+    list(APPEND quick_labels sanitized)
+  endif ()
+  set(left_out "")
+  string(REPLACE "." "\\." start "^${prefix}")
+  foreach (test IN LISTS meniscus_long_tests)
+    if (test MATCHES "${start}([^.]*/)?${suite}(/[^.]*)?\\.")
+      string(LENGTH "${prefix}" length)
+      string(SUBSTRING "${test}" ${length} -1 filter)
+      string(APPEND left_out ":${filter}")
+      meniscus_add_process("${test}" ${target} "${filter}" ${meniscus_seconds_${test}}
+        "${long_labels}" ${ARGN})
+    endif ()
+  endforeach ()
+  meniscus_add_process("${prefix}${suite}" ${target} "${all}-${left_out}" 20 "${quick_labels}"
+    ${ARGN})
+endfunction ()
+
+# To be called once for a program, after its tests are added. No test may be missed because its
+# suite has not been found in the sources: one more process runs all others, usually none. Builds
+# with clang's counters of blocks record which code is run (scripts/check_reach.py).
+function (meniscus_complete_tests target label)
+  get_target_property(found ${target} meniscus_filter)
+  meniscus_add_process("${target}.OtherSuites" ${target} "-${found}" 20 "${label}" ${ARGN})
+  if (MENISCUS_SANITIZER MATCHES "fuzzer-no-link")
+    target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing/Support/CoverageRecorder.cxx")
+  endif ()
+endfunction ()
+
+# meniscus_discover_tests(TARGET LABEL [PREFIX prefix] [SOURCES source...] [PROPERTIES ...]): adds
+# the tests of a GoogleTest program, by suites, because starting a process takes as long as many
+# tests do. With a prefix they can be added several times. If only a part of the sources is given,
+# meniscus_complete_tests is to be called after the last part.
 function (meniscus_discover_tests target label)
-  cmake_parse_arguments(PARSE_ARGV 2 add "" "PREFIX" "")
-  set(properties ${add_UNPARSED_ARGUMENTS})
+  cmake_parse_arguments(PARSE_ARGV 2 add "" "PREFIX" "SOURCES;PROPERTIES")
+  set(sources ${add_SOURCES})
+  if (NOT sources)
+    get_target_property(sources ${target} SOURCES)
+  endif ()
   meniscus_label_tests(${target} ${label})
-  meniscus_find_rooms(${target})
+  meniscus_find_rooms(${sources})
+  meniscus_read_times()
   foreach (room IN LISTS meniscus_rooms)
     set_property(GLOBAL APPEND_STRING PROPERTY meniscus_rooms "${room} ${target} ${label}\n")
+    foreach (suite IN LISTS meniscus_suites_${room})
+      set(filter "${suite}.*:*/${suite}.*:${suite}/*.*:*/${suite}/*.*")
+      set_property(TARGET ${target} APPEND_STRING PROPERTY meniscus_filter "${filter}:")
+      meniscus_add_suite(${suite} ${target} ${label} "${room}" "${add_PREFIX}" "${filter}"
+        ${add_PROPERTIES})
+    endforeach ()
   endforeach ()
-  if (MENISCUS_GROUP_TESTS)
-    meniscus_add_room_tests(${target} ${label} "${add_PREFIX}" ${properties})
-  else ()
-    string(REPLACE "." "" suffix "_${add_PREFIX}")
-    gtest_discover_tests(${target}
-      TEST_PREFIX "${add_PREFIX}"
-      TEST_LIST   ${target}${suffix}
-      PROPERTIES  LABELS ${label} ${properties})
-    meniscus_label_discovered(${target} ${label} ${target}${suffix})
+  if (NOT add_SOURCES)
+    meniscus_complete_tests(${target} ${label} ${add_PROPERTIES})
   endif ()
 endfunction ()
 

@@ -5,9 +5,11 @@
 
 usage: test_times.py BUILD
 
-BUILD is a build folder in which ctest has run on an idle machine. A test fails if it takes ten
-times as long as it usually does (CMake/MeniscusTests.cmake), so that a hang is seen.
+BUILD is a build folder in which ctest has run all tests on an idle machine. Tests of the list have
+processes of their own (CMake/MeniscusTests.cmake), which fail if they take ten times as long.
 """
+import glob
+import json
 import math
 import os
 import sys
@@ -15,14 +17,15 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # Tests below this are not listed.
 SHORT = 3.0
+# The backends that programs are run with.
+PREFIXES = ("Native.", "OpenGL.")
 HEADER = "# Usual seconds of the tests that take {short:g} s and longer, by {script}.\n"
 
 
-def times_of(build):
-    """Mean seconds of each test, from ctest's own records."""
-    path = os.path.join(build, "Testing", "Temporary", "CTestCostData.txt")
+def times_of_ctest(folder):
+    """Mean seconds of ctest's tests, from its own records."""
     times = {}
-    with open(path, encoding="utf-8") as file:
+    with open(os.path.join(folder, "CTestCostData.txt"), encoding="utf-8") as file:
         for line in file:
             if line.startswith("---"):
                 break
@@ -31,17 +34,39 @@ def times_of(build):
     return times
 
 
+def times_of_processes(folder):
+    """The processes of GoogleTest programs, and the seconds of each of their tests."""
+    processes = set()
+    times = {}
+    for path in glob.glob(os.path.join(folder, "Times", "**", "*.json"), recursive=True):
+        name = os.path.relpath(path, os.path.join(folder, "Times"))[:-len(".json")]
+        processes.add(name)
+        with open(path, encoding="utf-8") as file:
+            suites = json.load(file)["testsuites"]
+        for suite in suites:
+            # The process has the name of the suite without parameters, or of a test, with a prefix.
+            start = name.split(".")[0] + "."
+            prefix = start if start in PREFIXES else ""
+            for test in suite["testsuite"]:
+                times[f'{prefix}{suite["name"]}.{test["name"]}'] = float(test["time"].rstrip("s"))
+    return processes, times
+
+
 def main():
     """Writes the file."""
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    times = times_of(sys.argv[1])
+    folder = os.path.join(sys.argv[1], "Testing", "Temporary")
+    processes, times = times_of_processes(folder)
+    for name, seconds in times_of_ctest(folder).items():
+        if name not in processes:
+            times[name] = seconds
     target = os.path.join(ROOT, "Testing", "TestTimes.txt")
     with open(target, "w", encoding="utf-8") as file:
         file.write(HEADER.format(short=SHORT, script="scripts/test_times.py"))
         for name in sorted(times):
             if times[name] >= SHORT:
-                file.write(f'{math.ceil(times[name])} {name}\n')
+                file.write(f"{math.ceil(times[name])} {name}\n")
 
 
 if __name__ == "__main__":

@@ -182,7 +182,7 @@ bool IsImpossible(const RayCastOptics& optics)
     (optics.VertexGradients && (optics.CellScalars || !optics.UsesGradients()));
 }
 
-/** All variants: each model with each layout of the tables and each kind of ray. */
+/** All variants: each model with each layout of the tables, and with each kind of ray. */
 std::vector<RayCastOptics> ListVariants()
 {
   std::vector<RayCastOptics> variants;
@@ -193,20 +193,29 @@ std::vector<RayCastOptics> ListVariants()
       variants.push_back(model);
     }
   }
-  // Full cells always have four numbers per texel.
-  Vary(variants, std::vector<int>{ 0, 1, 2 },
-    [](RayCastOptics& optics, int layout)
+  // Layouts of the tables and kinds of rays are separate parts of a shader: each layout with plain
+  // rays, each kind of ray with full tables, and one pair of others.
+  struct Kind
+  {
+    bool Compact;
+    bool Wide;
+    bool LongLists;
+    int Legs;
+    bool Dense;
+  };
+  Vary(variants,
+    std::vector<Kind>{ { false, true, false, 1, false }, { true, false, false, 1, false },
+      { true, true, false, 1, false }, { false, true, true, 1, false },
+      { false, true, false, 2, false }, { false, true, false, 2, true },
+      { false, true, false, 3, false }, { true, false, false, 3, false } },
+    [](RayCastOptics& optics, const Kind& kind)
     {
-      optics.CompactCells = layout > 0;
-      optics.WideCells = layout != 1;
-    });
-  // One leg with short and with long lists, two and three legs, through a clear or a dense medium.
-  Vary(variants, std::vector<int>{ 0, 1, 2, 3, 4 },
-    [](RayCastOptics& optics, int kind)
-    {
-      optics.LongLists = kind == 1;
-      optics.NumberOfLegs = kind < 2 ? 1 : (kind == 4 ? 3 : 2);
-      optics.Medium.Attenuation[0] = kind == 3 && optics.Model().HidesBehind() ? 1.0 : 0.0;
+      optics.CompactCells = kind.Compact;
+      // Full cells always have four numbers per texel.
+      optics.WideCells = kind.Wide;
+      optics.LongLists = kind.LongLists;
+      optics.NumberOfLegs = kind.Legs;
+      optics.Medium.Attenuation[0] = kind.Dense && optics.Model().HidesBehind() ? 1.0 : 0.0;
     });
   // Clipping planes do not depend on the layout of the tables.
   std::vector<RayCastOptics> clipped;
