@@ -30,7 +30,9 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ data integrals pyvista
+  __main__ data integrals names pyvista threads
+  api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
+  api/points api/rays api/refraction api/scalars api/surfaces api/types api/volumes
   viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels
   viewer/reading viewer/scene viewer/series viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
@@ -55,13 +57,15 @@ install(
     "${_meniscus_package}/__main__.py"
     "${_meniscus_package}/integrals.py"
     "${_meniscus_package}/data.py"
+    "${_meniscus_package}/names.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
+    "${_meniscus_package}/threads.py"
     "${_meniscus_stubs}"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
   COMPONENT   python)
 install(
-  DIRECTORY   "${PROJECT_SOURCE_DIR}/Python/viewer"
+  DIRECTORY   "${PROJECT_SOURCE_DIR}/Python/viewer" "${PROJECT_SOURCE_DIR}/Python/api"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
   COMPONENT   python
   FILES_MATCHING PATTERN "*.py")

@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Data sets of composite data, and components of their arrays."""
+"""Data sets of composite data, components of their arrays, and messages of filters."""
+import warnings
+
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataSet
 
 
@@ -29,3 +33,27 @@ def check_component(name, count, component):
                else "has no component %r" % component)
     raise ValueError('The array \'%s\' %s; choose one with component=%s or "magnitude"' % (
         name, problem, ", ".join(map(str, range(count)))))
+
+
+def run(algorithm):
+    """Updates a filter. An error that it reports is a ValueError, a warning a RuntimeWarning."""
+    messages = {"ErrorEvent": [], "WarningEvent": []}
+
+    @calldata_type(VTK_STRING)
+    def note(_caller, event, message):
+        lines = [line.strip() for line in message.splitlines() if line.strip()]
+        messages[event].append(lines[-1].split("): ", 1)[-1] if lines else "unknown")
+
+    # The pipeline repeats that the filter has failed.
+    ignored = algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    observers = [algorithm.AddObserver(event, note) for event in messages]
+    try:
+        algorithm.Update()
+    finally:
+        for observer in observers:
+            algorithm.RemoveObserver(observer)
+        algorithm.GetExecutive().RemoveObserver(ignored)
+    if messages["ErrorEvent"]:
+        raise ValueError(messages["ErrorEvent"][0])
+    for message in messages["WarningEvent"]:
+        warnings.warn(message, RuntimeWarning, stacklevel=4)

@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Integrals along rays through a mesh, as arrays."""
-from vtkmodules.util.misc import calldata_type
-from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
-from .data import check_component, leaves_of
+from .data import check_component, leaves_of, run
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
 try:
@@ -15,7 +13,7 @@ except ImportError:
 
 # Arrays that a switch of another name makes.
 _SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
-_ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
+ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
            "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
 # Arrays that do not depend on scalars, and properties that choose components or other arrays.
 _GEOMETRIC = {"PathLength", "FirstDepth", "LastDepth"}
@@ -66,28 +64,8 @@ def _choose_component(rays, array, component):
     rays.SetArrayComponent(-1 if component == "magnitude" else component)
 
 
-def _update(rays):
-    """Updates a filter; an error that it reports is a ValueError."""
-    errors = []
-
-    @calldata_type(VTK_STRING)
-    def note(_caller, _event, message):
-        errors.append(message)
-
-    ignored = rays.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
-    observer = rays.AddObserver("ErrorEvent", note)
-    try:
-        rays.Update()
-    finally:
-        rays.RemoveObserver(observer)
-        rays.GetExecutive().RemoveObserver(ignored)
-    if errors:
-        lines = [line.strip() for line in errors[0].splitlines() if line.strip()]
-        raise ValueError(lines[-1].split("): ", 1)[-1])
-
-
 def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=(256, 256),
-                 camera=None, bins=None, **properties):
+                 camera=None, bins=None, surfaces=None, indices=1.333, **properties):
     """Casts one ray per pixel through a mesh and returns what it measures.
 
     mesh: a VTK or PyVista dataset, or a filter whose output is one.
@@ -99,6 +77,8 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
     size: width and height of the image in pixels.
     camera: a vtkCamera; default: parallel rays along Direction, around the bounding box.
     bins: attenuation coefficients of energy bins, or tuples (attenuation, emission, intensity).
+    surfaces, indices: refracting surfaces on the way of the rays, and indices of refraction; see
+        meniscus.refracted().
     properties: properties of vtkTetrahedraRayIntegral, such as Direction=(0, -1, 0).
 
     Returns 32-bit floats of the shape (height, width), for RGBA and several bins (height, width,
@@ -107,9 +87,9 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
     """
     names = [arrays] if isinstance(arrays, str) else list(arrays)
     for name in names:
-        if name not in _ARRAYS:
+        if name not in ARRAYS:
             raise ValueError("There is no array '%s'; the arrays are %s" % (
-                name, ", ".join(_ARRAYS)))
+                name, ", ".join(ARRAYS)))
     rays = vtkTetrahedraRayIntegral()
     if hasattr(mesh, "GetOutputPort"):
         rays.SetInputConnection(mesh.GetOutputPort())
@@ -128,9 +108,12 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
         rays.SetCamera(camera)
     if bins is not None:
         _set_bins(rays, bins)
+    if surfaces is not None:
+        from .api.surfaces import connect  # needs numpy
+        connect(rays, surfaces, indices)
     for name, value in properties.items():
         getattr(rays, "Set" + name)(value)
-    _update(rays)
+    run(rays)
     points = rays.GetOutput().GetPointData()
     found = {name: _as_rows(points.GetArray(name), *size) for name in names}
     return found[arrays] if isinstance(arrays, str) else found

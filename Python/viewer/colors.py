@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Colour maps by name."""
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonColor import vtkColorSeries
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
@@ -32,10 +34,11 @@ def fill_colors(function, name, low, high):
 
 def make_table(function, low, high, entries=256):
     """A lookup table with the colours of a function, for a scalar bar."""
+    colors = numpy.empty((entries, 3))
+    function.GetTable(low, high, entries, colors.ravel())
     table = vtkLookupTable()
     table.SetNumberOfTableValues(entries)
     table.SetTableRange(low, high)
-    for entry in range(entries):
-        color = function.GetColor(low + (high - low) * entry / (entries - 1))
-        table.SetTableValue(entry, *color, 1.0)
+    rows = numpy.column_stack([numpy.rint(255.0 * colors), numpy.full(entries, 255.0)])
+    table.SetTable(numpy_to_vtk(rows.astype(numpy.uint8), deep=True))
     return table

@@ -5,9 +5,10 @@ import argparse
 import os
 import sys
 
+from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
 from .reading import MeshSeries, ReadingError, read_surface
-from .scene import AXES, BACKENDS, BLEND_MODES, MeshScene
+from .scene import AXES, MeshScene
 from .window import Window, draw_picture, write_picture
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time

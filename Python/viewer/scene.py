@@ -9,30 +9,15 @@ from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkVolume)
-from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
 from .. import vtkTetrahedraRayCastMapper
+from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL
 from .colors import COLOR_MAPS, fill_colors, make_table
 from .levels import BINS, Levels
 from .reading import ReadingError, arrays_of
 
-BLEND_MODES = {
-    "composite": vtkVolumeMapper.COMPOSITE_BLEND,
-    "maximum": vtkVolumeMapper.MAXIMUM_INTENSITY_BLEND,
-    "minimum": vtkVolumeMapper.MINIMUM_INTENSITY_BLEND,
-    "average": vtkVolumeMapper.AVERAGE_INTENSITY_BLEND,
-    "additive": vtkVolumeMapper.ADDITIVE_BLEND,
-    "isosurface": vtkVolumeMapper.ISOSURFACE_BLEND,
-}
-BACKENDS = {
-    "automatic": vtkTetrahedraRayCastMapper.AUTOMATIC,
-    "opengl": vtkTetrahedraRayCastMapper.OPENGL,
-    "compute": vtkTetrahedraRayCastMapper.COMPUTE,
-    "native": vtkTetrahedraRayCastMapper.NATIVE,
-}
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
-ISOSURFACE_OPACITY = 0.4
 
 
 class MeshScene:
@@ -64,10 +49,10 @@ class MeshScene:
         self._add_bar()
         self._clip_plane = vtkPlane()
         look = self.volume.GetProperty()
-        look.SetAmbient(0.35)
-        look.SetDiffuse(0.7)
-        look.SetSpecular(0.25)
-        look.SetSpecularPower(25.0)
+        look.SetAmbient(MATERIAL["ambient"])
+        look.SetDiffuse(MATERIAL["diffuse"])
+        look.SetSpecular(MATERIAL["specular"])
+        look.SetSpecularPower(MATERIAL["specular_power"])
         self.set_array(array or self.get_arrays()[0], limits)
         # Of the cells that are drawn: blocks without the array are not.
         self.bounds = tuple(self.mapper.GetBounds())

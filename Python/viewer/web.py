@@ -5,9 +5,10 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor, vtkWindowToImageFilter
 
+from ..names import BLEND_MODES
 from .colors import COLOR_MAPS
 from .reading import ReadingError
-from .scene import AXES, BLEND_MODES
+from .scene import AXES
 from .window import make_window
 
 PACKAGES = "trame trame-vuetify trame-rca"

@@ -14,9 +14,10 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
 
 from .. import vtkTetrahedraVolumePicker
+from ..names import BLEND_MODES
 from .colors import COLOR_MAPS
 from .files import ReadingError, collecting_reports
-from .scene import AXES, BLEND_MODES
+from .scene import AXES
 
 KEYS = """a      next array
 c      next colour map

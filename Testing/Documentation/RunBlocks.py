@@ -11,7 +11,8 @@ import re
 import shutil
 import sys
 
-SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py", "cpp": "cxx", "cmake": "txt"}
+SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py",
+            "accessor": "py", "cpp": "cxx", "cmake": "txt"}
 # Smallest range of pixel values in a picture, within [0, 255]; that of an empty picture is 0.
 LEAST_CONTRAST = 50
 

@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Volumes in PyVista's plotters."""
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy
+import pyvista
+from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+
+from ..names import ISOSURFACE_OPACITY, MATERIAL
+from ..viewer.cells import drawn_cells_of, drawn_leaves_of
+from .functions import check_color_map, follow_table, make_opaque, take_opacity
+from .mapper import make_mapper
+from .scalars import Scalars
+from .surfaces import connect
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .types import Array, Indices, Mesh, Surfaces
+
+# Colour maps that plotter.add_volume() gives the blocks of a dataset with multi_colors.
+_BLOCK_COLORS = ("Reds", "Greens", "Blues", "Greys", "Oranges", "Purples")
+
+
+def _make_stand_in(bounds, scalars):
+    """A tetrahedron with the bounds of a mesh and the extremes of its scalars. plotter.add_volume()
+    makes of it all that a volume has besides its mapper."""
+    left, right, front, back, bottom, top = bounds
+    extremes = scalars.get_range()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    values = vtkDataArray.CreateDataArray(scalars.arrays[0].GetDataType())
+    values.SetName(scalars.name)
+    for point, value in zip(
+            ((left, front, bottom), (right, back, bottom), (right, front, top), (left, back, top)),
+            (*extremes, *extremes)):
+        points.InsertNextPoint(point)
+        values.InsertNextTuple1(value)
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    grid.InsertNextCell(VTK_TETRA, 4, (0, 1, 2, 3))
+    grid.GetPointData().SetScalars(values)
+    return pyvista.wrap(grid)
+
+
+def _find_unit_distance(mesh, bounds):
+    """Length over which opacities are given: for image data that of plotter.add_volume()."""
+    if isinstance(mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
+        return mesh.length / max(1, sum(mesh.dimensions) / 3 - 1)
+    length = math.hypot(*(bounds[2 * i + 1] - bounds[2 * i] for i in range(3)))
+    cells = sum(int(drawn_cells_of(leaf).sum()) for leaf in drawn_leaves_of(mesh))
+    return length / max(1, cells) ** (1 / 3)
+
+
+def _add_blocks(plotter, blocks, scalars, name, arguments):
+    """Adds each block of a dataset in colours of its own; returns the volumes."""
+    name = name or "blocks(%s)" % blocks.GetAddressAsString("")
+    volumes = []
+    for number, block in enumerate(blocks):
+        if block is not None:
+            arguments["cmap"] = _BLOCK_COLORS[len(volumes) % len(_BLOCK_COLORS)]
+            volumes.append(add_to(
+                block, plotter, scalars, name="%s-%d" % (name, number), **arguments))
+    return volumes
+
+
+def _add_bar(plotter, title, scalar_bar_args, show_scalar_bar):
+    """Adds a scalar bar by the rules of plotter.add_volume()."""
+    if show_scalar_bar is None:
+        show_scalar_bar = plotter.theme.show_scalar_bar or scalar_bar_args
+    if show_scalar_bar:
+        arguments = dict(scalar_bar_args or {})
+        if title is not None:
+            arguments.setdefault("title", title)
+        plotter.add_scalar_bar(**arguments)
+
+
+def _choose_limits(arguments, scalars):
+    """Range of the colours for plotter.add_volume(), in arguments."""
+    if hasattr(arguments.get("clim"), "__len__"):
+        arguments["clim"] = tuple(arguments["clim"])  # PyVista 0.44 takes no arrays
+    if arguments.get("clim", arguments.get("rng")) is None:
+        if arguments.get("log_scale"):
+            arguments["clim"] = scalars.get_positive_range()
+        elif scalars.limits is not None:
+            arguments["clim"] = tuple(map(float, scalars.limits))
+
+
+def _choose_look(arguments, blending, light):
+    """Light, material and opacity for plotter.add_volume(), in arguments."""
+    surfaces = blending == "isosurface"
+    if light is None:
+        light = surfaces
+    if light:
+        arguments.setdefault("shade", True)
+        for name, value in MATERIAL.items():
+            arguments.setdefault(name, value)
+    if surfaces:
+        arguments.setdefault("opacity", [ISOSURFACE_OPACITY] * 2)
+
+
+def _choose_blending(blending, isovalues, scalars):
+    """Name of the blend mode, of which isovalues select isosurfaces if none is given."""
+    if blending is None:
+        blending = "composite" if isovalues is None else "isosurface"
+    if blending == "isosurfaces":
+        blending = "isosurface"
+    if isovalues is not None and blending != "isosurface":
+        raise ValueError("isovalues are those of blending=\"isosurface\", not of '%s'" % blending)
+    if scalars.is_mixed and blending not in ("composite", 0):
+        raise ValueError("rgba and opacity_array need blending=\"composite\"")
+    return blending
+
+
+def _set_isovalues(look, isovalues, limits):
+    """isovalues: values, or the number of values at equal distances inside limits."""
+    if not hasattr(isovalues, "__len__"):
+        if isovalues < 1:
+            raise ValueError("The number of isovalues must be at least 1")
+        isovalues = numpy.linspace(*limits, isovalues + 2)[1:-1]
+    contours = look.GetIsoSurfaceValues()
+    contours.SetNumberOfContours(len(isovalues))
+    for index, value in enumerate(isovalues):
+        contours.SetValue(index, value)
+
+
+def add_to(
+    mesh: Mesh, plotter: pyvista.Plotter, scalars: str | Array | None = None, *,
+    component: int | str | None = None, rgba: bool = False,
+    opacity_array: str | None = None, opacity_component: int | str | None = None,
+    opacity_clim: Sequence[float] | None = None,
+    blending: str | None = None, isovalues: int | Sequence[float] | None = None,
+    light: bool | None = None, opacity_unit_distance: float | None = None,
+    backend: str = "automatic", surfaces: Surfaces | None = None, indices: Indices = 1.333,
+    preference: str = "point", categories: bool | int = False,
+    scalar_bar_args: dict[str, Any] | None = None, show_scalar_bar: bool | None = None,
+    render: bool = True, name: str | None = None, multi_colors: bool = False, **arguments: Any,
+) -> Any:
+    """Adds a mesh to a plotter as a volume and returns the pyvista.Volume.
+
+    mesh: a dataset with cells that have a volume, of any type. The blocks of a pyvista.MultiBlock
+        are one mesh with one range of values; blocks without the array or without volume are left
+        out.
+    plotter: pyvista.Plotter.
+    scalars: name of an array of points or cells, or the values themselves, one per point or cell;
+        default: the active scalars.
+    component: number of a component from 0, or "magnitude"; needed for an array with several.
+    rgba: draws an array of points with 3 or 4 components as colours, and the fourth as opacity:
+        uint8 from 0 to 255, or floating-point numbers from 0 to 1. Default: False.
+    opacity_array: name of another array of points, which the opacity is taken from; the colours
+        are those of scalars. opacity_component: as component. opacity_clim: range over which
+        `opacity` runs, (low, high); default: the range of the array's values.
+    blending: "composite" (default), "maximum", "minimum", "average", "additive", "isosurface".
+    isovalues: values of isosurfaces, or the number of values at equal distances inside clim, for
+        blending="isosurface", which they select; default: 3.
+    light: whether the volume is lit, with one material for all. Default: isosurfaces only.
+        PyVista's shade, ambient, diffuse, specular and specular_power override it.
+    opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default:
+        the mesh's diagonal divided by the mean number of cells along an axis. Over this length an
+        image or rectilinear grid has the given opacity, another mesh 1 - exp(-opacity), as with
+        plotter.add_volume().
+    backend: what casts the rays: "automatic" (default), "opengl", "compute", "native".
+    surfaces, indices: refracting surfaces through which the volume is seen, and indices of
+        refraction; see meniscus.refracted(). Default: none.
+    multi_colors: adds each block of a pyvista.MultiBlock as a volume of its own in colours of its
+        own, blended in the order of the blocks; returns a list of them. Default: False.
+    preference, categories, scalar_bar_args, show_scalar_bar, render, name: as in
+        plotter.add_volume().
+    arguments: all other arguments of plotter.add_volume(), such as cmap (a name of PyVista,
+        matplotlib, cmocean or colorcet), opacity, clim, log_scale, n_colors, user_matrix; and
+        properties of vtkTetrahedraRayCastMapper, such as CellDivision=1. With log_scale, colour and
+        opacity depend on the logarithm of the value; without clim, from the least value above 0 on.
+
+    Raises ValueError for a mesh without volume, for several components without a choice, for
+    scalars that are missing or not finite, and for names of modes and colour maps that do not exist
+    (the message lists those that do); KeyError for the name of an array that does not exist.
+    """
+    source, mesh = mesh, pyvista.wrap(mesh)
+    if multi_colors and isinstance(mesh, pyvista.MultiBlock):
+        return _add_blocks(plotter, mesh, scalars, name, dict(
+            arguments, component=component, rgba=rgba, opacity_array=opacity_array,
+            opacity_component=opacity_component, opacity_clim=opacity_clim, blending=blending,
+            isovalues=isovalues, light=light, opacity_unit_distance=opacity_unit_distance,
+            backend=backend, surfaces=surfaces, indices=indices, preference=preference,
+            categories=categories, scalar_bar_args=scalar_bar_args,
+            show_scalar_bar=show_scalar_bar, render=render))
+    chosen = Scalars(mesh, scalars, preference, component, rgba)
+    if opacity_array is not None:
+        if rgba:
+            raise ValueError("rgba=True has an opacity of its own; leave opacity_array out")
+        chosen.add_opacity(opacity_array, opacity_component, opacity_clim)
+    blending = _choose_blending(blending, isovalues, chosen)
+    properties = {key: arguments.pop(key) for key in list(arguments) if key[0].isupper()}
+    check_color_map(arguments.get("cmap"))
+    _choose_limits(arguments, chosen)
+    _choose_look(arguments, blending, light)
+    mapper = make_mapper(chosen, blending, backend, properties)
+    if opacity_unit_distance is None:
+        opacity_unit_distance = _find_unit_distance(chosen.mesh, tuple(mapper.GetBounds()))
+    if surfaces is not None:
+        connect(mapper, surfaces, indices)
+    volume = plotter.add_volume(
+        _make_stand_in(tuple(mapper.GetBounds()), chosen), scalars=chosen.name,
+        categories=chosen.count_categories(categories),
+        opacity_unit_distance=opacity_unit_distance, show_scalar_bar=False, render=False,
+        name=name or "%s(%s)" % (type(mesh).__name__, mapper.GetAddressAsString("")), **arguments)
+    mapper.scalar_range = volume.mapper.scalar_range
+    # After the range: a user's table keeps its own.
+    mapper.lookup_table = volume.mapper.lookup_table
+    mapper.source = source
+    volume.mapper = mapper
+    plotter.mapper = mapper
+    look = volume.prop
+    table = mapper.lookup_table
+    if chosen.opacity_limits:
+        opacity = take_opacity(table, chosen.opacity_limits)
+        if table is not arguments.get("cmap"):
+            make_opaque(table)  # the legend shows colours alone
+        follow_table(look, table, opacity)
+    elif table.GetScale() == VTK_SCALE_LOG10 or pyvista.version_info < (0, 45):
+        follow_table(look, table)
+    if chosen.is_mixed:
+        look.SetIndependentComponents(False)
+    if blending == "isosurface":
+        _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range)
+    if not rgba:
+        _add_bar(plotter, chosen.title, scalar_bar_args, show_scalar_bar)
+    if render:
+        plotter.render()
+    return volume
+
+
+def plot(
+    mesh: Mesh, scalars: str | Array | None = None, *, off_screen: bool | None = None,
+    window_size: Sequence[int] | None = None, background: Any = None, cpos: Any = None,
+    screenshot: Any = False, show_axes: bool | None = None, jupyter_backend: str | None = None,
+    return_img: bool = False, **arguments: Any,
+) -> Any:
+    """Shows a mesh as a volume in a window, or in a notebook.
+
+    mesh, scalars: as in meniscus.add_to().
+    off_screen: draws without a window; default: PyVista's setting.
+    window_size: width and height in pixels; default: PyVista's setting.
+    background: colour; default: that of PyVista's theme.
+    cpos: camera position as pyvista.plot() takes it, such as "xy".
+    screenshot: file name of a picture, or True to return it.
+    show_axes: whether axes are shown in a corner; default: PyVista's setting.
+    jupyter_backend: in a notebook "trame" or "server" (pictures that the kernel draws, turned with
+        the mouse), "static" (one picture) or "none". The browser cannot draw these volumes itself:
+        "client" and "html" are a ValueError. Default: "server" where trame is installed, otherwise
+        "static".
+    return_img: returns the picture, (height, width, 3) of uint8.
+    arguments: all other arguments of meniscus.add_to().
+
+    Returns what pyvista.Plotter.show() returns.
+    """
+    from .notebook import choose_backend
+
+    backend = choose_backend(jupyter_backend)
+    plotter = pyvista.Plotter(off_screen=off_screen, window_size=window_size)
+    if background is not None:
+        plotter.set_background(background)
+    add_to(mesh, plotter, scalars, **{"render": False, **arguments})
+    if show_axes if show_axes is not None else plotter.theme.axes.show:
+        plotter.add_axes()
+    return plotter.show(cpos=cpos, screenshot=screenshot, return_img=return_img,
+                        **({"jupyter_backend": backend} if plotter.notebook else {}))

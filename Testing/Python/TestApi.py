@@ -1,0 +1,296 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Functions of the package that need no PyVista: true positions, ray integrals, threads, errors."""
+import os
+import subprocess
+import sys
+import unittest
+import warnings
+
+import meniscus
+import numpy
+from meniscus.viewer.colors import COLOR_MAPS, fill_colors, make_table
+from TestRayIntegral import make_block
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
+
+INDEX = 1.333
+# Water in the plane z = 0, wound towards positive z.
+SQUARE = (numpy.array([[-9.0, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]]),
+          numpy.array([[0, 1, 2], [0, 2, 3]]))
+# Far from rounding in a scene of 20.
+TOLERANCE = 1e-11
+
+
+def make_plane():
+    source = vtkPlaneSource()
+    source.SetOrigin(-9, -9, 0)
+    source.SetPoint1(9, -9, 0)
+    source.SetPoint2(-9, 9, 0)
+    source.Update()
+    return source.GetOutput()
+
+
+def refract(directions, index):
+    """Refracted unit vectors of unit vectors that go down through z = 0 (Snell's law)."""
+    sideways = directions[:, :2] / index
+    return numpy.column_stack([sideways, -numpy.sqrt(1 - (sideways ** 2).sum(axis=1))])
+
+
+def see(eye, points):
+    """Sight points in z = 0 of points below it, by bisection of Snell's law in the plane of each
+    ray."""
+    offsets = points[:, :2] - eye[:2]
+    far = numpy.hypot(*offsets.T)
+    low, high = numpy.zeros(len(points)), far.copy()
+    for _ in range(200):
+        middle = (low + high) / 2
+        incoming = middle / numpy.hypot(middle, eye[2])
+        refracted = (far - middle) / numpy.hypot(far - middle, points[:, 2])
+        low = numpy.where(incoming < INDEX * refracted, middle, low)
+        high = numpy.where(incoming < INDEX * refracted, high, middle)
+    places = eye[:2] + offsets * (low / far)[:, None]
+    return numpy.column_stack([places, numpy.zeros(len(points))])
+
+
+class TestTruePositions(unittest.TestCase):
+    def setUp(self):
+        random = numpy.random.default_rng(1)
+        self.seen = random.uniform((-4, -4, -3), (4, 4, -0.1), (50, 3))
+        self.eyes = random.uniform((-2, -2, 1), (2, 2, 4), (50, 3))
+
+    def expected(self, eyes, depth):
+        directions = self.seen - eyes
+        lengths = numpy.linalg.norm(directions, axis=1)
+        directions /= lengths[:, None]
+        before = eyes[:, 2] / -directions[:, 2]
+        factor = {"apparent": INDEX, "optical": 1 / INDEX, "geometric": 1.0}[depth]
+        return (eyes + directions * before[:, None]
+                + refract(directions, INDEX) * ((lengths - before) * factor)[:, None])
+
+    def test_flat_water(self):
+        for surface in (make_plane(), SQUARE, [SQUARE]):
+            for depth in ("apparent", "optical", "geometric"):
+                found = meniscus.true_positions(self.seen, self.eyes, surface, INDEX, depth=depth)
+                numpy.testing.assert_allclose(
+                    found, self.expected(self.eyes, depth), atol=TOLERANCE)
+        eye = (1, 2, 3)
+        numpy.testing.assert_allclose(
+            meniscus.true_positions(self.seen, eye, SQUARE),
+            self.expected(numpy.broadcast_to(eye, self.seen.shape), "apparent"), atol=TOLERANCE)
+
+    def test_indices(self):
+        """A number, the list of media and pairs mean the same; several surfaces add up."""
+        found = [meniscus.true_positions(self.seen, self.eyes, SQUARE, indices) for indices in (
+            INDEX, [INDEX], [1.0, INDEX], [(1.0, INDEX)])]
+        for other in found[1:]:
+            numpy.testing.assert_array_equal(other, found[0])
+        lower = (SQUARE[0] - [0, 0, 0.1], SQUARE[1])
+        below = numpy.array([[0, 0, -0.1 / 1.5 - 1 / INDEX]])
+        for indices in ([1.5, INDEX], [1.0, 1.5, INDEX], [(1.0, 1.5), (1.5, INDEX)]):
+            found = meniscus.true_positions(below, (0, 0, 2), [SQUARE, lower], indices)
+            numpy.testing.assert_allclose(found, [[0, 0, -1.1]], atol=TOLERANCE)
+
+    def test_states(self):
+        points = [[0, 0, 1], [0, 0, -1], [numpy.nan, 0, 0]]
+        found, states = meniscus.true_positions(points, (0, 0, 2), SQUARE, return_states=True)
+        self.assertEqual(states.tolist(), [0, 1, 3])
+        numpy.testing.assert_array_equal(found[0], [0, 0, 1])
+        self.assertTrue(numpy.isnan(found[2]).all())
+        found, states = meniscus.true_positions(
+            [[5.0, 0, 1.0]], (0, 0, -1), (SQUARE[0], SQUARE[1][:, ::-1]), [INDEX, 1.0],
+            return_states=True)
+        self.assertEqual(states.tolist(), [2])
+        self.assertTrue(numpy.isnan(found).all())
+
+    def test_shapes(self):
+        self.assertEqual(meniscus.true_positions([0, 0, -1], (0, 0, 2), SQUARE).shape, (3,))
+        self.assertEqual(meniscus.true_positions(
+            numpy.empty((0, 3)), (0, 0, 2), SQUARE).shape, (0, 3))
+        for points, eyes, surfaces, indices, message in (
+                ([[0, 1]], (0, 0, 1), SQUARE, INDEX, r"shape \(n, 3\)"),
+                (self.seen, self.eyes[:3], SQUARE, INDEX, r"eyes .* \(3,\) or \(50, 3\)"),
+                (self.seen, self.eyes, [SQUARE, SQUARE], INDEX, "2 surfaces need"),
+                (self.seen, self.eyes, SQUARE, [1, 2, 3], "1 surfaces need"),
+                (self.seen, self.eyes, SQUARE, -1, "above 0"),
+                (self.seen, self.eyes, [], [], "at least one surface"),
+                (self.seen, self.eyes, (SQUARE[0], SQUARE[1] + 1), 1.3, "does not exist; there"),
+                (self.seen, self.eyes, (SQUARE[0], SQUARE[0][:, :2]), 1.3, r"\(m, 3\)")):
+            with self.assertRaisesRegex(ValueError, message):
+                meniscus.true_positions(points, eyes, surfaces, indices)
+        with self.assertRaisesRegex(ValueError, "apparent, optical, geometric"):
+            meniscus.true_positions(self.seen, self.eyes, SQUARE, depth="true")
+        with self.assertRaisesRegex(TypeError, "pair of arrays"):
+            meniscus.true_positions(self.seen, self.eyes, 3.0)
+
+    def test_surface_upside_down(self):
+        with self.assertWarnsRegex(RuntimeWarning, "faces the eye"):
+            meniscus.true_positions(self.seen, (0, 0, 2), (SQUARE[0], SQUARE[1][:, ::-1]))
+
+
+class TestTriangulate(unittest.TestCase):
+    def setUp(self):
+        random = numpy.random.default_rng(2)
+        self.truth = random.uniform((-3, -3, -4), (3, 3, -1), (20, 3))
+        self.eyes = numpy.array([[-2.0, 0, 3], [2, 0, 3], [0, 2.5, 4]])
+        self.seen = numpy.stack([see(eye, self.truth) for eye in self.eyes])
+
+    def test_cameras(self):
+        found = meniscus.triangulate(self.seen, self.eyes, SQUARE, INDEX)
+        numpy.testing.assert_allclose(found, self.truth, atol=1e-10)
+        details = meniscus.triangulate(self.seen, self.eyes, SQUARE, INDEX, details=True)
+        numpy.testing.assert_array_equal(details.positions, found)
+        self.assertEqual(details.rays.tolist(), [3] * 20)
+        self.assertEqual(details.states.tolist(), [0] * 20)
+        self.assertLess(details.residuals.max(), 1e-10)
+        self.assertGreater(details.angles.min(), 5.0)
+
+    def test_points_that_cameras_miss(self):
+        self.seen[:2, 4] = numpy.nan
+        self.seen[0, 5] = numpy.nan
+        found = meniscus.triangulate(self.seen, self.eyes, SQUARE, INDEX)
+        self.assertTrue(numpy.isnan(found[4]).all())
+        numpy.testing.assert_allclose(found[5], self.truth[5], atol=1e-9)
+
+    def test_observations(self):
+        ids = numpy.repeat([[7], [3]], 3, axis=1).T.ravel()
+        points = self.seen[:, :2].reshape(-1, 3)
+        found = meniscus.triangulate(
+            points, numpy.repeat(self.eyes, 2, axis=0), SQUARE, ids=ids, details=True)
+        self.assertEqual(found.ids.tolist(), [3, 7])
+        numpy.testing.assert_allclose(found.positions, self.truth[[1, 0]], atol=1e-10)
+
+    def test_shapes(self):
+        for eyes, named, message in (
+                (self.eyes[:2], {}, r"\(cameras, n, 3\)"),
+                (self.eyes, {"ids": [0, 1, 2]}, r"shape \(n, 3\)")):
+            with self.assertRaisesRegex(ValueError, message):
+                meniscus.triangulate(self.seen, eyes, SQUARE, **named)
+        with self.assertRaisesRegex(ValueError, "whole numbers"):
+            meniscus.triangulate(self.seen[0], self.seen[0] + 1, SQUARE, ids=numpy.zeros(20))
+        for details in (False, True):
+            found = meniscus.triangulate(
+                numpy.empty((3, 0, 3)), self.eyes, SQUARE, details=details)
+            self.assertEqual((found.positions if details else found).shape, (0, 3))
+
+
+class TestRays(unittest.TestCase):
+    def setUp(self):
+        self.block = make_block()  # 1 + z over [0, 2] x [0, 1] x [0, 3]
+
+    def test_integral(self):
+        numpy.testing.assert_allclose(
+            meniscus.integral(self.block, "density", size=(4, 2)), numpy.full((2, 4), 7.5),
+            rtol=1e-6)
+        found = meniscus.integral(self.block, "density", ["path_length", "maximum_depth"],
+                                  size=(4, 2), direction=(0, -1, 0), up=(1, 0, 0))
+        self.assertAlmostEqual(found["path_length"][0, 1], 1.0, 6)
+        self.assertEqual(sorted(found), ["maximum_depth", "path_length"])
+        with self.assertRaisesRegex(ValueError, "known are integral, path_length, optical_depth"):
+            meniscus.integral(self.block, "density", "sum")
+
+    def test_refracted_rays(self):
+        """Rays straight down are not refracted, and rays through a pane keep their direction."""
+        water = (SQUARE[0] + [0, 0, 5], SQUARE[1])
+        numpy.testing.assert_allclose(
+            meniscus.integral(self.block, "density", size=(4, 2), surfaces=water), 7.5, rtol=1e-6)
+
+    def test_radiograph(self):
+        one = meniscus.radiograph(self.block, "density", 0.1, intensity=2.0, size=(4, 2))
+        numpy.testing.assert_allclose(one, numpy.full((2, 4), 2 * numpy.exp(-0.75)), rtol=1e-6)
+        several = meniscus.radiograph(self.block, "density", [0.1, 0.2], size=(4, 2))
+        self.assertEqual(several.shape, (2, 4, 2))
+        numpy.testing.assert_allclose(several[0, 0], numpy.exp([-0.75, -1.5]), rtol=1e-6)
+        self.assertEqual(meniscus.radiograph(
+            self.block, "density", [0.1], size=(4, 2)).shape, (2, 4, 1))
+        for attenuation, intensity in (([], 1.0), ([0.1, 0.2], [1.0])):
+            with self.assertRaisesRegex(ValueError, "as many intensities or one"):
+                meniscus.radiograph(self.block, "density", attenuation, intensity=intensity)
+
+
+class TestTables(unittest.TestCase):
+    def test_tables_are_those_of_the_function(self):
+        """make_table() asks for all entries at once; each is the function's colour in bytes."""
+        for name in COLOR_MAPS:
+            function = vtkColorTransferFunction()
+            fill_colors(function, name, -2.0, 6.0)
+            table = make_table(function, -2.0, 6.0, 17)
+            for entry in range(17):
+                numpy.testing.assert_allclose(
+                    table.GetTableValue(entry), [*function.GetColor(-2.0 + entry / 2), 1.0],
+                    atol=0.5 / 255 + 1e-9)
+
+    def test_slow_functions(self):
+        """In CIEDE2000 space a single colour costs as much as all of a table: about 0.1 s."""
+        function = vtkColorTransferFunction()
+        function.SetColorSpaceToLabCIEDE2000()
+        calls = []
+
+        class Counted:
+            def GetTable(self, *arguments):
+                calls.append(arguments[2])
+                return function.GetTable(*arguments)
+
+        make_table(Counted(), 0.0, 1.0, 33)
+        self.assertEqual(calls, [33])
+
+
+class TestPackage(unittest.TestCase):
+    def run_python(self, code, **variables):
+        environment = {key: value for key, value in os.environ.items()
+                       if key != "VTK_SMP_BACKEND_IN_USE"}
+        done = subprocess.run([sys.executable, "-B", "-W", "ignore", "-c", code], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              env={**environment, **variables})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.strip()
+
+    def test_threads(self):
+        tell = ("from vtkmodules.vtkCommonCore import vtkSMPTools; %s; import meniscus; "
+                "print(vtkSMPTools.GetBackend())")
+        self.assertNotEqual(self.run_python(tell % "pass"), "Sequential")
+        self.assertEqual(self.run_python(tell % "vtkSMPTools.SetBackend('Sequential')"),
+                         "STDThread")
+        self.assertEqual(self.run_python(tell % "pass", VTK_SMP_BACKEND_IN_USE="Sequential"),
+                         "Sequential")
+        limit = ("from vtkmodules.vtkCommonCore import vtkSMPTools; vtkSMPTools.Initialize(3); "
+                 "import meniscus; print(vtkSMPTools.GetEstimatedNumberOfThreads())")
+        self.assertEqual(self.run_python(limit), "3")
+
+    def test_missing_packages(self):
+        """What needs a package says the command that installs it, and nothing else needs it."""
+        code = """
+import sys
+sys.modules["pyvista"] = None
+import meniscus
+print(meniscus.true_positions.__name__, meniscus.radiograph.__name__)
+for name in ("plot", "add_to", "compare", "refracted"):
+    try:
+        getattr(meniscus, name)
+    except ImportError as error:
+        print(error)
+"""
+        lines = self.run_python(code).splitlines()
+        self.assertEqual(lines[0], "true_positions radiograph")
+        self.assertEqual(lines[1:], ["meniscus.%s needs the package pyvista, which is not "
+                                     "installed: pip install pyvista" % name
+                                     for name in ("plot", "add_to", "compare", "refracted")])
+
+    def test_names(self):
+        for name in ("plot", "add_to", "radiograph", "integral", "pick", "compare", "refracted",
+                     "true_positions", "triangulate"):
+            self.assertIn(name, dir(meniscus))
+        with self.assertRaisesRegex(AttributeError, "no attribute 'plots'"):
+            meniscus.plots
+
+    def test_docstrings(self):
+        for name in ("true_positions", "triangulate", "integral", "radiograph"):
+            function = getattr(meniscus, name)
+            for argument in function.__annotations__:
+                if argument != "return":
+                    self.assertRegex(function.__doc__, r"\b%s\b" % argument, name)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("default")
+    unittest.main()
