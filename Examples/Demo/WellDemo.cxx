@@ -7,9 +7,7 @@
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetSurfaceFilter.h"
 #include "vtkImageAppend.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -19,24 +17,19 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRefractedGeometryFilter.h"
-#include "vtkRefractionErrorVolume.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkThreshold.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 namespace
 {
 
 constexpr int PictureSize = 512;
-constexpr int AnimationSize = 320;
-constexpr int AnimationFrames = 24;
 constexpr int WaterCells = 96;
 constexpr unsigned char Background[3] = { 24, 30, 40 };
 
@@ -76,9 +69,9 @@ public:
     this->Filter->SetMembraneData(water.MakeMesh(WaterCells));
   }
 
-  vtkSmartPointer<vtkImageData> Draw(int size)
+  vtkSmartPointer<vtkImageData> Draw()
   {
-    this->Window->SetSize(size, size);
+    this->Window->SetSize(PictureSize, PictureSize);
     this->Window->Render();
     vtkNew<vtkWindowToImageFilter> image;
     image->SetInput(this->Window);
@@ -146,7 +139,7 @@ bool CompareWithRays(WellWindow& window, vtkPolyData* well, const std::string& f
   const DemoWater water(0.0);
   window.SetWater(water);
   UpdateWithProgress(window.GetFilter(), "Virtual geometry of the well");
-  const auto drawn = window.Draw(PictureSize);
+  const auto drawn = window.Draw();
   ShowProgress("Tracing rays", 0.0);
   const auto traced =
     MakeImage(TraceDemoWell(well, water, View, PictureSize, Background), PictureSize);
@@ -167,96 +160,7 @@ bool CompareWithRays(WellWindow& window, vtkPolyData* well, const std::string& f
     static_cast<long long>(window.GetFilter()->GetOutput()->GetNumberOfCells()),
     static_cast<long long>(well->GetNumberOfCells()),
     100.0 * differing / (static_cast<double>(PictureSize) * PictureSize));
-  return WritePicture(drawn, folder + "/well-virtual.png") &&
-    WritePicture(traced, folder + "/well-traced.png") &&
-    WritePicture(difference, folder + "/well-difference.png") &&
-    WritePicture(sideBySide->GetOutput(), folder + "/well-comparison.png");
-}
-
-bool Animate(WellWindow& window, const std::string& folder)
-{
-  for (int i = 0; i < AnimationFrames; ++i)
-  {
-    ShowProgress("Moving water", static_cast<double>(i) / AnimationFrames);
-    window.SetWater(DemoWater(0.06 * i));
-    char name[64];
-    std::snprintf(name, sizeof name, "/well-animation-%02d.png", i);
-    if (!WritePicture(window.Draw(AnimationSize), folder + name))
-    {
-      return false;
-    }
-  }
-  ShowProgress("Moving water", 1.0);
-  std::fprintf(stderr, "\n");
-  std::printf("wrote %s/well-animation-00.png to -%02d.png (%d x %d): moving water\n",
-    folder.c_str(), AnimationFrames - 1, AnimationSize, AnimationSize);
-  return true;
-}
-
-/** Errors of a coarse mesh of the water, as blocks cut open in the middle. */
-bool DrawErrorVolume(const std::string& folder)
-{
-  constexpr int samples = 40;
-  constexpr int coarse = 12;
-  vtkNew<vtkRefractionErrorVolume> volume;
-  volume->SetInputData(0, DemoWater(0.0).MakeMesh(coarse));
-  volume->SetReferenceData(DemoWater(0.0).MakeMesh(4 * WaterCells));
-  volume->SetMembraneModelToFlatFacets();
-  volume->SetEyePosition(View.Eye[0], View.Eye[1], View.Eye[2]);
-  volume->SetInteriorIndexOfRefraction(DemoWater::Index);
-  volume->SetModelBounds(-1.0, 1.0, -1.0, 1.0, -2.0, -0.1);
-  volume->SetSampleDimensions(samples, samples, samples);
-  UpdateWithProgress(volume, "Error volume of a coarse membrane");
-  vtkNew<vtkThreshold> measured;
-  measured->SetInputConnection(volume->GetOutputPort());
-  measured->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "RefractionError");
-  measured->SetLowerThreshold(0.0); // others are NaN
-  measured->SetUpperThreshold(VTK_DOUBLE_MAX);
-  vtkNew<vtkDataSetSurfaceFilter> surface;
-  surface->SetInputConnection(measured->GetOutputPort());
-  vtkNew<vtkColorTransferFunction> colors;
-  const double largest = 3.0 * volume->GetMeanError();
-  colors->AddRGBPoint(0.0, 0.15, 0.35, 0.65);
-  colors->AddRGBPoint(0.3 * largest, 0.95, 0.95, 0.85);
-  colors->AddRGBPoint(largest, 0.75, 0.10, 0.10);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(surface->GetOutputPort());
-  mapper->SelectColorArray("RefractionError");
-  mapper->SetScalarModeToUsePointFieldData();
-  mapper->SetLookupTable(colors);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  vtkNew<vtkPolyDataMapper> waterMapper;
-  waterMapper->SetInputData(DemoWater(0.0).MakeMesh(coarse));
-  vtkNew<vtkActor> water;
-  water->SetMapper(waterMapper);
-  water->GetProperty()->SetRepresentationToWireframe();
-  water->GetProperty()->SetColor(0.1, 0.2, 0.4);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  renderer->AddActor(actor);
-  renderer->AddActor(water);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(4);
-  window->SetSize(PictureSize, PictureSize);
-  window->AddRenderer(renderer);
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetPosition(3.5, -5.5, 2.6);
-  camera->SetFocalPoint(0.0, 0.0, -0.8);
-  camera->SetViewUp(0.0, 0.0, 1.0);
-  renderer->ResetCameraClippingRange();
-  window->Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  image->Update();
-  std::printf("wrote %s/well-errors.png (%d x %d): errors of %d flat facets below the water; mean "
-              "%.2g, largest %.2g of a well 2 wide\n",
-    folder.c_str(), PictureSize, PictureSize, 2 * coarse * coarse, volume->GetMeanError(),
-    volume->GetLargestError());
-  return WritePicture(image->GetOutput(), folder + "/well-errors.png");
+  return WritePicture(sideBySide->GetOutput(), folder + "/well-comparison.png");
 }
 
 }
@@ -268,7 +172,5 @@ bool RunWellDemo(const std::string& folder)
   std::printf("Well: %lld cells under a membrane of %d facets\n",
     static_cast<long long>(well->GetNumberOfCells()), 2 * WaterCells * WaterCells);
   WellWindow window(well);
-  const bool compared = CompareWithRays(window, well, folder);
-  const bool animated = Animate(window, folder);
-  return DrawErrorVolume(folder) && compared && animated;
+  return CompareWithRays(window, well, folder);
 }

@@ -6,9 +6,8 @@
 #include <string>
 
 /**
- * Images of a well with waves and objects in zones of convergence: its virtual geometry with all
- * images, the same by ray tracing, their difference, an error volume, and moving water. Returns
- * false if one could not be written.
+ * Picture of a well with waves and objects in zones of convergence: its virtual geometry with all
+ * images, the same by ray tracing, and their difference. Returns false if it could not be written.
  */
 bool RunWellDemo(const std::string& folder);
 
