@@ -143,7 +143,9 @@ WITH_KERNEL="-DMENISCUS_KERNEL_BUILD=$ROOT/build-kernel"
 
 # with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen. Without
 # -noreset the server starts anew whenever its last client leaves, and refuses those who come then.
+# Mesa's software rasteriser compiles a shader in half of the time if LLVM does not optimise it,
+# which takes longer than drawing pictures of the size of tests.
 with_display()
 {
-  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
+  GALLIVM_PERF=nopt xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
 }

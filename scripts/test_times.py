@@ -38,7 +38,9 @@ def times_of_processes(folder):
     """The processes of GoogleTest programs, and the seconds of each of their tests."""
     processes = set()
     times = {}
-    for path in glob.glob(os.path.join(folder, "Times", "**", "*.json"), recursive=True):
+    paths = glob.glob(os.path.join(folder, "Times", "**", "*.json"), recursive=True)
+    # The last record of a test counts, if its process has changed.
+    for path in sorted(paths, key=os.path.getmtime):
         name = os.path.relpath(path, os.path.join(folder, "Times"))[:-len(".json")]
         processes.add(name)
         with open(path, encoding="utf-8") as file:

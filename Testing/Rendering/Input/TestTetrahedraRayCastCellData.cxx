@@ -34,7 +34,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 120;
+constexpr int Size = 80;
 constexpr double Range[2] = { -1.0, 1.0 };
 const char* const CellScalarName = "cell scalar";
 
@@ -280,9 +280,9 @@ TEST(TetrahedraRayCastCellData, TwoSlabs)
   const bool redFirst = middle[0] > 0.3f;
   const double red = (1.0 - std::exp(-0.5)) * (redFirst ? 1.0 : std::exp(-2.0));
   const double blue = (1.0 - std::exp(-2.0)) * (redFirst ? std::exp(-0.5) : 1.0);
-  for (const int x : { 30, 60, 77 })
+  for (const int x : { Size / 4, Size / 2, 16 * Size / 25 })
   {
-    const float* pixel = image.GetPixel(x, 51);
+    const float* pixel = image.GetPixel(x, 17 * Size / 40);
     EXPECT_NEAR(pixel[0], red, 2e-6);
     EXPECT_NEAR(pixel[1], 0.0, 2e-6);
     EXPECT_NEAR(pixel[2], blue, 2e-6);

@@ -18,7 +18,7 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr int Size = 512;
+constexpr int Size = 320;
 
 class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
 {

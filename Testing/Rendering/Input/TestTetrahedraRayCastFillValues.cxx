@@ -29,7 +29,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 100;
+constexpr int Size = 72;
 constexpr double Range[2] = { -1.0, 1.0 };
 // A fraction of pixels may have an error of more than two levels of 255.
 constexpr double TwoLevels = 2.0 / 255.0;

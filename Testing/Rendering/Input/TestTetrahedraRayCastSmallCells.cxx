@@ -30,7 +30,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 120;
+constexpr int Size = 80;
 constexpr int Cubes = 14;
 constexpr double Range[2] = { -1.0, 1.0 };
 

@@ -28,7 +28,7 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr int Size = 120;
+constexpr int Size = 80;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Bounds[6] = { -1, 1, -1, 1, -1, 1 };
 constexpr int Backends[3] = { vtkTetrahedraRayCastMapper::OPENGL,

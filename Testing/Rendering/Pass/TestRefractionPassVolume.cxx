@@ -36,7 +36,7 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 constexpr double Water = 1.333;
 constexpr double Range[2] = { -1.0, 1.0 };
 

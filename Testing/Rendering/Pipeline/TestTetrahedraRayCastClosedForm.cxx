@@ -22,7 +22,7 @@ using meniscus::reference::Vector3;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 
 // A ray in the coordinates of the box [-1, 1]^3, with its entry and exit.
 struct BoxHit

@@ -29,7 +29,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 112;
 const double Range[2] = { -1.0, 1.0 };
 constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 

@@ -28,7 +28,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 128;
+constexpr int Size = 96;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 

@@ -28,7 +28,7 @@ using meniscus::reference::Vector3;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 
 struct Block
 {

@@ -31,7 +31,7 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr int Size = 150;
+constexpr int Size = 100;
 constexpr int CubesPerSide = 8;
 constexpr double Frequency = 3.0;
 

@@ -24,7 +24,7 @@ using meniscus::reference::RaySegment;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 
 const std::vector<HalfSpace> Planes{ { { 0.3, -1.0, 0.2 }, { 0.1, 0.4, 0.0 } },
   { { -2.0, 0.1, 0.7 }, { 0.5, 0.0, 0.1 } }, { { 0.0, 0.0, 0.01 }, { 0.0, 0.0, -0.6 } } };

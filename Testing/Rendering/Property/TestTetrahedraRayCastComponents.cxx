@@ -37,7 +37,7 @@ using meniscus::reference::ReferenceTransferFunction;
 namespace
 {
 
-constexpr int Size = 128;
+constexpr int Size = 88;
 
 // Four unrelated fields, in about [0, 1].
 std::vector<Field> GetFields()

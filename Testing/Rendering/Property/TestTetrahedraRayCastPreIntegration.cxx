@@ -23,7 +23,7 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 
 struct Block
 {

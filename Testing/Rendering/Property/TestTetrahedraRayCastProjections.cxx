@@ -26,7 +26,7 @@ using meniscus::reference::RaySegment;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 
 const std::vector<std::pair<int, Projection>> Modes{ { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
                                                        Projection::Maximum },

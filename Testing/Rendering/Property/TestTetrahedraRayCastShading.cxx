@@ -27,7 +27,7 @@ using namespace meniscus::reference;
 namespace
 {
 
-constexpr int Size = 160;
+constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
 // Midpoints per piece of the reference: its error decreases with the square, and is 3e-4 with 8.
 constexpr int Steps = 40;
