@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonCore import vtkSMPTools
 VARIABLE = "VTK_SMP_BACKEND_IN_USE"
 
 
-def use_threads():
+def use_threads() -> None:
     """Selects the backend STDThread in place of Sequential, VTK's default in wheels.
 
     A backend that the environment names or that was selected before stays, and so does a number of

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The accessor mesh.meniscus of PyVista's meshes."""
+# pyright: strict
 from __future__ import annotations
 
 import functools
@@ -76,7 +77,8 @@ def register() -> None:
     """Adds the accessor to PyVista's meshes, from version 0.48 on."""
     if hasattr(pyvista, "register_dataset_accessor"):
         for kind in (pyvista.DataSet, pyvista.MultiBlock):
-            if not hasattr(kind, "meniscus"):
+            # Not hasattr(), for which PyVista would load this module again.
+            if "meniscus" not in vars(kind):
                 pyvista.register_dataset_accessor("meniscus", kind)(MeniscusAccessor)
 
 

@@ -104,7 +104,7 @@ def _difference(first, second):
 
 
 def compare(
-    mesh: Mesh, scalars: str | Array | None = None, *, component: int | str | None = None,
+    mesh: Mesh, /, scalars: str | Array | None = None, *, component: int | str | None = None,
     mappers: Sequence[str] = tuple(_MAPPERS), size: Sequence[int] = (512, 512), frames: int = 3,
     cpos: Any = None, **arguments: Any,
 ) -> list[Comparison]:

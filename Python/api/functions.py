@@ -83,4 +83,5 @@ def follow_table(look, table, opacity=None):
         look.SetScalarOpacity(own if opacity is None else opacity)
 
     apply()
-    table.AddObserver("ModifiedEvent", apply)
+    # After the observer of PyVista, which is renewed whenever it is called.
+    table.AddObserver("ModifiedEvent", apply, -1.0)

@@ -44,7 +44,7 @@ def _volumes_of(mesh, plotter):
 
 
 def pick(
-    mesh: Mesh, plotter: pyvista.Plotter, x: float, y: float, *,
+    mesh: Mesh, /, plotter: pyvista.Plotter, x: float, y: float, *,
     place: str = "largest_contribution", opacity: float = 0.5,
 ) -> Pick | None:
     """The part of a mesh that is seen in a pixel, or None where the mesh is not seen.

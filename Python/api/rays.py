@@ -28,7 +28,7 @@ def _measure(mesh, arrays, scalars, component, size, direction, up, camera, surf
 
 
 def integral(
-    mesh: Mesh, scalars: str | None = None, quantity: str | Sequence[str] = "integral", *,
+    mesh: Mesh, /, scalars: str | None = None, quantity: str | Sequence[str] = "integral", *,
     component: int | str | None = None, size: Sequence[int] = (256, 256),
     direction: Sequence[float] = (0.0, 0.0, -1.0), up: Sequence[float] = (0.0, 1.0, 0.0),
     camera: Any = None, surfaces: Surfaces | None = None, indices: Indices = 1.333,
@@ -65,7 +65,7 @@ def integral(
 
 
 def radiograph(
-    mesh: Mesh, scalars: str | None = None, attenuation: float | Sequence[float] = 1.0, *,
+    mesh: Mesh, /, scalars: str | None = None, attenuation: float | Sequence[float] = 1.0, *,
     intensity: float | Sequence[float] = 1.0, component: int | str | None = None,
     size: Sequence[int] = (256, 256), direction: Sequence[float] = (0.0, 0.0, -1.0),
     up: Sequence[float] = (0.0, 1.0, 0.0), camera: Any = None, **properties: Any,

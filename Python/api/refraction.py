@@ -36,7 +36,7 @@ def _make_filter(mesh, surfaces, indices, images, properties):
 
 
 def refracted(
-    mesh: Mesh, surfaces: Surfaces, eye: Any, indices: Indices = 1.333, *,
+    mesh: Mesh, /, surfaces: Surfaces, eye: Any, indices: Indices = 1.333, *,
     images: str | None = None, index: Indices | None = None, **arguments: Any,
 ) -> Any:
     """Virtual geometry of a mesh, which looks like the mesh seen through refracting surfaces.

@@ -130,7 +130,7 @@ def _set_isovalues(look, isovalues, limits):
 
 
 def add_to(
-    mesh: Mesh, plotter: pyvista.Plotter, scalars: str | Array | None = None, *,
+    mesh: Mesh, /, plotter: pyvista.Plotter, scalars: str | Array | None = None, *,
     component: int | str | None = None, rgba: bool = False,
     opacity_array: str | None = None, opacity_component: int | str | None = None,
     opacity_clim: Sequence[float] | None = None,
@@ -236,7 +236,7 @@ def add_to(
 
 
 def plot(
-    mesh: Mesh, scalars: str | Array | None = None, *, off_screen: bool | None = None,
+    mesh: Mesh, /, scalars: str | Array | None = None, *, off_screen: bool | None = None,
     window_size: Sequence[int] | None = None, background: Any = None, cpos: Any = None,
     screenshot: Any = False, show_axes: bool | None = None, jupyter_backend: str | None = None,
     return_img: bool = False, **arguments: Any,

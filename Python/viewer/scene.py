@@ -3,6 +3,7 @@
 """A mesh as a volume, with its settings; windows, pages and pictures show it."""
 import math
 
+import numpy
 from vtkmodules.vtkCommonCore import vtkMath
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
@@ -239,7 +240,9 @@ class MeshScene:
         """Reason why a picture of the scene shows nothing of the mesh."""
         low, high = self.levels.low, self.levels.high
         opacity = self.volume.GetProperty().GetScalarOpacity()
-        if not any(opacity.GetValue(low + (high - low) * bin / BINS) for bin in range(BINS + 1)):
+        opacities = numpy.empty(BINS + 1)
+        opacity.GetTable(low, high, BINS + 1, opacities)
+        if not opacities.any():
             return f"the opacity is 0 for all values of '{self.array}', from {low:g} to {high:g}"
         if self.clip_axis is not None and self.mapper.GetNumberOfActiveCells() > 0:
             return "the clipping plane removes all of it"

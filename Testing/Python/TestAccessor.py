@@ -4,6 +4,7 @@
 
 The exit status is then 125, which CTest counts as skipped.
 """
+import importlib.metadata
 import inspect
 import os
 import subprocess
@@ -85,6 +86,20 @@ class TestAccessor(unittest.TestCase):
         for mesh in (cube, halves_of(cube), pyvista.Sphere()):
             self.assertIsInstance(mesh.meniscus, accessor.MeniscusAccessor)
             self.assertIs(mesh.meniscus.mesh, mesh)
+
+    def test_entry_point(self):
+        """An installed package needs no import: PyVista finds the accessor, and in either order."""
+        if not hasattr(pyvista, "register_dataset_accessor"):
+            self.skipTest("PyVista 0.48 has accessors")
+        installed = any(entry.name == "meniscus" for entry in importlib.metadata.entry_points(
+            group="pyvista.accessors"))
+        for imports in ["import pyvista, meniscus"] + installed * [
+                "import pyvista", "import meniscus, pyvista"]:
+            code = imports + "; print(type(pyvista.MultiBlock().meniscus), pyvista.Cube().meniscus)"
+            done = subprocess.run([sys.executable, "-B", "-W", "ignore", "-c", code], text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn("MeniscusAccessor", done.stdout)
 
     def test_methods_are_the_functions(self):
         methods = accessor.MeniscusAccessor(make_cube())

@@ -176,7 +176,8 @@ class TestLogarithms(unittest.TestCase):
     def test_a_bar_that_changes(self):
         plotter = pyvista.Plotter(off_screen=True)
         volume = add_volume(plotter, make_cube(), "decades", log_scale=True, opacity="linear")
-        plotter.update_scalar_bar_range((1.0, 10000.0))
+        for limits in ((3.0, 5.0), (1.0, 10000.0)):
+            plotter.update_scalar_bar_range(limits)
         look = volume.GetProperty()
         self.assertAlmostEqual(look.GetScalarOpacity().GetValue(100.0), 0.5, delta=0.005)
         plotter.close()
