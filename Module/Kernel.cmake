@@ -14,6 +14,7 @@ foreach (room
     Common
     Simd
     Refraction/Membrane
+    Refraction/Sight
     Refraction/Tubes
     Refraction/Flat
     Refraction/Curved

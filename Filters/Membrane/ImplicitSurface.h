@@ -3,7 +3,8 @@
 #ifndef meniscus_Filters_Membrane_ImplicitSurface_h
 #define meniscus_Filters_Membrane_ImplicitSurface_h
 
-#include "Refraction/Curved/ErrorSamples.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Sight/ExactSurface.h"
 
 class vtkImplicitFunction;
 

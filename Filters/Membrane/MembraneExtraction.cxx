@@ -250,6 +250,18 @@ void MembraneArrays::Turn()
 }
 
 //------------------------------------------------------------------------------
+vtkMTimeType GetMembraneTime(vtkPolyData* membrane)
+{
+  vtkMTimeType time = membrane->GetMTime();
+  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
+  {
+    time = std::max(
+      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
+  }
+  return time;
+}
+
+//------------------------------------------------------------------------------
 MembraneArrays ExtractMembrane(vtkPolyData* membrane)
 {
   return Extraction(membrane).Run();

@@ -5,6 +5,8 @@
 
 #include "Refraction/Membrane/Membrane.h"
 
+#include "vtkType.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,6 +33,12 @@ struct MembraneArrays
   /** Reverses normals and windings. */
   void Turn();
 };
+
+/**
+ * Latest modification time of a membrane and of the objects that hold its values. The time of a
+ * vtkPolyData itself does not cover the arrays of its cells.
+ */
+vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
 
 /**
  * Triangles of the polygons and strips of `membrane`, in the order of its cells. Other polygons

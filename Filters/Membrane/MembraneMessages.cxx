@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Membrane/MembraneMessages.h"
 
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkPolyData.h"
-
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -33,18 +29,6 @@ const char* NameFault(MembraneStatus status)
   return "The membrane has no usable triangle";
 }
 
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType GetMembraneTime(vtkPolyData* membrane)
-{
-  vtkMTimeType time = membrane->GetMTime();
-  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
-  {
-    time = std::max(
-      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
-  }
-  return time;
 }
 
 //------------------------------------------------------------------------------

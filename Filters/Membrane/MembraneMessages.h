@@ -1,18 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Messages about membranes and eyes, and the time of a membrane. */
+/** Messages about membranes and eyes. */
 #ifndef meniscus_Filters_Membrane_MembraneMessages_h
 #define meniscus_Filters_Membrane_MembraneMessages_h
 
 #include "Filters/Membrane/MembraneExtraction.h"
-#include "Refraction/Flat/RefractionCells.h"
-
-#include "vtkType.h"
+#include "Refraction/Sight/EyeStatus.h"
 
 #include <cstddef>
 #include <string>
-
-class vtkPolyData;
 
 namespace meniscus
 {
@@ -23,12 +19,6 @@ struct SceneMessages
   std::string Error;
   std::string Warning;
 };
-
-/**
- * Latest modification time of a membrane and of the objects that hold its values. The time of a
- * vtkPolyData itself does not cover the arrays of its cells.
- */
-vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
 
 /**
  * Describes how a membrane was read. `lost` is the number of its points that could not be moved to

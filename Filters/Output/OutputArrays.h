@@ -4,7 +4,8 @@
 #ifndef meniscus_Filters_Output_OutputArrays_h
 #define meniscus_Filters_Output_OutputArrays_h
 
-#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Sight/VirtualVertex.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

@@ -4,7 +4,8 @@
 #define meniscus_Filters_Output_VirtualPolyData_h
 
 #include "Filters/Output/OutputArrays.h"
-#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Sight/VirtualVertex.h"
 
 #include "vtkType.h"
 

@@ -16,10 +16,11 @@
 #include "Refraction/Curved/MembraneSides.h"
 #include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/SightFollower.h"
-#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Sight/EyeStatus.h"
+#include "Refraction/Sight/VirtualVertex.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <atomic>

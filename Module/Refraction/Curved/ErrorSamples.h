@@ -12,6 +12,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Sight/ExactSurface.h"
 
 #include <glm/vec3.hpp>
 
@@ -23,21 +24,6 @@
 
 namespace meniscus
 {
-
-/** The exact surface that a membrane's mesh approximates, in world coordinates. */
-class ExactSurface
-{
-public:
-  virtual ~ExactSurface() = default;
-
-  /**
-   * Intersection of the ray from the eye along the unit vector `direction` with the surface near
-   * `vertex.SightPoint`, and the unit normal there, on the eye's side. Returns false if there is
-   * none.
-   */
-  virtual bool Meet(const glm::dvec3& point, const VirtualVertex& vertex,
-    const glm::dvec3& direction, PatchPoint& at) const = 0;
-};
 
 /** Curved patches as the exact surface, fitted to the same mesh or to a finer one. */
 class PatchesAsSurface : public ExactSurface

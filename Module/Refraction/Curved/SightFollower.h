@@ -6,8 +6,8 @@
 #include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/SightLanes.h"
-#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Sight/VirtualVertex.h"
 #include "Simd/InstructionSets.h"
 
 #include <glm/vec3.hpp>

@@ -5,9 +5,9 @@
 
 #include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/SeenDepth.h"
 #include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Curved/SteepDirections.h"
+#include "Refraction/Sight/SeenDepth.h"
 
 #include <glm/vec3.hpp>
 

@@ -14,6 +14,7 @@
 
 #include "Refraction/Flat/RefractionCells.h"
 #include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Sight/VirtualVertex.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <cstddef>
@@ -22,26 +23,6 @@
 
 namespace meniscus
 {
-
-enum class ImageState : unsigned char
-{
-  Found,
-  NoImage,   ///< the point lies in no cell
-  NotFinite, ///< NaN, infinite, or farther than RayTubeTree::FarthestRadii: no answer is possible
-  NotAsked   ///< the caller did not ask for this point
-};
-
-struct VirtualVertex
-{
-  glm::dvec3 Position{ 0.0 };   ///< Eq. 2.4, world coordinates; the true point if there is no image
-  glm::dvec3 SightPoint{ 0.0 }; ///< point in which the sight ray meets the facet, world coordinates
-  double Depth = 0.0;           ///< distance from the sight point to the true point
-  double Reflectance = 0.0;     ///< exact Fresnel reflectance at the sight point
-  double Cosine = 1.0; ///< cosine of the angle of incidence at the sight point, on the eye's side
-  std::int32_t Facet = -1; ///< index among the membrane's accepted facets
-  ImageState State = ImageState::NoImage;
-  signed char Orientation = 1; ///< -1: mirrored; otherwise +1
-};
 
 class FlatMembraneSolver
 {

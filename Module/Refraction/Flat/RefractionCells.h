@@ -13,6 +13,7 @@
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Sight/EyeStatus.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <array>
@@ -21,17 +22,6 @@
 
 namespace meniscus
 {
-
-enum class EyeStatus
-{
-  Ready,
-  BadIndex,     ///< an index of refraction that is not a positive finite number
-  NotFinite,    ///< an eye coordinate that is NaN or infinite
-  OnTheMembrane ///< the eye lies on a facet, so there is no sight ray
-};
-
-/** Checks an eye and two indices without a membrane; never returns OnTheMembrane. */
-EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
 
 /** Number of rays by the equation that they come from, over the vertices that facets use. */
 struct RayReport

@@ -3,7 +3,7 @@
 #ifndef meniscus_Refraction_Images_ImageMesh_h
 #define meniscus_Refraction_Images_ImageMesh_h
 
-#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Sight/VirtualVertex.h"
 
 #include <algorithm>
 #include <array>

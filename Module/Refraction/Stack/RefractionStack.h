@@ -13,7 +13,7 @@
 #ifndef meniscus_Refraction_Stack_RefractionStack_h
 #define meniscus_Refraction_Stack_RefractionStack_h
 
-#include "Refraction/Flat/RefractionCells.h"
+#include "Refraction/Sight/EyeStatus.h"
 #include "Refraction/Stack/MediaChain.h"
 #include "Refraction/Stack/RayJet.h"
 #include "Refraction/Stack/StackSurface.h"

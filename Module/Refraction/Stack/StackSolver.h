@@ -26,7 +26,7 @@
 #define meniscus_Refraction_Stack_StackSolver_h
 
 #include "Common/RangeLoop.h"
-#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Sight/VirtualVertex.h"
 #include "Refraction/Stack/ParallelPlanes.h"
 #include "Refraction/Stack/StackBeams.h"
 #include "Refraction/Tubes/RayTubeTree.h"

@@ -9,10 +9,10 @@
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Entries/BoundaryRaster.h"
 #include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Rays/BoundsInFrame.h"
 #include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RayLegs.h"
-#include "Volume/Refracted/RefractedRayField.h"
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 #ifndef meniscus_Volume_Refracted_LegBox_h
 #define meniscus_Volume_Refracted_LegBox_h
 
+#include "Volume/Rays/BoundsInFrame.h"
 #include "Volume/Refracted/RayLegs.h"
-#include "Volume/Refracted/RefractedRayField.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -7,8 +7,8 @@
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/BoundsInFrame.h"
 #include "Volume/Refracted/LineBlock.h"
-#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
 #include <cstddef>

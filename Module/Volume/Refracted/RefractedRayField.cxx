@@ -28,11 +28,6 @@ bool operator==(const AffinePixelMap& a, const AffinePixelMap& b)
   return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow;
 }
 
-bool operator==(const BoundsInFrame& a, const BoundsInFrame& b)
-{
-  return a.Center == b.Center && a.HalfEdges == b.HalfEdges;
-}
-
 }
 
 //------------------------------------------------------------------------------

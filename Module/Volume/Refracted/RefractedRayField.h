@@ -8,6 +8,7 @@
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Tubes/BoxTree.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Rays/BoundsInFrame.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
@@ -21,14 +22,6 @@
 
 namespace meniscus
 {
-
-/** Bounding box of the visible geometry, in the frame of the view. */
-struct BoundsInFrame
-{
-  glm::dvec3 Center{ 0.0 };
-  /** Columns: vectors from the centre to the middles of three sides. */
-  glm::dmat3 HalfEdges{ 0.0 };
-};
 
 /**
  * First intersections of the rays of an image with a membrane of curved patches, and the refracted

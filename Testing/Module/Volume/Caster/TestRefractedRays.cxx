@@ -10,6 +10,7 @@
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
 
 #include <glm/geometric.hpp>

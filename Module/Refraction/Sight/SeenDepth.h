@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_SeenDepth_h
-#define meniscus_Refraction_Curved_SeenDepth_h
+#ifndef meniscus_Refraction_Sight_SeenDepth_h
+#define meniscus_Refraction_Sight_SeenDepth_h
 
 namespace meniscus
 {

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Rays_BoundsInFrame_h
+#define meniscus_Volume_Rays_BoundsInFrame_h
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace meniscus
+{
+
+/** Bounding box of the visible geometry, in the frame of the view. */
+struct BoundsInFrame
+{
+  glm::dvec3 Center{ 0.0 };
+  /** Columns: vectors from the centre to the middles of three sides. */
+  glm::dmat3 HalfEdges{ 0.0 };
+
+  bool operator==(const BoundsInFrame& other) const
+  {
+    return this->Center == other.Center && this->HalfEdges == other.HalfEdges;
+  }
+};
+
+}
+
+#endif
