@@ -16,6 +16,7 @@ foreach (room
     Refraction/Membrane
     Refraction/Sight
     Refraction/Tubes
+    Refraction/Surface
     Refraction/Flat
     Refraction/Curved
     Refraction/Stack

@@ -3,7 +3,6 @@
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "Filters/Interface/InterfaceProperties.h"
-#include "Filters/Interface/StackValidation.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Input/ComponentChoice.h"
 #include "Rendering/RayCastMapperInternals.h"
@@ -338,24 +337,15 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateMembrane(meniscus::RayCastMembrane& membrane)
 {
-  const int membranes = this->GetNumberOfMembranes();
   // The list is never shorter than one; the interface of a mapper without a membrane is not used.
   this->Interfaces->GetFirstInterface();
-  const int items = this->Interfaces->GetNumberOfItems();
-  if (membranes != items && (membranes > 0 || items > 1))
-  {
-    vtkErrorMacro(<< meniscus::DescribeCounts(items, membranes, 1) << "; nothing is rendered.");
-    return false;
-  }
-  std::vector<meniscus::MembraneInterface> interfaces;
-  for (int i = 0; i < membranes; ++i)
+  std::vector<vtkPolyData*> surfaces;
+  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
   {
     this->GetInputAlgorithm(1, i)->Update();
-    vtkRefractingInterface* item = this->Interfaces->GetInterface(i);
-    interfaces.push_back({ this->GetMembrane(i), item->GetExteriorIndexOfRefraction(),
-      item->GetInteriorIndexOfRefraction() });
+    surfaces.push_back(this->GetMembrane(i));
   }
-  return this->Tell(membrane.Update(interfaces, this->MembranePart != WHOLE));
+  return this->Tell(membrane.Update(surfaces, this->Interfaces, this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------

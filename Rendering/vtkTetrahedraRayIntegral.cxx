@@ -485,22 +485,12 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayIntegral::UpdateMembranes()
 {
-  const int membranes = this->GetNumberOfMembranes();
-  const int items = this->Interfaces->GetNumberOfItems();
-  if (membranes != items && (membranes > 0 || items > 1))
+  std::vector<vtkPolyData*> surfaces;
+  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
   {
-    return this->TellError("The list has " + std::to_string(items) +
-      " refracting interfaces, and port 1 has " + std::to_string(membranes) +
-      " surfaces; one for each is needed");
+    surfaces.push_back(vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i)));
   }
-  std::vector<meniscus::MembraneInterface> interfaces;
-  for (int i = 0; i < membranes; ++i)
-  {
-    vtkRefractingInterface* item = this->Interfaces->GetInterface(i);
-    interfaces.push_back({ vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i)),
-      item->GetExteriorIndexOfRefraction(), item->GetInteriorIndexOfRefraction() });
-  }
-  return this->Tell(this->Internals->Membrane.Update(interfaces, false));
+  return this->Tell(this->Internals->Membrane.Update(surfaces, this->Interfaces, false));
 }
 
 //------------------------------------------------------------------------------

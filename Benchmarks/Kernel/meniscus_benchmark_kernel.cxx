@@ -8,10 +8,10 @@
 #include "RefractionTestRandom.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/SteepDirections.h"
 #include "Refraction/Curved/TruePositions.h"
 #include "Refraction/Stack/StackInverse.h"
 #include "Refraction/Stack/StackSolver.h"
+#include "Refraction/Surface/SteepDirections.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/SurfaceLighting.h"
@@ -194,15 +194,15 @@ std::vector<double> MakeGridPoints()
 }
 
 /** Wavy surfaces below each other. */
-std::vector<StackInterface> MakeInterfaces(std::int64_t number)
+std::vector<Interface> MakeInterfaces(std::int64_t number)
 {
-  std::vector<StackInterface> interfaces;
+  std::vector<Interface> interfaces;
   for (int i = 0; i < number; ++i)
   {
     reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, 2.0 + i, 3.0);
     waves.Translate(glm::dvec3(0.0, -15.0 * i, 0.0));
-    auto surface = std::make_shared<StackSurface>();
-    surface->SetMembrane(waves.AsInput());
+    auto surface = std::make_shared<RefractingSurface>();
+    surface->SetMembrane(waves.AsInput(), SurfaceParts::Crossings);
     interfaces.push_back({ surface, { 1.0 + 0.2 * i, 1.2 + 0.2 * i } });
   }
   return interfaces;
@@ -211,7 +211,7 @@ std::vector<StackInterface> MakeInterfaces(std::int64_t number)
 /** One image of each point of a grid behind wavy surfaces; Arg is their number. */
 void SolveThroughInterfaces(benchmark::State& state)
 {
-  const std::vector<StackInterface> interfaces = MakeInterfaces(state.range(0));
+  const std::vector<Interface> interfaces = MakeInterfaces(state.range(0));
   const glm::dvec3 eye(20.0, 300.0, 10.0);
   CurvedMembraneSolver one;
   StackSolver several;

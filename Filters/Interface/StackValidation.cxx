@@ -11,6 +11,19 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
+std::vector<InterfaceMedia> ListMedia(vtkRefractingInterfaceCollection* interfaces)
+{
+  std::vector<InterfaceMedia> media;
+  for (int i = 0; i < interfaces->GetNumberOfItems(); ++i)
+  {
+    vtkRefractingInterface* interface = interfaces->GetInterface(i);
+    media.push_back(
+      { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
+  }
+  return media;
+}
+
+//------------------------------------------------------------------------------
 std::string NameInterface(std::size_t number, std::size_t count)
 {
   return count > 1 ? "Interface " + std::to_string(number) + ": " : std::string();
@@ -63,14 +76,7 @@ std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int sur
   {
     return DescribeCounts(count, surfaces, port);
   }
-  std::vector<InterfaceMedia> media;
-  for (int i = 0; i < count; ++i)
-  {
-    vtkRefractingInterface* interface = interfaces->GetInterface(i);
-    media.push_back(
-      { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
-  }
-  return DescribeMediaFault(media);
+  return DescribeMediaFault(ListMedia(interfaces));
 }
 
 }

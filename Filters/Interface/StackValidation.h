@@ -4,7 +4,7 @@
 #ifndef meniscus_Filters_Interface_StackValidation_h
 #define meniscus_Filters_Interface_StackValidation_h
 
-#include "Refraction/Stack/MediaChain.h"
+#include "Refraction/Surface/MediaChain.h"
 
 #include <cstddef>
 #include <string>
@@ -14,6 +14,9 @@ class vtkRefractingInterfaceCollection;
 
 namespace meniscus
 {
+
+/** Media of the interfaces of a list. */
+std::vector<InterfaceMedia> ListMedia(vtkRefractingInterfaceCollection* interfaces);
 
 /** Beginning of a message about an interface; empty if there is one only. */
 std::string NameInterface(std::size_t number, std::size_t count);

@@ -4,10 +4,9 @@
 #ifndef meniscus_Filters_Membrane_MembraneMessages_h
 #define meniscus_Filters_Membrane_MembraneMessages_h
 
-#include "Filters/Membrane/MembraneExtraction.h"
+#include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/EyeStatus.h"
 
-#include <cstddef>
 #include <string>
 
 namespace meniscus
@@ -19,13 +18,6 @@ struct SceneMessages
   std::string Error;
   std::string Warning;
 };
-
-/**
- * Describes how a membrane was read. `lost` is the number of its points that could not be moved to
- * the exact surface. Returns false, with an error, if the membrane cannot be used.
- */
-bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
-  const MembraneArrays& arrays, std::size_t lost, SceneMessages& messages);
 
 /**
  * Text of the warning for an eye that sees no point at all through a surface: it is totally

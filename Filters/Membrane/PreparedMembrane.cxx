@@ -27,18 +27,10 @@ MembraneList& GetList()
 bool IsReadyFor(
   const PreparedMembrane& membrane, const MembraneOrigin& origin, const MembraneView& view)
 {
-  return !membrane.IsBorrowed && membrane.HasShape && membrane.HasRays &&
-    membrane.Origin == origin && membrane.View == view;
+  return !membrane.IsBorrowed && membrane.Surface.IsReady() && membrane.HasRays &&
+    membrane.Surface.GetOrigin() == origin && membrane.View == view;
 }
 
-}
-
-//------------------------------------------------------------------------------
-bool MembraneOrigin::operator==(const MembraneOrigin& other) const
-{
-  return this->Source == other.Source && this->SourceTime == other.SourceTime &&
-    this->Function == other.Function && this->FunctionTime == other.FunctionTime &&
-    this->Curves == other.Curves;
 }
 
 //------------------------------------------------------------------------------
@@ -69,7 +61,7 @@ std::shared_ptr<PreparedMembrane> BorrowMembrane(const std::shared_ptr<PreparedM
     }
   }
   if (!found && own && !own->IsBorrowed && own->Version == last &&
-    (own->Origin.Source == origin.Source || own.use_count() == 1))
+    (own->Surface.GetOrigin().Source == origin.Source || own.use_count() == 1))
   {
     found = own;
   }

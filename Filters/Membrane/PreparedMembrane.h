@@ -7,36 +7,17 @@
 #ifndef meniscus_Filters_Membrane_PreparedMembrane_h
 #define meniscus_Filters_Membrane_PreparedMembrane_h
 
-#include "Filters/Membrane/MembraneExtraction.h"
+#include "Filters/Membrane/SourceSurface.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 
 #include "vtkType.h"
 
 #include <array>
-#include <cstddef>
 #include <memory>
-
-class vtkImplicitFunction;
-class vtkPolyData;
 
 namespace meniscus
 {
-
-/**
- * Objects that a membrane is read from, and their modification times. The objects are compared
- * only: one that is created at the address of a deleted one has a later time.
- */
-struct MembraneOrigin
-{
-  const vtkPolyData* Source = nullptr;
-  vtkMTimeType SourceTime = 0;
-  const vtkImplicitFunction* Function = nullptr;
-  vtkMTimeType FunctionTime = 0;
-  bool Curves = false;
-
-  bool operator==(const MembraneOrigin& other) const;
-};
 
 /** Values on which the rays behind a membrane depend. */
 struct MembraneView
@@ -66,15 +47,10 @@ struct MembraneVersion
   static vtkTypeInt64 MakeNumber();
 };
 
-/** Solvers of a membrane, and the values that they were prepared from. */
+/** A membrane, the solvers over it, and the values that they were prepared from. */
 struct PreparedMembrane
 {
-  MembraneOrigin Origin;
-  MembraneArrays Arrays; ///< of the turned membrane, if it is turned
-  bool IsTurned = false;
-  std::size_t Lost = 0; ///< number of points that could not be moved to the exact surface
-  MembraneStatus Status = MembraneStatus::Empty;
-  bool HasShape = false;
+  SourceSurface Surface;
   MembraneView View;
   bool HasRays = false;
   MembraneVersion Version;
@@ -83,11 +59,6 @@ struct PreparedMembrane
   /** Read and written by the functions below only. */
   bool IsListed = false;
   bool IsBorrowed = false;
-
-  const Membrane& GetMembrane() const
-  {
-    return this->Origin.Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
-  }
 };
 
 /**

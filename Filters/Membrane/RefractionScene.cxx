@@ -6,9 +6,6 @@
 #include "Filters/Interface/StackValidation.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
-#include "vtkImplicitFunction.h"
-#include "vtkPolyData.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -21,12 +18,6 @@ namespace meniscus
 
 namespace
 {
-
-MembraneOrigin MakeOrigin(vtkPolyData* membrane, bool curved, vtkImplicitFunction* function)
-{
-  return { membrane, GetMembraneTime(membrane), function, function ? function->GetMTime() : 0,
-    curved };
-}
 
 /** True if an open surface has no facet that faces the eye; false for an eye that is not finite. */
 bool IsBehind(const Membrane& surface, const glm::dvec3& eye)
@@ -50,7 +41,7 @@ RefractionScene::Loan::Loan(RefractionScene& scene, vtkPolyData* membrane, bool 
   : Scene(scene)
 {
   scene.Prepared =
-    BorrowMembrane(scene.Prepared, scene.Version, MakeOrigin(membrane, curved, function), view);
+    BorrowMembrane(scene.Prepared, scene.Version, { membrane, function, curved }, view);
   scene.HasLoan = true;
   scene.UndecidedBefore = scene.CountUndecided();
 }
@@ -81,47 +72,34 @@ bool RefractionScene::SetMembrane(
   vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
 {
   PreparedMembrane& prepared = *this->Prepared;
-  const MembraneOrigin origin = MakeOrigin(membrane, curved, function);
-  const bool known = prepared.HasShape && prepared.Origin.Curves == curved;
-  if (!known || !(prepared.Origin == origin))
+  if (prepared.Surface.Update(membrane, function, curved))
   {
-    MembraneArrays arrays = ExtractMembrane(membrane);
-    const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
-    if (prepared.IsTurned)
-    {
-      arrays.Turn();
-    }
-    const bool isOfOtherModel = prepared.Origin.Curves != curved;
-    prepared.Origin = origin;
-    if (!known || !(arrays == prepared.Arrays))
-    {
-      if (isOfOtherModel)
-      {
-        prepared.Flat = FlatMembraneSolver();
-        prepared.Curved.Clear();
-      }
-      prepared.Arrays = std::move(arrays);
-      prepared.Lost = lost;
-      this->BuildShape(prepared);
-    }
+    this->SetShape();
   }
   if (this->Version.Shape == prepared.Version.Shape)
   {
     return true;
   }
   this->Version.Shape = prepared.Version.Shape;
-  this->SkippedFacets = prepared.GetMembrane().GetReport().Skipped();
-  return ReportMembrane(
-    prepared.Status, prepared.GetMembrane().GetReport(), prepared.Arrays, prepared.Lost, messages);
+  this->SkippedFacets = this->GetMembrane().GetReport().Skipped();
+  return prepared.Surface.Report(messages);
 }
 
 //------------------------------------------------------------------------------
-void RefractionScene::BuildShape(PreparedMembrane& prepared)
+/** Sets the solvers to the new shape of the surface. */
+void RefractionScene::SetShape()
 {
-  const MembraneInput input = prepared.Arrays.AsInput();
-  prepared.Status = prepared.Origin.Curves ? prepared.Curved.SetMembrane(input, FacetLoop)
-                                           : prepared.Flat.SetMembrane(input);
-  prepared.HasShape = prepared.Status == MembraneStatus::Ready;
+  PreparedMembrane& prepared = *this->Prepared;
+  if (this->IsCurved())
+  {
+    prepared.Curved.SetSurface(prepared.Surface.GetSurface());
+    prepared.Flat = FlatMembraneSolver();
+  }
+  else
+  {
+    prepared.Flat.SetSurface(prepared.Surface.GetSurface());
+    prepared.Curved.Clear();
+  }
   prepared.HasRays = false;
   prepared.Version.Shape = MembraneVersion::MakeNumber();
   ++this->PatchBuilds;
@@ -133,12 +111,12 @@ void RefractionScene::TurnMembrane(const MembraneView& view)
 {
   PreparedMembrane& prepared = *this->Prepared;
   const glm::dvec3 eye(view.Eye[0], view.Eye[1], view.Eye[2]);
-  const bool isTurned = view.Turns && prepared.IsTurned != IsBehind(prepared.GetMembrane(), eye);
-  if (isTurned != prepared.IsTurned)
+  const bool isTurned =
+    view.Turns && prepared.Surface.IsTurned() != IsBehind(this->GetMembrane(), eye);
+  if (isTurned != prepared.Surface.IsTurned())
   {
-    prepared.Arrays.Turn();
-    prepared.IsTurned = isTurned;
-    this->BuildShape(prepared);
+    prepared.Surface.Turn();
+    this->SetShape();
     this->Version.Shape = prepared.Version.Shape;
   }
 }
@@ -154,7 +132,7 @@ bool RefractionScene::SetEye(const MembraneView& view, SceneMessages& messages)
     this->View = MembraneView();
     this->TurnMembrane(view);
     const glm::dvec3 position(eye[0], eye[1], eye[2]);
-    const EyeStatus status = prepared.Origin.Curves
+    const EyeStatus status = this->IsCurved()
       ? prepared.Curved.SetEye(position, eye[3], eye[4], FacetLoop, view.Reflects)
       : prepared.Flat.SetEye(position, eye[3], eye[4], FacetLoop);
     if (status != EyeStatus::Ready)

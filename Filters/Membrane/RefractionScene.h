@@ -92,8 +92,8 @@ public:
   /** True if a part of the box may be seen through a facet in view, or without the membrane. */
   bool MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const;
 
-  bool IsCurved() const { return this->Prepared->Origin.Curves; }
-  const Membrane& GetMembrane() const { return this->Prepared->GetMembrane(); }
+  bool IsCurved() const { return this->Prepared->Surface.GetOrigin().Curves; }
+  const Membrane& GetMembrane() const { return this->Prepared->Surface.GetMembrane(); }
   /** Solver that holds the membrane if IsCurved is true; otherwise it is empty. */
   CurvedMembraneSolver& GetCurved() { return this->Prepared->Curved; }
   const CurvedMembraneSolver& GetCurved() const { return this->Prepared->Curved; }
@@ -116,7 +116,7 @@ public:
   vtkTypeInt64 GetNumberOfUndecided() const;
 
 private:
-  void BuildShape(PreparedMembrane& prepared);
+  void SetShape();
   void TurnMembrane(const MembraneView& view);
   void ReportEye(SceneMessages& messages);
   /** The solver's count, to which all of its users add. */

@@ -3,6 +3,7 @@
 #include "Filters/Membrane/StackScene.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/StackValidation.h"
 
 #include "vtkImplicitFunction.h"
 #include "vtkPolyData.h"
@@ -23,12 +24,10 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
 {
   bool isNew = this->Entries.size() != surfaces.size();
   this->Entries.resize(surfaces.size());
-  std::vector<InterfaceMedia> media;
+  std::vector<InterfaceMedia> media = ListMedia(interfaces);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     vtkRefractingInterface* interface = interfaces->GetInterface(static_cast<int>(i));
-    media.push_back(
-      { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
     vtkImplicitFunction* function =
       this->UsedFitting == Fitting::Exact ? interface->GetExactSurface() : nullptr;
     bool& turns = this->Entries[i].Turns;
@@ -39,10 +38,7 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
       return false;
     }
   }
-  const auto same = [](const InterfaceMedia& a, const InterfaceMedia& b)
-  { return a.Exterior == b.Exterior && a.Interior == b.Interior; };
-  if (!isNew && media.size() == this->Media.size() &&
-    std::equal(media.begin(), media.end(), this->Media.begin(), same))
+  if (!isNew && media == this->Media)
   {
     return true;
   }
@@ -54,10 +50,12 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
 //------------------------------------------------------------------------------
 void StackScene::SetSolverInterfaces()
 {
-  std::vector<StackInterface> list;
+  std::vector<Interface> list;
   for (std::size_t i = 0; i < this->Media.size(); ++i)
   {
-    list.push_back({ this->Entries[i].Surface, this->Media[i] });
+    SourceSurface& source = this->Entries[i].Source;
+    source.GetSurface()->Prepare(SurfaceParts::Crossings, FacetLoop);
+    list.push_back({ source.GetSurface(), this->Media[i] });
   }
   this->IsEyeReady = false;
   this->AreEyesReported = false;
@@ -71,11 +69,10 @@ void StackScene::SetSolverInterfaces()
  */
 bool StackScene::IsOnWrongSide(std::size_t index, const glm::dvec3& eye) const
 {
-  const Membrane& surface = this->Entries[index].Surface->GetMembrane();
+  const Membrane& surface = this->Entries[index].Source.GetMembrane();
   const glm::dvec3 local = eye - surface.GetOrigin();
   const MediaChain chain(this->Media);
-  const bool refracts = this->Media[index].Exterior != this->Media[index].Interior;
-  return refracts && !chain.Ways.empty() && !surface.IsClosed() &&
+  return this->Media[index].IsRefracting() && !chain.Ways.empty() && !surface.IsClosed() &&
     std::isfinite(local.x + local.y + local.z) &&
     !surface.ShowsSide(local, chain.Ways.front()[index].FromFront ? 1.0 : -1.0);
 }
@@ -88,18 +85,13 @@ void StackScene::TurnSurfaces(const glm::dvec3& eye)
   for (std::size_t i = 0; i < this->Entries.size(); ++i)
   {
     Entry& entry = this->Entries[i];
-    const bool isTurned = entry.Turns && entry.IsTurned != this->IsOnWrongSide(i, eye);
-    if (isTurned == entry.IsTurned)
+    const bool isTurned = entry.Turns && entry.Source.IsTurned() != this->IsOnWrongSide(i, eye);
+    if (isTurned != entry.Source.IsTurned())
     {
-      continue;
+      entry.Source.Turn();
+      ++this->PatchBuilds;
+      isNew = true;
     }
-    entry.IsTurned = isTurned;
-    entry.Arrays.Turn();
-    auto surface = std::make_shared<StackSurface>();
-    surface->SetMembrane(entry.Arrays.AsInput(), FacetLoop);
-    ++this->PatchBuilds;
-    entry.Surface = surface;
-    isNew = true;
   }
   if (isNew)
   {
@@ -150,60 +142,36 @@ std::string StackScene::DescribeSides()
 bool StackScene::UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicitFunction* function,
   bool& isNew, SceneMessages& messages)
 {
-  Entry& entry = this->Entries[index];
-  const vtkMTimeType sourceTime = GetMembraneTime(source);
-  const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
-  const auto isCurrent = [=, isTurned = entry.IsTurned](const Entry& known)
+  SourceSurface& own = this->Entries[index].Source;
+  const MembraneOrigin origin(source, function, true);
+  const auto isCurrent = [&origin, isTurned = own.IsTurned()](const Entry& entry)
   {
-    return known.Surface && known.Source == source && known.SourceTime == sourceTime &&
-      known.Function == function && known.FunctionTime == functionTime &&
-      known.IsTurned == isTurned;
+    return entry.Source.IsReady() && entry.Source.GetOrigin() == origin &&
+      entry.Source.IsTurned() == isTurned;
   };
-  if (isCurrent(entry))
-  {
-    return true;
-  }
   const auto end = this->Entries.begin() + static_cast<std::ptrdiff_t>(index);
   const auto earlier = std::find_if(this->Entries.begin(), end, isCurrent);
-  if (earlier != end)
+  if (earlier != end && !isCurrent(this->Entries[index]))
   {
-    isNew = isNew || entry.Surface != earlier->Surface;
-    const bool turns = entry.Turns;
-    entry = *earlier;
-    entry.Turns = turns;
+    isNew = isNew || own.GetSurface() != earlier->Source.GetSurface();
+    own = earlier->Source;
     return true;
   }
-  MembraneArrays arrays = ExtractMembrane(source);
-  const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
-  if (entry.IsTurned)
-  {
-    arrays.Turn();
-  }
-  entry.Source = source;
-  entry.SourceTime = sourceTime;
-  entry.Function = function;
-  entry.FunctionTime = functionTime;
-  if (entry.Surface && arrays == entry.Arrays)
+  if (!own.Update(source, function, true))
   {
     return true;
   }
   isNew = true;
-  entry.Arrays = std::move(arrays);
-  auto surface = std::make_shared<StackSurface>();
-  const MembraneStatus status = surface->SetMembrane(entry.Arrays.AsInput(), FacetLoop);
   ++this->PatchBuilds;
-  SceneMessages own;
-  const bool isReady =
-    ReportMembrane(status, surface->GetMembrane().GetReport(), entry.Arrays, lost, own);
-  entry.Surface = isReady ? surface : nullptr;
+  SceneMessages read;
+  const bool isReady = own.Report(read);
   if (!isReady)
   {
     this->Media.clear(); // so that the next list is new
   }
-  std::ostringstream place;
-  place << "Interface " << index << ": ";
-  messages.Error += own.Error.empty() ? "" : place.str() + own.Error;
-  messages.Warning += own.Warning.empty() ? "" : place.str() + own.Warning;
+  const std::string place = "Interface " + std::to_string(index) + ": ";
+  messages.Error += read.Error.empty() ? "" : place + read.Error;
+  messages.Warning += read.Warning.empty() ? "" : place + read.Warning;
   return isReady;
 }
 
@@ -233,7 +201,7 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
 void StackScene::ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& messages)
 {
   const auto first = std::find_if(this->Media.begin(), this->Media.end(),
-    [](const InterfaceMedia& media) { return media.Exterior != media.Interior; });
+    [](const InterfaceMedia& media) { return media.IsRefracting(); });
   if (this->AreEyesReported || eyes.empty() || first == this->Media.end())
   {
     return;
@@ -254,7 +222,8 @@ void StackScene::ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& 
 const Membrane& StackScene::GetFirstMembrane() const
 {
   const std::vector<RefractionStack::Link>& links = this->Solver.GetStack().GetLinks();
-  return (links.empty() ? this->Entries.front().Surface : links.front().Surface)->GetMembrane();
+  return links.empty() ? this->Entries.front().Source.GetMembrane()
+                       : links.front().Surface->GetMembrane();
 }
 
 }

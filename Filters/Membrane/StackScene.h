@@ -3,11 +3,10 @@
 #ifndef meniscus_Filters_Membrane_StackScene_h
 #define meniscus_Filters_Membrane_StackScene_h
 
-#include "Filters/Membrane/MembraneMessages.h"
+#include "Filters/Membrane/SourceSurface.h"
 #include "Refraction/Stack/StackSolver.h"
 
 #include "vtkType.h"
-#include "vtkWeakPointer.h"
 
 #include <array>
 #include <cstddef>
@@ -15,8 +14,6 @@
 #include <string>
 #include <vector>
 
-class vtkImplicitFunction;
-class vtkPolyData;
 class vtkRefractingInterfaceCollection;
 
 namespace meniscus
@@ -69,17 +66,11 @@ public:
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
 
 private:
-  /** A surface and the values that it was built from. */
   struct Entry
   {
-    vtkWeakPointer<vtkPolyData> Source;
-    vtkMTimeType SourceTime = 0;
-    vtkImplicitFunction* Function = nullptr; ///< used for comparison only
-    vtkMTimeType FunctionTime = 0;
+    /** Copies share the surface of an earlier entry with the same values. */
+    SourceSurface Source{ SourceSurface::Change::NewObject };
     bool Turns = false; ///< the surface is turned towards the eye
-    bool IsTurned = false;
-    MembraneArrays Arrays;                       ///< of the turned surface, if it is turned
-    std::shared_ptr<const StackSurface> Surface; ///< null if it cannot be used
   };
 
   bool UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicitFunction* function,

@@ -4,9 +4,12 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/StackValidation.h"
-#include "Refraction/Stack/MediaChain.h"
+
+#include "vtkPolyData.h"
+#include "vtkRefractingInterfaceCollection.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace meniscus
@@ -14,19 +17,13 @@ namespace meniscus
 namespace
 {
 
-/** The media of the interfaces; only of those that refract, if wanted. */
-std::vector<InterfaceMedia> MediaOf(
-  const std::vector<MembraneInterface>& interfaces, bool onlyRefracting)
+/** Media of the interfaces that refract. */
+std::vector<InterfaceMedia> FindRefracting(const std::vector<InterfaceMedia>& media)
 {
-  std::vector<InterfaceMedia> media;
-  for (const MembraneInterface& interface : interfaces)
-  {
-    if (!onlyRefracting || interface.Exterior != interface.Interior)
-    {
-      media.push_back({ interface.Exterior, interface.Interior });
-    }
-  }
-  return media;
+  std::vector<InterfaceMedia> refracting;
+  std::copy_if(media.begin(), media.end(), std::back_inserter(refracting),
+    [](const InterfaceMedia& one) { return one.IsRefracting(); });
+  return refracting;
 }
 
 /** True if rays that come to the front of the first interface can pass all of them. */
@@ -44,65 +41,64 @@ std::string DescribeWrongSide()
 }
 
 /** Error in a list that is found without reading the surfaces; empty if there is none. */
-std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
+std::string DescribeFault(
+  const std::vector<vtkPolyData*>& surfaces, const std::vector<InterfaceMedia>& media)
 {
-  const auto noSurface = std::find_if(interfaces.begin(), interfaces.end(),
-    [](const MembraneInterface& interface) { return !interface.Surface; });
-  if (noSurface != interfaces.end())
+  const auto noSurface = std::find(surfaces.begin(), surfaces.end(), nullptr);
+  if (noSurface != surfaces.end())
   {
-    const auto number = static_cast<std::size_t>(noSurface - interfaces.begin());
-    return NameInterface(number, interfaces.size()) + "The membrane is not a vtkPolyData";
+    const auto number = static_cast<std::size_t>(noSurface - surfaces.begin());
+    return NameInterface(number, surfaces.size()) + "The membrane is not a vtkPolyData";
   }
-  const std::vector<InterfaceMedia> media = MediaOf(interfaces, false);
   const std::string fault = DescribeMediaFault(media);
   // The rays show whether they come from the back, unless the interface that does not match is not
   // traced.
-  const bool fits = PassesFromFront(media) || !PassesFromFront(MediaOf(interfaces, true));
+  const bool fits = PassesFromFront(media) || !PassesFromFront(FindRefracting(media));
   return fault.empty() && !fits ? DescribeWrongSide() : fault;
 }
 
 }
 
 //------------------------------------------------------------------------------
-InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interfaces, bool wanted)
+InputReport RayCastMembrane::Update(const std::vector<vtkPolyData*>& surfaces,
+  vtkRefractingInterfaceCollection* interfaces, bool wanted)
 {
   this->Used.clear();
-  const std::string fault = DescribeFault(interfaces);
+  const std::size_t count = surfaces.size();
+  const auto items = static_cast<std::size_t>(interfaces->GetNumberOfItems());
+  if (count != items && (count > 0 || items > 1))
+  {
+    return { DescribeCounts(static_cast<int>(items), static_cast<int>(count), 1), std::string() };
+  }
+  std::vector<InterfaceMedia> media = ListMedia(interfaces);
+  media.resize(count); // the interface of an owner without a membrane is not used
+  const std::string fault = DescribeFault(surfaces, media);
   if (!fault.empty())
   {
     return { fault, std::string() };
   }
-  std::vector<UsedInterface> used;
-  for (std::size_t i = 0; i < interfaces.size(); ++i)
-  {
-    std::size_t shape = 0;
-    while (interfaces[shape].Surface != interfaces[i].Surface)
-    {
-      ++shape;
-    }
-    if (interfaces[i].Exterior != interfaces[i].Interior)
-    {
-      used.push_back({ shape, interfaces[i].Exterior, interfaces[i].Interior });
-    }
-  }
-  if (used.empty() && wanted && !interfaces.empty())
-  {
-    used.push_back({ 0, interfaces[0].Exterior, interfaces[0].Interior });
-  }
+  const std::vector<InterfaceMedia> refracting = FindRefracting(media);
+  const bool isShown = wanted && refracting.empty(); // the first interface, without refraction
+  this->Shapes.resize(std::max(this->Shapes.size(), count));
   InputReport report;
-  for (const UsedInterface& interface : used)
+  std::vector<Interface> used;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const std::size_t number = interface.Shape;
-    InputReport read =
-      this->ReadShape(interfaces[number].Surface, number, NameInterface(number, interfaces.size()));
-    if (!read.Error.empty())
+    if (media[i].IsRefracting() || (isShown && i == 0))
     {
-      return read;
+      const auto first = std::find(surfaces.begin(), surfaces.end(), surfaces[i]);
+      const auto number = static_cast<std::size_t>(first - surfaces.begin());
+      InputReport read = this->ReadShape(surfaces[i], number, NameInterface(number, count));
+      if (!read.Error.empty())
+      {
+        return read;
+      }
+      report.Warning += read.Warning;
+      used.push_back({ this->Shapes[number].Source.GetSurface(), media[i] });
     }
-    report.Warning += read.Warning;
   }
   this->Used = std::move(used);
-  this->FitsFromExterior = PassesFromFront(MediaOf(interfaces, true));
+  this->FitsFromExterior = PassesFromFront(refracting);
   return report;
 }
 
@@ -111,13 +107,13 @@ InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interf
 InputReport RayCastMembrane::ReadShape(
   vtkPolyData* surface, std::size_t number, const std::string& name)
 {
-  while (this->Shapes.size() <= number)
+  Shape& shape = this->Shapes[number];
+  if (!shape.Source.Update(surface, nullptr, true))
   {
-    this->Shapes.push_back(std::make_unique<SurfaceShape>());
+    return {};
   }
-  SurfaceShape& shape = *this->Shapes[number];
   SceneMessages messages;
-  if (!shape.Scene.SetMembrane(surface, true, messages))
+  if (!shape.Source.Report(messages))
   {
     return { name + messages.Error, std::string() };
   }
@@ -133,9 +129,9 @@ InputReport RayCastMembrane::ReadShape(
 TableVersion RayCastMembrane::GetShapeVersion() const
 {
   std::int64_t builds = 0;
-  for (const std::unique_ptr<SurfaceShape>& shape : this->Shapes)
+  for (const Shape& shape : this->Shapes)
   {
-    builds += shape->Scene.GetNumberOfPatchBuilds();
+    builds += shape.Source.GetNumberOfBuilds();
   }
   return TableVersion(builds);
 }
@@ -145,23 +141,27 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
   const bool isStack = this->Used.size() > 1;
-  if (this->SightShapes != this->GetShapeVersion() || this->SightOf != this->Used ||
+  if (this->SightShapes != this->GetShapeVersion() || !(this->SightOf == this->Used) ||
     !(this->View == view))
   {
     this->View = view;
     if (isStack)
     {
       this->Sight.Clear();
-      this->TraceStack(view);
+      for (Shape& shape : this->Shapes)
+      {
+        shape.Source.GetSurface()->Prepare(SurfaceParts::Boxes, ThreadedLoop);
+      }
+      this->Stack.Build(this->Used, view, ThreadedLoop);
     }
     else
     {
       this->Stack.Clear();
-      view.Exterior = this->Used.front().Exterior;
-      view.Interior = this->Used.front().Interior;
-      const CurvedMembraneSolver& surface =
-        this->Shapes[this->Used.front().Shape]->Scene.GetCurved();
-      this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
+      const Interface& only = this->Used.front();
+      view.Exterior = only.Media.Exterior;
+      view.Interior = only.Media.Interior;
+      this->Sight.Build(
+        only.Surface->GetMembrane(), only.Surface->GetPatches(), view, ThreadedLoop);
     }
     this->SightOf = this->Used;
     this->SightShapes = this->GetShapeVersion();
@@ -178,25 +178,6 @@ std::string RayCastMembrane::DescribeMismatch() const
 {
   return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? DescribeWrongSide()
                                                                      : std::string();
-}
-
-//------------------------------------------------------------------------------
-void RayCastMembrane::TraceStack(const RefractedRayField::View& view)
-{
-  std::vector<StackedInterface> interfaces;
-  for (const UsedInterface& used : this->Used)
-  {
-    SurfaceShape& shape = *this->Shapes[used.Shape];
-    const CurvedMembraneSolver& surface = shape.Scene.GetCurved();
-    if (shape.TreeOf != shape.Scene.GetNumberOfPatchBuilds())
-    {
-      shape.Tree.Build(surface.GetMembrane(), surface.GetPatches(), ThreadedLoop);
-      shape.TreeOf = shape.Scene.GetNumberOfPatchBuilds();
-    }
-    interfaces.push_back(
-      { &surface.GetMembrane(), &surface.GetPatches(), &shape.Tree, used.Exterior, used.Interior });
-  }
-  this->Stack.Build(interfaces, view, ThreadedLoop);
 }
 
 //------------------------------------------------------------------------------

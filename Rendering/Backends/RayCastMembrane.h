@@ -4,11 +4,11 @@
 #define meniscus_Rendering_Backends_RayCastMembrane_h
 
 #include "Common/TableVersion.h"
-#include "Filters/Membrane/RefractionScene.h"
+#include "Filters/Membrane/SourceSurface.h"
+#include "Refraction/Surface/Interface.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Volume/Caster/RefractedLegEntries.h"
-#include "Volume/Refracted/PatchTree.h"
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
@@ -16,24 +16,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 class vtkPolyData;
+class vtkRefractingInterfaceCollection;
 
 namespace meniscus
 {
-
-/** One of the interfaces at which a mapper's rays are refracted. */
-struct MembraneInterface
-{
-  /** Null for a data object of another type. */
-  vtkPolyData* Surface = nullptr;
-  /** Indices of refraction on the side that the normals point to, and on the other side. */
-  double Exterior = 1.0;
-  double Interior = 1.0;
-};
 
 /**
  * Membrane at which a mapper's rays are refracted: one surface, or several in the order in which
@@ -45,11 +35,13 @@ class RayCastMembrane
 {
 public:
   /**
-   * Takes the interfaces, none without a membrane, and reads the shapes of those that refract; if
-   * none does and the membrane is `wanted` anyway, that of the first. With an error the membrane
-   * cannot be used; a warning is reported once.
+   * Takes the surfaces at port 1 of the owner, none without a membrane, and their interfaces, and
+   * reads the shapes of those that refract; if none does and the membrane is `wanted` anyway, that
+   * of the first. A data object of another type than vtkPolyData is null. With an error the
+   * membrane cannot be used; a warning is reported once.
    */
-  InputReport Update(const std::vector<MembraneInterface>& interfaces, bool wanted);
+  InputReport Update(const std::vector<vtkPolyData*>& surfaces,
+    vtkRefractingInterfaceCollection* interfaces, bool wanted);
 
   /** Number of interfaces at which rays are traced; 0 if the membrane changes nothing. */
   int GetNumberOfInterfaces() const { return static_cast<int>(this->Used.size()); }
@@ -89,42 +81,24 @@ public:
   RefractedRayStack::Counts GetCounts() const;
 
 private:
-  /** A surface, with the tree of its patches if there are several interfaces. */
-  struct SurfaceShape
+  struct Shape
   {
-    RefractionScene Scene;
-    PatchTree Tree;
-    /** Build of the scene's patches that the tree is for. */
-    std::int64_t TreeOf = -1;
+    SourceSurface Source;
     /**
      * Last warning, so that it is not repeated when the same triangles are left out of the next
      * wave.
      */
     std::string Told;
   };
-  /** An interface at which rays are traced. */
-  struct UsedInterface
-  {
-    /** Number of its surface in Shapes. */
-    std::size_t Shape;
-    double Exterior;
-    double Interior;
-
-    bool operator==(const UsedInterface& other) const
-    {
-      return this->Shape == other.Shape && this->Exterior == other.Exterior &&
-        this->Interior == other.Interior;
-    }
-  };
 
   /** Rays behind each interface in the order in which rays meet them: legs 1 and following. */
   std::vector<const RefractedRayTiles*> ListRefracted() const;
   InputReport ReadShape(vtkPolyData* surface, std::size_t number, const std::string& name);
-  void TraceStack(const RefractedRayField::View& view);
 
   /** Surfaces by the number of the first interface that has them. */
-  std::vector<std::unique_ptr<SurfaceShape>> Shapes;
-  std::vector<UsedInterface> Used;
+  std::vector<Shape> Shapes;
+  /** Interfaces at which rays are traced. */
+  std::vector<Interface> Used;
   /** True if the media match along the list for rays from the exterior of the first interface. */
   bool FitsFromExterior = true;
   /** Rays behind one interface. */
@@ -134,7 +108,7 @@ private:
   RefractionFrames Frames;
   /** View, interfaces and version of their shapes that the rays were traced for. */
   RefractedRayField::View View;
-  std::vector<UsedInterface> SightOf;
+  std::vector<Interface> SightOf;
   TableVersion SightShapes;
   TableVersion SightVersion;
   /** Versions of the mesh, of its scalars and of the sight that vertices were placed for. */

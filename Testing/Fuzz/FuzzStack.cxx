@@ -25,12 +25,12 @@ namespace
 
 constexpr int MostInterfaces = 3;
 
-std::vector<StackInterface> ReadList(ByteReader& reader)
+std::vector<Interface> ReadList(ByteReader& reader)
 {
-  std::vector<StackInterface> list;
+  std::vector<Interface> list;
   for (int i = 1 + reader.Below(MostInterfaces); i > 0; --i)
   {
-    StackInterface next;
+    Interface next;
     if (!list.empty() && reader.Below(4) == 3)
     {
       next.Surface = list.back().Surface;
@@ -39,8 +39,9 @@ std::vector<StackInterface> ReadList(ByteReader& reader)
     else
     {
       const FuzzSurface arrays(reader);
-      auto surface = std::make_shared<StackSurface>();
-      const MembraneStatus status = surface->SetMembrane(arrays.GetInput());
+      auto surface = std::make_shared<RefractingSurface>();
+      const MembraneStatus status =
+        surface->SetMembrane(arrays.GetInput(), SurfaceParts::Crossings);
       CheckSurface(surface->GetMembrane(), arrays.GetInput(), status);
       if (status != MembraneStatus::Ready || !IsOfSolvableSize(surface->GetMembrane()))
       {
@@ -123,7 +124,7 @@ void CheckPoints(const StackSolver& solver, const FuzzObject& object)
 void FuzzStack(const std::uint8_t* bytes, std::size_t size)
 {
   ByteReader reader(bytes, size);
-  const std::vector<StackInterface> list = ReadList(reader);
+  const std::vector<Interface> list = ReadList(reader);
   const FuzzObject object(reader);
   StackSolver solver;
   if (list.empty() || solver.SetInterfaces(list).Fault != MediaFault::None ||

@@ -4,7 +4,7 @@
 #define meniscus_Testing_Stress_StackCase_h
 
 #include "MembraneMeshes.h"
-#include "Refraction/Stack/MediaChain.h"
+#include "Refraction/Surface/MediaChain.h"
 #include "StressRandom.h"
 
 #include <glm/vec3.hpp>

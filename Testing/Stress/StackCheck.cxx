@@ -40,9 +40,9 @@ bool IsSame(const VirtualVertex& a, const VirtualVertex& b)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<StackInterface> StackChecker::MakeList() const
+std::vector<Interface> StackChecker::MakeList() const
 {
-  std::vector<StackInterface> list;
+  std::vector<Interface> list;
   for (const StackLayer& layer : this->Test.Layers)
   {
     list.push_back({ this->Surfaces[layer.Mesh].Surface, layer.Media });
@@ -52,9 +52,9 @@ std::vector<StackInterface> StackChecker::MakeList() const
 
 //------------------------------------------------------------------------------
 // The same list with interfaces of equal indices at both ends and between.
-std::vector<StackInterface> StackChecker::MakePaddedList()
+std::vector<Interface> StackChecker::MakePaddedList()
 {
-  std::vector<StackInterface> list;
+  std::vector<Interface> list;
   const auto pad = [this, &list](double index)
   {
     const int count = 1 + this->Random.Below(2);
@@ -75,8 +75,7 @@ std::vector<StackInterface> StackChecker::MakePaddedList()
 }
 
 //------------------------------------------------------------------------------
-bool StackChecker::SetSolver(
-  StackSolver& solver, const std::vector<StackInterface>& list, bool threads)
+bool StackChecker::SetSolver(StackSolver& solver, const std::vector<Interface>& list, bool threads)
 {
   const glm::dvec3 eye = this->Test.Scale * this->Test.Eye + this->Test.Offset;
   return solver.SetInterfaces(list).Fault == MediaFault::None &&
@@ -97,7 +96,8 @@ bool StackChecker::SetUp()
       mesh.Points[i] = scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
     }
     TracedSurface& surface = this->Surfaces[m];
-    if (surface.Surface->SetMembrane(mesh.AsInput()) != MembraneStatus::Ready)
+    if (surface.Surface->SetMembrane(mesh.AsInput(), SurfaceParts::Crossings) !=
+      MembraneStatus::Ready)
     {
       return false;
     }

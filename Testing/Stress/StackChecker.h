@@ -33,7 +33,7 @@ constexpr double Marginal = 1e-3;
 /** A surface of the case, with its patches as the tracer sees them. */
 struct TracedSurface
 {
-  std::shared_ptr<StackSurface> Surface = std::make_shared<StackSurface>();
+  std::shared_ptr<RefractingSurface> Surface = std::make_shared<RefractingSurface>();
   std::unique_ptr<PatchTracer> Tracer;
   glm::dvec3 Shift{ 0.0 }; ///< of its origin from that of the list
 };
@@ -61,9 +61,9 @@ public:
 
 private:
   bool SetUp();
-  bool SetSolver(StackSolver& solver, const std::vector<StackInterface>& list, bool threads);
-  std::vector<StackInterface> MakeList() const;
-  std::vector<StackInterface> MakePaddedList();
+  bool SetSolver(StackSolver& solver, const std::vector<Interface>& list, bool threads);
+  std::vector<Interface> MakeList() const;
+  std::vector<Interface> MakePaddedList();
   bool HasExpectedLinks() const;
 
   glm::dvec3 ToWorld(const glm::dvec3& frame) const { return frame + this->Frame; }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/CrossingChain.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Surface/CurveCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <glm/geometric.hpp>
 

@@ -100,7 +100,7 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
 bool CurvedMembraneSolver::Begin(
   const glm::dvec3& point, const Memory& memory, SightTrail& trail) const
 {
-  trail.Point = point - this->Surface.GetOrigin();
+  trail.Point = point - this->GetMembrane().GetOrigin();
   trail.Hint = CurvedPatches::NoFacet;
   trail.End = SightTrail::State::Open;
   trail.Patches = 0;
@@ -162,7 +162,7 @@ void CurvedMembraneSolver::Finish(const glm::dvec3& point, SightTrail& trail, Me
       return;
     }
     *trail.Vertex =
-      this->MakeVertex(trail.Point, this->Patches.GetPatch(trail.Place.Facet), trail.Place);
+      this->MakeVertex(trail.Point, this->GetPatches().GetPatch(trail.Place.Facet), trail.Place);
   }
   if (!first)
   {
@@ -184,9 +184,9 @@ void CurvedMembraneSolver::Finish(const glm::dvec3& point, SightTrail& trail, Me
 bool CurvedMembraneSolver::BeginBetween(const glm::dvec3& point, const VirtualVertex& first,
   const VirtualVertex& second, SightTrail& trail) const
 {
-  trail.Point = point - this->Surface.GetOrigin();
+  trail.Point = point - this->GetMembrane().GetOrigin();
   trail.Place.Facet = first.Facet;
-  trail.Target = 0.5 * (first.SightPoint + second.SightPoint) - this->Surface.GetOrigin();
+  trail.Target = 0.5 * (first.SightPoint + second.SightPoint) - this->GetMembrane().GetOrigin();
   trail.Place.Root.At.Normal = this->Optics.Eye - trail.Target;
   return first.Facet != CurvedPatches::NoFacet && this->IsInReach(trail.Point);
 }

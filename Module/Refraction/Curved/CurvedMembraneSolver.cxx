@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Curved/PatchRoots.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Surface/PatchCrossings.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <algorithm>
@@ -43,41 +43,33 @@ constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
 //------------------------------------------------------------------------------
 MembraneStatus CurvedMembraneSolver::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
 {
-  const std::vector<Membrane::Facet> before = this->Surface.GetFacets();
-  const std::size_t pointsBefore = this->Surface.GetPositions().size();
-  const MembraneStatus status = this->Surface.Build(input);
-  const auto& facets = this->Surface.GetFacets();
-  const auto& positions = this->Surface.GetPositions();
-  if (facets == before && positions.size() == pointsBefore && !facets.empty())
-  {
-    this->Patches.Refit(loop);
-    this->Tree.SetUnit(this->Surface.GetRadius());
-    this->FindAxis();
-    return status;
-  }
-  this->Patches.Build(this->Surface, loop);
-  this->BuildTree(this->Tree);
-  this->FindAxis();
+  this->Own = this->Own ? this->Own : std::make_shared<RefractingSurface>();
+  const MembraneStatus status = this->Own->SetMembrane(input, SurfaceParts::Patches, loop);
+  this->SetSurface(this->Own);
   return status;
 }
 
 //------------------------------------------------------------------------------
-void CurvedMembraneSolver::BuildTree(RayTubeTree& tree) const
+void CurvedMembraneSolver::SetSurface(const std::shared_ptr<const RefractingSurface>& surface)
 {
-  const auto& positions = this->Surface.GetPositions();
-  const auto& facets = this->Surface.GetFacets();
-  std::vector<glm::dvec3> centroids;
-  centroids.reserve(facets.size());
-  for (const Membrane::Facet& facet : facets)
+  this->Surface = surface;
+  if (this->TreeOf != surface->GetTopology())
   {
-    glm::dvec3 sum(0.0);
-    for (const std::int32_t vertex : facet)
-    {
-      sum += positions[static_cast<std::size_t>(vertex)];
-    }
-    centroids.push_back(sum / 3.0);
+    this->BuildTree();
   }
-  tree.Build(centroids, facets.empty() ? 1.0 : this->Surface.GetRadius());
+  else
+  {
+    this->Tree.SetUnit(this->GetMembrane().GetRadius());
+  }
+  this->FindAxis();
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::BuildTree()
+{
+  const std::vector<glm::dvec3> centroids = this->GetMembrane().ComputeCentroids();
+  this->Tree.Build(centroids, centroids.empty() ? 1.0 : this->GetMembrane().GetRadius());
+  this->TreeOf = this->Surface->GetTopology();
 }
 
 //------------------------------------------------------------------------------
@@ -86,11 +78,11 @@ void CurvedMembraneSolver::FindAxis()
   this->SidesReady = false;
   this->SidesAboveReady = false;
   glm::dvec3 sum(0.0);
-  for (const Membrane::Facet& facet : this->Surface.GetFacets())
+  for (const Membrane::Facet& facet : this->GetMembrane().GetFacets())
   {
     for (const std::int32_t vertex : facet)
     {
-      sum += this->Surface.GetNormals()[static_cast<std::size_t>(vertex)];
+      sum += this->GetMembrane().GetNormals()[static_cast<std::size_t>(vertex)];
     }
   }
   this->FindEnclosure();
@@ -108,9 +100,9 @@ void CurvedMembraneSolver::FindAxis()
   this->LargestBulge = 0.0;
   this->Lowest = std::numeric_limits<double>::max();
   this->Highest = std::numeric_limits<double>::lowest();
-  for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
+  for (std::size_t i = 0; i < this->GetMembrane().GetFacets().size(); ++i)
   {
-    const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+    const CurvedPatch patch = this->GetPatches().GetPatch(static_cast<std::int32_t>(i));
     const double bulge = BoundBulge(patch);
     this->LargestBulge = std::max(this->LargestBulge, bulge);
     for (const glm::dvec3& corner : patch.Corner)
@@ -127,7 +119,8 @@ void CurvedMembraneSolver::PrepareField()
 {
   if (!this->FieldReady)
   {
-    this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
+    this->ConvexField =
+      !this->Closed && IsConvexField(this->GetMembrane(), this->GetPatches(), this->Frame);
     this->FieldReady = true;
   }
 }
@@ -137,17 +130,19 @@ const InjectivityGrid& CurvedMembraneSolver::PrepareGrid(double lowest, const Ra
 {
   // The rounding error of a height is a few roundings of its coordinates.
   const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
-    (std::fabs(lowest) + glm::length(this->Surface.GetOrigin()) + this->Surface.GetRadius());
+    (std::fabs(lowest) + glm::length(this->GetMembrane().GetOrigin()) +
+      this->GetMembrane().GetRadius());
   const double top = (this->Optics.Reflects ? -this->Lowest : this->Highest) + slack;
-  const double radii = (top - (lowest - slack)) / this->Surface.GetRadius();
+  const double radii = (top - (lowest - slack)) / this->GetMembrane().GetRadius();
   int exponent = 0;
   std::frexp(std::max(radii, SmallestDepth), &exponent);
   const auto [place, isNew] = this->Grids.try_emplace(exponent);
   InjectivityGrid& grid = place->second;
   if (isNew)
   {
-    grid.Build(this->Surface, this->Patches, this->RayFrame, this->ConvexField, this->LargestBulge,
-      this->Optics, top - std::ldexp(this->Surface.GetRadius(), exponent), top, loop);
+    grid.Build(this->GetMembrane(), this->GetPatches(), this->RayFrame, this->ConvexField,
+      this->LargestBulge, this->Optics, top - std::ldexp(this->GetMembrane().GetRadius(), exponent),
+      top, loop);
   }
   return grid;
 }
@@ -155,22 +150,22 @@ const InjectivityGrid& CurvedMembraneSolver::PrepareGrid(double lowest, const Ra
 //------------------------------------------------------------------------------
 void CurvedMembraneSolver::FindEnclosure()
 {
-  const auto& facets = this->Surface.GetFacets();
+  const auto& facets = this->GetMembrane().GetFacets();
   this->Closed = !facets.empty();
   double volume = 0.0; // six times the enclosed volume, by the divergence theorem; positive for
                        // outward normals
   for (std::size_t i = 0; i < facets.size() && this->Closed; ++i)
   {
     const auto at = [this, &facets, i](std::size_t k) -> const glm::dvec3&
-    { return this->Surface.GetPositions()[static_cast<std::size_t>(facets[i][k])]; };
+    { return this->GetMembrane().GetPositions()[static_cast<std::size_t>(facets[i][k])]; };
     const glm::dvec3 winding = glm::cross(at(1) - at(0), at(2) - at(0));
     glm::dvec3 normal(0.0);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const bool isBorder = this->Patches.GetNeighbour(static_cast<std::int32_t>(i),
+      const bool isBorder = this->GetPatches().GetNeighbour(static_cast<std::int32_t>(i),
                               static_cast<int>(k)) == CurvedPatches::NoFacet;
       this->Closed = this->Closed && !isBorder;
-      normal += this->Surface.GetNormals()[static_cast<std::size_t>(facets[i][k])];
+      normal += this->GetMembrane().GetNormals()[static_cast<std::size_t>(facets[i][k])];
     }
     volume += std::copysign(1.0, glm::dot(winding, normal)) * glm::dot(at(0), winding);
   }
@@ -182,12 +177,12 @@ void CurvedMembraneSolver::PrepareSides()
 {
   if (!this->SidesReady)
   {
-    this->Sides.Build(this->Surface, this->Patches, this->Frame);
+    this->Sides.Build(this->GetMembrane(), this->GetPatches(), this->Frame);
     this->SidesReady = true;
   }
   if (this->Optics.Reflects && !this->SidesAboveReady)
   {
-    this->SidesAbove.Build(this->Surface, this->Patches, HeightFrame(-this->Axis));
+    this->SidesAbove.Build(this->GetMembrane(), this->GetPatches(), HeightFrame(-this->Axis));
     this->SidesAboveReady = true;
   }
 }
@@ -240,7 +235,7 @@ bool CurvedMembraneSolver::FindOnMirror(const glm::dvec3& local, VirtualVertex& 
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::AreAllOnRaySide(const double* points, std::size_t count) const
 {
-  const glm::dvec3& origin = this->Surface.GetOrigin();
+  const glm::dvec3& origin = this->GetMembrane().GetOrigin();
   for (const double* p = points; p != points + 3 * count; p += 3)
   {
     const glm::dvec3 local = glm::dvec3(p[0], p[1], p[2]) - origin;
@@ -255,9 +250,10 @@ bool CurvedMembraneSolver::AreAllOnRaySide(const double* points, std::size_t cou
 //------------------------------------------------------------------------------
 void CurvedMembraneSolver::Clear()
 {
-  this->Surface = Membrane();
-  this->Patches = CurvedPatches();
+  this->Surface = std::make_shared<RefractingSurface>();
+  this->Own.reset();
   this->Tree = RayTubeTree();
+  this->TreeOf = -1;
   this->Grids.clear();
   this->SidesReady = false;
   this->SidesAboveReady = false;
@@ -272,7 +268,7 @@ EyeStatus CurvedMembraneSolver::SetEye(
   {
     return status;
   }
-  this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior, reflects };
+  this->Optics = { eye - this->GetMembrane().GetOrigin(), exterior, interior, reflects };
   this->RayFrame = reflects ? HeightFrame(-this->Axis) : this->Frame;
   this->Grids.clear();
   if (reflects)
@@ -283,7 +279,7 @@ EyeStatus CurvedMembraneSolver::SetEye(
   this->Tree.Refit(
     [this, &touched](std::int32_t facet)
     {
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const CurvedPatch patch = this->GetPatches().GetPatch(facet);
       if (this->IsEyeOnPatch(patch))
       {
         touched = true;
@@ -301,21 +297,21 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
 {
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   const double slack =
-    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.Eye));
+    rounding * std::max(this->GetMembrane().GetRadius(), glm::length(this->Optics.Eye));
   return IsOnPatch(patch, this->Optics.Eye, slack);
 }
 
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::FacesEye() const
 {
-  return this->Surface.ShowsSide(this->Optics.Eye, 1.0);
+  return this->GetMembrane().ShowsSide(this->Optics.Eye, 1.0);
 }
 
 //------------------------------------------------------------------------------
 std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t most) const
 {
-  const SurfacePieces& pieces = this->Surface.GetPieces();
-  const auto& facets = this->Surface.GetFacets();
+  const SurfacePieces& pieces = this->GetMembrane().GetPieces();
+  const auto& facets = this->GetMembrane().GetFacets();
   if (pieces.Count < 2)
   {
     return 0;
@@ -326,7 +322,8 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
   for (std::size_t i = 0; i < facets.size(); i += step)
   {
     const auto vertex = static_cast<std::size_t>(facets[i][0]);
-    const glm::dvec3 point = this->Surface.GetPositions()[vertex] + this->Surface.GetOrigin();
+    const glm::dvec3 point =
+      this->GetMembrane().GetPositions()[vertex] + this->GetMembrane().GetOrigin();
     this->FindImages(point, images);
     count += std::any_of(images.begin(), images.end(),
       [this, &pieces, &point, i, vertex](const VirtualVertex& image)
@@ -334,8 +331,8 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
         // Vertices that two pieces share are their own images.
         constexpr double touching = 1e-6;
         return pieces.PieceOf[static_cast<std::size_t>(image.Facet)] != pieces.PieceOf[i] &&
-          image.Depth > touching * this->Surface.GetRadius() &&
-          glm::dot(point - image.SightPoint, this->Surface.GetNormals()[vertex]) < 0.0;
+          image.Depth > touching * this->GetMembrane().GetRadius() &&
+          glm::dot(point - image.SightPoint, this->GetMembrane().GetNormals()[vertex]) < 0.0;
       });
   }
   return count;
@@ -345,7 +342,7 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
 bool CurvedMembraneSolver::MayShow(
   const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const
 {
-  const glm::dvec3 middle = 0.5 * low + 0.5 * high - this->Surface.GetOrigin();
+  const glm::dvec3 middle = 0.5 * low + 0.5 * high - this->GetMembrane().GetOrigin();
   const glm::dvec3 half = 0.5 * high - 0.5 * low;
   const double padding = std::max({ half.x, half.y, half.z });
   const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
@@ -360,7 +357,7 @@ bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
   const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
   // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
   // not.
-  return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
+  return reach / this->GetMembrane().GetRadius() < RayTubeTree::FarthestRadii &&
     std::isfinite(local.x + local.y + local.z);
 }
 
@@ -369,22 +366,22 @@ bool CurvedMembraneSolver::MeetRay(
   const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
 {
   const glm::dvec3& eye = this->Optics.Eye;
-  const glm::dvec3 target = near.SightPoint - this->Surface.GetOrigin();
+  const glm::dvec3 target = near.SightPoint - this->GetMembrane().GetOrigin();
   // The direction is scaled to the distance of the surface, so that the line's parameter there is
   // about 1.
   const double distance =
     std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
   const ObjectLine ray{ eye, distance * direction };
   std::int32_t facet = near.Facet;
-  glm::dvec2 b = this->Patches.GetPatch(facet).ProjectToFacet(target);
+  glm::dvec2 b = this->GetPatches().GetPatch(facet).ProjectToFacet(target);
   double l = 1.0;
   if (!this->MeetLine(ray, -direction, facet, b, l))
   {
     return false;
   }
-  at = this->Patches.GetPatch(facet).Evaluate(b);
+  at = this->GetPatches().GetPatch(facet).Evaluate(b);
   at.Normal = glm::normalize(at.Normal);
-  at.Position += this->Surface.GetOrigin();
+  at.Position += this->GetMembrane().GetOrigin();
   return true;
 }
 
@@ -394,7 +391,7 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
 {
   for (int i = 0; i < LongestChase; ++i)
   {
-    const CurvedPatch patch = this->Patches.GetPatch(facet);
+    const CurvedPatch patch = this->GetPatches().GetPatch(facet);
     if (!MeetPatch(patch, line, b, l))
     {
       return false;
@@ -404,13 +401,13 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
       return true;
     }
     const glm::dvec3 target = patch.GetFlatPoint(b);
-    const std::int32_t next = this->Patches.Walk(facet, target, seenAlong, LongestWalk);
+    const std::int32_t next = this->GetPatches().Walk(facet, target, seenAlong, LongestWalk);
     if (next == facet)
     {
       return false; // beyond the border
     }
     facet = next;
-    b = this->Patches.GetPatch(facet).ProjectToFacet(target);
+    b = this->GetPatches().GetPatch(facet).ProjectToFacet(target);
   }
   return false;
 }
@@ -425,7 +422,7 @@ bool CurvedMembraneSolver::FindFirst(
   this->Tree.Visit(local, 0.0,
     [this, &equation, &place](std::int32_t facet)
     {
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const CurvedPatch patch = this->GetPatches().GetPatch(facet);
       const SightRoot root = equation.Solve(patch, glm::dvec2(1.0 / 3.0), FirstSteps, FirstReach);
       if (root.End == SightRoot::End::Converged && FindOutside(root.B).Least >= -Border &&
         equation.IsImage(root.At))
@@ -456,7 +453,7 @@ void CurvedMembraneSolver::FindPlaces(
   this->Tree.Visit(local, 0.0,
     [this, &equation, &places, &isComplete](std::int32_t facet)
     {
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const CurvedPatch patch = this->GetPatches().GetPatch(facet);
       PatchRoots images(equation, patch);
       images.Find();
       isComplete = isComplete && images.IsComplete();
@@ -488,7 +485,7 @@ ImageState CurvedMembraneSolver::FindImages(
   const glm::dvec3& point, std::vector<VirtualVertex>& images) const
 {
   images.clear();
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
   if (!this->IsInReach(local))
   {
     return ImageState::NotFinite;
@@ -504,7 +501,7 @@ ImageState CurvedMembraneSolver::FindImages(
   this->FindPlaces(equation, local, places);
   for (const SightPlace& place : places)
   {
-    const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
+    const CurvedPatch patch = this->GetPatches().GetPatch(place.Facet);
     const VirtualVertex vertex = this->MakeVertex(local, patch, place);
     const double same = SamePlace * patch.GetSize();
     const bool known = std::any_of(images.begin(), images.end(),
@@ -522,7 +519,7 @@ ImageState CurvedMembraneSolver::FindImages(
 VirtualVertex CurvedMembraneSolver::PassThrough(const glm::dvec3& local) const
 {
   VirtualVertex vertex;
-  vertex.Position = local + this->Surface.GetOrigin();
+  vertex.Position = local + this->GetMembrane().GetOrigin();
   vertex.SightPoint = vertex.Position;
   vertex.State = ImageState::Found;
   return vertex;

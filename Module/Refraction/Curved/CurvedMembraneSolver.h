@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Virtual vertices behind a membrane of curved patches: the membrane, its patches, a tree of ray
- * tubes over them, and Newton's method on Snell's law. The interface takes world coordinates;
+ * Virtual vertices behind a membrane of curved patches: a refracting surface, a tree of ray tubes
+ * over its patches, and Newton's method on Snell's law. The interface takes world coordinates;
  * members use local ones, relative to the membrane's origin.
  *
  * The patches stay valid until the shape changes, the bounds in the tree until the eye or the
@@ -11,16 +11,15 @@
 #ifndef meniscus_Refraction_Curved_CurvedMembraneSolver_h
 #define meniscus_Refraction_Curved_CurvedMembraneSolver_h
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Curved/MembraneSides.h"
-#include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/SightFollower.h"
-#include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
-#include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/EyeStatus.h"
+#include "Refraction/Sight/SightEquation.h"
 #include "Refraction/Sight/VirtualVertex.h"
+#include "Refraction/Surface/CurveCrossings.h"
+#include "Refraction/Surface/RefractingSurface.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <atomic>
@@ -28,6 +27,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -37,7 +37,7 @@ class CurvedMembraneSolver
 {
 public:
   CurvedMembraneSolver() = default;
-  CurvedMembraneSolver(const CurvedMembraneSolver&) = delete; ///< the patches point to the membrane
+  CurvedMembraneSolver(const CurvedMembraneSolver&) = delete;
   CurvedMembraneSolver& operator=(const CurvedMembraneSolver&) = delete;
 
   /**
@@ -50,16 +50,19 @@ public:
   static constexpr std::size_t ChainsAtOnce = 16;
 
   /**
-   * Sets the shape. If only points and normals differ from the last one, patches are refitted and
-   * the topology is kept. The eye must be set again afterwards.
+   * Sets the surface, whose patches are ready. Needed again after each change of its shape. The
+   * tree keeps its topology as long as the facets stay the same. The eye must be set again
+   * afterwards.
    */
+  void SetSurface(const std::shared_ptr<const RefractingSurface>& surface);
+  /** Sets the shape of a surface of the solver's own. */
   MembraneStatus SetMembrane(const MembraneInput& input, const RangeLoop& loop = SerialLoop);
 
   /** Removes the membrane. */
   void Clear();
 
-  const Membrane& GetMembrane() const { return this->Surface; }
-  const CurvedPatches& GetPatches() const { return this->Patches; }
+  const Membrane& GetMembrane() const { return this->Surface->GetMembrane(); }
+  const CurvedPatches& GetPatches() const { return this->Surface->GetPatches(); }
   /** Tree over the refracted rays of all facets. */
   const RayTubeTree& GetTree() const { return this->Tree; }
 
@@ -280,11 +283,11 @@ private:
   }
   MembraneSides::Side FindSideOfMirror(const glm::dvec3& local) const;
   bool FindOnMirror(const glm::dvec3& local, VirtualVertex& vertex) const;
-  void BuildTree(RayTubeTree& tree) const;
+  void BuildTree();
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
   SightFollower GetFollower() const
   {
-    return { this->Patches, this->Optics, this->Surface.GetOrigin(), this->Set };
+    return { this->GetPatches(), this->Optics, this->GetMembrane().GetOrigin(), this->Set };
   }
   void SolveChains(const double* points, std::size_t begin, std::size_t end,
     VirtualVertex* vertices, const unsigned char* isAsked) const;
@@ -296,9 +299,10 @@ private:
   void FindPlaces(
     const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const;
 
-  Membrane Surface;
-  CurvedPatches Patches;
+  std::shared_ptr<const RefractingSurface> Surface = std::make_shared<RefractingSurface>();
+  std::shared_ptr<RefractingSurface> Own; ///< surface of SetMembrane()
   RayTubeTree Tree;
+  std::int64_t TreeOf = -1; ///< topology of the surface that the tree was built for
   MembraneSides Sides;
   MembraneSides SidesAbove; ///< as Sides, but by patches above points
   bool SidesReady = false;

@@ -26,8 +26,8 @@
 #define meniscus_Refraction_Curved_InjectivityGrid_h
 
 #include "Common/RangeLoop.h"
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/HeightField.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/MembraneSides.h"
 
-#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #ifndef meniscus_Refraction_Curved_PatchRoots_h
 #define meniscus_Refraction_Curved_PatchRoots_h
 
-#include "Refraction/Curved/SightEquation.h"
+#include "Refraction/Sight/SightEquation.h"
 
 #include <array>
 #include <cstddef>

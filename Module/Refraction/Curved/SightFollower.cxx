@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/SightFollower.h"
 
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Curved/VirtualPlace.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <algorithm>
 

@@ -3,11 +3,11 @@
 #ifndef meniscus_Refraction_Curved_SightFollower_h
 #define meniscus_Refraction_Curved_SightFollower_h
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/SightLanes.h"
 #include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Sight/SightEquation.h"
 #include "Refraction/Sight/VirtualVertex.h"
+#include "Refraction/Surface/CurveCrossings.h"
 #include "Simd/InstructionSets.h"
 
 #include <glm/vec3.hpp>

@@ -9,9 +9,9 @@
 #ifndef meniscus_Refraction_Curved_SightLanes_h
 #define meniscus_Refraction_Curved_SightLanes_h
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Curved/VirtualPlace.h"
+#include "Refraction/Sight/SightEquation.h"
+#include "Refraction/Surface/CurveCrossings.h"
 #include "Simd/InstructionSets.h"
 
 #include <glm/vec3.hpp>

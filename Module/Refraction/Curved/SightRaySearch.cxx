@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/SightRaySearch.h"
 
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Membrane/HeightField.h"
+#include "Refraction/Surface/PatchCrossings.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <glm/geometric.hpp>

@@ -6,8 +6,8 @@
 #include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/SightRaySearch.h"
-#include "Refraction/Curved/SteepDirections.h"
 #include "Refraction/Sight/SeenDepth.h"
+#include "Refraction/Surface/SteepDirections.h"
 
 #include <glm/vec3.hpp>
 

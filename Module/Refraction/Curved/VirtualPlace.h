@@ -3,8 +3,8 @@
 #ifndef meniscus_Refraction_Curved_VirtualPlace_h
 #define meniscus_Refraction_Curved_VirtualPlace_h
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/SightEquation.h"
+#include "Refraction/Sight/SightEquation.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -13,21 +13,18 @@ namespace meniscus
 //------------------------------------------------------------------------------
 MembraneStatus FlatMembraneSolver::SetMembrane(const MembraneInput& input)
 {
-  const MembraneStatus status = this->Surface.Build(input);
-  const auto& positions = this->Surface.GetPositions();
-  std::vector<glm::dvec3> centroids;
-  centroids.reserve(this->Surface.GetFacets().size());
-  for (const Membrane::Facet& facet : this->Surface.GetFacets())
-  {
-    glm::dvec3 sum(0.0);
-    for (const std::int32_t vertex : facet)
-    {
-      sum += positions[static_cast<std::size_t>(vertex)];
-    }
-    centroids.push_back(sum / 3.0);
-  }
-  this->Tree.Build(centroids, status == MembraneStatus::Ready ? this->Surface.GetRadius() : 1.0);
+  const auto own = std::make_shared<RefractingSurface>();
+  const MembraneStatus status = own->SetMembrane(input, SurfaceParts::Facets);
+  this->SetSurface(own);
   return status;
+}
+
+//------------------------------------------------------------------------------
+void FlatMembraneSolver::SetSurface(const std::shared_ptr<const RefractingSurface>& surface)
+{
+  this->Surface = surface;
+  const std::vector<glm::dvec3> centroids = this->GetMembrane().ComputeCentroids();
+  this->Tree.Build(centroids, centroids.empty() ? 1.0 : this->GetMembrane().GetRadius());
 }
 
 //------------------------------------------------------------------------------
@@ -36,8 +33,8 @@ EyeStatus FlatMembraneSolver::SetEye(
 {
   this->Exterior = exterior;
   this->Interior = interior;
-  const EyeStatus status =
-    this->Cells.Update(this->Surface, eye - this->Surface.GetOrigin(), exterior, interior, loop);
+  const EyeStatus status = this->Cells.Update(
+    this->GetMembrane(), eye - this->GetMembrane().GetOrigin(), exterior, interior, loop);
   if (status == EyeStatus::Ready)
   {
     this->Tree.Refit([this](std::int32_t facet) { return this->Cells.GetBounds(facet); }, loop);
@@ -62,7 +59,7 @@ bool FlatMembraneSolver::IsInReach(const glm::dvec3& local) const
   const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
   // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
   // not.
-  return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
+  return reach / this->GetMembrane().GetRadius() < RayTubeTree::FarthestRadii &&
     std::isfinite(local.x + local.y + local.z);
 }
 
@@ -71,7 +68,7 @@ VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 {
   VirtualVertex vertex;
   vertex.Position = point;
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
   if (!this->IsInReach(local))
   {
     vertex.State = ImageState::NotFinite;
@@ -99,13 +96,13 @@ VirtualVertex FlatMembraneSolver::SolvePointByBruteForce(const glm::dvec3& point
 {
   VirtualVertex vertex;
   vertex.Position = point;
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
   if (!this->IsInReach(local))
   {
     vertex.State = ImageState::NotFinite;
     return vertex;
   }
-  const auto count = static_cast<std::int32_t>(this->Surface.GetFacets().size());
+  const auto count = static_cast<std::int32_t>(this->GetMembrane().GetFacets().size());
   for (std::int32_t facet = 0; facet < count; ++facet)
   {
     CellHit hit;
@@ -121,14 +118,14 @@ VirtualVertex FlatMembraneSolver::SolvePointByBruteForce(const glm::dvec3& point
 bool FlatMembraneSolver::MayShow(
   const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
 {
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
   return !this->IsInReach(local) || this->Tree.HasAny(local, padding, chosen);
 }
 
 //------------------------------------------------------------------------------
 bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
 {
-  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
   if (!this->IsInReach(local))
   {
     return false;
@@ -136,7 +133,7 @@ bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
   // A point that is outside by `wall` in each coordinate is at most 2 `wall` edge lengths away from
   // the cell.
   const double edge = 2.0 * RefractionCells::GetLargestStretch() *
-    (glm::length(local) + std::sqrt(3.0) * this->Surface.GetRadius());
+    (glm::length(local) + std::sqrt(3.0) * this->GetMembrane().GetRadius());
   int count = 0;
   this->Tree.Visit(local, 2.0 * wall * edge,
     [this, &local, wall, &count](std::int32_t facet)
@@ -152,24 +149,24 @@ bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
 VirtualVertex FlatMembraneSolver::MakeVertex(
   const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const
 {
-  const Membrane::Facet& ids = this->Surface.GetFacets()[static_cast<std::size_t>(facet)];
+  const Membrane::Facet& ids = this->GetMembrane().GetFacets()[static_cast<std::size_t>(facet)];
   glm::dvec3 sightPoint(0.0);
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i)
   {
     const double weight = hit.Weights[static_cast<int>(i)];
-    sightPoint += weight * this->Surface.GetPositions()[static_cast<std::size_t>(ids[i])];
-    normal += weight * this->Surface.GetNormals()[static_cast<std::size_t>(ids[i])];
+    sightPoint += weight * this->GetMembrane().GetPositions()[static_cast<std::size_t>(ids[i])];
+    normal += weight * this->GetMembrane().GetNormals()[static_cast<std::size_t>(ids[i])];
   }
   const glm::dvec3 sight = glm::normalize(sightPoint - this->Cells.GetEye());
   const double bent = glm::length(normal);
 
   VirtualVertex vertex;
   vertex.Depth = glm::length(local - sightPoint);
-  vertex.SightPoint = sightPoint + this->Surface.GetOrigin();
+  vertex.SightPoint = sightPoint + this->GetMembrane().GetOrigin();
   // Eq. 2.4.
   vertex.Position = sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) +
-    this->Surface.GetOrigin();
+    this->GetMembrane().GetOrigin();
   // Where the corner normals cancel out, or face away from the eye (Eq. 3.1), the ray is taken to
   // be at grazing incidence.
   vertex.Cosine = bent > 0.0 ? std::max(-glm::dot(sight, normal) / bent, 0.0) : 0.0;

@@ -13,12 +13,13 @@
 #define meniscus_Refraction_Flat_FlatMembraneSolver_h
 
 #include "Refraction/Flat/RefractionCells.h"
-#include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/VirtualVertex.h"
+#include "Refraction/Surface/RefractingSurface.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -27,9 +28,11 @@ namespace meniscus
 class FlatMembraneSolver
 {
 public:
-  /** Sets a new shape. The eye must be set again afterwards. */
+  /** Sets the surface. Needed again after each change of its shape, and then the eye. */
+  void SetSurface(const std::shared_ptr<const RefractingSurface>& surface);
+  /** Sets a surface of the solver's own. */
   MembraneStatus SetMembrane(const MembraneInput& input);
-  const Membrane& GetMembrane() const { return this->Surface; }
+  const Membrane& GetMembrane() const { return this->Surface->GetMembrane(); }
 
   /**
    * Rebuilds the cells for an eye in world coordinates. Solving is allowed only if the result is
@@ -73,7 +76,7 @@ private:
   bool IsInReach(const glm::dvec3& local) const;
   VirtualVertex MakeVertex(const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const;
 
-  Membrane Surface;
+  std::shared_ptr<const RefractingSurface> Surface = std::make_shared<RefractingSurface>();
   RayTubeTree Tree;
   RefractionCells Cells;
   double Exterior = 1.0;

@@ -3,9 +3,9 @@
 #ifndef meniscus_Refraction_Images_ObjectPrimitive_h
 #define meniscus_Refraction_Images_ObjectPrimitive_h
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/SubCellBend.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

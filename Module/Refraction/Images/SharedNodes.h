@@ -8,7 +8,7 @@
 #ifndef meniscus_Refraction_Images_SharedNodes_h
 #define meniscus_Refraction_Images_SharedNodes_h
 
-#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <atomic>
 #include <cstddef>

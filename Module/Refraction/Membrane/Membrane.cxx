@@ -121,6 +121,23 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
 }
 
 //------------------------------------------------------------------------------
+std::vector<glm::dvec3> Membrane::ComputeCentroids() const
+{
+  std::vector<glm::dvec3> centroids;
+  centroids.reserve(this->Facets.size());
+  for (const Facet& facet : this->Facets)
+  {
+    glm::dvec3 sum(0.0);
+    for (const std::int32_t vertex : facet)
+    {
+      sum += this->Positions[static_cast<std::size_t>(vertex)];
+    }
+    centroids.push_back(sum / 3.0);
+  }
+  return centroids;
+}
+
+//------------------------------------------------------------------------------
 bool Membrane::ShowsSide(const glm::dvec3& local, double side) const
 {
   const auto shows = [this, &local, side](std::int32_t vertex)

@@ -106,6 +106,8 @@ public:
   {
     return this->GetPieces().Borders.empty() && this->GetPieces().NonManifoldFacets == 0;
   }
+  /** Centroids of the facets. */
+  std::vector<glm::dvec3> ComputeCentroids() const;
   /**
    * True if a point, in local coordinates, is on the given side of the surface at any vertex of its
    * facets: on the side of the normals for +1, on the other for -1.

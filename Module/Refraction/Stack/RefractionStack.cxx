@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/RefractionStack.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Stack/StackPassage.h"
+#include "Refraction/Surface/CurveCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,11 +46,11 @@ const CurvedPatch& Hold(const RefractionStack::Link& link, std::int32_t facet, H
 }
 
 //------------------------------------------------------------------------------
-MediaChain RefractionStack::SetInterfaces(const std::vector<StackInterface>& list)
+MediaChain RefractionStack::SetInterfaces(const std::vector<Interface>& list)
 {
   std::vector<InterfaceMedia> media;
   media.reserve(list.size());
-  for (const StackInterface& interface : list)
+  for (const Interface& interface : list)
   {
     media.push_back(interface.Media);
   }
@@ -59,8 +59,7 @@ MediaChain RefractionStack::SetInterfaces(const std::vector<StackInterface>& lis
   this->Ways = chain.Ways;
   this->Links.clear();
   // Interfaces that do not refract must not change a bit, so they do not give the origin.
-  const auto refracts = [](const StackInterface& interface)
-  { return interface.Media.Exterior != interface.Media.Interior; };
+  const auto refracts = [](const Interface& interface) { return interface.Media.IsRefracting(); };
   const auto first = std::find_if(list.begin(), list.end(), refracts);
   this->Origin = first == list.end() ? glm::dvec3(0.0) : first->Surface->GetMembrane().GetOrigin();
   this->NumberOfInterfaces =
@@ -83,7 +82,7 @@ void RefractionStack::ListLinks(
   {
     if (way[i].Before != way[i].Behind && refracting++ >= first)
     {
-      const std::shared_ptr<const StackSurface>& surface = this->List[i].Surface;
+      const std::shared_ptr<const RefractingSurface>& surface = this->List[i].Surface;
       links.push_back({ surface, way[i], surface->GetMembrane().GetOrigin() - this->Origin, i,
         way[i].Before / way[i].Behind });
     }
@@ -100,10 +99,10 @@ EyeStatus RefractionStack::SetEye(const glm::dvec3& eye)
   }
   this->Eye = eye - this->Origin;
   if (std::any_of(this->List.begin(), this->List.end(),
-        [&eye](const StackInterface& interface)
+        [&eye](const Interface& interface)
         {
-          const StackSurface& surface = *interface.Surface;
-          return interface.Media.Exterior != interface.Media.Interior &&
+          const RefractingSurface& surface = *interface.Surface;
+          return interface.Media.IsRefracting() &&
             surface.IsOnSurface(eye - surface.GetMembrane().GetOrigin());
         }))
   {

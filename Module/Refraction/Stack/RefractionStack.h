@@ -14,9 +14,8 @@
 #define meniscus_Refraction_Stack_RefractionStack_h
 
 #include "Refraction/Sight/EyeStatus.h"
-#include "Refraction/Stack/MediaChain.h"
 #include "Refraction/Stack/RayJet.h"
-#include "Refraction/Stack/StackSurface.h"
+#include "Refraction/Surface/Interface.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +24,6 @@
 
 namespace meniscus
 {
-
-/** One interface of a list: a surface, which several of them may share, and two media. */
-struct StackInterface
-{
-  std::shared_ptr<const StackSurface> Surface;
-  InterfaceMedia Media;
-};
 
 /** Place in a patch. */
 struct StackPlace
@@ -91,7 +83,7 @@ public:
   /** An interface as rays pass it. */
   struct Link
   {
-    std::shared_ptr<const StackSurface> Surface;
+    std::shared_ptr<const RefractingSurface> Surface;
     InterfacePassage Passage;
     glm::dvec3 Shift;  ///< origin of the surface, relative to that of the stack
     std::size_t Index; ///< in the list
@@ -99,10 +91,10 @@ public:
   };
 
   /**
-   * Sets the interfaces; their surfaces are ready. Those with equal indices are left out, after the
-   * media have been compared. If the result has a fault, the stack is empty.
+   * Sets the interfaces; the crossings of their surfaces are ready. Those with equal indices are
+   * left out, after the media have been compared. If the result has a fault, the stack is empty.
    */
-  MediaChain SetInterfaces(const std::vector<StackInterface>& list);
+  MediaChain SetInterfaces(const std::vector<Interface>& list);
 
   /**
    * Sets the eye in world coordinates and chooses the interfaces that are in front of it: the list
@@ -172,7 +164,7 @@ private:
     std::size_t link, const RayJet& ray, bool follows, PathPoint& point, PatchJet& jet) const;
   void ListLinks(const MediaChain::Way& way, std::size_t first, std::vector<Link>& links) const;
 
-  std::vector<StackInterface> List;
+  std::vector<Interface> List;
   std::vector<MediaChain::Way> Ways;
   std::size_t NumberOfInterfaces = 0;
   std::vector<Link> Links;

@@ -25,7 +25,7 @@ void StackBeams::Update(const RefractionStack& stack, const RangeLoop& loop)
 {
   this->Stack = &stack;
   const std::vector<RefractionStack::Link>& links = stack.GetLinks();
-  const StackSurface* first = links.front().Surface.get();
+  const RefractingSurface* first = links.front().Surface.get();
   if (this->TreesOver != first || this->Trees.size() != links.size())
   {
     this->BuildTrees();
@@ -59,16 +59,10 @@ void StackBeams::BuildTrees()
 {
   const RefractionStack::Link& first = this->Stack->GetLinks().front();
   const Membrane& membrane = first.Surface->GetMembrane();
-  std::vector<glm::dvec3> centroids;
-  centroids.reserve(membrane.GetFacets().size());
-  for (const Membrane::Facet& facet : membrane.GetFacets())
+  std::vector<glm::dvec3> centroids = membrane.ComputeCentroids();
+  for (glm::dvec3& centroid : centroids)
   {
-    glm::dvec3 sum(0.0);
-    for (const std::int32_t vertex : facet)
-    {
-      sum += membrane.GetPositions()[static_cast<std::size_t>(vertex)];
-    }
-    centroids.push_back(sum / 3.0 + first.Shift);
+    centroid += first.Shift;
   }
   RayTubeTree tree;
   tree.Build(centroids, membrane.GetRadius());

@@ -93,7 +93,7 @@ private:
   std::vector<std::vector<TubeBounds>> Bounds; ///< per interface and facet
   std::vector<std::vector<RayJet>> Middles;    ///< per interface and facet
   std::vector<std::uint32_t> PassedByMiddle;   ///< per facet: interfaces that its middle ray passes
-  const StackSurface* TreesOver = nullptr;     ///< used for comparison only
+  const RefractingSurface* TreesOver = nullptr;               ///< used for comparison only
   mutable std::vector<std::unique_ptr<StackBeamParts>> Parts; ///< per facet
   mutable std::unique_ptr<std::once_flag[]> PartsOnce;
 };

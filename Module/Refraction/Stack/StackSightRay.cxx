@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackSightRay.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <glm/geometric.hpp>
 
@@ -75,7 +75,7 @@ bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm:
   const glm::dvec3&, PatchPoint& at) const
 {
   const RefractionStack::Link& link = this->Stack.GetLinks()[number];
-  const StackSurface& surface = *link.Surface;
+  const RefractingSurface& surface = *link.Surface;
   const glm::dvec3 shift = this->Stack.GetOrigin() + link.Shift;
   const double side = link.Passage.FromFront ? 1.0 : -1.0;
   // A ray that may cross the surface again is searched for.

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackSolver.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/StackSearch.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ glm::dvec2 GetParameters(const RayJet& ray, const glm::dvec3& shift)
 }
 
 //------------------------------------------------------------------------------
-MediaChain StackSolver::SetInterfaces(const std::vector<StackInterface>& list)
+MediaChain StackSolver::SetInterfaces(const std::vector<Interface>& list)
 {
   this->Beams.Clear();
   this->Planes.Clear();

@@ -61,7 +61,7 @@ public:
   static constexpr std::size_t Chain = 128;
 
   /** Sets the interfaces. The eye must be set again afterwards. */
-  MediaChain SetInterfaces(const std::vector<StackInterface>& list);
+  MediaChain SetInterfaces(const std::vector<Interface>& list);
 
   /** Fits the trees to an eye. Solving is allowed only if the result is `Ready`. */
   EyeStatus SetEye(const glm::dvec3& eye, const RangeLoop& loop = SerialLoop);

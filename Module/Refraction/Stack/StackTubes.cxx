@@ -145,7 +145,7 @@ bool BoundPlaces(const CurvedPatch& patch, const AxisBox& box, double bulge, Pat
 bool BoundMetPart(const RefractionStack::Link& link, std::int32_t facet, const TubeBounds& tube,
   const DirectionBox& sight, TubeRange range, MetPart& part)
 {
-  const StackSurface::PatchBounds& bounds = link.Surface->GetBounds(facet);
+  const RefractingSurface::PatchBounds& bounds = link.Surface->GetBounds(facet);
   part.Normals = GetNormals(link, facet);
   if (!(BoundCosine(sight, part.Normals).Least < 0.0))
   {

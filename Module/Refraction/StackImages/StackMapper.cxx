@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/StackImages/StackMapper.h"
 
-#include "Refraction/Curved/BracketedZero.h"
 #include "Refraction/StackImages/SurfaceMeeting.h"
+#include "Refraction/Surface/BracketedZero.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

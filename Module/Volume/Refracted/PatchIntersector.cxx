@@ -225,7 +225,7 @@ PatchReach PatchIntersector::BoundReach() const
     return reach;
   }
   const BulgeBounds bulges = BoundBulges(this->Patch);
-  const double margin = Margin * this->Size;
+  const double margin = PatchCrossings::Margin * this->Size;
   reach.Low = (reach.Front > 0.0 ? bulges.Below : -bulges.Above) - margin;
   reach.High = (reach.Front > 0.0 ? bulges.Above : -bulges.Below) + margin;
   return reach;

@@ -3,8 +3,8 @@
 #ifndef meniscus_Volume_Refracted_PatchIntersector_h
 #define meniscus_Volume_Refracted_PatchIntersector_h
 
-#include "Refraction/Curved/PatchCrossings.h"
 #include "Refraction/Membrane/CurvedPatch.h"
+#include "Refraction/Surface/PatchCrossings.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "Simd/InstructionSets.h"
@@ -124,13 +124,6 @@ public:
   /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
   std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
-  /**
-   * Distance, in units of a facet's longest edge, by which boxes and other bounds of a patch are
-   * widened. An intersection lies outside of its facet by up to Border in barycentric coordinates,
-   * which is 3e-8 edges at most; the rest exceeds the rounding of coordinates up to 1e8 edges from
-   * the origin.
-   */
-  static constexpr double Margin = 1e-7;
   /**
    * Distance by which the normal at an intersection may be outside of the hull of the patch's
    * control points. Both causes are proportional to its derivatives: the intersection is outside of

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/RefractedRayField.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Surface/CurveCrossings.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <glm/common.hpp>

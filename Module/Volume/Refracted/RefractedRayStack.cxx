@@ -57,7 +57,7 @@ std::int64_t RefractedRayStack::GetBytes() const
 
 //------------------------------------------------------------------------------
 void RefractedRayStack::Build(
-  const std::vector<StackedInterface>& interfaces, const View& view, const RangeLoop& loop)
+  const std::vector<Interface>& interfaces, const View& view, const RangeLoop& loop)
 {
   this->Interfaces = interfaces;
   if (view.Width != this->Of.Width || view.Height != this->Of.Height)
@@ -299,7 +299,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Cou
   {
     return;
   }
-  const StackedInterface& interface = this->Interfaces[number];
+  const Interface& interface = this->Interfaces[number];
   const double rayLength = lanes.Length[0];
   const double first = lanes.First[0];
   bool isNearer = false;
@@ -337,7 +337,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Cou
   else
   {
     InvertDirections(this->Set, lanes);
-    interface.Tree->GetBoxes().Visit(
+    interface.Surface->GetTree().Visit(
       block.Tubes.ByDepth, farthest,
       [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); }, meet);
   }

@@ -4,12 +4,12 @@
 #define meniscus_Volume_Refracted_RefractedRayStack_h
 
 #include "Common/RangeLoop.h"
+#include "Refraction/Surface/Interface.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
 #include "Volume/Refracted/StackBlock.h"
 #include "Volume/Refracted/StackVisibility.h"
-#include "Volume/Refracted/StackedInterface.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -65,9 +65,12 @@ public:
     }
   };
 
-  /** Traces the rays. The indices of `view` are not used. */
-  void Build(const std::vector<StackedInterface>& interfaces, const View& view,
-    const RangeLoop& loop = SerialLoop);
+  /**
+   * Traces the rays. The boxes of the surfaces are ready. The media of each interface differ; the
+   * indices of `view` are not used.
+   */
+  void Build(
+    const std::vector<Interface>& interfaces, const View& view, const RangeLoop& loop = SerialLoop);
   /** Removes all rays. */
   void Clear();
 
@@ -111,7 +114,7 @@ private:
   /** The view's origin, from that of the surface of an interface. */
   glm::dvec3 ToSurface(std::size_t number) const
   {
-    return this->Of.Center - this->Interfaces[number].Surface->GetOrigin();
+    return this->Of.Center - this->Interfaces[number].Surface->GetMembrane().GetOrigin();
   }
   void MeetFirst(const glm::ivec2& first, StackBlock& block, Counts& sums) const;
   bool TraceBlock(const StackVisibility* sight, StackBlock& block, Counts& sums) const;
@@ -121,7 +124,7 @@ private:
   void StoreBlock(const StackBlock& block, int tile, int number, TileSum& sum);
   void StoreSights(const StackBlock& block, int tile, int number);
 
-  std::vector<StackedInterface> Interfaces;
+  std::vector<Interface> Interfaces;
   View Of;
   int Columns = 0;
   InstructionSet Set = BestInstructionSet();

@@ -60,14 +60,13 @@ struct LaneKernel
   /** True if rays may come from either side, in any medium. */
   bool FromEitherSide;
   double FirstDepth;
-  double Exterior;
-  double Interior;
+  InterfaceMedia Media;
 
   void operator()(StackLanes& lanes, int i) const
   {
     const double medium = lanes.Medium[i];
-    const bool isOutside = medium == this->Exterior;
-    const bool fits = this->FromEitherSide | isOutside | (medium == this->Interior);
+    const bool isOutside = medium == this->Media.Exterior;
+    const bool fits = this->FromEitherSide | isOutside | (medium == this->Media.Interior);
     const bool goesOn = (lanes.Direction[0][i] != 0.0) | (lanes.Direction[1][i] != 0.0) |
       (lanes.Direction[2][i] != 0.0);
     for (int axis = 0; axis < 3; ++axis)
@@ -98,8 +97,7 @@ struct PassingLegs : FreeRayBatch
 /** Begins the legs behind an interface. */
 struct NextKernel
 {
-  double Exterior;
-  double Interior;
+  InterfaceMedia Media;
 
   void operator()(PassingLegs& rays, int i) const
   {
@@ -113,7 +111,7 @@ struct NextKernel
       rays.Normal[axis][i] = goesOn ? rays.Normal[axis][i] : 0.0;
     }
     rays.Drawn[i] = isHit ? rays.Drawn[i] + depth : Infinity;
-    const double medium = refracted > 0.0 ? this->Interior : this->Exterior;
+    const double medium = refracted > 0.0 ? this->Media.Interior : this->Media.Exterior;
     rays.Medium[i] = goesOn ? medium : rays.Medium[i];
   }
 };
@@ -235,15 +233,14 @@ void StackBlock::Start(const RayFrame& frame, const glm::ivec2& first, int width
 
 //------------------------------------------------------------------------------
 void StackBlock::SetLanes(
-  std::size_t number, const StackedInterface& interface, const glm::dvec3& toSurface, double first)
+  std::size_t number, const Interface& interface, const glm::dvec3& toSurface, double first)
 {
   const WorldLegs& legs = this->Legs[number];
   StackLanes& lanes = this->Lanes;
   std::copy_n(legs.Place[0], 3 * Size, lanes.Start[0]);
   std::copy_n(legs.Step[0], 3 * Size, lanes.Direction[0]);
   lanes.Count = this->Count;
-  RunLanes(LaneKernel{ toSurface, number == 0, first, interface.Exterior, interface.Interior },
-    this->Set, lanes);
+  RunLanes(LaneKernel{ toSurface, number == 0, first, interface.Media }, this->Set, lanes);
   const std::int64_t onWay = CountOnes(lanes.IsOnWay, this->Count);
   if (onWay == 0)
   {
@@ -267,7 +264,7 @@ void StackBlock::SetLanes(
 }
 
 //------------------------------------------------------------------------------
-void StackBlock::Refract(std::size_t number, const StackedInterface& interface)
+void StackBlock::Refract(std::size_t number, const Interface& interface)
 {
   const WorldLegs& before = this->Legs[number];
   WorldLegs& behind = this->Legs[number + 1];
@@ -286,8 +283,9 @@ void StackBlock::Refract(std::size_t number, const StackedInterface& interface)
   std::copy_n(lanes.Last, Size, rays.Last);
   std::copy_n(lanes.Medium, Size, rays.Medium);
   FreeRayBatch& batch = rays;
-  meniscus::Refract(FreeRays(), interface.Exterior / interface.Interior, this->Set, batch);
-  RunLanes(NextKernel{ interface.Exterior, interface.Interior }, this->Set, rays);
+  meniscus::Refract(
+    FreeRays(), interface.Media.Exterior / interface.Media.Interior, this->Set, batch);
+  RunLanes(NextKernel{ interface.Media }, this->Set, rays);
   std::copy_n(rays.Place[0], 3 * Size, behind.Place[0]);
   std::copy_n(rays.Normal[0], 3 * Size, behind.Step[0]);
   std::copy_n(rays.Drawn, Size, behind.Depth);
@@ -329,18 +327,18 @@ void StackBlock::FindFrameSteps(
 
 //------------------------------------------------------------------------------
 const PatchIntersector& StackBlock::GetTracer(
-  const StackedInterface& interface, std::size_t number, std::int32_t facet, double rayLength)
+  const Interface& interface, std::size_t number, std::int32_t facet, double rayLength)
 {
   const auto place = static_cast<std::uint32_t>(facet) + 17u * static_cast<std::uint32_t>(number);
   std::optional<KeptPatch>& kept = this->Kept[place % KeptPatches];
-  if (kept && kept->Interface == number && kept->Facet == facet)
+  if (kept && kept->Number == number && kept->Facet == facet)
   {
     kept->Tracer.SetRayLength(rayLength);
   }
   else
   {
-    kept.emplace(KeptPatch{
-      number, facet, PatchIntersector(interface.Patches->GetPatch(facet), rayLength, this->Set) });
+    kept.emplace(KeptPatch{ number, facet,
+      PatchIntersector(interface.Surface->GetPatches().GetPatch(facet), rayLength, this->Set) });
   }
   return kept->Tracer;
 }

@@ -3,13 +3,13 @@
 #ifndef meniscus_Volume_Refracted_StackBlock_h
 #define meniscus_Volume_Refracted_StackBlock_h
 
+#include "Refraction/Surface/Interface.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/FacetBoxes.h"
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Volume/Refracted/RayBlock.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
-#include "Volume/Refracted/StackedInterface.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -105,10 +105,10 @@ struct StackBlock
    * are no lanes if there is no such ray. IsMismatched is set in any case.
    * @param toSurface the view's origin, from that of the surface.
    */
-  void SetLanes(std::size_t number, const StackedInterface& interface, const glm::dvec3& toSurface,
-    double first);
+  void SetLanes(
+    std::size_t number, const Interface& interface, const glm::dvec3& toSurface, double first);
   /** Begins the next leg of the rays that meet interface `number`. */
-  void Refract(std::size_t number, const StackedInterface& interface);
+  void Refract(std::size_t number, const Interface& interface);
   /**
    * Ends rays at the last interface behind which they may meet a box about the mesh, and determines
    * MayShow of their legs.
@@ -126,7 +126,7 @@ struct StackBlock
   }
   /** Intersector of a patch, for rays of that length. */
   const PatchIntersector& GetTracer(
-    const StackedInterface& interface, std::size_t number, std::int32_t facet, double rayLength);
+    const Interface& interface, std::size_t number, std::int32_t facet, double rayLength);
 
   InstructionSet Set;
   int Count = 0;
@@ -150,7 +150,7 @@ private:
   /** Patches that earlier blocks met; a new patch takes the place of an older one. */
   struct KeptPatch
   {
-    std::size_t Interface;
+    std::size_t Number; ///< of the interface
     std::int32_t Facet;
     PatchIntersector Tracer;
   };

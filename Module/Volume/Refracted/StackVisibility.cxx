@@ -41,30 +41,31 @@ DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
  * @param within facets among which are those that the rays may meet; null for all.
  * @param facets those that they may meet are appended.
  */
-StackVisibility::Meeting StackVisibility::Meet(const StackedInterface& interface,
-  const TubeBounds& tube, double facing, FacetBoxes* within, FacetBoxes& facets) const
+StackVisibility::Meeting StackVisibility::Meet(const Interface& interface, const TubeBounds& tube,
+  double facing, FacetBoxes* within, FacetBoxes& facets) const
 {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
-  const glm::dvec3 toSurface = this->Origin - interface.Surface->GetOrigin();
+  const glm::dvec3 toSurface = this->Origin - interface.Surface->GetMembrane().GetOrigin();
   TubeBounds shifted = tube;
   shifted.StartLow += toSurface;
   shifted.StartHigh += toSurface;
   Meeting meeting;
   const auto add = [&](std::int32_t facet, const TubeRange& range)
   {
-    const PatchTree::PatchBox& patch = interface.Tree->GetPatch(facet);
-    const CosineBounds cosine = BoundCosine(sight, InBox(patch.Normals.Low, patch.Normals.High));
+    const RefractingSurface::PatchBounds& patch = interface.Surface->GetBounds(facet);
+    const glm::dvec3 half = patch.Normals.Half + PatchIntersector::NormalMargin;
+    const CosineBounds cosine = BoundCosine(sight, { patch.Normals.Middle, half });
     const double most = facing > 0.0 ? cosine.Most : -cosine.Least;
     if (facing == 0.0 || most > 0.0)
     {
       const AxisBox part = BoundPart(shifted, range);
       meeting.Exists = true;
-      meeting.Places.Add({ glm::max(part.Low, patch.Places.Low) - toSurface,
-        glm::min(part.High, patch.Places.High) - toSurface });
-      meeting.Normals.Add(patch.Normals);
+      meeting.Places.Add({ glm::max(part.Low, patch.Box.Low) - toSurface,
+        glm::min(part.High, patch.Box.High) - toSurface });
+      meeting.Normals.Add({ patch.Normals.Middle - half, patch.Normals.Middle + half });
       meeting.Last = std::max(meeting.Last, range.To);
-      facets.Add(facet, patch.Places);
+      facets.Add(facet, patch.Box);
     }
     return anywhere;
   };
@@ -74,7 +75,7 @@ StackVisibility::Meeting StackVisibility::Meet(const StackedInterface& interface
   }
   else
   {
-    interface.Tree->GetBoxes().Visit(shifted, anywhere, add);
+    interface.Surface->GetTree().Visit(shifted, anywhere, add);
   }
   return meeting;
 }
@@ -111,12 +112,13 @@ bool StackVisibility::FollowLegs(std::size_t number, TubeBounds tube, double med
   facets.Clear(number);
   for (std::size_t k = number; k < this->Interfaces.size() && tube.IsValid(); ++k)
   {
-    const StackedInterface& interface = this->Interfaces[k];
-    if (k > 0 && medium != interface.Exterior && medium != interface.Interior)
+    const Interface& interface = this->Interfaces[k];
+    const auto [exterior, interior] = interface.Media;
+    if (k > 0 && medium != exterior && medium != interior)
     {
       return true;
     }
-    const double facing = medium == interface.Exterior ? -1.0 : 1.0;
+    const double facing = medium == exterior ? -1.0 : 1.0;
     const Meeting meeting =
       this->Meet(interface, tube, k == 0 ? 0.0 : facing, within.Find(k), facets.Append());
     if (!meeting.Exists)
@@ -132,8 +134,8 @@ bool StackVisibility::FollowLegs(std::size_t number, TubeBounds tube, double med
       return true; // rays may pass the first surface from both sides
     }
     const bool fromFront = k == 0 ? cosine.Most < 0.0 : facing < 0.0;
-    const double before = fromFront ? interface.Exterior : interface.Interior;
-    const double behind = fromFront ? interface.Interior : interface.Exterior;
+    const double before = fromFront ? exterior : interior;
+    const double behind = fromFront ? interior : exterior;
     normal.Middle = fromFront ? normal.Middle : -normal.Middle;
     const glm::dvec3 corners[2] = { meeting.Places.Low, meeting.Places.High };
     tube = BoundRefractedRays(sight, normal, before / behind, corners, 2, 0.0);

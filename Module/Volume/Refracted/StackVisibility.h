@@ -3,12 +3,12 @@
 #ifndef meniscus_Volume_Refracted_StackVisibility_h
 #define meniscus_Volume_Refracted_StackVisibility_h
 
+#include "Refraction/Surface/Interface.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/FacetBoxes.h"
 #include "Volume/Refracted/PatchIntersector.h"
-#include "Volume/Refracted/StackedInterface.h"
 
 #include <glm/vec3.hpp>
 
@@ -32,7 +32,7 @@ public:
    * @param mesh bounds of the mesh, relative to `origin`; the ratio is not used.
    * @param origin place in world coordinates that sight rays are relative to.
    */
-  StackVisibility(const std::vector<StackedInterface>& interfaces, const VisibilityBounds& mesh,
+  StackVisibility(const std::vector<Interface>& interfaces, const VisibilityBounds& mesh,
     const glm::dvec3& origin, InstructionSet set)
     : Interfaces(interfaces)
     , Mesh(mesh)
@@ -70,10 +70,10 @@ private:
   };
   bool FollowLegs(std::size_t number, TubeBounds tube, double medium, BundleFacets& within,
     BundleFacets& facets) const;
-  Meeting Meet(const StackedInterface& interface, const TubeBounds& tube, double facing,
+  Meeting Meet(const Interface& interface, const TubeBounds& tube, double facing,
     FacetBoxes* within, FacetBoxes& facets) const;
 
-  const std::vector<StackedInterface>& Interfaces;
+  const std::vector<Interface>& Interfaces;
   VisibilityBounds Mesh;
   glm::dvec3 Origin;
   InstructionSet Set;

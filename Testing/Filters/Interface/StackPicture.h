@@ -6,7 +6,7 @@
 
 #include "ComparisonSheet.h"
 #include "ExactStack.h"
-#include "Refraction/Stack/MediaChain.h"
+#include "Refraction/Surface/MediaChain.h"
 #include "StackFilterHelpers.h"
 
 #include <functional>

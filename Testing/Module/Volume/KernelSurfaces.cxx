@@ -19,6 +19,12 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
+void TestSurface::Set(const MembraneInput& input)
+{
+  EXPECT_EQ(this->Shape->SetMembrane(input, SurfaceParts::Boxes), MembraneStatus::Ready);
+}
+
+//------------------------------------------------------------------------------
 Sheet::Sheet(const std::function<double(double, double)>& height, int cells)
 {
   std::vector<double> points;
@@ -41,14 +47,12 @@ Sheet::Sheet(const std::function<double(double, double)>& height, int cells)
       triangles.insert(triangles.end(), { a, a + 1, b, a + 1, b + 1, b });
     }
   }
-  const MembraneInput input{ points.data(), points.size() / 3, triangles.data(),
-    triangles.size() / 3, nullptr, nullptr };
-  EXPECT_EQ(this->Surface.Build(input), MembraneStatus::Ready);
-  this->Patches.Build(this->Surface, SerialLoop);
+  this->Set(
+    { points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr, nullptr });
 }
 
 //------------------------------------------------------------------------------
-bool BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches)
+Sphere::Sphere(int resolution)
 {
   std::vector<double> points{ 0.0, 0.0, 1.0, 0.0, 0.0, -1.0 };
   std::vector<std::int64_t> triangles;
@@ -76,11 +80,8 @@ bool BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches)
     triangles.insert(triangles.end(), { 0, at(1, i), at(1, i + 1) });
     triangles.insert(triangles.end(), { 1, at(last, i + 1), at(last, i) });
   }
-  const MembraneInput input{ points.data(), points.size() / 3, triangles.data(),
-    triangles.size() / 3, nullptr, points.data() };
-  const bool ready = surface.Build(input) == MembraneStatus::Ready;
-  patches.Build(surface, SerialLoop);
-  return ready;
+  this->Set({ points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr,
+    points.data() });
 }
 
 //------------------------------------------------------------------------------

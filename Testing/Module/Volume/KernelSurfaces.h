@@ -3,30 +3,48 @@
 #ifndef meniscus_Testing_Module_Volume_KernelSurfaces_h
 #define meniscus_Testing_Module_Volume_KernelSurfaces_h
 
-#include "Refraction/Membrane/CurvedPatches.h"
-#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Surface/Interface.h"
 #include "Volume/Refracted/RefractedRayField.h"
 
 #include <glm/vec3.hpp>
 
 #include <functional>
+#include <memory>
 
 namespace meniscus
 {
 namespace test
 {
 
-/** The sheet z = height(x, y) over [-1, 1] squared. */
-struct Sheet
+/** A refracting surface with its boxes. */
+struct TestSurface
 {
-  Membrane Surface;
-  CurvedPatches Patches;
+  std::shared_ptr<RefractingSurface> Shape = std::make_shared<RefractingSurface>();
+  const Membrane& Surface = Shape->GetMembrane();
+  const CurvedPatches& Patches = Shape->GetPatches();
 
+  TestSurface() = default;
+  explicit TestSurface(const MembraneInput& input) { this->Set(input); }
+  TestSurface(const TestSurface&) = delete;
+  TestSurface& operator=(const TestSurface&) = delete;
+  void Set(const MembraneInput& input);
+  Interface Between(double exterior, double interior) const
+  {
+    return { this->Shape, { exterior, interior } };
+  }
+};
+
+/** The sheet z = height(x, y) over [-1, 1] squared. */
+struct Sheet : TestSurface
+{
   Sheet(const std::function<double(double, double)>& height, int cells);
 };
 
-/** A closed unit sphere with its own normals; patches reproduce it. Returns false if it fails. */
-bool BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches);
+/** A closed unit sphere with its own normals; patches reproduce it. */
+struct Sphere : TestSurface
+{
+  explicit Sphere(int resolution);
+};
 
 /** A box along the world's axes. */
 struct WorldBox

@@ -3,7 +3,7 @@
 // Side of a membrane on which a point lies, compared with analytic surfaces.
 #include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 #include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>

@@ -188,7 +188,7 @@ Comparison Compare(const StackSolver& solver, const Object& object, int rays, un
   const RefractionStack& stack = solver.GetStack();
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   const std::vector<Piece> pieces = ListPieces(object, eye);
-  const StackSurface& first = *stack.GetLinks()[0].Surface;
+  const RefractingSurface& first = *stack.GetLinks()[0].Surface;
   const auto facets = static_cast<double>(first.GetMembrane().GetFacets().size());
   Random random(seed);
   Comparison result;

@@ -16,10 +16,10 @@
 namespace meniscus::testing
 {
 
-inline std::shared_ptr<const StackSurface> MakeSurface(const reference::MembraneMesh& mesh)
+inline std::shared_ptr<const RefractingSurface> MakeSurface(const reference::MembraneMesh& mesh)
 {
-  auto surface = std::make_shared<StackSurface>();
-  EXPECT_EQ(surface->SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  auto surface = std::make_shared<RefractingSurface>();
+  EXPECT_EQ(surface->SetMembrane(mesh.AsInput(), SurfaceParts::Crossings), MembraneStatus::Ready);
   return surface;
 }
 
@@ -36,8 +36,7 @@ inline reference::MembraneMesh MakeWaves(
 }
 
 /** Sets interfaces and eye, which must be valid. */
-inline void SetStack(
-  StackSolver& solver, const std::vector<StackInterface>& list, const glm::dvec3& eye)
+inline void SetStack(StackSolver& solver, const std::vector<Interface>& list, const glm::dvec3& eye)
 {
   ASSERT_EQ(solver.SetInterfaces(list).Fault, MediaFault::None);
   ASSERT_EQ(solver.SetEye(eye), EyeStatus::Ready);

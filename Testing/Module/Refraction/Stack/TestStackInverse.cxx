@@ -17,9 +17,9 @@ namespace
 {
 
 using meniscus::FindTruePosition;
+using meniscus::Interface;
 using meniscus::SeenState;
 using meniscus::StackChain;
-using meniscus::StackInterface;
 using meniscus::StackSolver;
 using meniscus::StackTruePosition;
 using meniscus::reference::MembraneMesh;
@@ -45,7 +45,7 @@ MembraneMesh Reverse(MembraneMesh mesh)
 }
 
 // Water below glass; the glass has an upper side of waves, and a lower one with normals downwards.
-std::vector<StackInterface> MakePane()
+std::vector<Interface> MakePane()
 {
   return { { MakeSurface(MakeWaves(Size, 0.0, 1.5, 6.0, 40)), { 1.0, 1.5 } },
     { MakeSurface(Reverse(MakeWaves(Size, -15.0, 1.0, 8.0, 50))), { 1.333, 1.5 } } };
@@ -93,8 +93,8 @@ struct Tally
   int Count(SeenState state) const { return this->States[static_cast<std::size_t>(state)]; }
 };
 
-Tally CompareChain(const std::vector<StackInterface>& list, const glm::dvec3& eye,
-  const std::vector<glm::dvec3>& points)
+Tally CompareChain(
+  const std::vector<Interface>& list, const glm::dvec3& eye, const std::vector<glm::dvec3>& points)
 {
   StackSolver solver;
   SetStack(solver, list, eye);
@@ -127,8 +127,8 @@ TEST(StackInverse, ChainsBehindAPane)
 // Rays that miss the second surface, or are totally reflected at it.
 TEST(StackInverse, ChainsBehindASmallerSurface)
 {
-  const std::vector<StackInterface> list = { { MakeSurface(MakeWaves(Size, 0.0, 1.5, 6.0, 40)),
-                                               { 1.0, 1.5 } },
+  const std::vector<Interface> list = { { MakeSurface(MakeWaves(Size, 0.0, 1.5, 6.0, 40)),
+                                          { 1.0, 1.5 } },
     { MakeSurface(MakeWaves(0.5 * Size, -15.0, 8.0, 4.0, 30)), { 1.5, 1.0 } } };
   const Tally tally = CompareChain(list, glm::dvec3(20.0, 60.0, 10.0), MakeRows(-80.0));
   EXPECT_GT(tally.Count(SeenState::Refracted), 100);

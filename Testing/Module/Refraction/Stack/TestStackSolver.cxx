@@ -17,7 +17,7 @@ namespace
 
 using meniscus::EyeStatus;
 using meniscus::ImageState;
-using meniscus::StackInterface;
+using meniscus::Interface;
 using meniscus::StackSolver;
 using meniscus::StackVertex;
 using meniscus::reference::ExactSurface;
@@ -429,8 +429,7 @@ TEST(RefractionStack, ListStartsBehindAnEyeBetweenInterfaces)
 // is 40 wide, or of a quarter of it.
 TEST(RefractionStack, ListBeginsAtAPaneThatFewRaysPass)
 {
-  const std::vector<StackInterface> list = { { MakeSurface(MakePlane(0.0, 200.0, 5)),
-                                               { 1.0, 0.6 } },
+  const std::vector<Interface> list = { { MakeSurface(MakePlane(0.0, 200.0, 5)), { 1.0, 0.6 } },
     { MakeSurface(MakePlane(-5.0, 400.0, 5)), { 0.6, 1.5 } } };
   StackSolver solver;
   SetStack(solver, list, { -263.5, 220.0, 0.0 });
@@ -506,7 +505,7 @@ TEST(RefractionStack, RangesOfRaysThroughPanesDoNotChangeResults)
 {
   const auto first = MakeSurface(meniscus::testing::MakeWaves(100.0, 0.0, 0.8, 3.0, 12));
   const auto second = MakeSurface(MakePlane(-15.0, 120.0, 9));
-  const std::vector<StackInterface> list{ { first, { 1.0, 1.5 } }, { second, { 1.5, 1.333 } } };
+  const std::vector<Interface> list{ { first, { 1.0, 1.5 } }, { second, { 1.5, 1.333 } } };
   const glm::dvec3 eye(5.0, 90.0, -8.0);
   const auto singly = [](std::size_t count, const meniscus::RangeBody& body)
   {

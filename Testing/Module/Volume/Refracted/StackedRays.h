@@ -6,7 +6,6 @@
 
 #include "KernelSurfaces.h"
 
-#include "Volume/Refracted/PatchTree.h"
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
@@ -29,46 +28,6 @@ constexpr int Columns = (Size + TileSize - 1) / TileSize;
 
 /** Bounds of a mesh that all rays meet. */
 inline const WorldBox Everywhere{ glm::dvec3(0.0), glm::dvec3(1e3) };
-
-inline StackedInterface InterfaceOf(const Membrane& surface, const CurvedPatches& patches,
-  const PatchTree& tree, double exterior, double interior)
-{
-  return { &surface, &patches, &tree, exterior, interior };
-}
-
-/** A sheet and its tree. */
-struct StackedSheet : Sheet
-{
-  PatchTree Tree;
-
-  StackedSheet(const std::function<double(double, double)>& height, int cells)
-    : Sheet(height, cells)
-  {
-    this->Tree.Build(this->Surface, this->Patches, SerialLoop);
-  }
-  StackedInterface Between(double exterior, double interior) const
-  {
-    return InterfaceOf(this->Surface, this->Patches, this->Tree, exterior, interior);
-  }
-};
-
-/** A unit sphere and its tree. */
-struct StackedSphere
-{
-  Membrane Surface;
-  CurvedPatches Patches;
-  PatchTree Tree;
-
-  explicit StackedSphere(int resolution)
-  {
-    EXPECT_TRUE(BuildSphere(resolution, this->Surface, this->Patches));
-    this->Tree.Build(this->Surface, this->Patches, SerialLoop);
-  }
-  StackedInterface Between(double exterior, double interior) const
-  {
-    return InterfaceOf(this->Surface, this->Patches, this->Tree, exterior, interior);
-  }
-};
 
 /** Heights of a plane, a cap of a sphere, and waves. */
 inline const std::function<double(double, double)> Shapes[] = { [](double, double) { return 0.0; },

@@ -81,9 +81,7 @@ TEST(RayBlock, NoRayMissesItsBox)
 TEST(RayBlock, NoRayMissesThePatchThatItMeets)
 {
   Random random(41);
-  Membrane sphere;
-  CurvedPatches ofSphere;
-  ASSERT_TRUE(BuildSphere(12, sphere, ofSphere));
+  const Sphere sphere(12);
   const Sheet sheet(Waves, 5);
   int missed = 0;
   int met = 0;
@@ -134,7 +132,7 @@ TEST(RayBlock, NoRayMissesThePatchThatItMeets)
       taken += !meets[ray] && rays.Meets[ray] != 0 ? 1 : 0;
     }
   };
-  const CurvedPatches* const surfaces[] = { &ofSphere, &sheet.Patches };
+  const CurvedPatches* const surfaces[] = { &sphere.Patches, &sheet.Patches };
   for (const CurvedPatches* surface : surfaces)
   {
     for (std::int32_t facet = 0; facet < 50; ++facet)

@@ -30,7 +30,7 @@ struct EndedRays
   std::int64_t Untraced = 0;
 
   void Compare(
-    const std::vector<StackedInterface>& list, RefractedRayField::View view, const WorldBox& box)
+    const std::vector<Interface>& list, RefractedRayField::View view, const WorldBox& box)
   {
     RefractedRayStack all;
     SetMesh(view, Everywhere);
@@ -71,9 +71,9 @@ struct EndedRays
 TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
 {
   Random random(23);
-  const StackedSheet front(Shapes[2], 12);
-  const StackedSheet back([](double x, double y) { return Shapes[1](y, x) - 0.8; }, 9);
-  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  const Sheet front(Shapes[2], 12);
+  const Sheet back([](double x, double y) { return Shapes[1](y, x) - 0.8; }, 9);
+  const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
   EndedRays rays;
   for (int i = 0; i < 96; ++i)
   {
@@ -96,19 +96,19 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
 TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
 {
   Random random(29);
-  const StackedSheet coarse(Shapes[0], 1);
-  const StackedSheet waves([](double x, double y) { return Shapes[2](x, y) - 0.4; }, 48);
-  const StackedSphere sphere(12);
+  const Sheet coarse(Shapes[0], 1);
+  const Sheet waves([](double x, double y) { return Shapes[2](x, y) - 0.4; }, 48);
+  const Sphere sphere(12);
   // Media from above, and from below in the reverse order.
-  const std::vector<StackedInterface> above{ coarse.Between(1.0, 2.0), waves.Between(2.0, 1.0) };
-  const std::vector<StackedInterface> below{ waves.Between(2.0, 1.0), coarse.Between(1.0, 2.0) };
-  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 1.5), sphere.Between(1.0, 1.5) };
-  const std::vector<StackedInterface> behind{ coarse.Between(1.0, 1.3), sphere.Between(1.3, 1.0),
+  const std::vector<Interface> above{ coarse.Between(1.0, 2.0), waves.Between(2.0, 1.0) };
+  const std::vector<Interface> below{ waves.Between(2.0, 1.0), coarse.Between(1.0, 2.0) };
+  const std::vector<Interface> ball{ sphere.Between(1.0, 1.5), sphere.Between(1.0, 1.5) };
+  const std::vector<Interface> behind{ coarse.Between(1.0, 1.3), sphere.Between(1.3, 1.0),
     sphere.Between(1.3, 1.0) };
   EndedRays rays;
   for (int i = 0; i < 48; ++i)
   {
-    const std::vector<StackedInterface>& list =
+    const std::vector<Interface>& list =
       i % 4 == 0 ? above : (i % 4 == 1 ? below : (i % 4 == 2 ? ball : behind));
     const double side = i % 4 == 1 ? -1.0 : 1.0;
     const RefractedRayField::View view =
@@ -130,9 +130,9 @@ TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
  */
 TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
 {
-  const StackedSheet front([](double, double) { return 0.0; }, 12);
-  const StackedSheet back([](double x, double) { return -0.5 + 0.5 * x; }, 12);
-  const std::vector<StackedInterface> prism{ front.Between(1.0, 1.6), back.Between(1.6, 1.0) };
+  const Sheet front([](double, double) { return 0.0; }, 12);
+  const Sheet back([](double x, double) { return -0.5 + 0.5 * x; }, 12);
+  const std::vector<Interface> prism{ front.Between(1.0, 1.6), back.Between(1.6, 1.0) };
   RefractedRayField::View view =
     LookAt(glm::dvec3(0.0, 0.0, 20.0), glm::dvec3(0.0), 0.2, false, Size);
   const double depth = 4.0;
@@ -165,9 +165,9 @@ TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
 /** Tiles that showed the mesh hold nothing of it after another view, in an image of any size. */
 TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
 {
-  const StackedSheet front(Shapes[2], 12);
-  const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
-  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  const Sheet front(Shapes[2], 12);
+  const Sheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
+  const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
   Random random(31);
   RefractedRayStack kept;
   int met = 0;
@@ -179,7 +179,7 @@ TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
     SetMesh(view,
       { random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.0)),
         random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) });
-    const std::vector<StackedInterface> list(pane.begin(), pane.end() - (i % 5 == 0 ? 1 : 0));
+    const std::vector<Interface> list(pane.begin(), pane.end() - (i % 5 == 0 ? 1 : 0));
     kept.Build(list, view);
     RefractedRayStack fresh;
     fresh.Build(list, view);
@@ -206,8 +206,8 @@ TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
 /** The bounds of the steps hold, and lead to the frames that the single rays need. */
 TEST(RefractedRayStack, StepBoundsChooseTheFramesOfAllRays)
 {
-  const StackedSphere sphere(16);
-  const std::vector<StackedInterface> ball{ sphere.Between(1.0, 2.0), sphere.Between(1.0, 2.0) };
+  const Sphere sphere(16);
+  const std::vector<Interface> ball{ sphere.Between(1.0, 2.0), sphere.Between(1.0, 2.0) };
   int several = 0;
   for (const double width : { 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5 })
   {
@@ -248,9 +248,9 @@ TEST(RefractedRayStack, StepBoundsChooseTheFramesOfAllRays)
 
 TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
 {
-  const StackedSheet front(Shapes[2], 12);
-  const StackedSheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
-  const std::vector<StackedInterface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  const Sheet front(Shapes[2], 12);
+  const Sheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
+  const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
   RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false);
   RefractedRayStack forward;
   forward.Build(pane, view);

@@ -126,9 +126,7 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
   int close = 0;
   for (const int resolution : { 10, 16, 24 })
   {
-    Membrane surface;
-    CurvedPatches patches;
-    ASSERT_TRUE(BuildSphere(resolution, surface, patches));
+    const Sphere sphere(resolution);
     for (int i = 0; i < 12; ++i)
     {
       const double distance = i % 4 == 3 ? 0.7 : random(1.2, 5.0);
@@ -139,7 +137,7 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
           i % 3 == 2 && distance > 1.0, Size);
       SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
       RefractedRayField sight;
-      sight.Build(surface, patches, looking);
+      sight.Build(sphere.Surface, sphere.Patches, looking);
       for (int pixel = 0; pixel < Size * Size; ++pixel)
       {
         const double x = pixel % Size + 0.5 - 0.5 * Size;

@@ -62,7 +62,7 @@ TEST(RefractedRayStack, OneInterfaceIsThatOfTheField)
   {
     for (const int cells : { 1, 3, 12, 48 })
     {
-      const StackedSheet sheet(shape, cells);
+      const Sheet sheet(shape, cells);
       // The longest side of a facet is the diagonal of a square of side 2 / cells, on a slope of at
       // most 1: 4 / cells.
       const double twoErrors = 2.0 * 1e-9 * 4.0 / cells;
@@ -102,8 +102,8 @@ TEST(RefractedRayStack, OneInterfaceIsThatOfTheField)
 TEST(RefractedRayStack, PaneIsTheClosedForm)
 {
   const double thickness = 0.4;
-  const StackedSheet front([](double, double) { return 0.1; }, 5);
-  const StackedSheet back([=](double, double) { return 0.1 - thickness; }, 7);
+  const Sheet front([](double, double) { return 0.1; }, 5);
+  const Sheet back([=](double, double) { return 0.1 - thickness; }, 7);
   int seen = 0;
   for (const bool parallel : { false, true })
   {
@@ -145,7 +145,7 @@ TEST(RefractedRayStack, BallIsEnteredAndLeft)
   double largest = 0.0;
   for (const int resolution : { 10, 16, 24 })
   {
-    const StackedSphere sphere(resolution);
+    const Sphere sphere(resolution);
     for (const double index : { 1.5, 1.0 / 1.5 })
     {
       const glm::dvec3 eye =
@@ -214,7 +214,7 @@ TEST(RefractedRayStack, BallIsEnteredAndLeft)
 TEST(RefractedRayStack, ConcentricDomeKeepsDirections)
 {
   // The outer sphere is the unit sphere seen in another unit: its membrane is scaled.
-  const StackedSphere inner(24);
+  const Sphere inner(24);
   std::vector<double> points;
   std::vector<double> normals;
   std::vector<std::int64_t> triangles;
@@ -228,18 +228,12 @@ TEST(RefractedRayStack, ConcentricDomeKeepsDirections)
   {
     triangles.insert(triangles.end(), facet.begin(), facet.end());
   }
-  Membrane surface;
-  CurvedPatches patches;
-  PatchTree tree;
-  ASSERT_EQ(surface.Build({ points.data(), points.size() / 3, triangles.data(),
-              triangles.size() / 3, nullptr, normals.data() }),
-    MembraneStatus::Ready);
-  patches.Build(surface, SerialLoop);
-  tree.Build(surface, patches, SerialLoop);
+  const TestSurface outer({ points.data(), points.size() / 3, triangles.data(),
+    triangles.size() / 3, nullptr, normals.data() });
   RefractedRayField::View view = LookAtAll(glm::dvec3(0.0), glm::dvec3(0.3, 0.4, -1.0), 1.8, false);
   // Air, glass, water; the normals point outwards.
   RefractedRayStack stack;
-  stack.Build({ inner.Between(1.5, 1.0), InterfaceOf(surface, patches, tree, 1.333, 1.5) }, view);
+  stack.Build({ inner.Between(1.5, 1.0), outer.Between(1.333, 1.5) }, view);
   const RayLegs legs = LegsOf(stack, view);
   double largest = 0.0;
   for (int pixel = 0; pixel < Size * Size; ++pixel)
@@ -259,9 +253,9 @@ TEST(RefractedRayStack, ConcentricDomeKeepsDirections)
 /** Rays that pass the first sheet and miss the second end at the first, and are counted. */
 TEST(RefractedRayStack, RaysThatMissAnInterfaceAreCounted)
 {
-  const StackedSheet front([](double, double) { return 0.1; }, 5);
+  const Sheet front([](double, double) { return 0.1; }, 5);
   // A sheet that is seen through one half of the first one.
-  const StackedSheet back([](double, double) { return -1.5; }, 4);
+  const Sheet back([](double, double) { return -1.5; }, 4);
   RefractedRayField::View view =
     LookAtAll(glm::dvec3(1.2, 0.0, 2.0), glm::dvec3(0.0, 0.0, 0.1), 2.3, false);
   RefractedRayStack stack;
@@ -300,8 +294,8 @@ TEST(RefractedRayStack, RaysThatMissAnInterfaceAreCounted)
 /** In a prism of 45 degrees all light is reflected, and each ray ends at the oblique face. */
 TEST(RefractedRayStack, TotalReflectionEndsRays)
 {
-  const StackedSheet front([](double, double) { return 2.0; }, 2);
-  const StackedSheet oblique([](double x, double) { return x; }, 3);
+  const Sheet front([](double, double) { return 2.0; }, 2);
+  const Sheet oblique([](double x, double) { return x; }, 3);
   RefractedRayField::View view = LookAtAll(glm::dvec3(0.0, 0.0, 4.0), glm::dvec3(0.0), 1.8, true);
   RefractedRayStack stack;
   // The critical angle is 41.8 degrees for 1.5 and 48.8 degrees for 1.33.
@@ -327,8 +321,8 @@ TEST(RefractedRayStack, TotalReflectionEndsRays)
 /** A surface is met only from the side of the medium that the ray is in. */
 TEST(RefractedRayStack, RaysComeFromTheSideOfTheirMedium)
 {
-  const StackedSheet front([](double, double) { return 0.1; }, 2);
-  const StackedSheet back([](double, double) { return -0.3; }, 3);
+  const Sheet front([](double, double) { return 0.1; }, 2);
+  const Sheet back([](double, double) { return -0.3; }, 3);
   RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 0.8, false);
   const auto countMissing = [&](double exterior, double interior)
   {

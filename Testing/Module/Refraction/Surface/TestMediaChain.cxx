@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Sides from which rays pass the interfaces of a list, by their indices of refraction.
-#include "Refraction/Stack/MediaChain.h"
+#include "Refraction/Surface/MediaChain.h"
 
 #include <gtest/gtest.h>
 

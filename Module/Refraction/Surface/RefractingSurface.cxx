@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Stack/StackSurface.h"
+#include "Refraction/Surface/RefractingSurface.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
-#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Surface/CurveCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <glm/geometric.hpp>
 
@@ -26,15 +26,60 @@ constexpr double CommonSlant = 4.0;
 }
 
 //------------------------------------------------------------------------------
-MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
+MembraneStatus RefractingSurface::SetMembrane(
+  const MembraneInput& input, SurfaceParts parts, const RangeLoop& loop)
 {
+  static std::atomic<std::int64_t> last{ 0 };
+  const std::vector<Membrane::Facet> before = this->Surface.GetFacets();
+  const std::size_t pointsBefore = this->Surface.GetPositions().size();
   const MembraneStatus status = this->Surface.Build(input);
-  this->Patches.Build(this->Surface, loop);
+  const auto& facets = this->Surface.GetFacets();
+  if (facets.empty() || facets != before || this->Surface.GetPositions().size() != pointsBefore)
+  {
+    this->Topology = ++last;
+  }
+  this->Parts = SurfaceParts::Facets;
+  this->Prepare(parts, loop);
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void RefractingSurface::Prepare(SurfaceParts parts, const RangeLoop& loop)
+{
+  const auto lacks = [this, parts](SurfaceParts part)
+  { return this->Parts < part && part <= parts; };
+  if (lacks(SurfaceParts::Patches))
+  {
+    if (this->PatchesOf == this->Topology)
+    {
+      this->Patches.Refit(loop);
+    }
+    else
+    {
+      this->Patches.Build(this->Surface, loop);
+    }
+    this->PatchesOf = this->Topology;
+  }
+  if (lacks(SurfaceParts::Boxes))
+  {
+    this->BuildBoxes(loop);
+  }
+  if (lacks(SurfaceParts::Crossings))
+  {
+    this->BuildCrossings(loop);
+  }
+  this->Parts = std::max(this->Parts, parts);
+}
+
+//------------------------------------------------------------------------------
+void RefractingSurface::BuildBoxes(const RangeLoop& loop)
+{
   const std::size_t count = this->Surface.GetFacets().size();
   this->Bounds.resize(count);
+  std::vector<AxisBox> boxes(count);
   const double slack = this->GetSlack(0.0);
   loop(count,
-    [this, slack](std::size_t begin, std::size_t end)
+    [this, slack, &boxes](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
@@ -42,43 +87,56 @@ MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const Range
         PatchBounds& bounds = this->Bounds[i];
         bounds.Bulge = BoundBulge(patch) + slack;
         bounds.Normals = BoundNormals(patch);
-        bounds.LargestSlant = PatchCrossings::BoundLargestSlant(patch);
-        if (bounds.LargestSlant < CommonSlant)
-        {
-          bounds.LargestSlant = PatchCrossings(patch, HeightFrame()).GetLargestSlant();
-        }
-        const glm::dvec3 winding = glm::normalize(
-          glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
-        const glm::dvec3 normal = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
-        bounds.Facing = glm::dot(winding, normal) < 0.0 ? -winding : winding;
         bounds.Box = AxisBox();
+        const double reach = bounds.Bulge + PatchCrossings::Margin * patch.GetSize();
         for (const glm::dvec3& corner : patch.Corner)
         {
-          bounds.Box.Add({ corner - bounds.Bulge, corner + bounds.Bulge });
+          bounds.Box.Add({ corner - reach, corner + reach });
         }
+        boxes[i] = bounds.Box;
       }
     });
-  std::vector<AxisBox> boxes;
-  std::vector<DirectionBox> normals;
-  boxes.reserve(count);
-  normals.reserve(count);
   AxisBox whole;
-  for (const PatchBounds& bounds : this->Bounds)
+  for (const AxisBox& box : boxes)
   {
-    boxes.push_back(bounds.Box);
-    normals.push_back(bounds.Normals);
-    whole.Add(bounds.Box);
+    whole.Add(box);
   }
   const glm::dvec3 sides = whole.High - whole.Low;
   this->Width = std::max({ 0.0, sides.x, sides.y, sides.z });
   this->Tree.Build(boxes);
+}
+
+//------------------------------------------------------------------------------
+void RefractingSurface::BuildCrossings(const RangeLoop& loop)
+{
+  const std::size_t count = this->Surface.GetFacets().size();
+  this->Slants.resize(count);
+  std::vector<DirectionBox> normals(count);
+  loop(count,
+    [this, &normals](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+        PatchSlant& slant = this->Slants[i];
+        slant.Largest = PatchCrossings::BoundLargestSlant(patch);
+        if (slant.Largest < CommonSlant)
+        {
+          slant.Largest = PatchCrossings(patch, HeightFrame()).GetLargestSlant();
+        }
+        const glm::dvec3 winding = glm::normalize(
+          glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
+        const glm::dvec3 normal = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
+        slant.Facing = glm::dot(winding, normal) < 0.0 ? -winding : winding;
+        normals[i] = this->Bounds[i].Normals;
+      }
+    });
   this->Steep.Build(this->Surface, this->Patches, normals);
-  return status;
 }
 
 //------------------------------------------------------------------------------
 // With the normals, q changes its sign too, so that its product with the normal does not.
-CurvedPatch StackSurface::GetPatch(std::int32_t facet, bool flipped) const
+CurvedPatch RefractingSurface::GetPatch(std::int32_t facet, bool flipped) const
 {
   CurvedPatch patch = this->Patches.GetPatch(facet);
   for (int k = 0; flipped && k < 3; ++k)
@@ -92,13 +150,13 @@ CurvedPatch StackSurface::GetPatch(std::int32_t facet, bool flipped) const
 }
 
 //------------------------------------------------------------------------------
-double StackSurface::GetSlack(double distance) const
+double RefractingSurface::GetSlack(double distance) const
 {
   return this->Surface.GetSlack(distance);
 }
 
 //------------------------------------------------------------------------------
-bool StackSurface::MayCross(
+bool RefractingSurface::MayCross(
   std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const
 {
   const auto i = static_cast<std::size_t>(facet);
@@ -111,8 +169,8 @@ bool StackSurface::MayCross(
 }
 
 //------------------------------------------------------------------------------
-bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction, int side,
-  double least, double most, SurfaceCrossing& nearest) const
+bool RefractingSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction,
+  int side, double least, double most, SurfaceCrossing& nearest) const
 {
   const HeightFrame frame(direction);
   const glm::dvec2 place = frame.Project(origin);
@@ -122,10 +180,10 @@ bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& dire
   this->Tree.Visit(ray, most,
     [&](std::int32_t facet, const TubeRange&)
     {
-      const PatchBounds& bounds = this->GetBounds(facet);
-      const double cosine = glm::dot(bounds.Facing, direction);
+      const PatchSlant& slant = this->Slants[static_cast<std::size_t>(facet)];
+      const double cosine = glm::dot(slant.Facing, direction);
       // Written so that a NaN fails.
-      const bool isOnce = bounds.LargestSlant * std::fabs(cosine) >= 1.0;
+      const bool isOnce = slant.Largest * std::fabs(cosine) >= 1.0;
       const bool isOtherWay = isOnce && side * cosine < 0.0;
       if (!isOtherWay && this->MayCross(facet, frame, place))
       {
@@ -139,16 +197,16 @@ bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& dire
 //------------------------------------------------------------------------------
 // The place where a line that crosses a patch once at most meets the surface of which the patch is
 // a part, next to the patch. Returns false if Newton's method does not find it there.
-bool StackSurface::FindOnly(const CurvedPatch& patch, const PatchBounds& bounds,
+bool RefractingSurface::FindOnly(const CurvedPatch& patch, const PatchSlant& slant,
   const glm::dvec3& origin, const glm::dvec3& direction, SurfaceCrossing& crossing)
 {
-  const double cosine = glm::dot(bounds.Facing, direction);
+  const double cosine = glm::dot(slant.Facing, direction);
   // Written so that a NaN fails.
-  if (!(bounds.LargestSlant * std::fabs(cosine) >= 1.0))
+  if (!(slant.Largest * std::fabs(cosine) >= 1.0))
   {
     return false;
   }
-  const double distance = glm::dot(bounds.Facing, patch.Corner[0] - origin) / cosine;
+  const double distance = glm::dot(slant.Facing, patch.Corner[0] - origin) / cosine;
   crossing.B = patch.ProjectToFacet(origin + distance * direction);
   // Scaled so that the parameter is about 1 or less.
   const double scale = std::max(patch.GetSize(), std::fabs(distance));
@@ -167,7 +225,7 @@ bool StackSurface::FindOnly(const CurvedPatch& patch, const PatchBounds& bounds,
 //------------------------------------------------------------------------------
 // Takes the crossings with a patch that are nearer than those known, and reduces `most` to their
 // distance.
-void StackSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin,
+void RefractingSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin,
   const HeightFrame& frame, int side, double least, double& most, SurfaceCrossing& nearest) const
 {
   const CurvedPatch patch = this->Patches.GetPatch(facet);
@@ -186,7 +244,7 @@ void StackSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin,
     most = distance;
   };
   SurfaceCrossing only;
-  if (FindOnly(patch, this->GetBounds(facet), origin, frame.Axis, only))
+  if (FindOnly(patch, this->Slants[static_cast<std::size_t>(facet)], origin, frame.Axis, only))
   {
     if (FindOutside(only.B).Least >= -PatchCrossings::Border)
     {
@@ -208,7 +266,7 @@ void StackSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin,
 }
 
 //------------------------------------------------------------------------------
-bool StackSurface::IsOnSurface(const glm::dvec3& local) const
+bool RefractingSurface::IsOnSurface(const glm::dvec3& local) const
 {
   const double slack = this->GetSlack(glm::length(local));
   bool touched = false;

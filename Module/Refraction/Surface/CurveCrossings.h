@@ -8,11 +8,11 @@
  * sub-cell and triangle they belong to: each side and each line of the object has a canonical
  * direction that depends on its two ends only. The results are equal bit by bit.
  */
-#ifndef meniscus_Refraction_Curved_CurveCrossings_h
-#define meniscus_Refraction_Curved_CurveCrossings_h
+#ifndef meniscus_Refraction_Surface_CurveCrossings_h
+#define meniscus_Refraction_Surface_CurveCrossings_h
 
-#include "Refraction/Curved/SightEquation.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Sight/SightEquation.h"
 
 namespace meniscus
 {

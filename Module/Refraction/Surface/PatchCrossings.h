@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_PatchCrossings_h
-#define meniscus_Refraction_Curved_PatchCrossings_h
+#ifndef meniscus_Refraction_Surface_PatchCrossings_h
+#define meniscus_Refraction_Surface_PatchCrossings_h
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -49,6 +49,13 @@ class PatchCrossings
 public:
   /** A root on an edge is found in both of its facets, within the accuracy of Newton's method. */
   static constexpr double Border = 1e-8;
+  /**
+   * Distance, in units of a facet's longest edge, by which boxes and other bounds of a patch are
+   * widened. An intersection lies outside of its facet by up to Border in barycentric coordinates,
+   * which is 3e-8 edges at most; the rest exceeds the rounding of coordinates up to 1e8 edges from
+   * the origin.
+   */
+  static constexpr double Margin = 1e-7;
 
   /** `patch` and `frame` must outlive this. The axis is the frame's. */
   PatchCrossings(const CurvedPatch& patch, const HeightFrame& frame);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
-#include "Refraction/Curved/BracketedZero.h"
+#include "Refraction/Surface/BracketedZero.h"
 
 #include <glm/common.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Curved/SteepDirections.h"
+#include "Refraction/Surface/SteepDirections.h"
 
 #include "Refraction/Membrane/HeightField.h"
 

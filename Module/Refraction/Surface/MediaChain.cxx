@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Stack/MediaChain.h"
+#include "Refraction/Surface/MediaChain.h"
 
 #include <algorithm>
 #include <cmath>

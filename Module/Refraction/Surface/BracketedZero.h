@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_BracketedZero_h
-#define meniscus_Refraction_Curved_BracketedZero_h
+#ifndef meniscus_Refraction_Surface_BracketedZero_h
+#define meniscus_Refraction_Surface_BracketedZero_h
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_SteepDirections_h
-#define meniscus_Refraction_Curved_SteepDirections_h
+#ifndef meniscus_Refraction_Surface_SteepDirections_h
+#define meniscus_Refraction_Surface_SteepDirections_h
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_MediaChain_h
-#define meniscus_Refraction_Stack_MediaChain_h
+#ifndef meniscus_Refraction_Surface_MediaChain_h
+#define meniscus_Refraction_Surface_MediaChain_h
 
 #include <cstddef>
 #include <vector>
@@ -14,6 +14,13 @@ struct InterfaceMedia
 {
   double Exterior;
   double Interior;
+
+  /** True if the indices differ, so that rays change their direction. */
+  bool IsRefracting() const { return this->Exterior != this->Interior; }
+  bool operator==(const InterfaceMedia& other) const
+  {
+    return this->Exterior == other.Exterior && this->Interior == other.Interior;
+  }
 };
 
 /** Passage of rays through an interface, from one of its sides to the other. */

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include "Refraction/Membrane/CrossProduct.h"
 

@@ -15,8 +15,8 @@
  * tangential parts of the two directions are equal, for the straight ray and for the reflected one.
  * The side that the point lies on tells them apart: it is the eye's for a reflection.
  */
-#ifndef meniscus_Refraction_Curved_SightEquation_h
-#define meniscus_Refraction_Curved_SightEquation_h
+#ifndef meniscus_Refraction_Sight_SightEquation_h
+#define meniscus_Refraction_Sight_SightEquation_h
 
 #include "Refraction/Membrane/CurvedPatch.h"
 

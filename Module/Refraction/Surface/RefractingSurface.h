@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackSurface_h
-#define meniscus_Refraction_Stack_StackSurface_h
+#ifndef meniscus_Refraction_Surface_RefractingSurface_h
+#define meniscus_Refraction_Surface_RefractingSurface_h
 
 #include "Common/RangeLoop.h"
-#include "Refraction/Curved/SteepDirections.h"
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Surface/SteepDirections.h"
 #include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
@@ -28,23 +28,45 @@ struct SurfaceCrossing
   int Side = 0; ///< +1 if the ray goes the way of the normals, -1 if it goes against them
 };
 
+/** Parts of a surface. Each needs those before it. */
+enum class SurfaceParts
+{
+  Facets,
+  Patches,  ///< curved patches over the facets
+  Boxes,    ///< bounds of the patches, and the tree of their boxes
+  Crossings ///< bounds of the patches' slants, and the directions of lines that cross them once
+};
+
 /**
- * A surface of curved patches that rays are traced to: a membrane, its patches, bounds of each
- * patch and a tree of boxes. It does not depend on an eye or on media, so that several places of a
- * list can share it. Coordinates are local ones, relative to the membrane's origin.
+ * A refracting surface: a membrane, its curved patches, bounds of each patch and a tree of boxes.
+ * It does not depend on an eye or on media, so that several solvers and several places of a list
+ * can share it. Coordinates are local ones, relative to the membrane's origin.
  */
-class StackSurface
+class RefractingSurface
 {
 public:
-  StackSurface() = default;
-  StackSurface(const StackSurface&) = delete; ///< the patches point to the membrane
-  StackSurface& operator=(const StackSurface&) = delete;
+  RefractingSurface() = default;
+  RefractingSurface(const RefractingSurface&) = delete; ///< the patches point to the membrane
+  RefractingSurface& operator=(const RefractingSurface&) = delete;
 
-  /** Sets the shape. The surface can be used only if the result is `Ready`. */
-  MembraneStatus SetMembrane(const MembraneInput& input, const RangeLoop& loop = SerialLoop);
+  /**
+   * Sets the shape, and computes `parts`. If only points and normals differ from the last shape,
+   * patches are refitted. The surface can be used only if the result is `Ready`.
+   */
+  MembraneStatus SetMembrane(
+    const MembraneInput& input, SurfaceParts parts, const RangeLoop& loop = SerialLoop);
+  /** Computes `parts` of the shape, unless they exist. */
+  void Prepare(SurfaceParts parts, const RangeLoop& loop = SerialLoop);
 
   const Membrane& GetMembrane() const { return this->Surface; }
   const CurvedPatches& GetPatches() const { return this->Patches; }
+  /** Tree of the boxes of GetBounds(). */
+  const BoxTree& GetTree() const { return this->Tree; }
+  /**
+   * Number of the arrangement of facets, which shapes of the same facets keep; no two surfaces in a
+   * process have the same.
+   */
+  std::int64_t GetTopology() const { return this->Topology; }
 
   /** The patch of a facet; with `flipped`, the same points with the opposite normals. */
   CurvedPatch GetPatch(std::int32_t facet, bool flipped) const;
@@ -52,12 +74,9 @@ public:
   /** Bounds of a patch that do not change with the eye. */
   struct PatchBounds
   {
-    AxisBox Box;          ///< widened by the rounding of positions
+    AxisBox Box;          ///< of all crossings that are found in the patch
     DirectionBox Normals; ///< unit normals, not flipped
-    double Bulge;
-    glm::dvec3 Facing; ///< unit normal of the facet, on the side of the patch's normals
-    /** As PatchCrossings::GetLargestSlant, of lines that cross the patch once at most. */
-    double LargestSlant;
+    double Bulge;         ///< of points above the facet, widened by the rounding of positions
   };
   const PatchBounds& GetBounds(std::int32_t facet) const
   {
@@ -105,15 +124,27 @@ public:
   std::int64_t GetNumberOfUndecidedCrossings() const { return this->Undecided; }
 
 private:
+  /** Lines that cross a patch once at most. */
+  struct PatchSlant
+  {
+    glm::dvec3 Facing; ///< unit normal of the facet, on the side of the patch's normals
+    double Largest;    ///< as PatchCrossings::GetLargestSlant
+  };
+  void BuildBoxes(const RangeLoop& loop);
+  void BuildCrossings(const RangeLoop& loop);
   bool MayCross(std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const;
-  static bool FindOnly(const CurvedPatch& patch, const PatchBounds& bounds,
-    const glm::dvec3& origin, const glm::dvec3& direction, SurfaceCrossing& crossing);
+  static bool FindOnly(const CurvedPatch& patch, const PatchSlant& slant, const glm::dvec3& origin,
+    const glm::dvec3& direction, SurfaceCrossing& crossing);
   void FindInPatch(std::int32_t facet, const glm::dvec3& origin, const HeightFrame& frame, int side,
     double least, double& most, SurfaceCrossing& nearest) const;
 
   Membrane Surface;
   CurvedPatches Patches;
+  SurfaceParts Parts = SurfaceParts::Facets;
+  std::int64_t Topology = 0;
+  std::int64_t PatchesOf = -1; ///< topology that the patches were built for
   std::vector<PatchBounds> Bounds;
+  std::vector<PatchSlant> Slants;
   BoxTree Tree;
   SteepDirections Steep;
   double Width = 0.0;
