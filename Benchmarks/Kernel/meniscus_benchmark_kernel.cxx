@@ -8,10 +8,6 @@
 #include "RefractionTestRandom.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/TruePositions.h"
-#include "Refraction/Stack/StackInverse.h"
-#include "Refraction/Stack/StackSolver.h"
-#include "Refraction/Surface/SteepDirections.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/SurfaceLighting.h"
@@ -20,7 +16,6 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -173,129 +168,6 @@ void FindAllImages(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size() / 3));
 }
 
-/** Points of a grid below the waves, as x, y and z in turn. */
-std::vector<double> MakeGridPoints()
-{
-  constexpr int across = 128;
-  constexpr double spacing = 1.0;
-  std::vector<double> points;
-  for (int layer = 0; layer < 4; ++layer)
-  {
-    for (int row = 0; row < 32; ++row)
-    {
-      for (int column = 0; column < across; ++column)
-      {
-        points.insert(points.end(),
-          { spacing * (column - across / 2), -60.0 - 10.0 * layer, spacing * (row - 16) });
-      }
-    }
-  }
-  return points;
-}
-
-/** Wavy surfaces below each other. */
-std::vector<Interface> MakeInterfaces(std::int64_t number)
-{
-  std::vector<Interface> interfaces;
-  for (int i = 0; i < number; ++i)
-  {
-    reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, 2.0 + i, 3.0);
-    waves.Translate(glm::dvec3(0.0, -15.0 * i, 0.0));
-    auto surface = std::make_shared<RefractingSurface>();
-    surface->SetMembrane(waves.AsInput(), SurfaceParts::Crossings);
-    interfaces.push_back({ surface, { 1.0 + 0.2 * i, 1.2 + 0.2 * i } });
-  }
-  return interfaces;
-}
-
-/** One image of each point of a grid behind wavy surfaces; Arg is their number. */
-void SolveThroughInterfaces(benchmark::State& state)
-{
-  const std::vector<Interface> interfaces = MakeInterfaces(state.range(0));
-  const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedMembraneSolver one;
-  StackSolver several;
-  if (interfaces.size() == 1)
-  {
-    one.SetMembrane(reference::MakeWaves(200.0, 50, 2.0, 3.0).AsInput());
-    one.SetEye(eye, 1.0, 1.2);
-  }
-  else
-  {
-    several.SetInterfaces(interfaces);
-    several.SetEye(eye);
-  }
-  const std::vector<double> points = MakeGridPoints();
-  const std::size_t count = points.size() / 3;
-  std::vector<VirtualVertex> vertices(count);
-  std::vector<StackDetail> details(count);
-  std::vector<double> legs(count * interfaces.size());
-  for (auto step : state)
-  {
-    if (interfaces.size() == 1)
-    {
-      one.Solve(points.data(), 0, count, vertices.data());
-    }
-    else
-    {
-      several.Solve(points.data(), 0, count, vertices.data(), details.data(), legs.data());
-    }
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
-}
-
-/** True positions of the points of a grid; Arg is the number of cells along the waves' side. */
-void FindTruePositions(benchmark::State& state)
-{
-  CurvedMembraneSolver solver;
-  SetWaves(solver, static_cast<int>(state.range(0)));
-  SteepDirections steep;
-  steep.Build(solver.GetMembrane(), solver.GetPatches());
-  const TruePositions truth(solver, steep);
-  const std::vector<double> points = MakeGridPoints();
-  const std::size_t count = points.size() / 3;
-  for (auto step : state)
-  {
-    CrossingChain chain;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (i % TruePositions::Chain == 0)
-      {
-        chain.Forget();
-      }
-      const double* p = points.data() + 3 * i;
-      benchmark::DoNotOptimize(truth.Find({ p[0], p[1], p[2] }, chain));
-    }
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
-}
-
-/** True positions of the points of a grid behind wavy surfaces; Arg is their number. */
-void FindTruePositionsThroughInterfaces(benchmark::State& state)
-{
-  StackSolver solver;
-  solver.SetInterfaces(MakeInterfaces(state.range(0)));
-  solver.SetEye(glm::dvec3(20.0, 300.0, 10.0));
-  const std::vector<double> points = MakeGridPoints();
-  const std::size_t count = points.size() / 3;
-  for (auto step : state)
-  {
-    StackChain chain;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (i % TruePositions::Chain == 0)
-      {
-        chain.clear();
-      }
-      const double* p = points.data() + 3 * i;
-      benchmark::DoNotOptimize(
-        FindTruePosition(solver.GetStack(), 1.0, { p[0], p[1], p[2] }, &chain));
-    }
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
-}
-
 void RegisterFrames()
 {
   for (const InstructionSet set : GetInstructionSets())
@@ -316,9 +188,6 @@ void RegisterFrames()
 BENCHMARK(BuildMesh)->Unit(benchmark::kMillisecond);
 BENCHMARK(VertexGradients)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
-BENCHMARK(SolveThroughInterfaces)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
-BENCHMARK(FindTruePositions)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
-BENCHMARK(FindTruePositionsThroughInterfaces)->DenseRange(2, 3)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
 
 }
