@@ -11,9 +11,10 @@ import argparse
 import os
 import types
 
-from gallery import cells, common, pools, solids, steps, through, volumes
+from gallery import cells, common, pools, rivals, solids, steps, through, volumes
 
 PICTURES = {
+    "readme-rivals": rivals.draw_rivals,
     "readme-volume": volumes.draw_flames,
     "readme-refraction": pools.draw_pool,
     "gallery-shock": volumes.draw_shock,

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One mesh and one transfer function, drawn by three mappers."""
+import math
+import time
+
+import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkResampleToImage
+from vtkmodules.vtkRenderingCore import (
+    vtkActor2D, vtkImageMapper, vtkRenderWindow, vtkTextActor, vtkVolume, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingVolume import vtkProjectedTetrahedraMapper
+from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkSmartVolumeMapper
+
+import meniscus
+
+from . import common
+
+SAMPLES = 128  # of the image, along a side; fewer for small pictures
+ZOOM = 4
+# Middle of the part that is enlarged, and its width, in shares of a panel's width and height.
+PART = (0.37, 0.19, 0.13)
+PAPER = ((1.0, 1.0, 1.0), (0.93, 0.94, 0.96))
+INK = (0.12, 0.14, 0.18)
+
+
+def make_property(mesh, for_images):
+    """Colours and opacities of the density. Mappers of images take an opacity a per unit of length
+    as 1 - (1 - a)^length, mappers of meshes as 1 - exp(-a length)."""
+    low, high = common.get_range(mesh)
+    colors = common.make_colors(common.VIRIDIS, low, 0.75 * high)
+    points = ((low, 0.0), (1.05, 0.0), (1.2, 0.5), (1.35, 0.05), (1.7, 0.1), (1.95, 1.0),
+              (2.2, 0.15), (3.0, 0.6), (3.3, 1.0), (high, 1.0))
+    if for_images:
+        # Between two points 1 - exp(-a) is not linear.
+        fine = [(a[0] + (b[0] - a[0]) * i / 16, a[1] + (b[1] - a[1]) * i / 16)
+                for a, b in zip(points, points[1:]) for i in range(16)]
+        points = [(value, 1.0 - math.exp(-alpha)) for value, alpha in (*fine, points[-1])]
+    look = common.make_look(colors, common.make_opacity(points), 0.5, lit=False)
+    return look
+
+
+def resample(mesh, samples):
+    """The mesh as an image, and the seconds that this takes."""
+    begin = time.perf_counter()
+    resampled = vtkResampleToImage()
+    resampled.SetInputDataObject(mesh)
+    resampled.SetSamplingDimensions(samples, samples, samples)
+    resampled.Update()
+    image = vtkImageData()
+    image.ShallowCopy(resampled.GetOutput())
+    image.GetPointData().SetActiveScalars(mesh.GetPointData().GetScalars().GetName())
+    return image, time.perf_counter() - begin
+
+
+def draw(mapper, data, look, size):
+    """The picture of a volume as vtkImageData, and the milliseconds of a frame."""
+    mapper.SetInputDataObject(data)
+    volume = vtkVolume()
+    volume.SetMapper(mapper)
+    volume.SetProperty(look)
+    renderer = common.make_renderer(PAPER)
+    renderer.AddVolume(volume)
+    common.look_from(renderer, (-9.5, -10.0, 7.0), (3.0, 2.0, 3.2), (0, 0, 1), 31.0)
+    renderer.ResetCameraClippingRange()
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetMultiSamples(0)
+    window.SetSize(*size)
+    window.AddRenderer(renderer)
+    window.Render()
+    frames = []
+    for angle in (1.0, -2.0, 1.0):  # a frame of a view that turns, and back to the first view
+        begin = time.perf_counter()
+        renderer.GetActiveCamera().Azimuth(angle)
+        window.Render()
+        picture = vtkWindowToImageFilter()
+        picture.SetInput(window)
+        picture.ReadFrontBufferOff()
+        picture.ShouldRerenderOff()
+        picture.Update()
+        frames.append(1000 * (time.perf_counter() - begin))
+    window.Finalize()
+    return picture.GetOutput(), min(frames)
+
+
+def measure_difference(picture, exact):
+    """Root of the mean square of the differences over the pixels that the mesh covers, of 255."""
+    a, b = (vtk_to_numpy(each.GetPointData().GetScalars()).astype(float)
+            for each in (picture, exact))
+    covered = (abs(b - b[0]).max(axis=1) > 16) | (abs(a - a[0]).max(axis=1) > 16)
+    return math.sqrt(((a - b)[covered] ** 2).mean())
+
+
+def enlarge(picture, size):
+    """The marked part of a picture, ZOOM times as large."""
+    width = int(PART[2] * size[0])
+    left, bottom = (int(PART[i] * size[i]) - width // 2 for i in (0, 1))
+    pixels = vtk_to_numpy(picture.GetPointData().GetScalars()).reshape(size[1], size[0], 3)
+    part = pixels[bottom:bottom + width, left:left + width]
+    larger = part.repeat(ZOOM, axis=0).repeat(ZOOM, axis=1)
+    image = vtkImageData()
+    image.SetDimensions(ZOOM * width, ZOOM * width, 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(larger.reshape(-1, 3), deep=True))
+    return image
+
+
+def add_image(renderer, image, x, y):
+    mapper = vtkImageMapper()
+    mapper.SetInputData(image)
+    mapper.SetColorWindow(255)
+    mapper.SetColorLevel(127.5)
+    actor = vtkActor2D()
+    actor.SetMapper(mapper)
+    actor.SetPosition(x, y)
+    renderer.AddActor2D(actor)
+
+
+def make_panel(picture, size, lines):
+    """A renderer with a picture, its enlarged part and lines of text."""
+    renderer = common.make_renderer((PAPER[0], PAPER[0]))
+    add_image(renderer, picture, 0, 0)
+    larger = enlarge(picture, size)
+    add_image(renderer, larger, size[0] - larger.GetDimensions()[0] - 8, 8)
+    for index, line in enumerate(lines):
+        text = vtkTextActor()
+        text.SetInput(line)
+        text.SetPosition(14, size[1] - 32 - 25 * index)
+        text.GetTextProperty().SetFontSize(22 if index == 0 else 18)
+        text.GetTextProperty().SetBold(index == 0)
+        text.GetTextProperty().SetColor(*INK)
+        renderer.AddActor2D(text)
+    return renderer
+
+
+def take_beside(renderers, size):
+    """The picture of several renderers of one size, side by side."""
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetMultiSamples(0)
+    window.SetSize(len(renderers) * size[0], size[1])
+    for index, renderer in enumerate(renderers):
+        renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
+        window.AddRenderer(renderer)
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    picture.Update()
+    window.Finalize()
+    return picture.GetOutput()
+
+
+def draw_rivals(data, size):
+    """The density around the blunt fin, resampled to an image, as projected tetrahedra, and by
+    vtkTetrahedraRayCastMapper, with times and differences from the last."""
+    panel = (2 * size[0] // 3, size[1])
+    samples = min(SAMPLES, size[1] // 3)
+    image, seconds = resample(data.fin, samples)
+    meshes = make_property(data.fin, False)
+    exact, exact_time = draw(meniscus.vtkTetrahedraRayCastMapper(), data.fin, meshes, panel)
+    projected, projected_time = draw(vtkProjectedTetrahedraMapper(), data.fin, meshes, panel)
+    sampled, sampled_time = draw(
+        vtkSmartVolumeMapper(), image, make_property(data.fin, True), panel)
+    difference = "off by %.1f of 255 (RMS)"
+    panels = (
+        (sampled, ("Resampled to an image", "%d cubed points in %.1f s, %.0f ms a frame" % (
+            samples, seconds, sampled_time), difference % measure_difference(sampled, exact))),
+        (projected, ("Projected tetrahedra", "%.0f ms a frame" % projected_time,
+                     difference % measure_difference(projected, exact))),
+        (exact, ("Meniscus", "%.0f ms a frame" % exact_time, "exact to rounding")))
+    return take_beside([make_panel(picture, panel, lines) for picture, lines in panels], panel)
