@@ -7,6 +7,7 @@ import sys
 
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
+from .movies import write_movie, write_pictures
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, MeshScene
 from .window import Window, draw_picture, write_picture
@@ -29,15 +30,27 @@ def _size(text):
     return size
 
 
+def _count(text):
+    count = int(text)
+    if count < 1:
+        raise argparse.ArgumentTypeError("at least one frame is needed")
+    return count
+
+
 def make_parser():
     parser = argparse.ArgumentParser(prog="meniscus", description=DESCRIPTION)
     parser.add_argument("mesh", nargs="+", metavar="MESH",
-                        help="file of a mesh, or a collection (.pvd, .series)")
+                        help="file of a mesh, or a collection (.pvd, .series); demo: a mesh that "
+                        "comes with the package")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
-    parser.add_argument("--colors", default=next(iter(COLOR_MAPS)), metavar="NAME",
-                        help="colour map: " + ", ".join(COLOR_MAPS))
+    parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
+                        help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
+                        "cmocean or colorcet where they are installed")
+    parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
+                        help="opacities from 0 to 1 at equal distances over the range, each over a "
+                        "tenth of the mesh's diagonal; default: chosen by volume")
     parser.add_argument("--blend", default="composite", metavar="MODE",
                         help="blend mode: " + ", ".join(BLEND_MODES))
     parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
@@ -64,6 +77,12 @@ def make_parser():
                         help="size of the window or picture")
     parser.add_argument("--output", metavar="PICTURE.png",
                         help="writes a picture and opens no window")
+    parser.add_argument("--transparent", action="store_true",
+                        help="pictures have a transparent background")
+    parser.add_argument("--orbit", type=_count, metavar="FRAMES",
+                        help="so many pictures, or frames of the movie, once around the mesh")
+    parser.add_argument("--movie", metavar="FILE.mp4",
+                        help="writes a movie of the time steps or of an orbit (.mp4, .gif, ...)")
     parser.add_argument("--web", action="store_true", help="serves the window as a page")
     parser.add_argument("--port", type=int, default=8080, help="port of the page; default: 8080")
     return parser
@@ -87,6 +106,7 @@ def make_scene(options):
         scene.set_step(options.step % steps)
     scene.set_colors(options.colors)
     scene.set_density(options.density)
+    scene.set_opacities(options.opacity)
     scene.set_blend(options.blend)
     if options.isovalues:
         scene.set_isovalues(options.isovalues)
@@ -101,8 +121,14 @@ def make_scene(options):
 
 
 def _show(scene, options):
-    if options.output:
-        picture, warnings = draw_picture(scene, options.size)
+    if options.orbit and not (options.output or options.movie):
+        raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
+    if options.movie:
+        write_movie(scene, options.size, options.movie, options.orbit)
+    elif options.output and options.orbit:
+        write_pictures(scene, options.size, options.output, options.orbit, options.transparent)
+    elif options.output:
+        picture, warnings = draw_picture(scene, options.size, options.transparent)
         write_picture(picture, options.output)
         for warning in warnings:
             print(f"meniscus: warning: {warning}", file=sys.stderr)
@@ -119,7 +145,9 @@ def main(arguments=None):
     """Runs the command; returns its exit status."""
     options = make_parser().parse_args(arguments)
     try:
-        _show(make_scene(options), options)
+        scene = make_scene(options)
+        print(scene.describe())
+        _show(scene, options)
     except ReadingError as error:
         print(f"meniscus: {error}", file=sys.stderr)
         return 1

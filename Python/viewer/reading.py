@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes, their time steps and surfaces from files."""
+import os
+
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
 from .cells import check_damage, check_drawable, drawn_leaves_of
 from .files import ReadingError
+from .sample import make_sample
 from .series import is_collection, open_source
 
-
+# Name of the mesh that comes with the package.
+SAMPLE = "demo"
 # Array of a mesh without arrays.
 UNIFORM = "uniform"
 
@@ -27,10 +31,13 @@ class MeshSeries:
 
     def __init__(self, names):
         """names: file names. Several files are the steps of one mesh, in this order; among them, a
-        collection (.pvd, .series) counts with all of its steps."""
+        collection (.pvd, .series) counts with all of its steps. "demo" is the mesh of the package,
+            unless there is a file of that name."""
         self.steps = []  # pairs of time and a function that reads
         for name in names:
-            if len(names) > 1 and not is_collection(name):
+            if name == SAMPLE and not os.path.exists(name):
+                self.steps.append((float(len(self.steps)), make_sample))
+            elif len(names) > 1 and not is_collection(name):
                 self.steps.append((float(len(self.steps)), self._make_reading(name)))
             else:
                 self._add_source(open_source(name))

@@ -13,11 +13,16 @@ from vtkmodules.vtkRenderingCore import (
 
 from .. import vtkTetrahedraRayCastMapper
 from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL
-from .colors import COLOR_MAPS, fill_colors, make_table
+from .cells import drawn_leaves_of
+from .colors import COLOR_MAPS, fill_colors, find_colors, make_table
 from .levels import BINS, Levels
 from .reading import ReadingError, arrays_of
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+# Length over which opacities are given, as a share of the mesh's diagonal. An opacity of 1 would be
+# an infinite attenuation: at this one, rounding to 8 bits hides what lies behind.
+OPACITY_SHARE = 0.1
+LARGEST_OPACITY = 1.0 - 1.0 / 512.0
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 
 
@@ -32,12 +37,15 @@ class MeshScene:
         self.series = series
         self.step = 0
         self.data = series.read(0)
-        self.colors = next(iter(COLOR_MAPS))
+        self.colors = COLOR_MAPS[0]
+        self.opacities = None  # None: chosen by volume
         self.density = 1.0
         self.blend = "composite"
         self.isovalues = None  # None: chosen by volume
         self.limits = None  # None: the range of the first step's values
         self.clip_axis = None
+        self.direction = (1.0, 0.7, 1.0)
+        self.up = (0.0, 1.0, 0.0)
         self.mapper = vtkTetrahedraRayCastMapper()
         self.mapper.SetInputData(self.data)
         self.volume = vtkVolume()
@@ -121,6 +129,10 @@ class MeshScene:
             opacity.AddSegment(low, ISOSURFACE_OPACITY, high, ISOSURFACE_OPACITY)
         elif self.blend in ("maximum", "minimum", "average"):
             opacity.AddSegment(low, 0.0, high, 1.0)
+        elif self.opacities:
+            for scalar, value in zip(numpy.linspace(low, high, len(self.opacities)),
+                                     self.opacities):
+                opacity.AddPoint(scalar, -math.log1p(-min(value, LARGEST_OPACITY)) / OPACITY_SHARE)
         else:
             for scalar, coefficient in self.levels.get_opacity():
                 opacity.AddPoint(scalar, coefficient)
@@ -133,9 +145,10 @@ class MeshScene:
         self.bar.SetTitle(self.array)
 
     def set_colors(self, name):
-        if name not in COLOR_MAPS:
+        if find_colors(name) is None:
             raise ReadingError(f"There is no colour map '{name}'; known are "
-                               + ", ".join(COLOR_MAPS))
+                               + ", ".join(COLOR_MAPS) + ", and the names of the packages "
+                               "matplotlib, cmocean and colorcet that are installed (pip install)")
         self.colors = name
         self._update_functions()
 
@@ -145,6 +158,14 @@ class MeshScene:
             raise ReadingError("The density must be a number above 0")
         self.density = factor
         self.volume.GetProperty().SetScalarOpacityUnitDistance(self.diagonal / factor)
+
+    def set_opacities(self, values):
+        """Opacities in [0, 1] at equal distances over the range of the colour map, each over a
+        tenth of the mesh's diagonal; None: opacities chosen by volume."""
+        if values and (len(values) < 2 or not all(0.0 <= value <= 1.0 for value in values)):
+            raise ReadingError("Opacities must be at least two numbers from 0 to 1")
+        self.opacities = values
+        self._update_functions()
 
     def set_blend(self, name):
         if name not in BLEND_MODES:
@@ -158,6 +179,17 @@ class MeshScene:
         """Shows isosurfaces of these values; None: values chosen by volume."""
         self.isovalues = sorted(values) if values else None
         self.set_blend("isosurface")
+
+    def describe(self):
+        """One line about the mesh: cells, points, memory, time steps, arrays."""
+        leaves = drawn_leaves_of(self.data)
+        cells = sum(leaf.GetNumberOfCells() for leaf in leaves)
+        points = sum(leaf.GetNumberOfPoints() for leaf in leaves)
+        arrays = ", ".join(name if components == 1 else f"{name} ({components})"
+                           for name, (_, components) in arrays_of(self.data).items())
+        steps = len(self.series.get_times())
+        return (f"{cells:,} cells, {points:,} points, {self.data.GetActualMemorySize() / 1024:.1f}"
+                f" MiB, {steps} time step{'s' if steps > 1 else ''}; arrays: {arrays}")
 
     def set_lit(self, lit):
         self.volume.GetProperty().SetShade(bool(lit))
@@ -222,9 +254,11 @@ class MeshScene:
         actor.GetProperty().LightingOff()
         self.renderer.AddActor(actor)
 
-    def reset_camera(self, direction=(1.0, 0.7, 1.0), up=(0.0, 1.0, 0.0)):
+    def reset_camera(self, direction=None, up=None):
         """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is
-        parallel to it, another one is upward."""
+        parallel to it, another one is upward. Default: direction and axis of the last call."""
+        self.direction = direction = direction or self.direction
+        self.up = up = up or self.up
         if vtkMath.AngleBetweenVectors(direction, up) in (0.0, math.pi):
             up = (up[2], up[0], up[1])
         camera = self.renderer.GetActiveCamera()

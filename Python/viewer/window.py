@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A window with keys and sliders, and pictures without one."""
 import ctypes
+import itertools
 import os
 import sys
 
@@ -25,7 +26,7 @@ b      next blend mode
 i      isosurfaces
 l      light
 + -    denser, thinner
-x y z  cut at the middle; again: not
+x y z  cut at the middle, or no cut
 < >    move the cut
 , .    time step
 v      value under the cursor
@@ -66,25 +67,34 @@ def _choose_headless_window():
                        "(on Debian: apt-get install libegl1 libgl1-mesa-dri)")
 
 
-def make_window(scene, size, offscreen):
+def make_window(scene, size, offscreen, transparent=False):
+    """A window with a scene. transparent: its background is, in pictures."""
     if offscreen:
         _choose_headless_window()
     window = vtkRenderWindow()
     window.SetOffScreenRendering(offscreen)
     window.SetSize(*size)
     window.SetMultiSamples(0 if offscreen else 4)
+    if transparent:
+        window.SetAlphaBitPlanes(True)
+        scene.renderer.GradientBackgroundOff()
+        scene.renderer.SetBackground(0.0, 0.0, 0.0)
+        scene.renderer.SetBackgroundAlpha(0.0)
     window.SetWindowName("Meniscus")
     window.AddRenderer(scene.renderer)
     return window
 
 
-def grab_picture(window):
-    """The picture of a window after a frame, as vtkImageData."""
+def grab_picture(window, transparent=False):
+    """The picture of a window after a frame, as vtkImageData, with opacities if it is
+    transparent."""
     window.Render()
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
     picture.ReadFrontBufferOff()
     picture.ShouldRerenderOff()
+    if transparent:
+        picture.SetInputBufferTypeToRGBA()
     picture.Update()
     return picture.GetOutput()
 
@@ -102,14 +112,18 @@ def write_picture(picture, name):
     writer.Write()
 
 
-def draw_picture(scene, size):
+def draw_picture(scene, size, transparent=False):
     """The picture of a scene without a window on the screen, and VTK's warnings about it. A picture
     that shows nothing of the mesh is a ReadingError."""
-    window = make_window(scene, size, offscreen=True)
+    return draw_checked(scene, make_window(scene, size, True, transparent), transparent)
+
+
+def draw_checked(scene, window, transparent=False):
+    """The same as draw_picture(), in a window that exists."""
     with collecting_reports() as reports:
-        picture = grab_picture(window)
+        picture = grab_picture(window, transparent)
         scene.volume.VisibilityOff()
-        without = grab_picture(window)
+        without = grab_picture(window, transparent)
         scene.volume.VisibilityOn()
         errors, warnings = reports()
     pixels = [vtk_to_numpy(image.GetPointData().GetScalars()) for image in (picture, without)]
@@ -121,6 +135,8 @@ def draw_picture(scene, size):
 
 def _next_of(names, name, forward=True):
     names = list(names)
+    if name not in names:
+        return names[0]
     return names[(names.index(name) + (1 if forward else -1)) % len(names)]
 
 
@@ -248,7 +264,11 @@ class Window:
         return f"{self.scene.array} {picker.GetValue():.5g} at ({place}), cell {picker.GetCellId()}"
 
     def _save(self):
-        write_picture(grab_picture(self.window), "meniscus.png")
+        """Writes a picture to a new file."""
+        names = itertools.chain(["meniscus.png"], (f"meniscus-{n}.png" for n in itertools.count(2)))
+        name = next(name for name in names if not os.path.exists(name))
+        write_picture(grab_picture(self.window), name)
+        return f"wrote {name}"
 
     def _apply(self, action):
         """Runs an action; shows the text that it returns, or the state of the scene."""

@@ -155,6 +155,7 @@ class TestCommand(unittest.TestCase):
         for options in (["--array", "z"], ["--colors", "fire"], ["--blend", "maximum"],
                         ["--isovalues", "0.8"], ["--density", "4"], ["--light"],
                         ["--clip", "x"], ["--clip", "z:0.7"], ["--range", "0.5", "1"],
+                        ["--cmap", "coolwarm"], ["--opacity", "0", "1", "0"],
                         ["--view", "0", "1", "3"], ["--up", "z"], ["--water", self.water]):
             with self.subTest(options=options):
                 self.assertGreater(abs(self.draw(self.mesh, *options) - plain).max(), 20)
@@ -164,6 +165,59 @@ class TestCommand(unittest.TestCase):
         through = self.draw(self.mesh, "--water", self.water, "--index", "1")
         changed = (abs(through - self.draw(self.mesh)).max(axis=1) > 2).mean()
         self.assertLess(changed, 0.05)
+
+    def test_opacities_are_over_a_tenth_of_the_diagonal(self):
+        """Through a cube of constant opacity a over a length d, 1 - (1 - a)^(2 / d) of the
+        background is hidden along its side of length 2."""
+        arguments = ["--opacity", "0.2", "0.2", "--view", "0", "0", "1", "--range", "-9", "-8"]
+        picture = self.draw(self.mesh, *arguments)
+        scene = make_scene(make_parser().parse_args([self.mesh, *arguments]))
+        color = [255.0 * x for x in scene.volume.GetProperty().GetRGBTransferFunction().GetColor(0)]
+        hidden = 1.0 - 0.8 ** (2.0 / (0.1 * 12.0 ** 0.5))
+        middle = picture[60 * 160 + 80]
+        corner = picture[60 * 160 + 2]
+        for channel in range(3):
+            # The background is a gradient along the height only.
+            expected = hidden * color[channel] + (1.0 - hidden) * corner[channel]
+            self.assertAlmostEqual(middle[channel], expected, delta=6.0)
+
+    def test_the_mesh_of_the_package(self):
+        picture = self.draw("demo")
+        self.assertGreater((abs(picture - picture[0]).max(axis=1) > 20).mean(), 0.1)
+
+    def test_transparent_background(self):
+        picture = self.draw(self.mesh, "--transparent")
+        self.assertEqual(picture.shape[1], 4)
+        self.assertEqual(picture[0, 3], 0)
+        self.assertGreater(picture[60 * 160 + 70, 3], 50)
+
+    def test_an_orbit(self):
+        name = self.name("orbit.png")
+        status, errors = self.run_command(self.mesh, "--output", name, "--orbit", "5", "--size",
+                                          "160x120")
+        self.assertEqual((status, errors), (0, ""))
+        pictures = [read_picture(name.replace(".png", f"-{k:03d}.png")) for k in range(5)]
+        plain = self.draw(self.mesh)
+        self.assertEqual(abs(pictures[0] - plain).max(), 0)
+        self.assertGreater(abs(pictures[1] - plain).max(), 20)
+        self.assertFalse(os.path.exists(name.replace(".png", "-005.png")))
+        status, errors = self.run_command(self.mesh, "--orbit", "3")
+        self.assertEqual(status, 1)
+        self.assertIn("--orbit needs", errors)
+
+    def test_movies(self):
+        try:
+            import imageio  # noqa: F401
+        except ImportError:
+            status, errors = self.run_command(self.mesh, "--movie", self.name("turn.gif"))
+            self.assertEqual(status, 1)
+            self.assertIn("pip install 'imageio[ffmpeg]'", errors)
+            return
+        name = self.name("turn.gif")
+        status, errors = self.run_command(self.mesh, "--movie", name, "--orbit", "3", "--size",
+                                          "160x120")
+        self.assertEqual((status, errors), (0, ""))
+        self.assertGreater(os.path.getsize(name), 1000)
 
     def test_time_steps(self):
         first, last = self.draw(self.mesh), self.draw(self.mesh, self.later, "--step", "-1")
@@ -261,6 +315,8 @@ class TestCommand(unittest.TestCase):
                 ([self.water], "no cells with a volume; its cells are: 1 Quad"),
                 ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
                 ([self.mesh, "--colors", "q"], "no colour map 'q'"),
+                ([self.mesh, "--opacity", "0.5"], "at least two numbers"),
+                ([self.mesh, "--opacity", "0", "2"], "from 0 to 1"),
                 ([self.mesh, "--blend", "q"], "no blend mode 'q'"),
                 ([self.mesh, "--backend", "q"], "no backend 'q'"),
                 ([self.mesh, "--density", "0"], "above 0"),
@@ -332,7 +388,7 @@ class TestCommand(unittest.TestCase):
 
         for keys, get, value in (
                 ("a", lambda: scene.array, "z"), ("a", lambda: scene.array, "r"),
-                ("c", lambda: scene.colors, "blue-purple"), ("b", lambda: scene.blend, "maximum"),
+                ("c", lambda: scene.colors, "inferno"), ("b", lambda: scene.blend, "maximum"),
                 ("i", lambda: scene.blend, "isosurface"), ("i", lambda: scene.blend, "composite"),
                 ("l", scene.is_lit, True), ("plus", lambda: scene.density, 1.25),
                 ("minus", lambda: scene.density, 1.0), ("x", lambda: scene.clip_axis, "x"),
