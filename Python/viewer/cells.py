@@ -3,8 +3,10 @@
 """Cells of a mesh: those that are drawn, and damaged ones."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules import vtkCommonDataModel as model
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
-    VTK_POLYHEDRON, vtkCellTypes, vtkDataSetAttributes, vtkGenericCell, vtkImageData, vtkPolyData,
+    VTK_POLYHEDRON, vtkDataSetAttributes, vtkGenericCell, vtkImageData, vtkPolyData,
     vtkRectilinearGrid, vtkStructuredGrid, vtkUnstructuredGrid)
 
 from ..data import leaves_of
@@ -15,10 +17,25 @@ _LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
 _FACE = "a face of a polyhedron"
 
 
+# VTK 9.6 has new names for these; the old ones warn there.
+_CellNames = getattr(model, "vtkCellTypeUtilities", model.vtkCellTypes)
+
+
+def _read_types(grid):
+    """Array of the types of a grid's cells; None if there are no cells."""
+    if not hasattr(model, "vtkCellTypeUtilities"):
+        return grid.GetCellTypesArray()
+    if grid.GetCellTypes() is None:
+        return None
+    types = vtkUnsignedCharArray()  # a grid of one type may have a constant instead of an array
+    types.DeepCopy(grid.GetCellTypes())
+    return types
+
+
 def types_of(leaf):
     """Type of each cell, as an array."""
     if isinstance(leaf, vtkUnstructuredGrid):
-        types = leaf.GetCellTypesArray()
+        types = _read_types(leaf)
         return vtk_to_numpy(types) if types else numpy.empty(0, numpy.uint8)
     if isinstance(leaf, vtkPolyData):
         return numpy.array([leaf.GetCellType(cell) for cell in range(leaf.GetNumberOfCells())])
@@ -77,7 +94,7 @@ def _count_types(leaves):
     for leaf in leaves:
         for kind, count in zip(*numpy.unique(types_of(leaf), return_counts=True)):
             counts[int(kind)] = counts.get(int(kind), 0) + int(count)
-    return ", ".join(f"{count} {vtkCellTypes.GetClassNameFromTypeId(kind).replace('vtk', '', 1)}"
+    return ", ".join(f"{count} {_CellNames.GetClassNameFromTypeId(kind).replace('vtk', '', 1)}"
                      for kind, count in sorted(counts.items()))
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Colour maps by name."""
 import importlib
+import warnings
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -48,10 +49,13 @@ def _read_series(name):
 
 
 def _import(package):
-    try:
-        return importlib.import_module(package)
-    except ImportError:
-        return None
+    """A package without its warnings about itself; None if it is not installed."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return importlib.import_module(package)
+        except ImportError:
+            return None
 
 
 def _read_matplotlib(name):

@@ -68,17 +68,20 @@ inline FaceStorage GetFaceStorage(vtkUnstructuredGrid* grid)
   return storage;
 }
 
-/** Types of the cells; null if there are none. Later versions lack GetCellTypesArray(). */
+/**
+ * Types of the cells; null if there are none. Since VTK 9.6 cells of one type may have a constant
+ * instead of an array, which GetCellTypesArray() does not yield.
+ */
 template <typename UnstructuredGrid>
 auto GetTypesOfCells(UnstructuredGrid* grid, int)
-  -> decltype(grid->GetCellTypesArray(), static_cast<vtkDataArray*>(nullptr))
+  -> decltype(static_cast<vtkDataArray*>(grid->GetCellTypes()))
 {
-  return grid->GetCellTypesArray();
+  return grid->GetCellTypes();
 }
 template <typename UnstructuredGrid>
 vtkDataArray* GetTypesOfCells(UnstructuredGrid* grid, long)
 {
-  return grid->GetCellTypes();
+  return grid->GetCellTypesArray();
 }
 
 /**
