@@ -11,7 +11,7 @@ import argparse
 import os
 import types
 
-from gallery import cells, common, pools, rivals, solids, steps, through, volumes
+from gallery import cells, common, opacity, pools, rivals, solids, steps, through, volumes
 
 PICTURES = {
     "readme-rivals": rivals.draw_rivals,
@@ -26,6 +26,8 @@ PICTURES = {
     "gallery-waves": through.draw_waves,
     "gallery-pane": through.draw_pane,
     "gallery-lens": through.draw_lens,
+    "opacity-distances": opacity.draw_distances,
+    "opacity-functions": opacity.draw_functions,
 }
 
 

@@ -206,6 +206,24 @@ def take(renderer, size, bar=None):
     return smaller.GetOutput()
 
 
+def take_beside(renderers, size):
+    """The picture of several renderers of one size, side by side."""
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetMultiSamples(0)
+    window.SetSize(len(renderers) * size[0], size[1])
+    for index, renderer in enumerate(renderers):
+        renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
+        window.AddRenderer(renderer)
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    picture.Update()
+    window.Finalize()
+    return picture.GetOutput()
+
+
 def write(image, name):
     writer = vtkPNGWriter()
     writer.SetInputData(image)

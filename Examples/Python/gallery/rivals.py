@@ -134,24 +134,6 @@ def make_panel(picture, size, lines):
     return renderer
 
 
-def take_beside(renderers, size):
-    """The picture of several renderers of one size, side by side."""
-    window = vtkRenderWindow()
-    window.OffScreenRenderingOn()
-    window.SetMultiSamples(0)
-    window.SetSize(len(renderers) * size[0], size[1])
-    for index, renderer in enumerate(renderers):
-        renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
-        window.AddRenderer(renderer)
-    window.Render()
-    picture = vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
-    picture.Update()
-    window.Finalize()
-    return picture.GetOutput()
-
-
 def draw_rivals(data, size):
     """The density around the blunt fin, resampled to an image, as projected tetrahedra, and by
     vtkTetrahedraRayCastMapper, with times and differences from the last."""
@@ -170,4 +152,5 @@ def draw_rivals(data, size):
         (projected, ("Projected tetrahedra", "%.0f ms a frame" % projected_time,
                      difference % measure_difference(projected, exact))),
         (exact, ("Meniscus", "%.0f ms a frame" % exact_time, "exact to rounding")))
-    return take_beside([make_panel(picture, panel, lines) for picture, lines in panels], panel)
+    return common.take_beside(
+        [make_panel(picture, panel, lines) for picture, lines in panels], panel)
