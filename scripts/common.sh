@@ -125,13 +125,32 @@ configure_and_build()
   build "$1"
 }
 
+# name_instruction_set: the set of MENISCUS_INSTRUCTION_SETS that this processor uses.
+name_instruction_set()
+{
+  case "$(uname -m)" in
+    x86_64)
+      if grep -q -w avx512f /proc/cpuinfo; then
+        echo AVX512
+      elif grep -q -w avx2 /proc/cpuinfo; then
+        echo AVX2
+      else
+        echo Portable
+      fi ;;
+    *) echo '.*' ;;
+  esac
+}
+
+# Options of CMake for the kernel; without one, a build folder keeps its instruction sets.
+KERNEL_OPTIONS=()
+
 # install_packages_and_kernel PACKAGE...: builds the kernel, which knows no VTK, in build-kernel
 # while the packages are being installed.
 install_packages_and_kernel()
 {
   local kernel
   install_packages "${PACKAGES_KERNEL[@]}"
-  configure kernel > /dev/null
+  configure kernel "${KERNEL_OPTIONS[@]}" > /dev/null
   build kernel > build-kernel/build.log 2>&1 &
   kernel="$!"
   install_packages "$@"
