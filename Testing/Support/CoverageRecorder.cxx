@@ -78,9 +78,13 @@ void WriteCounters()
 
 } // anonymous namespace
 
+// Libraries call these functions of the program, which hides its others.
+#define MENISCUS_VISIBLE __attribute__((visibility("default")))
+
 //------------------------------------------------------------------------------
 // Called several times for a binary, each time before the places.
-extern "C" void __sanitizer_cov_8bit_counters_init(std::uint8_t* begin, std::uint8_t* end)
+extern "C" MENISCUS_VISIBLE void __sanitizer_cov_8bit_counters_init(
+  std::uint8_t* begin, std::uint8_t* end)
 {
   std::vector<Binary>& binaries = Binaries();
   if (binaries.empty())
@@ -98,7 +102,8 @@ extern "C" void __sanitizer_cov_8bit_counters_init(std::uint8_t* begin, std::uin
 }
 
 //------------------------------------------------------------------------------
-extern "C" void __sanitizer_cov_pcs_init(const std::uintptr_t* begin, const std::uintptr_t*)
+extern "C" MENISCUS_VISIBLE void __sanitizer_cov_pcs_init(
+  const std::uintptr_t* begin, const std::uintptr_t*)
 {
   Binary& last = Binaries().back();
   last.Places = last.Places ? last.Places : begin;
