@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of refraction at wavy surfaces below each other; Arg is their number. Those of a list of
-// one stand beside the times of the code for one membrane, ...AtMembrane, with the same arguments.
+// Times of refraction at wavy surfaces below each other; Arg is the number of surfaces. Rows named
+// ...AtMembrane measure the code for one membrane with the same arguments as a list with one
+// surface.
 #include "KernelSurfaces.h"
 #include "MembraneMeshes.h"
 

@@ -44,9 +44,9 @@ class SourceSurface
 {
 public:
   /**
-   * Object in which a changed shape is built. The same one keeps its topology and is faster. With a
-   * new one, shapes can be told apart by their addresses, and copies of this object are
-   * independent.
+   * Object in which a changed shape is built. InPlace keeps the topology of the shape and is
+   * faster. NewObject gives each shape an address of its own, and leaves copies of this object
+   * unchanged.
    */
   enum class Change
   {

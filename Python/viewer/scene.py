@@ -19,8 +19,8 @@ from .levels import BINS, Levels
 from .reading import ReadingError, arrays_of
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-# Length over which opacities are given, as a share of the mesh's diagonal. An opacity of 1 would be
-# an infinite attenuation: at this one, rounding to 8 bits hides what lies behind.
+# Length over which opacities are given, as a share of the mesh's diagonal. An opacity of 1 would
+# need an infinite attenuation coefficient; the largest one lets less than one step of 8 bits pass.
 OPACITY_SHARE = 0.1
 LARGEST_OPACITY = 1.0 - 1.0 / 512.0
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
