@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the files that the pages of the documentation read, and checks the images that they
 // produce: `write` writes object.vtp and water.vtp; `check` takes the names of images, each of
-// which must show something different.
-#include <vtkCellArray.h>
-#include <vtkDataArray.h>
-#include <vtkElevationFilter.h>
-#include <vtkImageData.h>
+// which must show something different; `compare FOLDER` does the same and compares each image with
+// that of its name in the folder.
+#include "StrictImage.h"
+
 #include <vtkNew.h>
-#include <vtkPNGReader.h>
+#include <vtkParametricFunctionSource.h>
+#include <vtkParametricTorus.h>
 #include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSphereSource.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <cmath>
@@ -20,13 +17,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <set>
-#include <vector>
+#include <string>
 
 namespace
 {
 
 // Smallest number of colours of an image, of at most 24 bits.
 constexpr std::size_t FewestColors = 50;
+// Largest difference of a pixel from the image that a page shows: processors round differently.
+constexpr int LargestDifference = 4;
 
 bool Write(vtkAlgorithm* source, const char* file)
 {
@@ -36,45 +35,45 @@ bool Write(vtkAlgorithm* source, const char* file)
   return writer->Write() == 1;
 }
 
+// The files of RunBlocks.py.
 bool WriteFiles()
 {
-  vtkNew<vtkSphereSource> ball;
-  ball->SetCenter(0.0, 0.0, -1.0);
-  ball->SetRadius(0.6);
-  ball->SetThetaResolution(40);
-  ball->SetPhiResolution(30);
-  vtkNew<vtkElevationFilter> colors;
-  colors->SetInputConnection(ball->GetOutputPort());
-  colors->SetLowPoint(-0.6, 0.0, 0.0);
-  colors->SetHighPoint(0.6, 0.0, 0.0);
+  vtkNew<vtkParametricTorus> shape;
+  vtkNew<vtkParametricFunctionSource> torus;
+  torus->SetParametricFunction(shape);
   vtkNew<vtkPlaneSource> water;
-  water->SetOrigin(-1.0, -1.0, 0.0);
-  water->SetPoint1(1.0, -1.0, 0.0);
-  water->SetPoint2(-1.0, 1.0, 0.0);
-  water->SetResolution(16, 16);
-  return Write(colors, "object.vtp") && Write(water, "water.vtp");
+  water->SetOrigin(-2.0, -2.0, 0.2);
+  water->SetPoint1(2.0, -2.0, 0.2);
+  water->SetPoint2(-2.0, 2.0, 0.2);
+  return Write(torus, "object.vtp") && Write(water, "water.vtp");
 }
 
-bool CheckResult(const char* file, std::vector<unsigned char>& pixels)
+bool ShowsSomething(const meniscus::test::ByteImage& image, const char* file)
 {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(file);
-  reader->Update();
-  vtkDataArray* scalars = reader->GetOutput()->GetPointData()->GetScalars();
   std::set<int> colors;
-  for (vtkIdType i = 0; scalars && i < scalars->GetNumberOfTuples(); ++i)
+  for (std::size_t i = 0; i + 2 < image.Rgb.size(); i += 3)
   {
-    int color = 0;
-    for (int c = 0; c < 3; ++c)
-    {
-      const auto value = static_cast<unsigned char>(scalars->GetComponent(i, c));
-      pixels.push_back(value);
-      color = 256 * color + value;
-    }
-    colors.insert(color);
+    colors.insert((image.Rgb[i] * 256 + image.Rgb[i + 1]) * 256 + image.Rgb[i + 2]);
   }
   std::printf("%s: %zu colours\n", file, colors.size());
   return colors.size() >= FewestColors;
+}
+
+bool EqualsShown(
+  const meniscus::test::ByteImage& image, const char* file, const std::string& folder)
+{
+  const std::string shown = folder + "/" + file;
+  const auto difference =
+    meniscus::test::CompareStrictly(image, meniscus::test::ReadPng(shown), LargestDifference);
+  const bool isEqual = difference.SameSize && difference.PixelsBeyond == 0;
+  if (!isEqual)
+  {
+    std::printf("%s differs from %s in %zu pixels, by up to %d of 255%s; compare them, and copy it "
+                "if it is right\n",
+      file, shown.c_str(), difference.PixelsBeyond, difference.Largest,
+      difference.SameSize ? "" : " (no such file, or another size)");
+  }
+  return isEqual;
 }
 
 }
@@ -85,13 +84,16 @@ int main(int argc, char* argv[])
   {
     return WriteFiles() ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  bool good = argc > 2 && std::strcmp(argv[1], "check") == 0;
-  std::vector<unsigned char> last;
-  for (int i = 2; i < argc && good; ++i)
+  const bool isCompared = argc > 2 && std::strcmp(argv[1], "compare") == 0;
+  const int first = isCompared ? 3 : 2;
+  bool good = argc > first && (isCompared || std::strcmp(argv[1], "check") == 0);
+  meniscus::test::ByteImage last;
+  for (int i = first; i < argc && good; ++i)
   {
-    std::vector<unsigned char> pixels;
-    good = CheckResult(argv[i], pixels) && pixels != last;
-    last = std::move(pixels);
+    const auto image = meniscus::test::ReadPng(argv[i]);
+    good = ShowsSomething(image, argv[i]) && image.Rgb != last.Rgb &&
+      (!isCompared || EqualsShown(image, argv[i], argv[2]));
+    last = image;
   }
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -4,8 +4,11 @@
 folder with the data files that the pages read.
 
 Arguments: the page, the language of the blocks, the folder; then the pictures that must exist
-afterwards and must not be uniform. A language `extract:LANGUAGE` only writes the blocks to the
-folder, to be compiled (cpp, cmake) or run by another program."""
+afterwards and must not be uniform. With --shown before the page, the page must show each picture,
+images/NAME.png next to the documentation, as the program draws it here; with --update it is copied
+there. A language `extract:LANGUAGE` only writes the blocks to the folder, to be compiled (cpp,
+cmake) or run by another program."""
+import math
 import os
 import re
 import shutil
@@ -15,6 +18,10 @@ SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py",
             "accessor": "py", "cpp": "cxx", "cmake": "txt"}
 # Smallest range of pixel values in a picture, within [0, 255]; that of an empty picture is 0.
 LEAST_CONTRAST = 50
+# Largest difference of a pixel from the picture that a page shows: processors round differently.
+LARGEST_DIFFERENCE = 4
+# Points of mesh.vtu along an axis, from -10 to 10.
+POINTS = 25
 
 
 def blocks(page, language):
@@ -25,6 +32,29 @@ def blocks(page, language):
     return found
 
 
+def ring_density(x, y, z):
+    """Two rings of radius 5 that are linked, each with a Gaussian profile."""
+    first = (math.hypot(x + 2.5, y) - 5) ** 2 + z ** 2
+    second = (math.hypot(x - 2.5, z) - 5) ** 2 + y ** 2
+    return math.exp(-first / 3) + math.exp(-second / 3)
+
+
+def make_field():
+    """The image of ring_density()."""
+    from vtkmodules.vtkCommonCore import vtkFloatArray
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+
+    field, density = vtkImageData(), vtkFloatArray()
+    field.SetDimensions(POINTS, POINTS, POINTS)
+    field.SetOrigin(-10.0, -10.0, -10.0)
+    field.SetSpacing(*[20.0 / (POINTS - 1)] * 3)
+    density.SetName("density")
+    for p in range(field.GetNumberOfPoints()):
+        density.InsertNextValue(ring_density(*field.GetPoint(p)))
+    field.GetPointData().SetScalars(density)
+    return field
+
+
 def write_files():
     """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it
     intersects; in ASCII, for every reader."""
@@ -32,11 +62,9 @@ def write_files():
     from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
     from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource, vtkPlaneSource
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
-    from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
-    field = vtkRTAnalyticSource()
     tetrahedra = vtkDataSetTriangleFilter()
-    tetrahedra.SetInputConnection(field.GetOutputPort())
+    tetrahedra.SetInputData(make_field())
     torus = vtkParametricFunctionSource()
     torus.SetParametricFunction(vtkParametricTorus())
     water = vtkPlaneSource()
@@ -52,16 +80,48 @@ def write_files():
         writer.Write()
 
 
-def check_picture(name):
+def read_picture(name):
+    """Dimensions and the values of a picture."""
     from vtkmodules.vtkIOImage import vtkPNGReader
 
     reader = vtkPNGReader()
     reader.SetFileName(name)
     reader.Update()
-    low, high = reader.GetOutput().GetScalarRange()
+    image = reader.GetOutput()
+    return image.GetDimensions(), bytes(memoryview(image.GetPointData().GetScalars()))
+
+
+def check_picture(name):
+    if not os.path.exists(name):
+        sys.exit("There is no %s" % name)
+    _, values = read_picture(name)
+    low, high = min(values), max(values)
     print("%s: values %g to %g" % (name, low, high))
     if high - low < LEAST_CONTRAST:
         sys.exit("%s shows nothing" % name)
+
+
+def shown_path(page, name):
+    """The file of a picture that a page shows: the README or one of the folder Documentation."""
+    folder = os.path.dirname(page)
+    if os.path.basename(folder) != "Documentation":
+        folder = os.path.join(folder, "Documentation")
+    return os.path.join(folder, "images", name)
+
+
+def check_shown(name, page):
+    """Compares a picture with the one of its name that the page shows."""
+    shown = shown_path(page, name)
+    with open(page) as file:
+        if "images/%s)" % name not in file.read():
+            sys.exit("%s does not show %s" % (page, name))
+    if not os.path.exists(shown):
+        sys.exit("There is no %s" % shown)
+    (size, values), (shown_size, shown_values) = read_picture(name), read_picture(shown)
+    largest = max((abs(a - b) for a, b in zip(values, shown_values)), default=0)
+    if size != shown_size or len(values) != len(shown_values) or largest > LARGEST_DIFFERENCE:
+        sys.exit("%s differs from %s, by up to %d of 255; compare them, and copy it if it is right"
+                 % (os.path.abspath(name), shown, largest))
 
 
 def save_window(window, name):
@@ -85,7 +145,9 @@ def save_instead_of_waiting(program, pictures):
 
 
 def main():
+    mode = sys.argv.pop(1) if sys.argv[1] in ("--shown", "--update") else None
     page, language, folder, pictures = sys.argv[1], sys.argv[2], sys.argv[3], sys.argv[4:]
+    page = os.path.abspath(page)
     extract = language.startswith("extract:")
     language = language.split(":")[-1]
     if not extract:
@@ -105,6 +167,10 @@ def main():
     exec(compile(program, path, "exec"), {"__name__": "__main__", "save_window": save_window})
     for picture in pictures:
         check_picture(picture)
+        if mode == "--update":
+            shutil.copy(picture, shown_path(page, picture))
+        elif mode == "--shown":
+            check_shown(picture, page)
     print("FINISHED")
 
 

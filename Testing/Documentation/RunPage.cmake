@@ -1,6 +1,6 @@
 # cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes
-# pictures to the current folder and checks each of them. -DNEEDS=... names files without which it
-# is skipped.
+# pictures to the current folder and checks each of them. -DSHOWN=... is the folder of the pictures
+# that they must equal. -DNEEDS=... names files without which it is skipped.
 if (NOT DEFINED ENV{DISPLAY})
   message("SKIPPED: no display")
   return ()
@@ -18,7 +18,11 @@ execute_process(COMMAND ${COMMAND} RESULT_VARIABLE failed)
 if (failed)
   message(FATAL_ERROR "${COMMAND} ended with ${failed}")
 endif ()
-execute_process(COMMAND "${CHECK}" check ${PICTURES} RESULT_VARIABLE failed)
+set(kind check)
+if (SHOWN)
+  set(kind compare "${SHOWN}")
+endif ()
+execute_process(COMMAND "${CHECK}" ${kind} ${PICTURES} RESULT_VARIABLE failed)
 if (failed)
-  message(FATAL_ERROR "A picture has too few colours or equals the one before")
+  message(FATAL_ERROR "A picture has too few colours, equals the one before or not the page's")
 endif ()
