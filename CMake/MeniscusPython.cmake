@@ -19,9 +19,14 @@ vtk_module_wrap_python(
   INSTALL_HEADERS    OFF)
 set(CMAKE_INSTALL_RPATH "${_meniscus_install_rpath}")
 
+# Versions of VTK with the same layout of classes, with which the package may be loaded.
+set(MENISCUS_VTK_VERSIONS "${VTK_VERSION}" CACHE STRING "Versions of VTK that the package accepts")
+mark_as_advanced(MENISCUS_VTK_VERSIONS)
+list(JOIN MENISCUS_VTK_VERSIONS " or " MENISCUS_VTK_VERSIONS_TEXT)
 # Message of the package if it finds another VTK.
 if (VTK_DIR MATCHES "/vtk_sdk/")
-  set(MENISCUS_VTK_HINT "run pip install vtk==${VTK_VERSION}")
+  list(GET MENISCUS_VTK_VERSIONS 0 _meniscus_vtk)
+  set(MENISCUS_VTK_HINT "run pip install vtk==${_meniscus_vtk}")
 else ()
   string(CONCAT MENISCUS_VTK_HINT "use that of ${Python3_EXECUTABLE}; in a virtual environment use "
     "--system-site-packages and install no other vtk")
@@ -40,6 +45,12 @@ foreach (_meniscus_source IN LISTS _meniscus_sources)
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
 endforeach ()
 
+# VTK 9.7 has renamed the targets of its wrappers.
+set(_meniscus_wrappers vtkMeniscusPython)
+if (TARGET PyvtkMeniscusPython)
+  set(_meniscus_wrappers PyvtkMeniscusPython)
+endif ()
+
 # Types for editors and type checkers, from the signatures that the wrappers put into doc strings.
 set(_meniscus_stubs "${_meniscus_package}/vtkMeniscus.pyi")
 file(WRITE "${_meniscus_package}/py.typed" "")
@@ -47,7 +58,7 @@ add_custom_command(
   OUTPUT  "${_meniscus_stubs}"
   COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${MENISCUS_BUILD_PYTHONPATH}"
     "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/Python/make_stubs.py" "${_meniscus_stubs}"
-  DEPENDS vtkMeniscusPython "${PROJECT_SOURCE_DIR}/Python/make_stubs.py"
+  DEPENDS "${_meniscus_wrappers}" "${PROJECT_SOURCE_DIR}/Python/make_stubs.py"
   COMMENT "Writing vtkMeniscus.pyi"
   VERBATIM)
 add_custom_target(meniscus_stubs ALL DEPENDS "${_meniscus_stubs}")
