@@ -50,7 +50,7 @@ def value_of(proxy, name):
 
 
 def mapper_of(display):
-    """The mapper behind the representation Tetrahedra Ray Cast."""
+    """The mapper behind the representation Volume (Exact)."""
     representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
     return representation.GetActiveVolumeMapper()
 
