@@ -33,8 +33,9 @@ set(_meniscus_sources
   __main__ data integrals names pyvista threads
   api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
   api/points api/rays api/refraction api/scalars api/surfaces api/types api/volumes
-  viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels viewer/movies
-  viewer/reading viewer/sample viewer/scene viewer/series viewer/web viewer/window)
+  viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/curves viewer/files
+  viewer/furniture viewer/levels viewer/movies viewer/reading viewer/sample viewer/scene
+  viewer/series viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
   configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)

@@ -58,6 +58,11 @@ def make_parser():
     parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
                         help="makes the volume denser (above 1) or thinner")
     parser.add_argument("--light", action="store_true", help="lights the volume")
+    parser.add_argument("--outline", action="store_true", help="shows the box around the mesh")
+    parser.add_argument("--axes", action="store_true", help="shows axes with numbers")
+    parser.add_argument("--edges", action="store_true", help="shows the edges of the surface")
+    parser.add_argument("--units", nargs="+", default=(), metavar="UNIT",
+                        help="units of lengths, and of the array: --units m K")
     parser.add_argument("--clip", metavar="AXIS[:SHARE]",
                         help="removes the part below a share (default 0.5) of the extent along "
                         + ", ".join(AXES))
@@ -116,6 +121,11 @@ def make_scene(options):
         scene.set_clip(*_split_clip(options.clip))
     if options.water:
         scene.set_surface(read_surface(options.water), options.index)
+    if len(options.units) > 2:
+        raise ReadingError("--units takes at most two: of lengths and of the array")
+    scene.set_units(*options.units)
+    for name in scene.furniture.NAMES:
+        scene.furniture.set(name, getattr(options, name))
     scene.reset_camera(options.view, AXES[options.up])
     return scene
 

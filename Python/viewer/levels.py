@@ -206,6 +206,17 @@ class Levels:
         return [(self.low + (bin + 0.5) * width, float(weight))
                 for bin, weight in enumerate(weights)]
 
+    def get_histogram(self, low, high):
+        """Volumes of the mesh by value: BINS equal bins from low to high. The volume of a bin of
+        this field is spread evenly over its values."""
+        edges = numpy.linspace(self.low, self.high, BINS + 1)
+        if not self.low < self.high:
+            edges = edges + numpy.linspace(-0.5, 0.5, BINS + 1) * (high - low) / BINS
+        below = numpy.concatenate([[0.0], numpy.cumsum(self.volumes)])
+        if not below[-1] > 0.0:
+            below = numpy.linspace(0.0, 1.0, BINS + 1)
+        return numpy.diff(numpy.interp(numpy.linspace(low, high, BINS + 1), edges, below))
+
     def get_isovalues(self, count=3):
         """Values between which the volume of the mesh has equal shares."""
         total = self.volumes.sum()

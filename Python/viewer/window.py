@@ -16,8 +16,10 @@ from vtkmodules.vtkRenderingCore import (
 
 from .. import vtkTetrahedraVolumePicker
 from ..names import BLEND_MODES
+from .chart import HEIGHT, OpacityChart
 from .colors import COLOR_MAPS
 from .files import ReadingError, collecting_reports
+from .furniture import INK
 from .scene import AXES
 
 KEYS = """a      next array
@@ -30,6 +32,9 @@ x y z  cut at the middle, or no cut
 < >    move the cut
 , .    time step
 v      value under the cursor
+o g e  outline, axes, edges
+t      histogram and curve
+d      default curve
 r      whole mesh
 s      save picture
 h      this help
@@ -141,20 +146,31 @@ def _next_of(names, name, forward=True):
 
 
 class Window:
-    """A MeshScene in a window with the keys of KEYS and sliders for density and time."""
+    """A MeshScene in a window with the keys of KEYS, sliders for density and time, and a strip with
+    the histogram and the curve of opacity."""
 
     def __init__(self, scene, size=(1024, 768), offscreen=False):
         self.scene = scene
         self.window = make_window(scene, size, offscreen)
         self.interactor = vtkRenderWindowInteractor()
         self.interactor.SetRenderWindow(self.window)
-        style = vtkInteractorStyleTrackballCamera()
-        # Replaces the style's own keys.
-        style.AddObserver("CharEvent", lambda *_: None)
-        self.interactor.SetInteractorStyle(style)
+        self._trackball = vtkInteractorStyleTrackballCamera()
+        self.chart = OpacityChart(scene, self._tell)
+        self.window.AddRenderer(self.chart.renderer)
+        # Replaces the styles' own keys.
+        for style in (self._trackball, self.chart.style):
+            style.AddObserver("CharEvent", lambda *_: None)
+        self.interactor.SetInteractorStyle(self._trackball)
+        # Before the styles, whose priority is 0.
+        for event in ("MouseMoveEvent", "EnterEvent"):
+            self.interactor.AddObserver(event, self._choose_style, 1.0)
+        self._buttons, self._on_chart = set(), False
+        for name in ("Left", "Middle", "Right"):
+            self.interactor.AddObserver(name + "ButtonPressEvent", self._note_button, 1.0)
+            self.interactor.AddObserver(name + "ButtonReleaseEvent", self._note_button, 1.0)
         self.interactor.AddObserver("KeyPressEvent", self._press)
         self.message = vtkTextActor()
-        self.message.GetTextProperty().SetColor(0.1, 0.1, 0.15)
+        self.message.GetTextProperty().SetColor(*INK)
         self.message.GetTextProperty().SetFontSize(16)
         self.message.SetPosition(12, 12)
         self.scene.renderer.AddViewProp(self.message)
@@ -163,7 +179,7 @@ class Window:
         text = self.help.GetTextProperty()
         text.SetFontFamilyToCourier()
         text.SetFontSize(16)
-        text.SetColor(0.1, 0.1, 0.15)
+        text.SetColor(*INK)
         text.SetVerticalJustificationToTop()
         self.help.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
         self.help.SetPosition(0.02, 0.97)
@@ -175,7 +191,29 @@ class Window:
         steps = len(scene.series.get_times())
         if steps > 1:
             self._time = self._add_slider("time step", 0, steps - 1, 0, 0.40, self._slide_time)
+        self._show_chart(True)
         self._tell()
+
+    def _show_chart(self, shown):
+        self._has_chart = shown
+        self.chart.set_visible(shown)
+        self.scene.renderer.SetViewport(0.0, HEIGHT if shown else 0.0, 1.0, 1.0)
+
+    def _note_button(self, _interactor, event):
+        name, pressed = event.split("Button")[0], "Press" in event
+        (self._buttons.add if pressed else self._buttons.discard)(name)
+
+    def _choose_style(self, interactor, _event):
+        """The strip and the volume have different styles; what a drag begins with, it keeps."""
+        if self._buttons:
+            return
+        on_chart = (self._has_chart
+                    and interactor.GetEventPosition()[1] < HEIGHT * self.window.GetSize()[1])
+        if on_chart and not self._on_chart:
+            self.chart.activate(interactor)
+        elif self._on_chart and not on_chart:
+            self.chart.deactivate(interactor, self._trackball)
+        self._on_chart = on_chart
 
     def _make_actions(self):
         scene = self.scene
@@ -193,6 +231,8 @@ class Window:
             "period": lambda: self._go_by(1),
             "r": scene.reset_camera,
             "v": self._pick,
+            "t": lambda: self._show_chart(not self._has_chart),
+            "d": lambda: scene.set_curve(None),
             "s": self._save,
             "h": lambda: self.help.SetVisibility(not self.help.GetVisibility()),
             "q": self.interactor.TerminateApp,
@@ -200,6 +240,9 @@ class Window:
         for axis in AXES:
             actions[axis] = lambda axis=axis: scene.set_clip(
                 None if scene.clip_axis == axis else axis)
+        for key, name in (("o", "outline"), ("g", "axes"), ("e", "edges")):
+            actions[key] = lambda name=name: scene.furniture.set(
+                name, not scene.furniture.get(name))
         return actions
 
     def _add_slider(self, title, low, high, value, left, changed):
@@ -214,16 +257,18 @@ class Window:
         look.SetSliderWidth(0.018)
         look.SetEndCapWidth(0.0)
         look.SetTitleHeight(0.018)
-        look.GetTitleProperty().SetColor(0.1, 0.1, 0.15)
+        look.GetTitleProperty().SetColor(*INK)
         look.GetTitleProperty().ShadowOff()
         look.GetTubeProperty().SetColor(0.5, 0.55, 0.6)
         look.GetSliderProperty().SetColor(0.1, 0.35, 0.65)
         for point, x in ((look.GetPoint1Coordinate(), left), (look.GetPoint2Coordinate(),
                                                               left + 0.25)):
-            point.SetCoordinateSystemToNormalizedDisplay()
-            point.SetValue(x, 0.10)
+            point.SetCoordinateSystemToNormalizedViewport()
+            point.SetValue(x, 0.12)
         widget = vtkSliderWidget()
         widget.SetInteractor(self.interactor)
+        widget.SetDefaultRenderer(self.scene.renderer)
+        widget.SetCurrentRenderer(self.scene.renderer)
         widget.SetRepresentation(look)
         widget.SetAnimationModeToJump()
         widget.AddObserver("InteractionEvent", lambda *_: self._apply(changed))
@@ -296,6 +341,7 @@ class Window:
         if scene.clip_axis is not None:
             parts.append(f"cut along {scene.clip_axis}")
         self.message.SetInput("   ".join(parts) + "   (h: help)")
+        self.chart.update()
 
     def start(self):
         self.window.Render()
