@@ -12,5 +12,8 @@ furniture: outline, axes and edges.
 scene: the volume and its settings; has no window of its own.
 window, web: a desktop window with keys and sliders, and a page served by trame.
 chart: the histogram and the curve of opacity in the window.
+contest: VTK's mappers and ours side by side.
+watching: files that change.
+options: options from the command line and from a file.
 command: arguments and messages.
 """

@@ -7,10 +7,14 @@ import sys
 
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
+from .contest import TITLE, compare_on, format_row, make_panels, show_panels
+from .files import collecting_reports
 from .movies import write_movie, write_pictures
+from .options import OptionParser
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, MeshScene
-from .window import Window, draw_picture, write_picture
+from .watching import Watch
+from .window import Window, draw_picture, grab_picture, write_picture
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
@@ -37,11 +41,21 @@ def _count(text):
     return count
 
 
+def _port(text):
+    port = int(text)
+    if not 0 <= port <= 65535:
+        raise argparse.ArgumentTypeError("a port is a number from 0 to 65535")
+    return port
+
+
 def make_parser():
-    parser = argparse.ArgumentParser(prog="meniscus", description=DESCRIPTION)
-    parser.add_argument("mesh", nargs="+", metavar="MESH",
+    parser = OptionParser(prog="meniscus", description=DESCRIPTION)
+    parser.add_argument("mesh", nargs="*", metavar="MESH",
                         help="file of a mesh, or a collection (.pvd, .series); demo: a mesh that "
                         "comes with the package")
+    parser.add_argument("--config", metavar="FILE.toml",
+                        help="file with options by the names of this list, and mesh; the command "
+                        "line goes before")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
@@ -88,8 +102,16 @@ def make_parser():
                         help="so many pictures, or frames of the movie, once around the mesh")
     parser.add_argument("--movie", metavar="FILE.mp4",
                         help="writes a movie of the time steps or of an orbit (.mp4, .gif, ...)")
+    parser.add_argument("--watch", action="store_true",
+                        help="reads the files again when they change")
+    parser.add_argument("--compare", action="store_true",
+                        help="draws the mesh with VTK's mappers and with this one, side by side, "
+                        "with milliseconds and differences")
     parser.add_argument("--web", action="store_true", help="serves the window as a page")
-    parser.add_argument("--port", type=int, default=8080, help="port of the page; default: 8080")
+    parser.add_argument("--port", type=_port, default=8080, help="port of the page; default: 8080")
+    parser.add_argument("--host", default="localhost",
+                        help="address at which the page is served; default: localhost, for this "
+                        "machine only. Others get a secret, which the address of the page carries")
     return parser
 
 
@@ -130,10 +152,38 @@ def make_scene(options):
     return scene
 
 
+def _has_display():
+    return bool(os.environ.get("DISPLAY")) or not sys.platform.startswith("linux")
+
+
+def _compare(scene, options):
+    if options.orbit or options.movie or options.web:
+        raise ReadingError("--compare makes a picture; it goes without --orbit, --movie and --web")
+    pairs = []
+    with collecting_reports() as reports:
+        for found, picture in compare_on(scene, options.size):
+            if not pairs:
+                print(TITLE)
+            print(format_row(found), flush=True)
+            pairs.append((found, picture))
+        errors, warnings = reports()
+    for message in dict.fromkeys(errors + warnings):
+        print(f"meniscus: warning: VTK: {message}", file=sys.stderr)
+    if options.output:
+        write_picture(grab_picture(make_panels(pairs, offscreen=True)), options.output)
+    elif _has_display():
+        show_panels(make_panels(pairs, offscreen=False))
+
+
 def _show(scene, options):
-    if options.orbit and not (options.output or options.movie):
+    watch = Watch(scene) if options.watch else None
+    if options.compare:
+        _compare(scene, options)
+    elif options.orbit and not (options.output or options.movie):
         raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
-    if options.movie:
+    elif options.watch and (options.output or options.movie):
+        raise ReadingError("--watch goes with the window or --web")
+    elif options.movie:
         write_movie(scene, options.size, options.movie, options.orbit)
     elif options.output and options.orbit:
         write_pictures(scene, options.size, options.output, options.orbit, options.transparent)
@@ -143,18 +193,19 @@ def _show(scene, options):
         for warning in warnings:
             print(f"meniscus: warning: {warning}", file=sys.stderr)
     elif options.web:
-        from .web import make_server
-        make_server(scene).start(port=options.port, open_browser=False)
-    elif not os.environ.get("DISPLAY") and sys.platform.startswith("linux"):
+        from .web import serve
+        serve(scene, options.host, options.port, watch)
+    elif not _has_display():
         raise ReadingError("There is no display; use --output PICTURE.png or --web")
     else:
-        Window(scene, options.size).start()
+        Window(scene, options.size, watch=watch).start()
 
 
 def main(arguments=None):
     """Runs the command; returns its exit status."""
-    options = make_parser().parse_args(arguments)
+    parser = make_parser()
     try:
+        options = parser.parse(arguments)
         scene = make_scene(options)
         print(scene.describe())
         _show(scene, options)

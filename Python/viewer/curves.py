@@ -66,7 +66,8 @@ def simplify(coefficients: Curve, limits: tuple[float, float]) -> Curve:
     point with the largest error is added."""
     low, high = limits
     places = numpy.linspace(0.0, 1.0, 129)
-    values = numpy.interp(low + places * (high - low), *zip(*coefficients))
+    scalars, given = (numpy.array(column) for column in zip(*coefficients))
+    values = numpy.interp(low + places * (high - low), scalars, given)
     opacities = -numpy.expm1(-values * OPACITY_SHARE)
     chosen = [0, places.size - 1]
     while len(chosen) < _POINTS:

@@ -113,7 +113,8 @@ def _measure_cells(grid, drawn):
     return numpy.where(numpy.isfinite(volumes), volumes, 0.0)
 
 
-def _values_of(array, component):
+def values_of(array, component):
+    """The numbers of a component of an array; None: its magnitude."""
     values = vtk_to_numpy(array).astype(float)
     if values.ndim == 1:
         return values
@@ -123,9 +124,9 @@ def _values_of(array, component):
 def _ranges_of_cells(grid, name, association, component):
     """Least and largest scalar of each cell; of a cell without points, not a number."""
     if association == "cells":
-        values = _values_of(grid.GetCellData().GetArray(name), component)
+        values = values_of(grid.GetCellData().GetArray(name), component)
         return values, values
-    values = _values_of(grid.GetPointData().GetArray(name), component)
+    values = values_of(grid.GetPointData().GetArray(name), component)
     cells = grid.GetCells()
     ids = values[vtk_to_numpy(cells.GetConnectivityArray())]
     offsets = vtk_to_numpy(cells.GetOffsetsArray())

@@ -50,6 +50,8 @@ class MeshScene:
         self.limits = None  # None: the range of the first step's values
         self.unit = ""
         self.clip_axis = None
+        self.clip_share = 0.5
+        self._has_surface = False
         self.direction = (1.0, 0.7, 1.0)
         self.up = (0.0, 1.0, 0.0)
         self.mapper = vtkTetrahedraRayCastMapper()
@@ -289,6 +291,7 @@ class MeshScene:
         """
         if not (index > 0.0 and before > 0.0):
             raise ReadingError("Indices of refraction must be above 0")
+        self._has_surface = True
         self.mapper.SetMembraneData(surface)
         self.mapper.SetExteriorIndexOfRefraction(before)
         self.mapper.SetInteriorIndexOfRefraction(index)
@@ -306,6 +309,9 @@ class MeshScene:
         actor.GetProperty().SetColor(0.1, 0.3, 0.6)
         actor.GetProperty().LightingOff()
         self.renderer.AddActor(actor)
+
+    def has_surface(self):
+        return self._has_surface
 
     def reset_camera(self, direction=None, up=None):
         """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is

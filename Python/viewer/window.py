@@ -3,6 +3,7 @@
 """A window with keys and sliders, and pictures without one."""
 import ctypes
 import itertools
+import math
 import os
 import sys
 
@@ -12,7 +13,7 @@ from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
-    vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
+    vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
 
 from .. import vtkTetrahedraVolumePicker
 from ..names import BLEND_MODES
@@ -21,6 +22,7 @@ from .colors import COLOR_MAPS
 from .files import ReadingError, collecting_reports
 from .furniture import INK
 from .scene import AXES
+from .watching import PERIOD
 
 KEYS = """a      next array
 c      next colour map
@@ -48,6 +50,8 @@ HEADLESS_WINDOWS = {
 }
 WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CLIP_STEP = 0.05
+# Height of the sliders above the strip, as a share of the window's.
+_SLIDER_HEIGHT = 0.09
 
 
 def _can_load(library):
@@ -72,8 +76,8 @@ def _choose_headless_window():
                        "(on Debian: apt-get install libegl1 libgl1-mesa-dri)")
 
 
-def make_window(scene, size, offscreen, transparent=False):
-    """A window with a scene. transparent: its background is, in pictures."""
+def make_window(renderer, size, offscreen, transparent=False):
+    """A window with a renderer. transparent: its background is, in pictures."""
     if offscreen:
         _choose_headless_window()
     window = vtkRenderWindow()
@@ -82,11 +86,11 @@ def make_window(scene, size, offscreen, transparent=False):
     window.SetMultiSamples(0 if offscreen else 4)
     if transparent:
         window.SetAlphaBitPlanes(True)
-        scene.renderer.GradientBackgroundOff()
-        scene.renderer.SetBackground(0.0, 0.0, 0.0)
-        scene.renderer.SetBackgroundAlpha(0.0)
+        renderer.GradientBackgroundOff()
+        renderer.SetBackground(0.0, 0.0, 0.0)
+        renderer.SetBackgroundAlpha(0.0)
     window.SetWindowName("Meniscus")
-    window.AddRenderer(scene.renderer)
+    window.AddRenderer(renderer)
     return window
 
 
@@ -120,7 +124,7 @@ def write_picture(picture, name):
 def draw_picture(scene, size, transparent=False):
     """The picture of a scene without a window on the screen, and VTK's warnings about it. A picture
     that shows nothing of the mesh is a ReadingError."""
-    return draw_checked(scene, make_window(scene, size, True, transparent), transparent)
+    return draw_checked(scene, make_window(scene.renderer, size, True, transparent), transparent)
 
 
 def draw_checked(scene, window, transparent=False):
@@ -149,9 +153,11 @@ class Window:
     """A MeshScene in a window with the keys of KEYS, sliders for density and time, and a strip with
     the histogram and the curve of opacity."""
 
-    def __init__(self, scene, size=(1024, 768), offscreen=False):
+    def __init__(self, scene, size=(1024, 768), offscreen=False, watch=None):
+        """watch: a Watch of the scene, for files that change."""
         self.scene = scene
-        self.window = make_window(scene, size, offscreen)
+        self.watch = watch
+        self.window = make_window(scene.renderer, size, offscreen)
         self.interactor = vtkRenderWindowInteractor()
         self.interactor.SetRenderWindow(self.window)
         self._trackball = vtkInteractorStyleTrackballCamera()
@@ -186,18 +192,42 @@ class Window:
         self.help.VisibilityOff()
         self.scene.renderer.AddViewProp(self.help)
         self.actions = self._make_actions()
+        # Sliders are wrong in renderers that do not begin in the corner of the window.
+        self._overlay = vtkRenderer()
+        self._overlay.SetLayer(1)
+        self._overlay.InteractiveOff()
+        self.window.SetNumberOfLayers(2)
+        self.window.AddRenderer(self._overlay)
         self._sliders = []
-        self._density = self._add_slider("density", -2.0, 2.0, 0.0, 0.10, self._slide_density)
-        steps = len(scene.series.get_times())
-        if steps > 1:
-            self._time = self._add_slider("time step", 0, steps - 1, 0, 0.40, self._slide_time)
         self._show_chart(True)
+        self._density = self._add_slider("density", -2.0, 2.0, math.log10(scene.density), 0.10,
+                                         self._slide_density)
+        self._time = None
+        self._update_time()
         self._tell()
+
+    def _update_time(self):
+        """Shows the time step, if there are several."""
+        last = len(self.scene.series.get_times()) - 1
+        if last > 0 and self._time is None:
+            self._time = self._add_slider("time step", 0, last, 0, 0.40, self._slide_time)
+        if self._time is not None:
+            self._time.SetMaximumValue(max(last, 1))
+            self._time.SetValue(self.scene.step)
 
     def _show_chart(self, shown):
         self._has_chart = shown
         self.chart.set_visible(shown)
         self.scene.renderer.SetViewport(0.0, HEIGHT if shown else 0.0, 1.0, 1.0)
+        for slider in self._sliders:
+            self._place(slider.GetRepresentation())
+
+    def _place(self, look):
+        """Puts a slider above the strip."""
+        height = _SLIDER_HEIGHT + (HEIGHT if self._has_chart else 0.0)
+        for point in (look.GetPoint1Coordinate(), look.GetPoint2Coordinate()):
+            point.SetValue(point.GetValue()[0], height)
+        look.Modified()
 
     def _note_button(self, _interactor, event):
         name, pressed = event.split("Button")[0], "Press" in event
@@ -263,12 +293,13 @@ class Window:
         look.GetSliderProperty().SetColor(0.1, 0.35, 0.65)
         for point, x in ((look.GetPoint1Coordinate(), left), (look.GetPoint2Coordinate(),
                                                               left + 0.25)):
-            point.SetCoordinateSystemToNormalizedViewport()
-            point.SetValue(x, 0.12)
+            point.SetCoordinateSystemToNormalizedDisplay()
+            point.SetValue(x, 0.0)
+        self._place(look)
         widget = vtkSliderWidget()
         widget.SetInteractor(self.interactor)
-        widget.SetDefaultRenderer(self.scene.renderer)
-        widget.SetCurrentRenderer(self.scene.renderer)
+        widget.SetDefaultRenderer(self._overlay)
+        widget.SetCurrentRenderer(self._overlay)
         widget.SetRepresentation(look)
         widget.SetAnimationModeToJump()
         widget.AddObserver("InteractionEvent", lambda *_: self._apply(changed))
@@ -298,8 +329,7 @@ class Window:
     def _go_by(self, change):
         steps = len(self.scene.series.get_times())
         self.scene.set_step((self.scene.step + change) % steps)
-        if steps > 1:
-            self._time.SetValue(self.scene.step)
+        self._update_time()
 
     def _pick(self):
         picker = vtkTetrahedraVolumePicker()
@@ -343,6 +373,17 @@ class Window:
         self.message.SetInput("   ".join(parts) + "   (h: help)")
         self.chart.update()
 
+    def look(self, *_):
+        """Shows the files again if they have changed."""
+        answer = self.watch.reload()
+        if answer is not None:
+            self._update_time()
+            self._apply(lambda: answer or None)
+
     def start(self):
         self.window.Render()
+        if self.watch:
+            self.interactor.Initialize()
+            self.interactor.AddObserver("TimerEvent", self.look)
+            self.interactor.CreateRepeatingTimer(int(1000 * PERIOD))
         self.interactor.Start()

@@ -9,6 +9,7 @@ import unittest
 from meniscus.viewer import curves
 from meniscus.viewer.command import make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
+from meniscus.viewer.watching import Watch
 from meniscus.viewer.window import Window, grab_picture
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis
@@ -139,6 +140,20 @@ class TestWindow(unittest.TestCase):
         self.drag(window, (200, 30), (260, 50))
         self.assertNotEqual(camera.GetPosition(), before)
 
+    def test_the_slider_of_density(self):
+        """It stands above the strip, and at the bottom without it."""
+        window = self.open("--density", "2")
+        for bottom in (round(0.24 * SIZE[1]), 0):
+            y = bottom + round(0.09 * SIZE[1])
+            left, right = 0.1 * SIZE[0], 0.35 * SIZE[0]
+            # Its middle is the factor 1 and its ends 1/100 and 100.
+            place = left + (0.5 + 0.25 * window._density.GetValue()) * (right - left)
+            self.drag(window, (round(place), y), (round(right), y))
+            self.assertGreater(window.scene.density, 30)
+            window.scene.set_density(1.0)
+            window._density.SetValue(0.0)
+            self.press(window, "t")
+
     def test_each_kind_of_mode_has_its_curve(self):
         window = self.open()
         scene = window.scene
@@ -177,6 +192,47 @@ class TestWindow(unittest.TestCase):
         self.assertEqual(edges.GetClippingPlanes().GetNumberOfItems(), 1)
         window.scene.set_clip(None)
         self.assertEqual(abs(pixels_of(window) - whole).max(), 0)
+
+    def test_files_that_change(self):
+        """They are read again when they are complete; view, array and curve stay."""
+        name = self.write_block("changing.vtu", radius)
+        scene = make_scene(make_parser().parse_args([name, "--array", "r", "--clip", "x"]))
+        window = Window(scene, SIZE, offscreen=True, watch=Watch(scene, period=0.0))
+        self.addCleanup(window.window.Finalize)
+        scene.renderer.GetActiveCamera().Azimuth(20)
+        place = scene.renderer.GetActiveCamera().GetPosition()
+        window.window.Render()
+        before = pixels_of(window)
+        window.look()
+        self.assertEqual(abs(pixels_of(window) - before).max(), 0)
+
+        whole = self.write_block("moved.vtu", lambda x, y, z: radius(x - 0.7, y, z))
+        with open(whole, "rb") as file:
+            content = file.read()
+        for part in (content[:len(content) // 2], b""):
+            with open(name, "wb") as file:
+                file.write(part)
+            window.look()
+            self.assertRegex(window.message.GetInput(), "changing.vtu.*read again when it changes")
+        os.remove(name)
+        data = scene.data
+        window.look()
+        self.assertIs(scene.data, data)
+        with open(name, "wb") as file:
+            file.write(content)
+        window.look()
+        self.assertIsNot(scene.data, data)
+        self.assertIn("(h: help)", window.message.GetInput())
+        self.assertGreater(abs(pixels_of(window) - before).max(), 20)
+        self.assertEqual(scene.renderer.GetActiveCamera().GetPosition(), place)
+        self.assertEqual((scene.array, scene.clip_axis), ("r", "x"))
+
+    def test_a_file_that_is_being_written(self):
+        name = self.write_block("growing.vtu", radius)
+        scene = make_scene(make_parser().parse_args([name]))
+        watch = Watch(scene, period=60.0)
+        os.utime(name, (1, 1))
+        self.assertIsNone(watch.reload())
 
 
 if __name__ == "__main__":
