@@ -7,7 +7,6 @@
 #include "MembraneMeshes.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/TruePositions.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "Refraction/Stack/StackInverse.h"
 #include "Refraction/Stack/StackSolver.h"
@@ -291,24 +290,6 @@ void TraceRaysThroughInterfaces(benchmark::State& state)
 }
 
 /** True positions of the points of the grid. */
-void FindTruePositionsAtMembrane(benchmark::State& state)
-{
-  const OneMembrane one;
-  SteepDirections steep;
-  steep.Build(one.Solver.GetMembrane(), one.Solver.GetPatches());
-  const TruePositions truth(one.Solver, steep);
-  CrossingChain chain;
-  ForEachPoint(state,
-    [&](const glm::dvec3& point, bool isFirst)
-    {
-      if (isFirst)
-      {
-        chain.Forget();
-      }
-      benchmark::DoNotOptimize(truth.Find(point, chain));
-    });
-}
-
 void FindTruePositionsThroughInterfaces(benchmark::State& state)
 {
   const Interfaces list(state.range(0));
@@ -339,7 +320,6 @@ BENCHMARK(MapTrianglesAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(MapTrianglesThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(TraceRaysAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(TraceRaysThroughInterfaces)->Apply(ForOneToThree);
-BENCHMARK(FindTruePositionsAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindTruePositionsThroughInterfaces)->Apply(ForOneToThree);
 
 }

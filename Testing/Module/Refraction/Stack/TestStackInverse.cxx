@@ -21,7 +21,7 @@ using meniscus::Interface;
 using meniscus::SeenState;
 using meniscus::StackChain;
 using meniscus::StackSolver;
-using meniscus::StackTruePosition;
+using meniscus::TruePosition;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::MakeSurface;
 using meniscus::testing::MakeWaves;
@@ -83,7 +83,7 @@ struct Tally
   std::array<int, 5> States{}; // by SeenState
   double Largest = 0.0;        // distance of two positions
 
-  void Compare(const StackTruePosition& found, const StackTruePosition& alone)
+  void Compare(const TruePosition& found, const TruePosition& alone)
   {
     ASSERT_EQ(found.State, alone.State);
     ++this->States[static_cast<std::size_t>(alone.State)];
