@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Options of the command `meniscus` from a file, and the comparison with VTK's mappers."""
 import contextlib
+import importlib.util
 import io
 import os
 import re
@@ -12,9 +13,13 @@ import warnings
 from unittest import mock
 
 import numpy
-from meniscus.viewer import contest
+from meniscus.viewer import contest, reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_FLOAT
+from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkImageData, vtkUnstructuredGrid
+from vtkmodules.vtkIOImage import vtkMetaImageWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from TestViewer import make_block, radius, read_picture, write
@@ -145,6 +150,42 @@ class TestMessages(Case):
             status, _, errors = self.run_command(self.mesh, "--web", "--port", "0")
         self.assertEqual(status, 1)
         self.assertIn("pip install trame trame-vuetify trame-rca", errors)
+
+    def test_files_of_other_packages(self):
+        """An image of MetaImage (.mhd) is read by PyVista, and a file of TetGen by meshio."""
+        image = vtkImageData()
+        image.SetDimensions(3, 4, 5)
+        image.AllocateScalars(VTK_FLOAT, 1)
+        vtk_to_numpy(image.GetPointData().GetScalars())[:] = range(60)
+        writer = vtkMetaImageWriter()
+        writer.SetInputData(image)
+        writer.SetFileName(self.name("image.mhd"))
+        writer.SetRAWFileName(self.name("image.raw"))
+        writer.Write()
+        with open(self.name("mesh.ele"), "w") as file:
+            file.write("1 4 0\n0 0 1 2 3\n")
+        with open(self.name("mesh.node"), "w") as file:
+            file.write("4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n")
+        for name, package, cells in (("image.mhd", "pyvista", 24), ("mesh.ele", "meshio", 1)):
+            if importlib.util.find_spec(package):
+                data = reading.MeshSeries([self.name(name)]).read(0)
+                self.assertEqual(data.GetNumberOfCells(), cells)
+            with mock.patch.dict(sys.modules, {"pyvista": None, "meshio": None}):
+                with self.assertRaisesRegex(ReadingError, "pip install pyvista meshio"):
+                    reading.MeshSeries([self.name(name)])
+
+    def test_points_only(self):
+        points = vtkUnstructuredGrid()
+        points.SetPoints(reading.MeshSeries([self.mesh]).read(0).GetPoints())
+        bare = write(vtkXMLUnstructuredGridWriter(), points, self.name("bare.vtu"))
+        points.Allocate(1)
+        for point in range(3):
+            points.InsertNextCell(VTK_VERTEX, 1, [point])
+        vertices = write(vtkXMLUnstructuredGridWriter(), points, self.name("vertices.vtu"))
+        for name, message in ((bare, "has no cells"), (vertices, "its cells are: 3 Vertex")):
+            status, _, errors = self.run_command(name, "--output", self.name("none.png"))
+            self.assertEqual(status, 1)
+            self.assertIn(message, errors)
 
     def test_absent_file(self):
         status, _, errors = self.run_command("--config", self.name("absent.toml"))

@@ -24,6 +24,7 @@ import msgpack
 import numpy
 from PIL import Image
 from selenium import webdriver
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -122,9 +123,13 @@ class PageCase(unittest.TestCase):
     def get_picture(self):
         """Pixels of the volume's part of the page; None while there is none."""
         images = self.browser.find_elements(By.CSS_SELECTOR, "main img")
-        if not images or not images[0].size["height"]:
+        try:
+            if not images or not images[0].size["height"]:
+                return None
+            shown = images[0].screenshot_as_png
+        except StaleElementReferenceException:  # the page has just been replaced
             return None
-        pixels = numpy.asarray(Image.open(io.BytesIO(images[0].screenshot_as_png)).convert("RGB"))
+        pixels = numpy.asarray(Image.open(io.BytesIO(shown)).convert("RGB"))
         return pixels.astype(int)
 
     def get_settled(self, words):
