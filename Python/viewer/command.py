@@ -123,9 +123,10 @@ def _split_clip(text):
         raise ReadingError(f"--clip: '{share}' is not a number") from None
 
 
-def make_scene(options):
+def make_scene(options, report=lambda line: None):
+    """The scene of the options. report: see MeshScene."""
     limits = options.range and tuple(options.range)
-    scene = MeshScene(MeshSeries(options.mesh), options.array, limits)
+    scene = MeshScene(MeshSeries(options.mesh), options.array, limits, report)
     steps = len(scene.series.get_times())
     if not -steps <= options.step < steps:
         raise ReadingError(f"There is no time step {options.step}; the mesh has {steps}")
@@ -206,9 +207,7 @@ def main(arguments=None):
     parser = make_parser()
     try:
         options = parser.parse(arguments)
-        scene = make_scene(options)
-        print(scene.describe())
-        _show(scene, options)
+        _show(make_scene(options, lambda line: print(line, flush=True)), options)
     except ReadingError as error:
         print(f"meniscus: {error}", file=sys.stderr)
         return 1

@@ -37,11 +37,13 @@ class MeshScene:
     Every setter takes effect with the next frame. A name that does not exist is a ReadingError.
     """
 
-    def __init__(self, series, array=None, limits=None):
-        """array, limits: see set_array(); default: the first array."""
+    def __init__(self, series, array=None, limits=None, report=lambda line: None):
+        """array, limits: see set_array(); default: the first array. report: gets a line about the
+        mesh as soon as it is read, before work that may take long."""
         self.series = series
         self.step = 0
         self.data = series.read(0)
+        report(self.describe())
         self.colors = COLOR_MAPS[0]
         self._curves = {}  # by the kinds of _KINDS; without one it is the default
         self.density = 1.0
