@@ -50,6 +50,13 @@ def _port(text):
 
 def make_parser():
     parser = OptionParser(prog="meniscus", description=DESCRIPTION)
+    _add_look(parser)
+    _add_view(parser)
+    _add_output(parser)
+    return parser
+
+
+def _add_look(parser):
     parser.add_argument("mesh", nargs="*", metavar="MESH",
                         help="file of a mesh, or a collection (.pvd, .series); demo: a mesh that "
                         "comes with the package")
@@ -60,12 +67,13 @@ def make_parser():
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
     parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
+                        offers=COLOR_MAPS,
                         help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
                         "cmocean or colorcet where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
                         "tenth of the mesh's diagonal; default: chosen by volume")
-    parser.add_argument("--blend", default="composite", metavar="MODE",
+    parser.add_argument("--blend", default="composite", metavar="MODE", offers=BLEND_MODES,
                         help="blend mode: " + ", ".join(BLEND_MODES))
     parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
                         help="isosurfaces of these values")
@@ -77,6 +85,9 @@ def make_parser():
     parser.add_argument("--edges", action="store_true", help="shows the edges of the surface")
     parser.add_argument("--units", nargs="+", default=(), metavar="UNIT",
                         help="units of lengths, and of the array: --units m K")
+
+
+def _add_view(parser):
     parser.add_argument("--clip", metavar="AXIS[:SHARE]",
                         help="removes the part below a share (default 0.5) of the extent along "
                         + ", ".join(AXES))
@@ -87,13 +98,16 @@ def make_parser():
                         "normals point to the eye's side")
     parser.add_argument("--index", type=float, default=1.333,
                         help="index of refraction behind the surface; default: 1.333")
-    parser.add_argument("--backend", default="automatic", metavar="NAME",
+    parser.add_argument("--backend", default="automatic", metavar="NAME", offers=BACKENDS,
                         help="caster of rays: " + ", ".join(BACKENDS))
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
                         default=(1.0, 0.7, 1.0), help="vector from the mesh to the eye")
     parser.add_argument("--up", choices=list(AXES), default="y", help="upward axis; default: y")
     parser.add_argument("--size", type=_size, default=(1024, 768), metavar="WxH",
                         help="size of the window or picture")
+
+
+def _add_output(parser):
     parser.add_argument("--output", metavar="PICTURE.png",
                         help="writes a picture and opens no window")
     parser.add_argument("--transparent", action="store_true",
@@ -112,7 +126,6 @@ def make_parser():
     parser.add_argument("--host", default="localhost",
                         help="address at which the page is served; default: localhost, for this "
                         "machine only. Others get a secret, which the address of the page carries")
-    return parser
 
 
 def _split_clip(text):
@@ -205,6 +218,7 @@ def _show(scene, options):
 def main(arguments=None):
     """Runs the command; returns its exit status."""
     parser = make_parser()
+    parser.complete()
     try:
         options = parser.parse(arguments)
         _show(make_scene(options, lambda line: print(line, flush=True)), options)

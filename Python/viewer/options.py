@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn
 
 import numpy
@@ -28,8 +30,12 @@ class OptionParser(argparse.ArgumentParser):
         self._file = ""  # whose options are parsed
         super().__init__(**arguments)
 
-    def add_argument(self, *names: Any, **settings: Any) -> argparse.Action:
+    def add_argument(self, *names: Any, offers: Iterable[str] = (), **settings: Any
+                     ) -> argparse.Action:
+        """offers: values that complete() proposes; others are allowed."""
         action = super().add_argument(*names, **settings)
+        if offers:
+            setattr(action, "completer", lambda **_: list(offers))  # as argcomplete expects it
         for name in names:
             if name.startswith("--"):
                 self._names[name[2:]] = action
@@ -39,6 +45,14 @@ class OptionParser(argparse.ArgumentParser):
         if self._file:
             raise ReadingError(f"{self._file}: {message}")
         super().error(message)
+
+    def complete(self) -> None:
+        """Answers a shell that asks for the words that may follow, by the package argcomplete, and
+        ends the program; does nothing otherwise."""
+        if "_ARGCOMPLETE" not in os.environ:
+            return
+        with contextlib.suppress(ImportError):
+            importlib.import_module("argcomplete").autocomplete(self)
 
     def parse(self, arguments: Sequence[str] | None = None) -> argparse.Namespace:
         """Options of the command line and, where it has none, of the file that it names. A file

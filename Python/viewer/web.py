@@ -6,6 +6,7 @@ import ipaddress
 import math
 import secrets
 import socket
+import urllib.parse
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
@@ -204,8 +205,34 @@ def _add_curve(page, html, vuetify3, editor):
             html.Span("{{ labels[2] }}")
 
 
-def make_server(scene):
-    """The trame server of a page with controls for the scene, and its _Page."""
+def _guard(is_local):
+    """A handler of requests that refuses those of other pages in the user's browser: a socket is
+    not bound to the page that opens it. is_local: the page is for this machine only."""
+    from aiohttp import web
+
+    @web.middleware
+    async def check(request, handler):
+        origin = request.headers.get("Origin")
+        other = origin is not None and urllib.parse.urlsplit(origin).netloc != request.host
+        # A foreign name that leads to this machine.
+        foreign = is_local and not _is_this_machine(_name_of(request.host))
+        if other or foreign:
+            raise web.HTTPForbidden
+        return await handler(request)
+
+    return check
+
+
+def _name_of(host):
+    """A host without its port and without brackets."""
+    return urllib.parse.urlsplit("//" + host).hostname or ""
+
+
+def make_server(scene, is_local=True):
+    """The trame server of a page with controls for the scene, and its _Page.
+
+    is_local: the page is for this machine only.
+    """
     try:
         from trame.app import get_server
         from trame.ui.vuetify3 import SinglePageWithDrawerLayout
@@ -224,6 +251,7 @@ def make_server(scene):
     @server.controller.add("on_server_bind")
     def bind(wslink_server):
         wslink_server.app.router.add_post("/paraview/", _answer_launcher)
+        wslink_server.app.middlewares.append(_guard(is_local))
 
     with SinglePageWithDrawerLayout(server) as layout:
         layout.title.set_text("Meniscus")
@@ -292,8 +320,9 @@ def serve(scene, host, port, watch=None):
     watch: a Watch of the scene, for files that change.
     """
     _check_free(host, port)
-    server, page = make_server(scene)
-    secret = "" if _is_this_machine(host) else secrets.token_urlsafe(24)
+    is_local = _is_this_machine(host)
+    server, page = make_server(scene, is_local)
+    secret = "" if is_local else secrets.token_urlsafe(24)
     if secret:
         server.cli.set_defaults(authKey=secret)  # which the page sends before anything else
     name = host if host not in ("", "0.0.0.0", "::") else socket.gethostname()

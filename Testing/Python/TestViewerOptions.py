@@ -6,6 +6,7 @@ import importlib.util
 import io
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -232,6 +233,25 @@ class TestMessages(Case):
             status, _, errors = self.run_command(self.mesh, "--movie", self.name("absent/turn.mp4"))
         self.assertEqual(status, 1)
         self.assertIn("cannot be written: [Errno 2]", errors)
+
+
+class TestCompletion(Case):
+    def complete(self, line):
+        """The words that argcomplete offers after a line, which it writes to a file."""
+        name = self.name("words")
+        environment = {**os.environ, "_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_TYPE": "9",
+                       "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": "\n",
+                       "_ARGCOMPLETE_STDOUT_FILENAME": name}
+        subprocess.run([sys.executable, "-m", "meniscus"], env=environment, check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with open(name) as file:
+            return [word.strip() for word in file.read().split("\n")]
+
+    @unittest.skipUnless(importlib.util.find_spec("argcomplete"), "no argcomplete")
+    def test_words(self):
+        self.assertEqual(self.complete("meniscus mesh.vtu --cmap inf"), ["inferno"])
+        self.assertIn("maximum", self.complete("meniscus --blend "))
+        self.assertEqual(self.complete("meniscus --outl"), ["--outline"])
 
 
 class TestCompare(Case):

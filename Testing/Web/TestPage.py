@@ -238,6 +238,24 @@ class TestSecret(PageCase):
         self.browser.get(f"{page}?secret={secret}")
         self.get_settled("picture with the secret")
 
+    def test_pages_of_others(self):
+        """A page of another server in the same browser gets no socket, and neither does a foreign
+        name that leads here."""
+        server = self.serve(self.mesh)
+        address = f"http://localhost:{server.port}"
+
+        async def get_status(**headers):
+            async with aiohttp.ClientSession() as session:
+                async with session.get(address + "/index.html", headers=headers) as answer:
+                    return answer.status
+
+        for headers, status in (({}, 200), ({"Origin": address}, 200),
+                                ({"Host": f"127.0.0.1:{server.port}"}, 200),
+                                ({"Host": f"[::1]:{server.port}"}, 200),
+                                ({"Origin": "http://example.org"}, 403), ({"Origin": "null"}, 403),
+                                ({"Host": f"example.org:{server.port}"}, 403)):
+            self.assertEqual(asyncio.run(get_status(**headers)), status, headers)
+
     def test_a_busy_port(self):
         with socket.socket() as busy:
             busy.bind(("localhost", 0))
