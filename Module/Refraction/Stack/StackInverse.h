@@ -7,10 +7,8 @@
 #ifndef meniscus_Refraction_Stack_StackInverse_h
 #define meniscus_Refraction_Stack_StackInverse_h
 
-#include "Refraction/Curved/ErrorSamples.h"
 #include "Refraction/Sight/SeenDepth.h"
 #include "Refraction/Stack/StackSightRay.h"
-#include "Refraction/Stack/StackSolver.h"
 
 #include <cstddef>
 
@@ -57,32 +55,6 @@ TruePosition FindTruePosition(SightRayTracer& tracer, const glm::dvec3& eye, con
  */
 TruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std::size_t& leg,
   SeenDepth depth = SeenDepth::Apparent);
-
-/** Error of virtual vertices behind several surfaces; as ErrorSampler for one. */
-class StackErrorSampler
-{
-public:
-  /** Solver and exact surfaces must outlive this object. `angles` as for ErrorSampler. */
-  StackErrorSampler(const StackSolver& solver, const StackSurfaces& exact, bool angles = false)
-    : Solver(solver)
-    , Exact(exact)
-    , Angles(angles)
-  {
-  }
-
-  /** Only points with exactly one image, behind at least one interface, are measured. */
-  ErrorSample Measure(const glm::dvec3& point) const;
-
-private:
-  ErrorSample Compare(
-    const glm::dvec3& point, const StackVertex& vertex, const StackPath& path) const;
-  bool Trace(const StackPath& path, const glm::dvec3& direction, ExactRay& behind,
-    glm::dvec3& first, double& between) const;
-
-  const StackSolver& Solver;
-  const StackSurfaces& Exact;
-  bool Angles;
-};
 
 }
 
