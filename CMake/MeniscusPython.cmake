@@ -35,11 +35,13 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ data integrals names pyvista threads
+  __main__ data integrals names pyvista rivals threads
   api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
   api/points api/rays api/refraction api/scalars api/surfaces api/types api/volumes
-  viewer/__init__ viewer/cells viewer/colors viewer/command viewer/files viewer/levels viewer/movies
-  viewer/reading viewer/sample viewer/scene viewer/series viewer/web viewer/window)
+  viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/contest
+  viewer/curves viewer/files viewer/furniture viewer/levels viewer/movies viewer/options
+  viewer/reading viewer/sample viewer/scene viewer/series viewer/watching viewer/web
+  viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
   configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
@@ -71,6 +73,7 @@ install(
     "${_meniscus_package}/names.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
+    "${_meniscus_package}/rivals.py"
     "${_meniscus_package}/threads.py"
     "${_meniscus_stubs}"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"

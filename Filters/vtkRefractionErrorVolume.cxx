@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/vtkRefractionErrorVolumeInternals.h"
+#include "vtkRefractionErrorVolume.h"
 
+#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
+#include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Membrane/StackInput.h"
+#include "Refraction/Stack/ErrorSamples.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -18,6 +21,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
@@ -26,6 +31,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace
@@ -36,6 +42,86 @@ namespace
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
+
+using Links = std::vector<meniscus::RefractionStack::Link>;
+
+/** Interfaces that rays pass, relative to a place in world coordinates. */
+struct PassedLinks
+{
+  Links List;
+  glm::dvec3 Origin{ 0.0 };
+
+  PassedLinks() = default;
+  explicit PassedLinks(const meniscus::RefractionStack& stack)
+    : List(stack.GetLinks())
+    , Origin(stack.GetOrigin())
+  {
+  }
+  /** One interface, which is passed from the front. */
+  PassedLinks(
+    const std::shared_ptr<meniscus::RefractingSurface>& surface, double exterior, double interior)
+    : List{ { surface, { exterior, interior, true }, glm::dvec3(0.0), 0, exterior / interior } }
+    , Origin(surface->GetMembrane().GetOrigin())
+  {
+    surface->Prepare(meniscus::SurfaceParts::Crossings, meniscus::FacetLoop);
+  }
+};
+
+/** Exact surfaces of interfaces: a function where there is one, otherwise the finer patches. */
+class ExactSurfaces : public meniscus::StackSurfaces
+{
+public:
+  ExactSurfaces(
+    vtkRefractingInterfaceCollection* interfaces, const Links& links, const PassedLinks& finer)
+    : Finer(finer.List, finer.Origin)
+  {
+    for (const meniscus::RefractionStack::Link& link : links)
+    {
+      this->Functions.emplace_back();
+      vtkRefractingInterface* interface = interfaces->GetInterface(static_cast<int>(link.Index));
+      if (interface->GetExactSurface())
+      {
+        this->Functions.back() = std::make_unique<meniscus::ImplicitSurface>(
+          interface->GetExactSurface(), link.Surface->GetMembrane());
+        if (!link.Passage.FromFront)
+        {
+          this->Functions.back()->Turn();
+        }
+      }
+    }
+  }
+
+  bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
+    const glm::dvec3& near, meniscus::PatchPoint& at) const override
+  {
+    return this->Functions[link] ? this->Functions[link]->Meet(origin, direction, near, at)
+                                 : this->Finer.Meet(link, origin, direction, near, at);
+  }
+
+private:
+  std::vector<std::unique_ptr<meniscus::ImplicitSurface>> Functions;
+  meniscus::StackPatches Finer;
+};
+
+bool HasAllFunctions(vtkRefractingInterfaceCollection* interfaces)
+{
+  for (int i = 0; i < interfaces->GetNumberOfItems(); ++i)
+  {
+    if (!interfaces->GetInterface(i)->GetExactSurface())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** True if two stacks pass the same interfaces of a list in the same way. */
+bool PassAlike(const Links& a, const Links& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const auto& one, const auto& other)
+    { return one.Index == other.Index && one.Passage.FromFront == other.Passage.FromFront; });
+}
 
 /** Colour of an error, see vtkRefractionErrorVolume::SetColorLimits(). */
 std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
@@ -56,6 +142,26 @@ std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
 }
 
 }
+
+//------------------------------------------------------------------------------
+class vtkRefractionErrorVolume::vtkInternals
+{
+public:
+  using Fitting = meniscus::StackScene::Fitting;
+
+  meniscus::RefractionScene Scene; ///< of one interface
+  /** The finer mesh, or the same mesh if the scene has flat facets. */
+  meniscus::RefractionScene Reference;
+  // Several interfaces, whose exact surfaces are compared with the meshes as they are given.
+  meniscus::StackScene Stack{ Fitting::AsGiven };
+  meniscus::StackScene StackReference{ Fitting::AsGiven, meniscus::StackScene::Use::Rays };
+  /** Interfaces of the solvers, and of the meshes that are exact surfaces. */
+  PassedLinks Passed;
+  PassedLinks Finer;
+  std::vector<meniscus::ErrorSample> Samples;
+  meniscus::ErrorSummary Summary;
+  bool WarnedOfNoReference = false;
+};
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
@@ -258,7 +364,7 @@ int vtkRefractionErrorVolume::RequestData(
   output->SetSpacing(info->Get(vtkDataObject::SPACING()));
   this->Internals->Samples.assign(
     static_cast<std::size_t>(output->GetNumberOfPoints()), meniscus::ErrorSample());
-  if (hasStack ? this->MeasureStack(output) : this->MeasureSamples(output))
+  if (this->MeasureSamples(hasStack, output))
   {
     this->FillOutput(output);
   }
@@ -289,6 +395,12 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
       internals.Reference.SetEye(view, messages);
   }
+  if (ready)
+  {
+    internals.Passed = PassedLinks(internals.Scene.GetSurface(), eye[3], eye[4]);
+    internals.Finer = needsReference ? PassedLinks(internals.Reference.GetSurface(), eye[3], eye[4])
+                                     : internals.Passed;
+  }
   meniscus::Report(this, messages);
   if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)
   {
@@ -300,36 +412,65 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
 }
 
 //------------------------------------------------------------------------------
+bool vtkRefractionErrorVolume::UpdateStacks(
+  vtkInformationVector* membranes, vtkInformationVector* references)
+{
+  vtkInternals& internals = *this->Internals;
+  const std::array<double, 3> eye = { this->EyePosition[0], this->EyePosition[1],
+    this->EyePosition[2] };
+  meniscus::SceneMessages messages;
+  messages.Error = meniscus::FindModelFault(this->MembraneModel == CURVED);
+  bool ready =
+    meniscus::UpdateStack(internals.Stack, membranes, 0, this->Interfaces, eye, messages);
+  const bool hasFunctions = HasAllFunctions(this->Interfaces);
+  const bool hasReference = !hasFunctions && references->GetNumberOfInformationObjects() > 0;
+  if (ready)
+  {
+    internals.Passed = PassedLinks(internals.Stack.GetSolver().GetStack());
+    internals.Finer = internals.Passed;
+  }
+  if (ready && hasReference)
+  {
+    ready = meniscus::UpdateStack(
+      internals.StackReference, references, 1, this->Interfaces, eye, messages);
+    internals.Finer = PassedLinks(internals.StackReference.GetSolver().GetStack());
+    if (ready && !PassAlike(internals.Passed.List, internals.Finer.List))
+    {
+      messages.Error = "The eye lies between a membrane and the finer one";
+      ready = false;
+    }
+  }
+  meniscus::Report(this, messages);
+  if (ready && !hasFunctions && !hasReference && !internals.WarnedOfNoReference)
+  {
+    internals.WarnedOfNoReference = true;
+    vtkWarningMacro("Interfaces without an exact surface are compared with themselves: set exact "
+                    "surfaces, or finer membranes on port 1, to measure the error of the meshes.");
+  }
+  return ready;
+}
+
+//------------------------------------------------------------------------------
 // Returns false after an abort.
-bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
+bool vtkRefractionErrorVolume::MeasureSamples(bool hasStack, vtkImageData* output)
 {
   vtkInternals& internals = *this->Internals;
   const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
-  std::unique_ptr<meniscus::ExactSurface> exact;
-  if (this->GetExactMembrane())
-  {
-    exact = std::make_unique<meniscus::ImplicitSurface>(
-      this->GetExactMembrane(), internals.Scene.GetMembrane(), eye);
-  }
-  else
-  {
-    const bool itself = this->MembraneModel == CURVED && !this->GetInputDataObject(1, 0);
-    exact = std::make_unique<meniscus::PatchesAsSurface>(
-      itself ? internals.Scene.GetCurved() : internals.Reference.GetCurved());
-  }
-  const meniscus::ErrorSampler sampler(*exact, eye, this->GetExteriorIndexOfRefraction(),
-    this->GetInteriorIndexOfRefraction(), this->AngularErrors);
+  const Links& links = internals.Passed.List;
+  const ExactSurfaces exact(this->Interfaces, links, internals.Finer);
+  const meniscus::ErrorSampler sampler(eye, links, exact, this->AngularErrors);
   const meniscus::RefractionScene& scene = internals.Scene;
   return this->RunOverSamples(output->GetNumberOfPoints(),
-    [&internals, &sampler, &scene, output](vtkIdType begin, vtkIdType end)
+    [&internals, &sampler, &scene, hasStack, output](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
         glm::dvec3 point;
         output->GetPoint(i, &point.x);
-        internals.Samples[static_cast<std::size_t>(i)] = scene.IsCurved()
-          ? sampler.Measure(scene.GetCurved(), point)
-          : sampler.Measure(scene.GetFlat(), point);
+        internals.Samples[static_cast<std::size_t>(i)] = hasStack
+          ? sampler.Measure(internals.Stack.GetSolver(), point)
+          : (scene.IsCurved() ? sampler.Measure(scene.GetCurved(), point)
+                              : sampler.Measure(scene.GetFlat(), point));
       }
     });
 }

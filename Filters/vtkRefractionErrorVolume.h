@@ -258,8 +258,7 @@ private:
   bool HasValidLimits();
   bool UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference);
   bool UpdateStacks(vtkInformationVector* membranes, vtkInformationVector* references);
-  bool MeasureSamples(vtkImageData* output);
-  bool MeasureStack(vtkImageData* output);
+  bool MeasureSamples(bool hasStack, vtkImageData* output);
   bool RunOverSamples(
     vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body);
   void FillOutput(vtkImageData* output);

@@ -26,7 +26,8 @@ constexpr vtkIdType ProgressSteps = 20;
 class vtkSightRayAlgorithm::vtkInternals
 {
 public:
-  meniscus::StackScene Stack;
+  meniscus::StackScene Stack{ meniscus::StackScene::Fitting::Exact,
+    meniscus::StackScene::Use::Rays };
 };
 
 meniscusInterfacePropertiesMacro(vtkSightRayAlgorithm);
@@ -125,6 +126,11 @@ bool vtkSightRayAlgorithm::UpdateScene(
     messages.Error = eyes.UseArray(points, this->EyeArrayName);
     ready = messages.Error.empty() &&
       meniscus::UpdateSurfaces(this->Internals->Stack, membranes, 1, this->Interfaces, messages);
+    const double* place = this->EyePosition;
+    if (ready && !eyes.IsPerPoint())
+    {
+      ready = this->Internals->Stack.SetEye({ place[0], place[1], place[2] }, messages);
+    }
     if (ready)
     {
       this->Internals->Stack.ReportEyes(eyes.GetSample(points->GetNumberOfPoints()), messages);

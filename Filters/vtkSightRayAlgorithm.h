@@ -40,7 +40,10 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
-  /** Set/Get the eye in world coordinates. Must be finite. Default is (0, 0, 1). */
+  /**
+   * Set/Get the eye in world coordinates. Must be finite and on no surface. The side of a surface
+   * that an eye is on follows from the normals. Default is (0, 0, 1).
+   */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
   /** @} */
@@ -50,9 +53,8 @@ public:
    * Set/Get the name of a point array with three components: the eye of each point, for points
    * that were seen from several places, such as the cameras of photographs or the track of a
    * scanner. EyePosition is not used then. A point whose eye is not finite or lies on a surface
-   * counts as one that is not finite. Points with the same eye should follow each other. As with
-   * several interfaces, the side of a surface that an eye is on follows from its normals. An empty
-   * name, the default, stands for one eye.
+   * counts as one that is not finite. Points with the same eye should follow each other. An
+   * empty name, the default, stands for one eye.
    */
   virtual void SetEyeArrayName(const std::string& name);
   virtual std::string GetEyeArrayName();
@@ -99,7 +101,7 @@ public:
   /** @} */
 
   /** Number of patches built since construction: once per change of a surface's values. */
-  virtual vtkTypeInt64 GetNumberOfPatchBuilds() const;
+  vtkTypeInt64 GetNumberOfPatchBuilds() const;
 
   /** Modification time, which includes that of the interfaces. */
   vtkMTimeType GetMTime() override;

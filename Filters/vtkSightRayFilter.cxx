@@ -106,7 +106,7 @@ void TraceLines(meniscus::SightRayTracer& tracer, const glm::dvec3& eye, const g
   meniscus::StackSightRay ray;
   tracer.Trace((seen - eye) / distance, ray);
   std::size_t last = 0;
-  const meniscus::StackTruePosition found = meniscus::WalkSightRay(ray, seen, last);
+  const meniscus::TruePosition found = meniscus::WalkSightRay(ray, seen, last);
   glm::dvec3 end = found.Position;
   if (found.State == meniscus::SeenState::Missed)
   {

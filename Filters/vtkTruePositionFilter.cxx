@@ -5,11 +5,8 @@
 #include "Common/CoherentOrder.h"
 #include "Filters/Common/PointCoordinates.h"
 #include "Filters/Common/ThreadedLoop.h"
-#include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
-#include "Filters/Membrane/RefractionScene.h"
-#include "Filters/Membrane/StackInput.h"
-#include "Refraction/Curved/TruePositions.h"
+#include "Filters/Membrane/StackScene.h"
 #include "Refraction/Stack/StackInverse.h"
 
 #include "vtkDoubleArray.h"
@@ -20,12 +17,8 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSMPTools.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -35,8 +28,8 @@
 namespace
 {
 
-// Points per task of a thread.
-constexpr auto Chain = static_cast<vtkIdType>(meniscus::TruePositions::Chain);
+// Points per task of a thread, which share a chain of crossings.
+constexpr vtkIdType Chain = 512;
 
 static_assert(
   vtkTruePositionFilter::UNREFRACTED == static_cast<int>(meniscus::SeenState::Unrefracted) &&
@@ -83,18 +76,6 @@ struct PointArrays
 class vtkTruePositionFilter::vtkInternals
 {
 public:
-  meniscus::RefractionScene Scene; ///< one interface; several are in GetStackScene()
-  // State and indices in the last run.
-  bool HasStack = false; ///< several interfaces, or several eyes
-  meniscus::PointEyes Eyes;
-  double Exterior = 1.0;
-  double Interior = 1.0;
-  /** Properties of the membrane: see PatchBuild. */
-  meniscus::SteepDirections Steep;
-  vtkTypeInt64 PatchBuild = -1;
-  /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
-  std::unique_ptr<meniscus::TruePositions> Truth;
-  vtkTypeInt64 EyeUpdate = -1;
   /** Coordinates of the points, and the order in which they are solved: see FindCoherentOrder(). */
   std::vector<double> Coordinates;
   std::vector<std::uint32_t> Order;
@@ -111,36 +92,6 @@ public:
       this->Order = meniscus::FindCoherentOrder(
         this->Coordinates.data(), this->Coordinates.size() / 3, meniscus::ThreadedLoop);
     }
-  }
-
-  void UpdateTruth()
-  {
-    const meniscus::CurvedMembraneSolver& solver = this->Scene.GetCurved();
-    if (this->PatchBuild != this->Scene.GetNumberOfPatchBuilds())
-    {
-      this->Steep.Build(solver.GetMembrane(), solver.GetPatches());
-      this->PatchBuild = this->Scene.GetNumberOfPatchBuilds();
-    }
-    if (this->EyeUpdate != this->Scene.GetNumberOfEyeUpdates())
-    {
-      this->Truth = std::make_unique<meniscus::TruePositions>(solver, this->Steep);
-      this->EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
-    }
-  }
-
-  /** True position behind one interface, after the points of `chain`. */
-  meniscus::StackTruePosition FindOne(
-    const glm::dvec3& seen, meniscus::CrossingChain& chain, meniscus::SeenDepth depth) const
-  {
-    const glm::dvec3 eye = this->Eyes.Get(0);
-    meniscus::TruePosition found = this->Truth->Find(seen, chain, depth);
-    const bool refracted = found.State == meniscus::SeenState::Refracted;
-    const double path = refracted ? this->Exterior * glm::length(found.SightPoint - eye) +
-        this->Interior * glm::length(found.Position - found.SightPoint)
-                                  : this->Exterior * glm::length(seen - eye);
-    // Equal indices change no bit.
-    found.Position = this->Exterior == this->Interior ? seen : found.Position;
-    return { found, path };
   }
 };
 
@@ -168,17 +119,9 @@ vtkTypeInt64 vtkTruePositionFilter::GetNumberOfMissedPoints() const
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTruePositionFilter::GetNumberOfPatchBuilds() const
-{
-  return this->Internals->Scene.GetNumberOfPatchBuilds() +
-    this->Superclass::GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
 {
-  return this->Internals->Scene.GetNumberOfEyeUpdates() +
-    this->GetStackScene().GetNumberOfEyeUpdates();
+  return this->GetStackScene().GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -202,20 +145,14 @@ int vtkTruePositionFilter::RequestData(
   this->Internals->TotallyReflected = 0;
   this->Internals->Missed = 0;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
-  vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
   vtkPointSet* output = vtkPointSet::GetData(outputs);
-  if (!input || !membrane || !output)
-  {
-    vtkErrorMacro("The points are missing, or the membrane is not a vtkPolyData; the output is "
-                  "empty.");
-    return 0;
-  }
-  if (!this->UpdateRefraction(input, inputs[1]))
+  meniscus::PointEyes eyes;
+  if (!this->UpdateScene(input, inputs[1], eyes))
   {
     return 0;
   }
   output->ShallowCopy(input);
-  if (input->GetNumberOfPoints() > 0 && !this->MovePoints(input, output))
+  if (input->GetNumberOfPoints() > 0 && !this->MovePoints(input, eyes, output))
   {
     output->Initialize();
   }
@@ -223,82 +160,30 @@ int vtkTruePositionFilter::RequestData(
 }
 
 //------------------------------------------------------------------------------
-/** Sets membranes and eye. Returns false after an error. */
-bool vtkTruePositionFilter::UpdateRefraction(vtkPointSet* points, vtkInformationVector* membranes)
-{
-  vtkInternals& internals = *this->Internals;
-  meniscus::SceneMessages messages;
-  const double* place = this->GetEyePosition();
-  internals.Eyes = meniscus::PointEyes(place);
-  messages.Error = internals.Eyes.UseArray(points, this->GetEyeArrayName());
-  const bool hasEyes = internals.Eyes.IsPerPoint();
-  vtkRefractingInterfaceCollection* interfaces = this->GetInterfaces();
-  internals.HasStack = hasEyes || meniscus::HasStack(interfaces, membranes);
-  internals.Exterior = this->GetExteriorIndexOfRefraction();
-  internals.Interior = this->GetInteriorIndexOfRefraction();
-  bool ready = messages.Error.empty();
-  if (!ready)
-  {
-    // The error is reported below.
-  }
-  else if (hasEyes)
-  {
-    ready = meniscus::UpdateSurfaces(this->GetStackScene(), membranes, 1, interfaces, messages);
-    if (ready)
-    {
-      this->GetStackScene().ReportEyes(
-        internals.Eyes.GetSample(points->GetNumberOfPoints()), messages);
-    }
-  }
-  else if (internals.HasStack)
-  {
-    ready = meniscus::UpdateStack(
-      this->GetStackScene(), membranes, 1, interfaces, { place[0], place[1], place[2] }, messages);
-  }
-  else
-  {
-    const meniscus::RefractionScene::Eye eye = { place[0], place[1], place[2], internals.Exterior,
-      internals.Interior };
-    ready = internals.Scene.SetMembrane(vtkPolyData::GetData(membranes), true, messages,
-              interfaces->GetFirstInterface()->GetExactSurface()) &&
-      internals.Scene.SetEye(
-        { eye, false, interfaces->GetFirstInterface()->GetTurnTowardsEye() }, messages);
-  }
-  if (ready && !internals.HasStack)
-  {
-    internals.UpdateTruth();
-  }
-  meniscus::Report(this, messages);
-  return ready;
-}
-
-//------------------------------------------------------------------------------
 /** Returns false after an abort. */
-bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
+bool vtkTruePositionFilter::MovePoints(
+  vtkPointSet* input, const meniscus::PointEyes& eyes, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
   PointArrays arrays(count);
-  const vtkInternals& internals = *this->Internals;
   this->Internals->UpdatePoints(input);
-  const std::vector<double>& coordinates = internals.Coordinates;
-  const std::vector<std::uint32_t>& order = internals.Order;
+  const std::vector<double>& coordinates = this->Internals->Coordinates;
+  const std::vector<std::uint32_t>& order = this->Internals->Order;
+  const double medium = this->GetExteriorIndexOfRefraction();
   const auto depth = static_cast<meniscus::SeenDepth>(this->Depth);
   // One chain.
   const auto move = [&](vtkIdType begin, vtkIdType end)
   {
-    meniscus::SightRayTracer tracer(this->GetStack(), internals.Exterior);
-    meniscus::StackChain chains;
-    meniscus::CrossingChain chain;
+    meniscus::SightRayTracer tracer(this->GetStack(), medium);
+    meniscus::StackChain chain;
     for (vtkIdType number = begin; number < end; ++number)
     {
       const vtkIdType i = order.empty() ? number : order[static_cast<std::size_t>(number)];
       const double* p = coordinates.data() + 3 * i;
       const glm::dvec3 seen(p[0], p[1], p[2]);
-      const meniscus::StackTruePosition found = internals.Eyes.IsPerPoint()
-        ? meniscus::FindTruePosition(tracer, internals.Eyes.Get(i), seen, &chains, depth)
-        : (internals.HasStack ? meniscus::FindTruePosition(
-                                  tracer.GetStack(), internals.Exterior, seen, &chains, depth)
-                              : internals.FindOne(seen, chain, depth));
+      const meniscus::TruePosition found = eyes.IsPerPoint()
+        ? meniscus::FindTruePosition(tracer, eyes.Get(i), seen, &chain, depth)
+        : meniscus::FindTruePosition(this->GetStack(), medium, seen, &chain, depth);
       arrays.Positions->SetTypedTuple(i, &found.Position.x);
       arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
       arrays.States->SetValue(i, static_cast<unsigned char>(found.State));

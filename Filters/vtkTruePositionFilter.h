@@ -6,11 +6,12 @@
  *
  * The inverse of vtkRefractedGeometryFilter, for measurements that are made through water or glass:
  * points from photographs, laser scans or depth images lie where they are seen, and the filter
- * moves them to where they are. Port 0 is any vtkPointSet, port 1 the membrane, whose normals point
- * to the eye's side. Port 1 is repeatable; see SetInterfaces() for several surfaces.
+ * moves them to where they are. Port 0 is any vtkPointSet, port 1 the membrane. Port 1 is
+ * repeatable; see SetInterfaces() for several surfaces. An eye on the side of a surface that its
+ * normals point away from is in the medium of the index InteriorIndexOfRefraction.
  *
- * The sight ray from the eye to a point is refracted by Snell's law where it first meets the front
- * of the membrane, a curved surface through the vertices with their normals (CURVED of
+ * The sight ray from the eye to a point is refracted by Snell's law where it first meets the
+ * membrane, a curved surface through the vertices with their normals (CURVED of
  * vtkRefractedGeometryFilter). The point is moved to the refracted ray; SetDepth() says how far
  * behind the sight point. The default is n2 / n1 times the distance at which it is seen behind the
  * sight point, so that vtkRefractedGeometryFilter moves it back (Eq. 2.4 of the thesis "Refraction
@@ -79,9 +80,7 @@ public:
   vtkTypeInt64 GetNumberOfTotallyReflectedPoints() const;
   /** Number of points of the last run whose rays miss one of several surfaces: MISSED. */
   vtkTypeInt64 GetNumberOfMissedPoints() const;
-  /** Number of patches built since construction: once per change of the membrane's values. */
-  vtkTypeInt64 GetNumberOfPatchBuilds() const override;
-  /** Number of times that the search was set up: once per change of eye, indices or membrane. */
+  /** Number of times that EyePosition was set up: once per change of eye, indices or surfaces. */
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
 
 protected:
@@ -98,8 +97,7 @@ private:
   vtkTruePositionFilter(const vtkTruePositionFilter&) = delete;
   void operator=(const vtkTruePositionFilter&) = delete;
 
-  bool UpdateRefraction(vtkPointSet* points, vtkInformationVector* membranes);
-  bool MovePoints(vtkPointSet* input, vtkPointSet* output);
+  bool MovePoints(vtkPointSet* input, const meniscus::PointEyes& eyes, vtkPointSet* output);
 
   int Depth = APPARENT;
 

@@ -35,6 +35,12 @@ namespace
 /** Share of the progress that the mesh takes, if it is built. */
 constexpr double ShareOfMesh = 0.5;
 
+/** True if a name is set; an empty one stands for none, as in user interfaces. */
+bool HasText(const char* name)
+{
+  return name && *name;
+}
+
 glm::dvec3 VectorOf(const double (&values)[3])
 {
   return glm::dvec3(values[0], values[1], values[2]);
@@ -171,6 +177,7 @@ struct vtkTetrahedraRayIntegral::Request
   meniscus::InputBlocks Emission;
   /** True if the attenuation is used as the scalar. */
   bool BinsAlone = false;
+  std::vector<vtkPolyData*> Surfaces;
   meniscus::ParallelRectangle Rectangle;
   meniscus::IntegralView View;
 };
@@ -330,7 +337,7 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   {
     return false;
   }
-  choice.HasBinArrays = this->AttenuationArrayName != nullptr;
+  choice.HasBinArrays = HasText(this->AttenuationArrayName);
   choice.NumberOfBins = this->GetNumberOfEnergyBins();
   request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() &&
     !choice.NeedsProperty() && !choice.Events.IsAnyWanted();
@@ -402,7 +409,7 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
   {
     return false;
   }
-  if (withArrays && this->EmissionArrayName &&
+  if (withArrays && HasText(this->EmissionArrayName) &&
     !this->Tell(CollectNamed(input, this->EmissionArrayName, 0, request.Emission)))
   {
     return false;
@@ -483,14 +490,13 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayIntegral::UpdateMembranes()
+bool vtkTetrahedraRayIntegral::UpdateMembranes(vtkInformationVector* membranes, Request& request)
 {
-  std::vector<vtkPolyData*> surfaces;
-  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
+  for (int i = 0; i < membranes->GetNumberOfInformationObjects(); ++i)
   {
-    surfaces.push_back(vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i)));
+    request.Surfaces.push_back(vtkPolyData::GetData(membranes, i));
   }
-  return this->Tell(this->Internals->Membrane.Update(surfaces, this->Interfaces, false));
+  return this->Tell(this->Internals->Membrane.Update(request.Surfaces, this->Interfaces, false));
 }
 
 //------------------------------------------------------------------------------
@@ -516,10 +522,10 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
     return false;
   }
   std::vector<glm::dvec3> corners;
-  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
+  for (vtkPolyData* surface : request.Surfaces)
   {
     double b[6];
-    vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))->GetBounds(b);
+    surface->GetBounds(b);
     for (int c = 0; c < 8; ++c)
     {
       corners.emplace_back(b[c & 1], b[2 + (c >> 1 & 1)], b[4 + (c >> 2 & 1)]);
@@ -575,8 +581,9 @@ int vtkTetrahedraRayIntegral::RequestData(
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   Request request;
   const bool measured = this->ChooseArrays(request) && this->CollectInput(input, request) &&
-    this->TellError(DescribeExcess(request.Choice, this->ImageSize)) && this->UpdateMembranes() &&
-    this->UpdateTables(request) && this->Measure(request, input, output);
+    this->TellError(DescribeExcess(request.Choice, this->ImageSize)) &&
+    this->UpdateMembranes(inputs[1], request) && this->UpdateTables(request) &&
+    this->Measure(request, input, output);
   if (!measured)
   {
     output->Initialize();

@@ -333,8 +333,8 @@ public:
   /**
    * Set/Get the name of a point or cell array of the input with one component per bin: attenuation
    * coefficients per length, not negative. Point data is used if there are both. A value that is
-   * not finite lets the cell pass without effect on its bin. Default is none: BinAttenuation
-   * counts.
+   * not finite lets the cell pass without effect on its bin. Default is none, as
+   * with an empty name: BinAttenuation counts.
    */
   vtkSetStringMacro(AttenuationArrayName);
   vtkGetStringMacro(AttenuationArrayName);
@@ -465,7 +465,7 @@ private:
   bool ChooseEvents(Request& request);
   bool ChooseArrays(Request& request);
   bool UpdateTables(Request& request);
-  bool UpdateMembranes();
+  bool UpdateMembranes(vtkInformationVector* membranes, Request& request);
   bool ComputeView(Request& request);
   bool Measure(Request& request, vtkDataObject* input, vtkImageData* output);
 

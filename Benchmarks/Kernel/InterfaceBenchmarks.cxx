@@ -7,12 +7,10 @@
 #include "MembraneMeshes.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/TruePositions.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "Refraction/Stack/StackInverse.h"
 #include "Refraction/Stack/StackSolver.h"
 #include "Refraction/StackImages/StackImages.h"
-#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
 
 #include <benchmark/benchmark.h>
@@ -260,26 +258,14 @@ void MapTrianglesThroughInterfaces(benchmark::State& state)
 }
 
 /** View of 256 x 256 pixels of a mesh below the waves. */
-RefractedRayField::View MakeView()
+RefractedRayStack::View MakeView()
 {
-  RefractedRayField::View view = test::LookAt(Eye, glm::dvec3(0.0, -15.0, 0.0), 160.0, false, 256);
+  RefractedRayStack::View view = test::LookAt(Eye, glm::dvec3(0.0, -15.0, 0.0), 160.0, false, 256);
   test::SetMesh(view, { glm::dvec3(0.0, -80.0, 0.0), glm::dvec3(60.0, 20.0, 60.0) });
-  view.Exterior = 1.0;
-  view.Interior = 1.2;
   return view;
 }
 
 /** Refracted rays of an image. */
-void TraceRaysAtMembrane(benchmark::State& state)
-{
-  const Interface first = MakeInterfaces(1).front();
-  RefractedRayField rays;
-  for (auto step : state)
-  {
-    rays.Build(first.Surface->GetMembrane(), first.Surface->GetPatches(), MakeView());
-  }
-}
-
 void TraceRaysThroughInterfaces(benchmark::State& state)
 {
   const std::vector<Interface> list = MakeInterfaces(state.range(0));
@@ -291,24 +277,6 @@ void TraceRaysThroughInterfaces(benchmark::State& state)
 }
 
 /** True positions of the points of the grid. */
-void FindTruePositionsAtMembrane(benchmark::State& state)
-{
-  const OneMembrane one;
-  SteepDirections steep;
-  steep.Build(one.Solver.GetMembrane(), one.Solver.GetPatches());
-  const TruePositions truth(one.Solver, steep);
-  CrossingChain chain;
-  ForEachPoint(state,
-    [&](const glm::dvec3& point, bool isFirst)
-    {
-      if (isFirst)
-      {
-        chain.Forget();
-      }
-      benchmark::DoNotOptimize(truth.Find(point, chain));
-    });
-}
-
 void FindTruePositionsThroughInterfaces(benchmark::State& state)
 {
   const Interfaces list(state.range(0));
@@ -337,9 +305,7 @@ BENCHMARK(FindAllImagesAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImagesThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(MapTrianglesAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(MapTrianglesThroughInterfaces)->Apply(ForOneToThree);
-BENCHMARK(TraceRaysAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(TraceRaysThroughInterfaces)->Apply(ForOneToThree);
-BENCHMARK(FindTruePositionsAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindTruePositionsThroughInterfaces)->Apply(ForOneToThree);
 
 }

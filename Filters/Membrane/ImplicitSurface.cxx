@@ -14,10 +14,8 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-ImplicitSurface::ImplicitSurface(
-  vtkImplicitFunction* function, const Membrane& membrane, const glm::dvec3& eye)
+ImplicitSurface::ImplicitSurface(vtkImplicitFunction* function, const Membrane& membrane)
   : Function(function)
-  , Eye(eye)
 {
   double along = 0.0;
   for (const Membrane::Facet& facet : membrane.GetFacets())
@@ -40,14 +38,7 @@ glm::dvec3 ImplicitSurface::GetGradient(const glm::dvec3& at) const
 }
 
 //------------------------------------------------------------------------------
-bool ImplicitSurface::Meet(
-  const glm::dvec3&, const VirtualVertex& vertex, const glm::dvec3& direction, PatchPoint& at) const
-{
-  return this->MeetNear(this->Eye, direction, vertex.SightPoint, at);
-}
-
-//------------------------------------------------------------------------------
-bool ImplicitSurface::MeetNear(const glm::dvec3& origin, const glm::dvec3& direction,
+bool ImplicitSurface::Meet(const glm::dvec3& origin, const glm::dvec3& direction,
   const glm::dvec3& near, PatchPoint& at) const
 {
   // Newton's method converges quadratically: the remaining error is the square of the last step,

@@ -94,6 +94,10 @@ public:
 
   bool IsCurved() const { return this->Prepared->Surface.GetOrigin().Curves; }
   const Membrane& GetMembrane() const { return this->Prepared->Surface.GetMembrane(); }
+  const std::shared_ptr<RefractingSurface>& GetSurface() const
+  {
+    return this->Prepared->Surface.GetSurface();
+  }
   /** Solver that holds the membrane if IsCurved is true; otherwise it is empty. */
   CurvedMembraneSolver& GetCurved() { return this->Prepared->Curved; }
   const CurvedMembraneSolver& GetCurved() const { return this->Prepared->Curved; }

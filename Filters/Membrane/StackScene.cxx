@@ -58,7 +58,8 @@ void StackScene::SetSolverInterfaces()
     list.push_back({ source.GetSurface(), this->Media[i] });
   }
   this->IsEyeReady = false;
-  this->AreEyesReported = false;
+  this->AreEyesExamined = false;
+  this->AreEyesBehind = false;
   this->Solver.SetInterfaces(list);
 }
 
@@ -184,7 +185,9 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
   }
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
   this->TurnSurfaces(position);
-  const EyeStatus status = this->Solver.SetEye(position, FacetLoop);
+  const EyeStatus status = this->UsedFor == Use::Rays ? this->Solver.PlaceEye(position)
+                                                      : this->Solver.SetEye(position, FacetLoop);
+  this->AreEyesExamined = false;
   this->Eye = eye;
   this->IsEyeReady = status == EyeStatus::Ready;
   if (!this->IsEyeReady)
@@ -202,20 +205,21 @@ void StackScene::ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& 
 {
   const auto first = std::find_if(this->Media.begin(), this->Media.end(),
     [](const InterfaceMedia& media) { return media.IsRefracting(); });
-  if (this->AreEyesReported || eyes.empty() || first == this->Media.end())
+  if (this->AreEyesExamined || eyes.empty() || first == this->Media.end())
   {
     return;
   }
-  this->AreEyesReported = true;
   const auto index = static_cast<std::size_t>(first - this->Media.begin());
-  if (std::all_of(eyes.begin(), eyes.end(),
-        [this, index](const glm::dvec3& eye) { return this->IsOnWrongSide(index, eye); }))
+  const bool areBehind = std::all_of(eyes.begin(), eyes.end(),
+    [this, index](const glm::dvec3& eye) { return this->IsOnWrongSide(index, eye); });
+  if (areBehind && !this->AreEyesBehind)
   {
     messages.Warning +=
       "No facet of the first membrane faces an eye: its normals point to the other side. Unless "
-      "the "
-      "eyes are really behind it, reverse the normals and the order of the corners. ";
+      "the eyes are really behind it, reverse the normals and the order of the corners. ";
   }
+  this->AreEyesExamined = true;
+  this->AreEyesBehind = areBehind;
 }
 
 //------------------------------------------------------------------------------

@@ -33,8 +33,16 @@ public:
     AsGiven
   };
 
-  explicit StackScene(Fitting fitting = Fitting::Exact)
+  /** Computations for an eye: images of points, or sight rays alone, which need no preparation. */
+  enum class Use
+  {
+    Images,
+    Rays
+  };
+
+  explicit StackScene(Fitting fitting = Fitting::Exact, Use use = Use::Images)
     : UsedFitting(fitting)
+    , UsedFor(use)
   {
   }
 
@@ -53,8 +61,9 @@ public:
   bool SetEye(const std::array<double, 3>& eye, SceneMessages& messages);
 
   /**
-   * Warns, once per change of the surfaces, if the first surface that refracts shows none of some
-   * eyes the side from which rays pass it, for rays that are traced without SetEye().
+   * Warns if no eye sees the side of the first refracting surface from which rays pass it, unless
+   * it was so at the last call with the same surfaces. Eyes are examined once per change of the
+   * surfaces, or of the eye of SetEye().
    */
   void ReportEyes(const std::vector<glm::dvec3>& eyes, SceneMessages& messages);
 
@@ -81,12 +90,14 @@ private:
   std::string DescribeSides();
 
   Fitting UsedFitting;
+  Use UsedFor;
   std::vector<Entry> Entries;
   std::vector<InterfaceMedia> Media;
   StackSolver Solver;
   std::array<double, 3> Eye{};
   bool IsEyeReady = false;
-  bool AreEyesReported = false;
+  bool AreEyesExamined = false; ///< by ReportEyes(), with AreEyesBehind as the result
+  bool AreEyesBehind = false;
   std::size_t InterfacesBehindEye = 0; ///< refracting interfaces that are left out
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;

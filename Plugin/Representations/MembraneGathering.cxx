@@ -194,6 +194,16 @@ void AskForPiece(vtkInformationVector* membranes, vtkInformationVector* outputs)
 }
 
 //------------------------------------------------------------------------------
+void KeepOutputOfFirstRank(vtkInformationVector* outputs)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetLocalProcessId() > 0)
+  {
+    vtkDataObject::GetData(outputs)->Initialize();
+  }
+}
+
+//------------------------------------------------------------------------------
 bool RunBlocks(const char* type, vtkInformationVector** inputs, vtkInformationVector* outputs,
   vtkInformationVector* membranes,
   const std::function<int(vtkInformationVector**, vtkInformationVector*)>& run)

@@ -50,6 +50,9 @@ int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outp
  */
 void AskForPiece(vtkInformationVector* membranes, vtkInformationVector* outputs);
 
+/** Empties the output on all ranks but the first. */
+void KeepOutputOfFirstRank(vtkInformationVector* outputs);
+
 /**
  * Calls `run` with the first input and the output, or with each block of them of class `type`
  * (other blocks stay empty), and with the membranes as the second input. Returns false if any call

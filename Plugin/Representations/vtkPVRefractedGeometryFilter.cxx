@@ -35,7 +35,14 @@ void vtkPVRefractedGeometryFilter::SetEyePosition(double x, double y, double z)
 void vtkPVRefractedGeometryFilter::SetViewCulling(bool culling)
 {
   this->Superclass::SetViewCulling(culling);
-  this->SetCamera(culling ? this->View.Get() : nullptr);
+  this->UseViewIfNeeded();
+}
+
+//------------------------------------------------------------------------------
+void vtkPVRefractedGeometryFilter::UseViewIfNeeded()
+{
+  const bool isNeeded = this->GetViewCulling() || this->View->GetParallelProjection() != 0;
+  this->SetCamera(isNeeded ? this->View.Get() : nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -60,6 +67,19 @@ void vtkPVRefractedGeometryFilter::SetViewUp(double x, double y, double z)
 void vtkPVRefractedGeometryFilter::SetViewAngle(double degrees)
 {
   this->View->SetViewAngle(degrees);
+}
+
+//------------------------------------------------------------------------------
+void vtkPVRefractedGeometryFilter::SetViewParallelProjection(bool parallel)
+{
+  this->View->SetParallelProjection(parallel);
+  this->UseViewIfNeeded();
+}
+
+//------------------------------------------------------------------------------
+void vtkPVRefractedGeometryFilter::SetViewParallelScale(double scale)
+{
+  this->View->SetParallelScale(scale);
 }
 
 //------------------------------------------------------------------------------

@@ -56,6 +56,15 @@ public:
   void SetViewAngle(double degrees);
   /** @} */
 
+  /** @{ */
+  /**
+   * Set whether the view is parallel, and half its height in world units. The eye is then at
+   * infinity, in the direction from the focal point to EyePosition. Defaults are false and 1.
+   */
+  void SetViewParallelProjection(bool parallel);
+  void SetViewParallelScale(double scale);
+  /** @} */
+
   int ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
@@ -73,6 +82,8 @@ protected:
 private:
   vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
   void operator=(const vtkPVRefractedGeometryFilter&) = delete;
+
+  void UseViewIfNeeded();
 
   meniscus::InterfaceTable Table;
   vtkNew<vtkCamera> View;

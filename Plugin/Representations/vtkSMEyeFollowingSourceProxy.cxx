@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMEyeFollowingSourceProxy.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMInputProperty.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyIterator.h"
@@ -18,6 +21,7 @@
 #include "vtkTimerLog.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 #include <vector>
@@ -51,6 +55,46 @@ void AddShowingViews(vtkSMProxy* proxy, std::set<vtkSMProxy*>& views)
       AddShowingViews(consumer, views);
     }
   }
+}
+
+/** Distance of the eye of a parallel view in sizes of the surfaces, as in the library. */
+constexpr double FarAway = 1e5;
+
+/** Bounds of the refracting surfaces of a filter. */
+vtkBoundingBox MeasureMembranes(vtkSMProxy* filter)
+{
+  vtkBoundingBox box;
+  auto* membranes = vtkSMInputProperty::SafeDownCast(filter->GetProperty("Membrane"));
+  const unsigned int count = membranes ? membranes->GetNumberOfProxies() : 0;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    auto* source = vtkSMSourceProxy::SafeDownCast(membranes->GetProxy(i));
+    if (source)
+    {
+      source->UpdatePipeline();
+      const unsigned int port = membranes->GetOutputPortForConnection(i);
+      box.AddBounds(source->GetDataInformation(port)->GetBounds());
+    }
+  }
+  return box;
+}
+
+/** Position of the eye of a view: the camera, or in parallel projection a point far behind it. */
+std::array<double, 3> PlaceEye(vtkCamera* camera, vtkSMProxy* filter)
+{
+  std::array<double, 3> eye;
+  camera->GetPosition(eye.data());
+  const bool isParallel = camera->GetParallelProjection() != 0;
+  const vtkBoundingBox box = isParallel ? MeasureMembranes(filter) : vtkBoundingBox();
+  if (box.IsValid() && box.GetDiagonalLength() > 0.0)
+  {
+    box.GetCenter(eye.data());
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      eye[i] -= FarAway * box.GetDiagonalLength() * camera->GetDirectionOfProjection()[i];
+    }
+  }
+  return eye;
 }
 
 /** Sets a property if its values differ; an equal value must not modify the pipeline. */
@@ -179,6 +223,11 @@ void vtkSMEyeFollowingSourceProxy::OnEyeModified()
   {
     this->EyeIsSet = true;
     vtkSMPropertyHelper(this, "FollowCamera").Set(0);
+    // A position that is set is one of an eye at this place.
+    if (this->GetProperty("ViewParallelProjection"))
+    {
+      vtkSMPropertyHelper(this, "ViewParallelProjection").Set(0);
+    }
   }
 }
 
@@ -221,15 +270,34 @@ bool vtkSMEyeFollowingSourceProxy::MoveEye(vtkSMRenderViewProxy* view)
   {
     return false;
   }
+  // Filters without this property take a point far away; the other one also has to know how large
+  // an angle is in the picture.
+  const bool knowsParallel = this->GetProperty("ViewParallelProjection") != nullptr;
+  const int isParallel = camera->GetParallelProjection() != 0 ? 1 : 0;
+  std::array<double, 3> eye;
+  camera->GetPosition(eye.data());
+  eye = knowsParallel ? eye : PlaceEye(camera, this);
   this->IsMovingEye = true;
-  bool moved = SetIfOther(this, "EyePosition", camera->GetPosition(), 3);
+  bool moved = SetIfOther(this, "EyePosition", eye.data(), 3);
   this->IsMovingEye = false;
-  // Unused values must not make the filter run again.
-  if (vtkSMPropertyHelper(this, "ViewCulling", true).GetAsInt() != 0)
+  if (knowsParallel)
   {
-    const double angle = camera->GetViewAngle();
+    const double scale = camera->GetParallelScale();
+    vtkSMPropertyHelper parallel(this, "ViewParallelProjection");
+    moved |= parallel.GetAsInt() != isParallel;
+    parallel.Set(isParallel);
+    moved |= isParallel && SetIfOther(this, "ViewParallelScale", &scale, 1);
+  }
+  // Unused values must not make the filter run again.
+  const bool culls = vtkSMPropertyHelper(this, "ViewCulling", true).GetAsInt() != 0;
+  if (culls || (knowsParallel && isParallel))
+  {
     moved |= SetIfOther(this, "ViewFocalPoint", camera->GetFocalPoint(), 3);
     moved |= SetIfOther(this, "ViewUp", camera->GetViewUp(), 3);
+  }
+  if (culls)
+  {
+    const double angle = camera->GetViewAngle();
     moved |= SetIfOther(this, "ViewAngle", &angle, 1);
   }
   if (moved)

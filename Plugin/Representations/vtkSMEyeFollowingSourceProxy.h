@@ -13,6 +13,10 @@
  * properties ViewCulling, ViewFocalPoint, ViewUp and ViewAngle exist and ViewCulling is on, the
  * last three follow, too.
  *
+ * In a parallel view the eye is at infinity. ViewParallelProjection, ViewParallelScale,
+ * ViewFocalPoint and ViewUp follow if they exist; otherwise EyePosition is a point 1e5 sizes of the
+ * input Membrane away, against the direction of projection.
+ *
  * Setting EyePosition by hand, by a script, a link or an animation ends following. FollowCamera is
  * on for a new filter whose XML has the hint `<FollowCamera/>`. For other filters, an eye that was
  * not set is moved once, before the first update, to the active view's camera. The default in the

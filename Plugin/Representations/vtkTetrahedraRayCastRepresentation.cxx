@@ -15,10 +15,12 @@
 #include "vtkExtractBlockUsingDataAssembly.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMatrix4x4.h"
 #include "vtkMergeBlocks.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
@@ -98,6 +100,14 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
+    double drawn[6];
+    this->Measuring->GetBounds(drawn);
+    if (vtkBoundingBox(drawn).IsValid())
+    {
+      vtkNew<vtkMatrix4x4> place;
+      this->GetActor()->GetMatrix(place);
+      vtkPVRenderView::SetGeometryBounds(inputs, this, drawn, place);
+    }
     // Every rank has the whole membranes: a client gets those of one of them.
     vtkPVView::SetPiece(inputs, this, this->Membranes, 0, MembranePort);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(
@@ -194,6 +204,8 @@ int vtkTetrahedraRayCastRepresentation::RequestData(
     ? this->vtkVolumeRepresentation::RequestData(request, inputs, outputs)
     : this->Superclass::RequestData(request, inputs, outputs);
   this->LeaveOutWithoutArray();
+  this->Measuring->SetInputData(
+    vtkUnstructuredGrid::SafeDownCast(this->Preprocessor->GetOutputDataObject(0)));
   return this->UpdateMembranes(inputs) ? succeeded : 0;
 }
 

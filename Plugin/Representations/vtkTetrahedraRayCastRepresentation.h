@@ -26,6 +26,9 @@
  * of straight rays, which is also that of rays refracted at planes across an axis; any other
  * membrane causes a warning, once for each change of it. See Documentation/parallel.md.
  *
+ * The bounds, to which a view resets its camera, are those of what is drawn: of cells with a volume
+ * and of the membranes. ParaView's own volumes have those of all points.
+ *
  * While this representation is visible, the view does not peel volumes: translucent geometry is
  * drawn first and the volume over it. ParaView peels volumes by default, which mappers of
  * unstructured grids do not support.
@@ -139,6 +142,8 @@ private:
   void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+  /** Has this rank's cells before they are delivered, and measures those that are drawn. */
+  vtkNew<vtkTetrahedraRayCastMapper> Measuring;
   /** Chooses the blocks of a composite data set. */
   vtkNew<vtkExtractBlockUsingDataAssembly> Blocks;
   meniscus::InterfaceTable Table;

@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Colour maps by name."""
-import importlib
-import warnings
-
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonColor import vtkColorSeries
 from vtkmodules.vtkCommonCore import vtkLookupTable
+
+from .files import import_quietly
 
 # Maps of matplotlib and of Moreland (2009) by colours at equal distances, between which they are
 # off by at most 11 of 255; where matplotlib is installed its own are used.
@@ -48,24 +47,14 @@ def _read_series(name):
             for index in (reversed(order) if name in _REVERSED else order)]
 
 
-def _import(package):
-    """A package without its warnings about itself; None if it is not installed."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            return importlib.import_module(package)
-        except ImportError:
-            return None
-
-
 def _read_matplotlib(name):
     """Colours of a map that matplotlib, cmocean or colorcet have; None if it is not found."""
-    matplotlib = _import("matplotlib")
+    matplotlib = import_quietly("matplotlib")
     if matplotlib is None or not hasattr(matplotlib, "colormaps"):
         return None
     maps = matplotlib.colormaps
     for package, prefix in _PACKAGES.items():
-        if name not in maps and _import(package) is not None and prefix + name in maps:
+        if name not in maps and import_quietly(package) is not None and prefix + name in maps:
             name = prefix + name
     return maps[name](numpy.linspace(0.0, 1.0, _ENTRIES))[:, :3] if name in maps else None
 

@@ -7,10 +7,14 @@ import sys
 
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
+from .contest import TITLE, compare_on, format_row, make_panels, show_panels
+from .files import collecting_reports
 from .movies import write_movie, write_pictures
+from .options import OptionParser
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, MeshScene
-from .window import Window, draw_picture, write_picture
+from .watching import Watch
+from .window import Window, draw_picture, grab_picture, write_picture
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
@@ -37,27 +41,53 @@ def _count(text):
     return count
 
 
+def _port(text):
+    port = int(text)
+    if not 0 <= port <= 65535:
+        raise argparse.ArgumentTypeError("a port is a number from 0 to 65535")
+    return port
+
+
 def make_parser():
-    parser = argparse.ArgumentParser(prog="meniscus", description=DESCRIPTION)
-    parser.add_argument("mesh", nargs="+", metavar="MESH",
+    parser = OptionParser(prog="meniscus", description=DESCRIPTION)
+    _add_look(parser)
+    _add_view(parser)
+    _add_output(parser)
+    return parser
+
+
+def _add_look(parser):
+    parser.add_argument("mesh", nargs="*", metavar="MESH",
                         help="file of a mesh, or a collection (.pvd, .series); demo: a mesh that "
                         "comes with the package")
+    parser.add_argument("--config", metavar="FILE.toml",
+                        help="file with options by the names of this list, and mesh; the command "
+                        "line goes before")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
     parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
+                        offers=COLOR_MAPS,
                         help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
                         "cmocean or colorcet where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
                         "tenth of the mesh's diagonal; default: chosen by volume")
-    parser.add_argument("--blend", default="composite", metavar="MODE",
+    parser.add_argument("--blend", default="composite", metavar="MODE", offers=BLEND_MODES,
                         help="blend mode: " + ", ".join(BLEND_MODES))
     parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
                         help="isosurfaces of these values")
     parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
                         help="makes the volume denser (above 1) or thinner")
     parser.add_argument("--light", action="store_true", help="lights the volume")
+    parser.add_argument("--outline", action="store_true", help="shows the box around the mesh")
+    parser.add_argument("--axes", action="store_true", help="shows axes with numbers")
+    parser.add_argument("--edges", action="store_true", help="shows the edges of the surface")
+    parser.add_argument("--units", nargs="+", default=(), metavar="UNIT",
+                        help="units of lengths, and of the array: --units m K")
+
+
+def _add_view(parser):
     parser.add_argument("--clip", metavar="AXIS[:SHARE]",
                         help="removes the part below a share (default 0.5) of the extent along "
                         + ", ".join(AXES))
@@ -68,13 +98,16 @@ def make_parser():
                         "normals point to the eye's side")
     parser.add_argument("--index", type=float, default=1.333,
                         help="index of refraction behind the surface; default: 1.333")
-    parser.add_argument("--backend", default="automatic", metavar="NAME",
+    parser.add_argument("--backend", default="automatic", metavar="NAME", offers=BACKENDS,
                         help="caster of rays: " + ", ".join(BACKENDS))
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
                         default=(1.0, 0.7, 1.0), help="vector from the mesh to the eye")
     parser.add_argument("--up", choices=list(AXES), default="y", help="upward axis; default: y")
     parser.add_argument("--size", type=_size, default=(1024, 768), metavar="WxH",
                         help="size of the window or picture")
+
+
+def _add_output(parser):
     parser.add_argument("--output", metavar="PICTURE.png",
                         help="writes a picture and opens no window")
     parser.add_argument("--transparent", action="store_true",
@@ -83,9 +116,16 @@ def make_parser():
                         help="so many pictures, or frames of the movie, once around the mesh")
     parser.add_argument("--movie", metavar="FILE.mp4",
                         help="writes a movie of the time steps or of an orbit (.mp4, .gif, ...)")
+    parser.add_argument("--watch", action="store_true",
+                        help="reads the files again when they change")
+    parser.add_argument("--compare", action="store_true",
+                        help="draws the mesh with VTK's mappers and with this one, side by side, "
+                        "with milliseconds and differences")
     parser.add_argument("--web", action="store_true", help="serves the window as a page")
-    parser.add_argument("--port", type=int, default=8080, help="port of the page; default: 8080")
-    return parser
+    parser.add_argument("--port", type=_port, default=8080, help="port of the page; default: 8080")
+    parser.add_argument("--host", default="localhost",
+                        help="address at which the page is served; default: localhost, for this "
+                        "machine only. Others get a secret, which the address of the page carries")
 
 
 def _split_clip(text):
@@ -96,9 +136,10 @@ def _split_clip(text):
         raise ReadingError(f"--clip: '{share}' is not a number") from None
 
 
-def make_scene(options):
+def make_scene(options, report=lambda line: None):
+    """The scene of the options. report: see MeshScene."""
     limits = options.range and tuple(options.range)
-    scene = MeshScene(MeshSeries(options.mesh), options.array, limits)
+    scene = MeshScene(MeshSeries(options.mesh), options.array, limits, report)
     steps = len(scene.series.get_times())
     if not -steps <= options.step < steps:
         raise ReadingError(f"There is no time step {options.step}; the mesh has {steps}")
@@ -116,14 +157,47 @@ def make_scene(options):
         scene.set_clip(*_split_clip(options.clip))
     if options.water:
         scene.set_surface(read_surface(options.water), options.index)
+    if len(options.units) > 2:
+        raise ReadingError("--units takes at most two: of lengths and of the array")
+    scene.set_units(*options.units)
+    for name in scene.furniture.NAMES:
+        scene.furniture.set(name, getattr(options, name))
     scene.reset_camera(options.view, AXES[options.up])
     return scene
 
 
+def _has_display():
+    return bool(os.environ.get("DISPLAY")) or not sys.platform.startswith("linux")
+
+
+def _compare(scene, options):
+    if options.orbit or options.movie or options.web:
+        raise ReadingError("--compare makes a picture; it goes without --orbit, --movie and --web")
+    pairs = []
+    with collecting_reports() as reports:
+        for found, picture in compare_on(scene, options.size):
+            if not pairs:
+                print(TITLE)
+            print(format_row(found), flush=True)
+            pairs.append((found, picture))
+        errors, warnings = reports()
+    for message in dict.fromkeys(errors + warnings):
+        print(f"meniscus: warning: VTK: {message}", file=sys.stderr)
+    if options.output:
+        write_picture(grab_picture(make_panels(pairs, offscreen=True)), options.output)
+    elif _has_display():
+        show_panels(make_panels(pairs, offscreen=False))
+
+
 def _show(scene, options):
-    if options.orbit and not (options.output or options.movie):
+    watch = Watch(scene) if options.watch else None
+    if options.compare:
+        _compare(scene, options)
+    elif options.orbit and not (options.output or options.movie):
         raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
-    if options.movie:
+    elif options.watch and (options.output or options.movie):
+        raise ReadingError("--watch goes with the window or --web")
+    elif options.movie:
         write_movie(scene, options.size, options.movie, options.orbit)
     elif options.output and options.orbit:
         write_pictures(scene, options.size, options.output, options.orbit, options.transparent)
@@ -133,21 +207,21 @@ def _show(scene, options):
         for warning in warnings:
             print(f"meniscus: warning: {warning}", file=sys.stderr)
     elif options.web:
-        from .web import make_server
-        make_server(scene).start(port=options.port, open_browser=False)
-    elif not os.environ.get("DISPLAY") and sys.platform.startswith("linux"):
+        from .web import serve
+        serve(scene, options.host, options.port, watch)
+    elif not _has_display():
         raise ReadingError("There is no display; use --output PICTURE.png or --web")
     else:
-        Window(scene, options.size).start()
+        Window(scene, options.size, watch=watch).start()
 
 
 def main(arguments=None):
     """Runs the command; returns its exit status."""
-    options = make_parser().parse_args(arguments)
+    parser = make_parser()
+    parser.complete()
     try:
-        scene = make_scene(options)
-        print(scene.describe())
-        _show(scene, options)
+        options = parser.parse(arguments)
+        _show(make_scene(options, lambda line: print(line, flush=True)), options)
     except ReadingError as error:
         print(f"meniscus: {error}", file=sys.stderr)
         return 1

@@ -8,6 +8,7 @@ import os
 import re
 import struct
 import tempfile
+import warnings
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -153,10 +154,6 @@ def _reading(name):
 
 def _make_reader(name):
     suffix = ending_of(name)
-    if suffix not in READERS:
-        known = ", ".join([*READERS, ".pvd", ".series", *MESHIO_ENDINGS])
-        raise ReadingError(f"{name}: files that end in '{suffix}' cannot be read; known endings "
-                           "are " + known)
     module, reader = READERS[suffix]
     try:
         return getattr(importlib.import_module("vtkmodules." + module), reader)()
@@ -258,6 +255,56 @@ class _MeshioFile:
             return _VTKFile(copy).read()
 
 
+class _PyVistaFile:
+    """A file of a kind that only PyVista reads."""
+
+    def __init__(self, name, reader):
+        """reader: of PyVista."""
+        self.name = name
+        self.reader = reader
+
+    def get_times(self):
+        """Time values of the file's steps; empty if it has none."""
+        return list(getattr(self.reader, "time_values", None) or [])
+
+    def read(self, time=None):
+        try:
+            with _reading(self.name):
+                if time is not None:
+                    self.reader.set_active_time_value(time)
+                return self.reader.read()
+        except ReadingError:
+            raise
+        except Exception as error:  # readers in Python have no common class of errors
+            raise ReadingError(f"{self.name}: PyVista cannot read it: {error}") from None
+
+
+def _open_by_packages(name):
+    """A file whose ending is not among those that are named here, by PyVista or meshio if they are
+    installed and know it."""
+    found = [import_quietly(package) for package in ("pyvista", "meshio")]
+    if found[0]:
+        with contextlib.suppress(ValueError, OSError, ImportError):
+            return _PyVistaFile(name, found[0].get_reader(name))
+    if found[1] and ending_of(name) in found[1].extension_to_filetypes:
+        return _MeshioFile(name)
+    known = ", ".join([*READERS, ".pvd", ".series", *MESHIO_ENDINGS])
+    absent = [package for package, module in zip(("pyvista", "meshio"), found) if not module]
+    hint = f"; the packages {' and '.join(absent)} know more (pip install {' '.join(absent)})"
+    raise ReadingError(f"{name}: files that end in '{ending_of(name)}' cannot be read; known "
+                       f"endings are {known}" + (hint if absent else ""))
+
+
+def import_quietly(package):
+    """A package without its warnings about itself; None if it is not installed."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return importlib.import_module(package)
+        except ImportError:
+            return None
+
+
 def _first_line(name):
     """First line that is not empty. In an input file of Abaqus it starts with a *, in a file of
     AVS, which has the same ending, it does not."""
@@ -266,8 +313,8 @@ def _first_line(name):
 
 
 def open_file(name):
-    """A file with get_times() and read(time), whose endings are those of READERS and
-    MESHIO_ENDINGS; a folder may be a case of OpenFOAM."""
+    """A file with get_times() and read(time): of an ending in READERS or MESHIO_ENDINGS, or of
+    another one that PyVista or meshio know; a folder may be a case of OpenFOAM."""
     if os.path.isfile(os.path.join(name, "system", "controlDict")):
         name = os.path.join(name, "case.foam")
     else:
@@ -276,4 +323,4 @@ def open_file(name):
     suffix = ending_of(name)
     if suffix in MESHIO_ENDINGS or (suffix == ".inp" and _first_line(name).startswith("*")):
         return _MeshioFile(name)
-    return _VTKFile(name)
+    return _VTKFile(name) if suffix in READERS else _open_by_packages(name)

@@ -113,7 +113,8 @@ def _measure_cells(grid, drawn):
     return numpy.where(numpy.isfinite(volumes), volumes, 0.0)
 
 
-def _values_of(array, component):
+def values_of(array, component):
+    """The numbers of a component of an array; None: its magnitude."""
     values = vtk_to_numpy(array).astype(float)
     if values.ndim == 1:
         return values
@@ -123,9 +124,9 @@ def _values_of(array, component):
 def _ranges_of_cells(grid, name, association, component):
     """Least and largest scalar of each cell; of a cell without points, not a number."""
     if association == "cells":
-        values = _values_of(grid.GetCellData().GetArray(name), component)
+        values = values_of(grid.GetCellData().GetArray(name), component)
         return values, values
-    values = _values_of(grid.GetPointData().GetArray(name), component)
+    values = values_of(grid.GetPointData().GetArray(name), component)
     cells = grid.GetCells()
     ids = values[vtk_to_numpy(cells.GetConnectivityArray())]
     offsets = vtk_to_numpy(cells.GetOffsetsArray())
@@ -205,6 +206,17 @@ class Levels:
         width = (self.high - self.low) / BINS
         return [(self.low + (bin + 0.5) * width, float(weight))
                 for bin, weight in enumerate(weights)]
+
+    def get_histogram(self, low, high):
+        """Volumes of the mesh by value: BINS equal bins from low to high. The volume of a bin of
+        this field is spread evenly over its values."""
+        edges = numpy.linspace(self.low, self.high, BINS + 1)
+        if not self.low < self.high:
+            edges = edges + numpy.linspace(-0.5, 0.5, BINS + 1) * (high - low) / BINS
+        below = numpy.concatenate([[0.0], numpy.cumsum(self.volumes)])
+        if not below[-1] > 0.0:
+            below = numpy.linspace(0.0, 1.0, BINS + 1)
+        return numpy.diff(numpy.interp(numpy.linspace(low, high, BINS + 1), edges, below))
 
     def get_isovalues(self, count=3):
         """Values between which the volume of the mesh has equal shares."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Views that turn and time steps, as numbered pictures or as a movie."""
 import os
+import tempfile
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -16,7 +17,7 @@ MOVIE_ENDINGS = (".mp4", ".gif", ".webm", ".mov", ".avi")
 def _draw_frames(scene, size, orbit, transparent):
     """Yields the pictures of an orbit of so many frames around the upward axis, or of all time
     steps if orbit is None."""
-    window = make_window(scene, size, offscreen=True, transparent=transparent)
+    window = make_window(scene.renderer, size, offscreen=True, transparent=transparent)
     count = orbit or len(scene.series.get_times())
     if not orbit:
         scene.set_step(0)
@@ -53,10 +54,14 @@ def write_movie(scene, size, name, orbit):
     settings = {"duration": 1.0 / FRAMES_PER_SECOND, "loop": 0} if gif else {
         "fps": FRAMES_PER_SECOND}
     try:
-        with imageio.get_writer(name, **settings) as writer:
-            for picture in _draw_frames(scene, even, orbit, False):
-                pixels = vtk_to_numpy(picture.GetPointData().GetScalars())
-                writer.append_data(pixels.reshape(even[1], even[0], -1)[::-1, :, :3])
+        # The file gets its name when it is complete, so that one of before is not lost to an error.
+        with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name))) as folder:
+            part = os.path.join(folder, os.path.basename(name))
+            with imageio.get_writer(part, **settings) as writer:
+                for picture in _draw_frames(scene, even, orbit, False):
+                    pixels = vtk_to_numpy(picture.GetPointData().GetScalars())
+                    writer.append_data(pixels.reshape(even[1], even[0], -1)[::-1, :, :3])
+            os.replace(part, name)
     except (OSError, ValueError, ImportError, RuntimeError) as error:
         raise ReadingError(f"{name} cannot be written: {error} "
                            "(pip install 'imageio[ffmpeg]' brings an encoder)") from None

@@ -33,6 +33,7 @@ class MeshSeries:
         """names: file names. Several files are the steps of one mesh, in this order; among them, a
         collection (.pvd, .series) counts with all of its steps. "demo" is the mesh of the package,
             unless there is a file of that name."""
+        self.names = list(names)
         self.steps = []  # pairs of time and a function that reads
         for name in names:
             if name == SAMPLE and not os.path.exists(name):

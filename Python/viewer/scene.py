@@ -15,14 +15,19 @@ from .. import vtkTetrahedraRayCastMapper
 from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL
 from .cells import drawn_leaves_of
 from .colors import COLOR_MAPS, fill_colors, find_colors, make_table
+from .curves import check_curve, fill_function, simplify
+from .furniture import Furniture
 from .levels import BINS, Levels
-from .reading import ReadingError, arrays_of
+from .reading import MeshSeries, ReadingError, arrays_of
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-# Length over which opacities are given, as a share of the mesh's diagonal. An opacity of 1 would
-# need an infinite attenuation coefficient; the largest one lets less than one step of 8 bits pass.
-OPACITY_SHARE = 0.1
-LARGEST_OPACITY = 1.0 - 1.0 / 512.0
+# Modes with a curve of opacity of their own, by blend mode. Of a projection and of isosurfaces the
+# opacities are those of values, of a volume over a length.
+_KINDS = {"maximum": "projection", "minimum": "projection", "average": "projection",
+          "isosurface": "isosurface"}
+_VOLUME = "volume"
+_CURVES = {"projection": [(0.0, 0.0), (1.0, 1.0)],
+           "isosurface": [(0.0, ISOSURFACE_OPACITY), (1.0, ISOSURFACE_OPACITY)]}
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 
 
@@ -32,18 +37,23 @@ class MeshScene:
     Every setter takes effect with the next frame. A name that does not exist is a ReadingError.
     """
 
-    def __init__(self, series, array=None, limits=None):
-        """array, limits: see set_array(); default: the first array."""
+    def __init__(self, series, array=None, limits=None, report=lambda line: None):
+        """array, limits: see set_array(); default: the first array. report: gets a line about the
+        mesh as soon as it is read, before work that may take long."""
         self.series = series
         self.step = 0
         self.data = series.read(0)
+        report(self.describe())
         self.colors = COLOR_MAPS[0]
-        self.opacities = None  # None: chosen by volume
+        self._curves = {}  # by the kinds of _KINDS; without one it is the default
         self.density = 1.0
         self.blend = "composite"
         self.isovalues = None  # None: chosen by volume
         self.limits = None  # None: the range of the first step's values
+        self.unit = ""
         self.clip_axis = None
+        self.clip_share = 0.5
+        self._has_surface = False
         self.direction = (1.0, 0.7, 1.0)
         self.up = (0.0, 1.0, 0.0)
         self.mapper = vtkTetrahedraRayCastMapper()
@@ -68,6 +78,8 @@ class MeshScene:
         self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]
                                      for i in range(3)))
         look.SetScalarOpacityUnitDistance(self.diagonal)
+        self.furniture = Furniture(self.renderer)
+        self.furniture.set_data(self.data, self.bounds)
 
     def _add_bar(self):
         self.bar = vtkScalarBarActor()
@@ -119,30 +131,63 @@ class MeshScene:
         self.levels = levels
         self._update_functions()
 
+    def _get_kind(self):
+        return _KINDS.get(self.blend, _VOLUME)
+
+    def get_curve(self):
+        """The curve of opacity of the blend mode: points (place, opacity), where the place is 0 at
+        the lower and 1 at the upper end of the range of the colour map. Of a volume the opacity is
+        over a tenth of the mesh's diagonal."""
+        kind = self._get_kind()
+        if kind in self._curves:
+            return self._curves[kind]
+        return _CURVES[kind] if kind in _CURVES else simplify(
+            self.levels.get_opacity(), self.get_range())
+
+    def set_curve(self, points):
+        """Sets the curve of the blend mode, points as of get_curve(), two at least; None: the
+        default, which for a volume is chosen by the isosurface areas."""
+        self._set_curve(self._get_kind(), points)
+
+    def _set_curve(self, kind, points):
+        self._curves.pop(kind, None)
+        if points:
+            self._curves[kind] = check_curve(points)
+        self._update_functions()
+
+    def get_histogram(self):
+        """Volumes of the mesh by value, in equal bins over the range of the colour map."""
+        return self.levels.get_histogram(*self.get_range())
+
     def _update_functions(self):
         low, high = self.get_range()
         look = self.volume.GetProperty()
         fill_colors(look.GetRGBTransferFunction(), self.colors, low, high)
         opacity = look.GetScalarOpacity()
-        opacity.RemoveAllPoints()
-        if self.blend == "isosurface":
-            opacity.AddSegment(low, ISOSURFACE_OPACITY, high, ISOSURFACE_OPACITY)
-        elif self.blend in ("maximum", "minimum", "average"):
-            opacity.AddSegment(low, 0.0, high, 1.0)
-        elif self.opacities:
-            for scalar, value in zip(numpy.linspace(low, high, len(self.opacities)),
-                                     self.opacities):
-                opacity.AddPoint(scalar, -math.log1p(-min(value, LARGEST_OPACITY)) / OPACITY_SHARE)
-        else:
+        kind = self._get_kind()
+        if kind == _VOLUME and kind not in self._curves:
+            opacity.RemoveAllPoints()
             for scalar, coefficient in self.levels.get_opacity():
                 opacity.AddPoint(scalar, coefficient)
+        else:
+            fill_function(opacity, self.get_curve(), (low, high), kind == _VOLUME)
         contours = look.GetIsoSurfaceValues()
         values = self.isovalues or self.levels.get_isovalues()
         contours.SetNumberOfContours(len(values))
         for index, value in enumerate(values):
             contours.SetValue(index, value)
         self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), low, high))
-        self.bar.SetTitle(self.array)
+        self.bar.SetTitle(self.get_title())
+
+    def get_title(self):
+        """Name of the array, with its unit if there is one."""
+        return f"{self.array} ({self.unit})" if self.unit else self.array
+
+    def set_units(self, length="", value=""):
+        """Units of lengths and of the array, such as "m" and "K", for the axes and the legend."""
+        self.furniture.set_unit(length)
+        self.unit = value
+        self.bar.SetTitle(self.get_title())
 
     def set_colors(self, name):
         if find_colors(name) is None:
@@ -160,12 +205,12 @@ class MeshScene:
         self.volume.GetProperty().SetScalarOpacityUnitDistance(self.diagonal / factor)
 
     def set_opacities(self, values):
-        """Opacities in [0, 1] at equal distances over the range of the colour map, each over a
-        tenth of the mesh's diagonal; None: opacities chosen by volume."""
+        """Opacities of a volume in [0, 1] at equal distances over the range of the colour map, each
+        over a tenth of the mesh's diagonal; None: opacities chosen by volume."""
         if values and (len(values) < 2 or not all(0.0 <= value <= 1.0 for value in values)):
             raise ReadingError("Opacities must be at least two numbers from 0 to 1")
-        self.opacities = values
-        self._update_functions()
+        self._set_curve(_VOLUME, values and [
+            (index / (len(values) - 1), value) for index, value in enumerate(values)])
 
     def set_blend(self, name):
         if name not in BLEND_MODES:
@@ -207,6 +252,7 @@ class MeshScene:
         self.mapper.RemoveAllClippingPlanes()
         self.clip_axis = axis
         self.clip_share = share
+        self.furniture.set_clipping_plane(None)
         if axis is None:
             return
         if axis not in AXES:
@@ -219,14 +265,25 @@ class MeshScene:
         self._clip_plane.SetOrigin(*(component * (low + share * (high - low))
                                      for component in AXES[axis]))
         self.mapper.AddClippingPlane(self._clip_plane)
+        self.furniture.set_clipping_plane(self._clip_plane)
 
     def set_step(self, step):
         """Shows another time step; the functions stay, so that colours can be compared."""
-        self.step = step
-        self.data = self.series.read(step)
-        if self.array not in arrays_of(self.data):
+        self._take(self.series, step)
+
+    def reload(self):
+        """Reads the files of the series again, and keeps view and settings. If they cannot be used,
+        it is a ReadingError, and the mesh of before stays."""
+        series = MeshSeries(self.series.names)
+        self._take(series, min(self.step, len(series.get_times()) - 1))
+
+    def _take(self, series, step):
+        data = series.read(step)
+        if self.array not in arrays_of(data):
             raise ReadingError(f"Time step {step} has no array '{self.array}'")
-        self.mapper.SetInputData(self.data)
+        self.series, self.step, self.data = series, step, data
+        self.mapper.SetInputData(data)
+        self.furniture.set_data(data, self.mapper.GetBounds())
 
     def set_surface(self, surface, index, before=1.0):
         """Shows the volume through a refracting surface, whose border is drawn.
@@ -236,6 +293,7 @@ class MeshScene:
         """
         if not (index > 0.0 and before > 0.0):
             raise ReadingError("Indices of refraction must be above 0")
+        self._has_surface = True
         self.mapper.SetMembraneData(surface)
         self.mapper.SetExteriorIndexOfRefraction(before)
         self.mapper.SetInteriorIndexOfRefraction(index)
@@ -254,6 +312,9 @@ class MeshScene:
         actor.GetProperty().LightingOff()
         self.renderer.AddActor(actor)
 
+    def has_surface(self):
+        return self._has_surface
+
     def reset_camera(self, direction=None, up=None):
         """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is
         parallel to it, another one is upward. Default: direction and axis of the last call."""
@@ -267,7 +328,8 @@ class MeshScene:
         camera.SetPosition(*(center[i] + direction[i] for i in range(3)))
         camera.SetViewUp(*up)
         self.renderer.ResetCamera(self.bounds)
-        camera.Zoom(1.1)
+        camera.Zoom(0.85 if self.furniture.get("axes") else
+                    1.0 if self.furniture.get("outline") else 1.1)
         self.renderer.ResetCameraClippingRange()
 
     def explain_empty_picture(self):

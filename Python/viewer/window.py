@@ -3,6 +3,7 @@
 """A window with keys and sliders, and pictures without one."""
 import ctypes
 import itertools
+import math
 import os
 import sys
 
@@ -12,13 +13,16 @@ from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
-    vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
+    vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
 
 from .. import vtkTetrahedraVolumePicker
 from ..names import BLEND_MODES
+from .chart import HEIGHT, OpacityChart
 from .colors import COLOR_MAPS
 from .files import ReadingError, collecting_reports
+from .furniture import INK
 from .scene import AXES
+from .watching import PERIOD
 
 KEYS = """a      next array
 c      next colour map
@@ -30,6 +34,9 @@ x y z  cut at the middle, or no cut
 < >    move the cut
 , .    time step
 v      value under the cursor
+o g e  outline, axes, edges
+t      histogram and curve
+d      default curve
 r      whole mesh
 s      save picture
 h      this help
@@ -43,6 +50,8 @@ HEADLESS_WINDOWS = {
 }
 WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CLIP_STEP = 0.05
+# Height of the sliders above the strip, as a share of the window's.
+_SLIDER_HEIGHT = 0.09
 
 
 def _can_load(library):
@@ -67,8 +76,8 @@ def _choose_headless_window():
                        "(on Debian: apt-get install libegl1 libgl1-mesa-dri)")
 
 
-def make_window(scene, size, offscreen, transparent=False):
-    """A window with a scene. transparent: its background is, in pictures."""
+def make_window(renderer, size, offscreen, transparent=False):
+    """A window with a renderer. transparent: its background is, in pictures."""
     if offscreen:
         _choose_headless_window()
     window = vtkRenderWindow()
@@ -77,11 +86,11 @@ def make_window(scene, size, offscreen, transparent=False):
     window.SetMultiSamples(0 if offscreen else 4)
     if transparent:
         window.SetAlphaBitPlanes(True)
-        scene.renderer.GradientBackgroundOff()
-        scene.renderer.SetBackground(0.0, 0.0, 0.0)
-        scene.renderer.SetBackgroundAlpha(0.0)
+        renderer.GradientBackgroundOff()
+        renderer.SetBackground(0.0, 0.0, 0.0)
+        renderer.SetBackgroundAlpha(0.0)
     window.SetWindowName("Meniscus")
-    window.AddRenderer(scene.renderer)
+    window.AddRenderer(renderer)
     return window
 
 
@@ -115,7 +124,7 @@ def write_picture(picture, name):
 def draw_picture(scene, size, transparent=False):
     """The picture of a scene without a window on the screen, and VTK's warnings about it. A picture
     that shows nothing of the mesh is a ReadingError."""
-    return draw_checked(scene, make_window(scene, size, True, transparent), transparent)
+    return draw_checked(scene, make_window(scene.renderer, size, True, transparent), transparent)
 
 
 def draw_checked(scene, window, transparent=False):
@@ -141,20 +150,33 @@ def _next_of(names, name, forward=True):
 
 
 class Window:
-    """A MeshScene in a window with the keys of KEYS and sliders for density and time."""
+    """A MeshScene in a window with the keys of KEYS, sliders for density and time, and a strip with
+    the histogram and the curve of opacity."""
 
-    def __init__(self, scene, size=(1024, 768), offscreen=False):
+    def __init__(self, scene, size=(1024, 768), offscreen=False, watch=None):
+        """watch: a Watch of the scene, for files that change."""
         self.scene = scene
-        self.window = make_window(scene, size, offscreen)
+        self.watch = watch
+        self.window = make_window(scene.renderer, size, offscreen)
         self.interactor = vtkRenderWindowInteractor()
         self.interactor.SetRenderWindow(self.window)
-        style = vtkInteractorStyleTrackballCamera()
-        # Replaces the style's own keys.
-        style.AddObserver("CharEvent", lambda *_: None)
-        self.interactor.SetInteractorStyle(style)
+        self._trackball = vtkInteractorStyleTrackballCamera()
+        self.chart = OpacityChart(scene, self._tell)
+        self.window.AddRenderer(self.chart.renderer)
+        # Replaces the styles' own keys.
+        for style in (self._trackball, self.chart.style):
+            style.AddObserver("CharEvent", lambda *_: None)
+        self.interactor.SetInteractorStyle(self._trackball)
+        # Before the styles, whose priority is 0.
+        for event in ("MouseMoveEvent", "EnterEvent"):
+            self.interactor.AddObserver(event, self._choose_style, 1.0)
+        self._buttons, self._on_chart = set(), False
+        for name in ("Left", "Middle", "Right"):
+            self.interactor.AddObserver(name + "ButtonPressEvent", self._note_button, 1.0)
+            self.interactor.AddObserver(name + "ButtonReleaseEvent", self._note_button, 1.0)
         self.interactor.AddObserver("KeyPressEvent", self._press)
         self.message = vtkTextActor()
-        self.message.GetTextProperty().SetColor(0.1, 0.1, 0.15)
+        self.message.GetTextProperty().SetColor(*INK)
         self.message.GetTextProperty().SetFontSize(16)
         self.message.SetPosition(12, 12)
         self.scene.renderer.AddViewProp(self.message)
@@ -163,19 +185,65 @@ class Window:
         text = self.help.GetTextProperty()
         text.SetFontFamilyToCourier()
         text.SetFontSize(16)
-        text.SetColor(0.1, 0.1, 0.15)
+        text.SetColor(*INK)
         text.SetVerticalJustificationToTop()
         self.help.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
         self.help.SetPosition(0.02, 0.97)
         self.help.VisibilityOff()
         self.scene.renderer.AddViewProp(self.help)
         self.actions = self._make_actions()
+        # Sliders are wrong in renderers that do not begin in the corner of the window.
+        self._overlay = vtkRenderer()
+        self._overlay.SetLayer(1)
+        self._overlay.InteractiveOff()
+        self.window.SetNumberOfLayers(2)
+        self.window.AddRenderer(self._overlay)
         self._sliders = []
-        self._density = self._add_slider("density", -2.0, 2.0, 0.0, 0.10, self._slide_density)
-        steps = len(scene.series.get_times())
-        if steps > 1:
-            self._time = self._add_slider("time step", 0, steps - 1, 0, 0.40, self._slide_time)
+        self._show_chart(True)
+        self._density = self._add_slider("density", -2.0, 2.0, math.log10(scene.density), 0.10,
+                                         self._slide_density)
+        self._time = None
+        self._update_time()
         self._tell()
+
+    def _update_time(self):
+        """Shows the time step, if there are several."""
+        last = len(self.scene.series.get_times()) - 1
+        if last > 0 and self._time is None:
+            self._time = self._add_slider("time step", 0, last, 0, 0.40, self._slide_time)
+        if self._time is not None:
+            self._time.SetMaximumValue(max(last, 1))
+            self._time.SetValue(self.scene.step)
+
+    def _show_chart(self, shown):
+        self._has_chart = shown
+        self.chart.set_visible(shown)
+        self.scene.renderer.SetViewport(0.0, HEIGHT if shown else 0.0, 1.0, 1.0)
+        for slider in self._sliders:
+            self._place(slider.GetRepresentation())
+
+    def _place(self, look):
+        """Puts a slider above the strip."""
+        height = _SLIDER_HEIGHT + (HEIGHT if self._has_chart else 0.0)
+        for point in (look.GetPoint1Coordinate(), look.GetPoint2Coordinate()):
+            point.SetValue(point.GetValue()[0], height)
+        look.Modified()
+
+    def _note_button(self, _interactor, event):
+        name, pressed = event.split("Button")[0], "Press" in event
+        (self._buttons.add if pressed else self._buttons.discard)(name)
+
+    def _choose_style(self, interactor, _event):
+        """The strip and the volume have different styles; what a drag begins with, it keeps."""
+        if self._buttons:
+            return
+        on_chart = (self._has_chart
+                    and interactor.GetEventPosition()[1] < HEIGHT * self.window.GetSize()[1])
+        if on_chart and not self._on_chart:
+            self.chart.activate(interactor)
+        elif self._on_chart and not on_chart:
+            self.chart.deactivate(interactor, self._trackball)
+        self._on_chart = on_chart
 
     def _make_actions(self):
         scene = self.scene
@@ -193,6 +261,8 @@ class Window:
             "period": lambda: self._go_by(1),
             "r": scene.reset_camera,
             "v": self._pick,
+            "t": lambda: self._show_chart(not self._has_chart),
+            "d": lambda: scene.set_curve(None),
             "s": self._save,
             "h": lambda: self.help.SetVisibility(not self.help.GetVisibility()),
             "q": self.interactor.TerminateApp,
@@ -200,6 +270,9 @@ class Window:
         for axis in AXES:
             actions[axis] = lambda axis=axis: scene.set_clip(
                 None if scene.clip_axis == axis else axis)
+        for key, name in (("o", "outline"), ("g", "axes"), ("e", "edges")):
+            actions[key] = lambda name=name: scene.furniture.set(
+                name, not scene.furniture.get(name))
         return actions
 
     def _add_slider(self, title, low, high, value, left, changed):
@@ -214,16 +287,19 @@ class Window:
         look.SetSliderWidth(0.018)
         look.SetEndCapWidth(0.0)
         look.SetTitleHeight(0.018)
-        look.GetTitleProperty().SetColor(0.1, 0.1, 0.15)
+        look.GetTitleProperty().SetColor(*INK)
         look.GetTitleProperty().ShadowOff()
         look.GetTubeProperty().SetColor(0.5, 0.55, 0.6)
         look.GetSliderProperty().SetColor(0.1, 0.35, 0.65)
         for point, x in ((look.GetPoint1Coordinate(), left), (look.GetPoint2Coordinate(),
                                                               left + 0.25)):
             point.SetCoordinateSystemToNormalizedDisplay()
-            point.SetValue(x, 0.10)
+            point.SetValue(x, 0.0)
+        self._place(look)
         widget = vtkSliderWidget()
         widget.SetInteractor(self.interactor)
+        widget.SetDefaultRenderer(self._overlay)
+        widget.SetCurrentRenderer(self._overlay)
         widget.SetRepresentation(look)
         widget.SetAnimationModeToJump()
         widget.AddObserver("InteractionEvent", lambda *_: self._apply(changed))
@@ -253,8 +329,7 @@ class Window:
     def _go_by(self, change):
         steps = len(self.scene.series.get_times())
         self.scene.set_step((self.scene.step + change) % steps)
-        if steps > 1:
-            self._time.SetValue(self.scene.step)
+        self._update_time()
 
     def _pick(self):
         picker = vtkTetrahedraVolumePicker()
@@ -296,7 +371,19 @@ class Window:
         if scene.clip_axis is not None:
             parts.append(f"cut along {scene.clip_axis}")
         self.message.SetInput("   ".join(parts) + "   (h: help)")
+        self.chart.update()
+
+    def look(self, *_):
+        """Shows the files again if they have changed."""
+        answer = self.watch.reload()
+        if answer is not None:
+            self._update_time()
+            self._apply(lambda: answer or None)
 
     def start(self):
         self.window.Render()
+        if self.watch:
+            self.interactor.Initialize()
+            self.interactor.AddObserver("TimerEvent", self.look)
+            self.interactor.CreateRepeatingTimer(int(1000 * PERIOD))
         self.interactor.Start()

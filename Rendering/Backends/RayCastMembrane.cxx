@@ -137,40 +137,26 @@ TableVersion RayCastMembrane::GetShapeVersion() const
 }
 
 //------------------------------------------------------------------------------
-bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
+bool RayCastMembrane::Trace(RefractedRayStack::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
-  const bool isStack = this->Used.size() > 1;
   if (this->SightShapes != this->GetShapeVersion() || !(this->SightOf == this->Used) ||
     !(this->View == view))
   {
     this->View = view;
-    if (isStack)
+    for (Shape& shape : this->Shapes)
     {
-      this->Sight.Clear();
-      for (Shape& shape : this->Shapes)
-      {
-        shape.Source.GetSurface()->Prepare(SurfaceParts::Boxes, ThreadedLoop);
-      }
-      this->Stack.Build(this->Used, view, ThreadedLoop);
+      shape.Source.GetSurface()->Prepare(
+        RefractedRayStack::GetNeededParts(this->Used.size()), ThreadedLoop);
     }
-    else
-    {
-      this->Stack.Clear();
-      const Interface& only = this->Used.front();
-      view.Exterior = only.Media.Exterior;
-      view.Interior = only.Media.Interior;
-      this->Sight.Build(
-        only.Surface->GetMembrane(), only.Surface->GetPatches(), view, ThreadedLoop);
-    }
+    this->Rays.Build(this->Used, view, ThreadedLoop);
     this->SightOf = this->Used;
     this->SightShapes = this->GetShapeVersion();
-    this->Frames.Turn(this->GetLegs(),
-      isStack ? this->Stack.GetMeanDirection() : this->Sight.GetMeanDirection(), ThreadedLoop,
-      isStack ? this->Stack.GetStepBounds() : this->Sight.GetStepBounds());
+    this->Frames.Turn(
+      this->GetLegs(), this->Rays.GetMeanDirection(), ThreadedLoop, this->Rays.GetStepBounds());
     this->SightVersion.Bump();
   }
-  return isStack ? this->Stack.IsSeen() : this->Sight.IsSeen();
+  return this->Rays.IsSeen();
 }
 
 //------------------------------------------------------------------------------
@@ -189,21 +175,14 @@ RefractedRayStack::Counts RayCastMembrane::GetCounts() const
   }
   // Rays are only traced through the surfaces that the image is of.
   const bool isCurrent = this->SightShapes == this->GetShapeVersion();
-  RefractedRayStack::Counts counts =
-    isCurrent ? this->Stack.GetCounts() : this->Stack.GetCountsOfTraced();
-  counts.Undecided += this->Sight.GetNumberOfUndecidedRays();
-  return counts;
+  return isCurrent ? this->Rays.GetCounts() : this->Rays.GetCountsOfTraced();
 }
 
 //------------------------------------------------------------------------------
 std::vector<const RefractedRayTiles*> RayCastMembrane::ListRefracted() const
 {
-  if (this->SightOf.size() < 2)
-  {
-    return { &this->Sight.GetRays() };
-  }
   std::vector<const RefractedRayTiles*> list;
-  for (const RefractedRayTiles& rays : this->Stack.GetRays())
+  for (const RefractedRayTiles& rays : this->Rays.GetRays())
   {
     list.push_back(&rays);
   }

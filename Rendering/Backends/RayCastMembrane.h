@@ -10,7 +10,6 @@
 #include "Rendering/Input/VolumeInput.h"
 #include "Volume/Caster/RefractedLegEntries.h"
 #include "Volume/Refracted/RayLegs.h"
-#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
@@ -48,10 +47,10 @@ public:
 
   /**
    * Traces an image's rays through the interfaces. Returns false if none of them meets the first.
-   * @param view everything but its Mesh and indices.
+   * @param view everything but its Mesh.
    * @param input mesh through which the rays pass.
    */
-  bool Trace(RefractedRayField::View view, VolumeInput& input);
+  bool Trace(RefractedRayStack::View view, VolumeInput& input);
   /**
    * Error in the order of the media that Trace() has found, by the side of the first interface from
    * which rays come; empty if there is none.
@@ -74,7 +73,7 @@ public:
   /** Changes when rays are traced. */
   TableVersion GetSightVersion() const { return this->SightVersion; }
   /** Bytes of the refracted rays. */
-  std::int64_t GetSightBytes() const { return this->Sight.GetBytes() + this->Stack.GetBytes(); }
+  std::int64_t GetSightBytes() const { return this->Rays.GetBytes(); }
   /** Bytes of the rays and of the vertices about them. */
   std::int64_t GetBytes() const { return this->GetSightBytes() + this->Frames.GetBytes(); }
   /** Rays of the last image, see RefractedRayStack; 0 if the membrane changes nothing. */
@@ -101,13 +100,10 @@ private:
   std::vector<Interface> Used;
   /** True if the media match along the list for rays from the exterior of the first interface. */
   bool FitsFromExterior = true;
-  /** Rays behind one interface. */
-  RefractedRayField Sight;
-  /** Rays behind several interfaces. */
-  RefractedRayStack Stack;
+  RefractedRayStack Rays;
   RefractionFrames Frames;
   /** View, interfaces and version of their shapes that the rays were traced for. */
-  RefractedRayField::View View;
+  RefractedRayStack::View View;
   std::vector<Interface> SightOf;
   TableVersion SightShapes;
   TableVersion SightVersion;

@@ -153,7 +153,7 @@ std::string IntegralCaster::Measure(const IntegralChoice& choice, const Integral
   RayCastFrame frame = FrameOf(*this, view);
   if (this->Membrane.GetNumberOfInterfaces() > 0)
   {
-    RefractedRayField::View sight;
+    RefractedRayStack::View sight;
     sight.Frame = view.Rays;
     sight.Width = size[0];
     sight.Height = size[1];

@@ -60,7 +60,7 @@ std::string RayPicker::MakeScene(RayCastTables& tables, RayCastFrame& frame, con
   scene = this->Scenes.Make(tables, frame, size[0], size[1]);
   if (this->Membrane.GetNumberOfInterfaces() > 0)
   {
-    RefractedRayField::View view;
+    RefractedRayStack::View view;
     view.Frame = frame.Rays;
     view.Width = size[0];
     view.Height = size[1];

@@ -107,7 +107,7 @@ bool RayCastPipeline::Trace(const RayCastFrame& frame)
 {
   const RayCastRefraction& refracting = frame.Refracting;
   const int(&size)[2] = frame.Output.ImageSize;
-  RefractedRayField::View view;
+  RefractedRayStack::View view;
   view.Frame = frame.Rays;
   view.Width = size[0];
   view.Height = size[1];

@@ -10,7 +10,9 @@ import os
 import re
 import subprocess
 import sys
+import xml.etree.ElementTree
 
+NUMBERS = "no one two three four five six seven eight nine ten eleven twelve thirteen".split()
 
 # Commands, and the files that run each of them.
 COMMANDS = [
@@ -26,7 +28,7 @@ COMMANDS = [
     (r"mpirun -np 2 pvserver$", ["Testing/Plugin/RunServer.py"]),
     (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
     (r"env/bin/pip install ", ["scripts/wheel"]),
-    (r"pip install trame trame-vuetify trame-rca$", ["scripts/web"]),
+    (r"pip install trame trame-vuetify trame-rca trame-color-opacity-editor$", ["scripts/web"]),
 ]
 # Programs of the project, with the folders whose sources contain their options.
 PROGRAMS = {
@@ -138,6 +140,25 @@ def check(root, page, run, presets):
     return ["%s: %s" % (page, fault) for fault in faults]
 
 
+def plugin_faults(root):
+    """The page of the plugin has a heading for each of its filters, and the pages that give their
+    number have it right."""
+    labels, folder = [], os.path.join(root, "Plugin")
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".xml"):
+            filters = xml.etree.ElementTree.parse(os.path.join(folder, name)).getroot()
+            labels += [one.get("label") for one in filters.findall("ProxyGroup[@name='filters']/*")]
+    faults = []
+    for page in ("README.md", "Plugin/README.md", "Documentation/paraview.md"):
+        with open(os.path.join(root, page)) as file:
+            text = file.read()
+        if not re.search(r"\b%s\s+filters" % NUMBERS[len(labels)], text):
+            faults.append("%s: the plugin has %s filters" % (page, NUMBERS[len(labels)]))
+    headings = re.findall(r"^## (.*)$", text, re.MULTILINE)
+    return faults + ["Documentation/paraview.md: no heading " + label for label in labels
+                     if label not in headings]
+
+
 def main():
     root, run = sys.argv[1], set(sys.argv[2:])
     with open(os.path.join(root, "CMakePresets.json")) as file:
@@ -146,6 +167,7 @@ def main():
     faults = [fault for page in names for fault in check(root, page, run, presets)]
     faults += ["%s does not exist" % entry for entry in run
                if not os.path.exists(os.path.join(root, entry.split(":")[0]))]
+    faults += plugin_faults(root)
     print("%d pages" % len(names))
     sys.exit("\n".join(faults) if faults or not names else 0)
 

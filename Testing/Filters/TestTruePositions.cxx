@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// True positions of points that are seen through a membrane: closed forms for flat water, and the
-// way there and back through waves.
+// True positions of points that are seen through one interface or several: closed forms for planes
+// and balls, the way there and back through waves, and lists that cannot be used.
+#include "ExactStack.h"
 #include "RefractedGeometryTestHelpers.h"
+#include "StackFilterHelpers.h"
 
 #include "vtkDataArray.h"
 #include "vtkIdList.h"
@@ -12,6 +14,7 @@
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkSMPTools.h"
+#include "vtkSphere.h"
 #include "vtkTruePositionFilter.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -32,9 +35,39 @@ namespace
 {
 
 using namespace meniscus::testing;
+namespace reference = meniscus::reference;
 
 constexpr double Water = 1.333;
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
+
+/** Air, and layers of a thickness of 10 below each other; the last one has no end. */
+std::vector<reference::ExactSurface> MakeLayers(int interfaces)
+{
+  constexpr double indices[] = { 1.0, 1.5, Water, 1.4 };
+  std::vector<reference::ExactSurface> layers;
+  for (int i = 0; i < interfaces; ++i)
+  {
+    layers.push_back({ indices[i], indices[i + 1], glm::dvec3(0.0, -10.0 * i, 0.0), 0.0,
+      glm::dvec3(0.0, 1.0, 0.0) });
+  }
+  return layers;
+}
+
+/** Images of points in several depths behind surfaces, on rays from the eye to a disc around 0. */
+std::vector<reference::ExactImage> MakeImages(
+  const std::vector<reference::ExactSurface>& surfaces, double radius)
+{
+  std::vector<reference::ExactImage> images;
+  for (int i = 0; i < 300; ++i)
+  {
+    const double r = radius * std::sqrt((i + 0.5) / 300.0);
+    const glm::dvec3 aim(r * std::cos(2.4 * i), 0.0, r * std::sin(2.4 * i));
+    const auto path = reference::TraceExactly(surfaces, Eye, aim - Eye);
+    EXPECT_TRUE(path.has_value());
+    images.push_back(reference::MakeImage(surfaces, *path, 1.0 + i % 60));
+  }
+  return images;
+}
 
 vtkSmartPointer<vtkTruePositionFilter> MakeInverse(vtkPointSet* points, vtkPolyData* membrane)
 {
@@ -44,6 +77,37 @@ vtkSmartPointer<vtkTruePositionFilter> MakeInverse(vtkPointSet* points, vtkPolyD
   filter->SetEyePosition(Eye.x, Eye.y, Eye.z);
   filter->SetInteriorIndexOfRefraction(Water);
   return filter;
+}
+
+/** A filter without interfaces. */
+vtkSmartPointer<vtkTruePositionFilter> MakeInverse(vtkPointSet* points)
+{
+  auto filter = vtkSmartPointer<vtkTruePositionFilter>::New();
+  filter->SetInputData(points);
+  filter->SetEyePosition(Eye.x, Eye.y, Eye.z);
+  filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
+  return filter;
+}
+
+vtkSmartPointer<vtkTruePositionFilter> MakeLayerInverse(
+  vtkPointSet* points, const std::vector<reference::ExactSurface>& layers)
+{
+  auto filter = MakeInverse(points);
+  for (const reference::ExactSurface& layer : layers)
+  {
+    AddInterface(filter.Get(), MakePlaneAt(layer.Centre.y), layer.Before, layer.Behind);
+  }
+  return filter;
+}
+
+vtkSmartPointer<vtkPolyData> MakeSeen(const std::vector<reference::ExactImage>& images)
+{
+  std::vector<Point> points;
+  for (const reference::ExactImage& image : images)
+  {
+    points.push_back({ image.Virtual.x, image.Virtual.y, image.Virtual.z });
+  }
+  return MakePoints(points);
 }
 
 glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
@@ -56,6 +120,23 @@ glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
 int StateOf(vtkPointSet* data, vtkIdType i)
 {
   return static_cast<int>(data->GetPointData()->GetArray("SeenState")->GetTuple1(i));
+}
+
+/** Largest distance of the positions found from those of the images; all must be refracted. */
+double MeasureInverse(
+  vtkTruePositionFilter* filter, const std::vector<reference::ExactImage>& images)
+{
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    EXPECT_EQ(StateOf(filter->GetOutput(), id), vtkTruePositionFilter::REFRACTED);
+    largest = std::max(largest, glm::length(PointOf(filter->GetOutput(), id) - images[i].Point));
+  }
+  return largest;
 }
 
 /** Points below the membrane, in the middle of it. */
@@ -74,77 +155,134 @@ std::vector<Point> MakeDeepPoints(int count)
   return points;
 }
 
-/** Largest distance between points and their images, moved back. */
-double MeasureWayBack(vtkPolyData* membrane, int count, vtkTypeInt64& refracted)
+/** The parameter is the number of interfaces. */
+class TruePositionsThrough : public testing::TestWithParam<int>
 {
-  const auto truth = MakePoints(MakeDeepPoints(count));
-  const auto forward = MakeFilter(truth, membrane);
-  forward->SetMembraneModelToCurved();
-  forward->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  forward->SetInteriorIndexOfRefraction(Water);
-  forward->Update();
-  const auto back = MakeInverse(forward->GetOutput(), membrane);
-  back->Update();
-  vtkPointSet* found = back->GetOutput();
-  double largest = 0.0;
-  refracted = 0;
-  for (vtkIdType i = 0; i < found->GetNumberOfPoints(); ++i)
-  {
-    if (StateOf(found, i) == vtkTruePositionFilter::REFRACTED)
-    {
-      ++refracted;
-      largest = std::max(largest, glm::length(PointOf(found, i) - PointOf(truth, i)));
-    }
-  }
-  return largest;
-}
+};
 
 } // anonymous namespace
 
-TEST(TruePositions, AreThoseOfSnellsLawUnderFlatWater)
+//------------------------------------------------------------------------------
+TEST_P(TruePositionsThrough, LayersObeySnellsLaw)
 {
-  const auto membrane = MakeFlatMembrane();
-  const auto seen = MakePoints(MakeDeepPoints(200));
-  const auto filter = MakeInverse(seen, membrane);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
-  vtkPointSet* found = filter->GetOutput();
-  ASSERT_EQ(found->GetNumberOfPoints(), 200);
-  vtkDataArray* sights = found->GetPointData()->GetArray("SightPoint");
-  vtkDataArray* paths = found->GetPointData()->GetArray("OpticalPath");
-  for (vtkIdType i = 0; i < found->GetNumberOfPoints(); ++i)
+  const auto layers = MakeLayers(this->GetParam());
+  const auto images = MakeImages(layers, 80.0);
+  const auto filter = MakeLayerInverse(MakeSeen(images), layers);
+  // Rounding of numbers up to 300, in a few steps.
+  EXPECT_LT(MeasureInverse(filter, images), 1e-11);
+  vtkDataArray* paths = filter->GetOutput()->GetPointData()->GetArray("OpticalPath");
+  for (std::size_t i = 0; i < images.size(); ++i)
   {
-    ASSERT_EQ(StateOf(found, i), vtkTruePositionFilter::REFRACTED);
-    const glm::dvec3 at = PointOf(seen, i);
-    const glm::dvec3 direction = glm::normalize(at - Eye);
-    const glm::dvec3 sight = Eye - Eye.y / direction.y * direction;
-    const double cosine = std::sqrt(1.0 - (1.0 - direction.y * direction.y) / (Water * Water));
-    const glm::dvec3 refracted(direction.x / Water, -cosine, direction.z / Water);
-    const double depth = Water * glm::length(at - sight);
-    EXPECT_LT(glm::length(PointOf(found, i) - (sight + depth * refracted)), 1e-11);
-    glm::dvec3 met;
-    sights->GetTuple(i, &met.x);
-    EXPECT_LT(glm::length(met - sight), 1e-11);
-    EXPECT_NEAR(paths->GetTuple1(i), glm::length(sight - Eye) + Water * depth, 1e-10);
+    const auto id = static_cast<vtkIdType>(i);
+    glm::dvec3 sight;
+    filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetTuple(id, &sight.x);
+    const auto path = reference::TraceExactly(layers, Eye, images[i].Virtual - Eye);
+    EXPECT_LT(glm::length(sight - path->Points[0]), 1e-11);
+    double optical = glm::length(path->Points[0] - Eye);
+    for (std::size_t k = 0; k < layers.size(); ++k)
+    {
+      const glm::dvec3& next = k + 1 < layers.size() ? path->Points[k + 1] : images[i].Point;
+      optical += layers[k].Behind * glm::length(next - path->Points[k]);
+    }
+    EXPECT_NEAR(paths->GetTuple1(id), optical, 1e-10);
   }
 }
 
-TEST(TruePositions, UndoTheRefractionOfWaves)
+TEST_P(TruePositionsThrough, WavesAreUndone)
 {
-  const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 2.0, 3.0));
-  vtkTypeInt64 refracted = 0;
+  const auto truth = MakePoints(MakeDeepPoints(1000));
+  vtkNew<vtkRefractedGeometryFilter> forward;
+  forward->SetInputData(0, MoveBy(truth, -30.0));
+  forward->SetEyePosition(Eye.x, Eye.y, Eye.z);
+  forward->SetImagesToFirstImage();
+  forward->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  forward->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
+  const auto back = MakeInverse(nullptr);
+  back->SetInterfaces(forward->GetInterfaces());
+  for (int i = 0; i < this->GetParam(); ++i)
+  {
+    const auto layer = MakeLayers(i + 1).back();
+    const auto waves =
+      MoveBy(MakeMembrane(reference::MakeWaves(200.0, 40 - 5 * i, 2.0 - 0.5 * i, 3.0)),
+        1.5 * layer.Centre.y);
+    AddInterface(forward.Get(), waves, layer.Before, layer.Behind);
+    back->AddMembraneData(waves);
+  }
+  forward->Update();
+  ASSERT_EQ(forward->GetOutput()->GetNumberOfPoints(), 1000);
+  back->SetInputData(forward->GetOutput());
+  back->Update();
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < 1000; ++i)
+  {
+    ASSERT_EQ(StateOf(back->GetOutput(), i), vtkTruePositionFilter::REFRACTED);
+    largest = std::max(largest, glm::length(PointOf(back->GetOutput(), i) - PointOf(truth, i)));
+  }
   // Newton's method ends 1e-12 of the membrane's size from the sight point.
-  EXPECT_LT(MeasureWayBack(membrane, 2000, refracted), 1e-9);
-  EXPECT_EQ(refracted, 2000);
+  EXPECT_LT(largest, 1e-9);
 }
 
+TEST_P(TruePositionsThrough, EqualIndicesChangeNoBit)
+{
+  const auto seen = MakePoints(MakeDeepPoints(50));
+  const auto filter = MakeInverse(seen);
+  for (int i = 0; i < this->GetParam(); ++i)
+  {
+    AddInterface(filter.Get(),
+      MoveBy(MakeMembrane(reference::MakeWaves(200.0, 10, 2.0, 3.0)), -10.0 * i), Water, Water);
+  }
+  filter->Update();
+  for (vtkIdType i = 0; i < 50; ++i)
+  {
+    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i));
+    EXPECT_NEAR(filter->GetOutput()->GetPointData()->GetArray("OpticalPath")->GetTuple1(i),
+      Water * glm::length(PointOf(seen, i) - Eye), 1e-10);
+  }
+}
+
+// The eye is in the water, and sees through the air above it: the ray from there is the ray from
+// the other side, backwards.
+TEST_P(TruePositionsThrough, EyesBehindTheSurfacesAreInTheLastMedium)
+{
+  const auto layers = MakeLayers(this->GetParam());
+  const glm::dvec3 point(25.0, 120.0, -8.0);
+  const auto path = reference::TraceExactly(layers, point, glm::dvec3(-0.2, -1.0, 0.1));
+  const glm::dvec3 last = path->Points.back();
+  const glm::dvec3 eye = last + 60.0 * path->Directions.back();
+  // The reverse list, from the eye on; geometric depths.
+  double length = glm::length(last - eye);
+  const auto filter = MakeInverse(nullptr);
+  for (std::size_t k = layers.size(); k-- > 0;)
+  {
+    AddInterface(filter.Get(), MakePlaneAt(layers[k].Centre.y), layers[k].Before, layers[k].Behind);
+    length += glm::length(path->Points[k] - (k > 0 ? path->Points[k - 1] : point));
+  }
+  const glm::dvec3 seen = eye + length * glm::normalize(last - eye);
+  filter->SetInputData(MakePoints({ { seen.x, seen.y, seen.z } }));
+  filter->SetEyePosition(eye.x, eye.y, eye.z);
+  filter->SetDepthToGeometric();
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+  EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - point), 1e-10);
+  // The media of several interfaces tell that the eye is there. That is not known of one, of which
+  // the warning is given once.
+  const int warnings = this->GetParam() == 1 ? 1 : 0;
+  EXPECT_EQ(messages->Warnings, warnings) << messages->Text;
+  filter->SetEyePosition(eye.x + 1.0, eye.y, eye.z);
+  filter->Update();
+  EXPECT_EQ(messages->Warnings + messages->Errors, warnings) << messages->Text;
+}
+
+INSTANTIATE_TEST_SUITE_P(TruePositions, TruePositionsThrough, testing::Values(1, 2, 3));
+
+//------------------------------------------------------------------------------
 // Rays to points in rows start where the last one met the surface, those to points far apart are
 // searched: from patch to patch, beyond the border, behind rough and steep waves, and through a
 // ball.
 TEST(TruePositions, DoNotDependOnTheOrderOfPoints)
 {
-  using namespace meniscus::reference;
+  using namespace reference;
   MembraneMesh ball = MakeSphere(24, 1.0);
   for (double& coordinate : ball.Points)
   {
@@ -241,19 +379,6 @@ TEST(TruePositions, CountPointsBeyondTheCriticalAngle)
   EXPECT_EQ(StateOf(filter->GetOutput(), 1), vtkTruePositionFilter::TOTALLY_REFLECTED);
   EXPECT_EQ(PointOf(filter->GetOutput(), 1), PointOf(seen, 1));
   EXPECT_EQ(filter->GetNumberOfTotallyReflectedPoints(), 1);
-}
-
-TEST(TruePositions, EqualIndicesChangeNoBit)
-{
-  const auto seen = MakePoints(MakeDeepPoints(50));
-  const auto filter =
-    MakeInverse(seen, MakeMembrane(meniscus::reference::MakeWaves(200.0, 10, 2.0, 3.0)));
-  filter->SetInteriorIndexOfRefraction(1.0);
-  filter->Update();
-  for (vtkIdType i = 0; i < 50; ++i)
-  {
-    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i));
-  }
 }
 
 TEST(TruePositions, TakeAnyPointSetAndKeepItsArrays)
@@ -369,4 +494,80 @@ TEST(TruePositions, LaserScansShowTheBottom)
   filter->SetDepthToApparent();
   filter->Update();
   EXPECT_NEAR(PointOf(filter->GetOutput(), 0).y, -Water * Water, 1e-10);
+}
+
+TEST(TruePositions, PointsInThePaneAreRefractedOnce)
+{
+  const auto first = MakeLayers(1);
+  std::vector<reference::ExactImage> images;
+  for (const double length : { 0.5, 4.0, 9.5 })
+  {
+    const auto path = reference::TraceExactly(first, Eye, -Eye);
+    images.push_back(reference::MakeImage(first, *path, length));
+  }
+  const auto filter = MakeLayerInverse(MakeSeen(images), MakeLayers(2));
+  EXPECT_LT(MeasureInverse(filter, images), 1e-11);
+}
+
+TEST(TruePositions, ABallIsListedTwice)
+{
+  const auto images = MakeImages({ { 1.0, 1.5, glm::dvec3(0.0), 40.0 },
+                                   { 1.5, 1.0, glm::dvec3(0.0), 40.0, glm::dvec3(0.0), true } },
+    25.0);
+  const auto filter = MakeInverse(MakeSeen(images));
+  const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 3, true));
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(40.0);
+  for (int i = 0; i < 2; ++i)
+  {
+    AddInterface(filter.Get(), ball, 1.0, 1.5);
+    filter->GetInterfaces()->GetInterface(i)->SetExactSurface(sphere);
+  }
+  EXPECT_LT(MeasureInverse(filter, images), 1e-9);
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+}
+
+TEST(TruePositions, EveryRayThatEndsIsCounted)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  // In front; beside the pane; through the first surface, and past the second one, which is
+  // smaller; not finite.
+  const auto seen = MakePoints(
+    { { 5.0, 10.0, 3.0 }, { 400.0, -20.0, 0.0 }, { 98.0, -30.0, 0.0 }, { inf, 0.0, 0.0 } });
+  const auto filter = MakeInverse(seen);
+  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter.Get(), MakeMembrane(reference::MakePlane(-10.0, 100.0, 4)), 1.5, 1.333);
+  filter->Update();
+  const int states[4] = { vtkTruePositionFilter::UNREFRACTED, vtkTruePositionFilter::UNREFRACTED,
+    vtkTruePositionFilter::MISSED, vtkTruePositionFilter::NOT_FINITE };
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(StateOf(filter->GetOutput(), i), states[i]) << i;
+    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i)) << i;
+  }
+  EXPECT_EQ(filter->GetNumberOfMissedPoints(), 1);
+
+  // Out of water through glass into air: beyond the critical angle of both, in glass 41.8 degrees.
+  const auto flat = MakePoints({ { -60.0, -12.0, 10.0 }, { 15.0, -3.0, 10.0 } });
+  const auto out = MakeInverse(flat);
+  AddInterface(out.Get(), MakePlaneAt(0.0), 1.333, 1.5);
+  AddInterface(out.Get(), MakePlaneAt(-10.0), 1.5, 1.0);
+  out->SetEyePosition(-60.0, 20.0, 10.0);
+  out->Update();
+  EXPECT_EQ(StateOf(out->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+  // Refracted by the first surface; seen in the glass, at a depth of less than 10.
+  EXPECT_EQ(StateOf(out->GetOutput(), 1), vtkTruePositionFilter::REFRACTED);
+  out->SetInputData(MakePoints({ { 15.0, -16.0, 10.0 } }));
+  out->Update();
+  EXPECT_EQ(StateOf(out->GetOutput(), 0), vtkTruePositionFilter::TOTALLY_REFLECTED);
+  EXPECT_EQ(out->GetNumberOfTotallyReflectedPoints(), 1);
+}
+
+TEST(TruePositions, ListsThatCannotBeUsed)
+{
+  ExpectBadLists(
+    []() {
+      return MakeInverse(MakePoints({ { 1.0, -20.0, 2.0 } }));
+    },
+    [](vtkTruePositionFilter* filter) { return filter->GetOutput()->GetNumberOfPoints(); });
 }

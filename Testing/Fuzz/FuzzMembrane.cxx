@@ -8,6 +8,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
+#include "Refraction/Surface/CurveCrossings.h"
 
 #include <glm/geometric.hpp>
 
@@ -82,13 +83,18 @@ void CheckSnell(const CurvedMembraneSolver& solver, const View& view, const glm:
   const double largest = std::max({ glm::length(view.Eye), glm::length(point),
     glm::length(image.SightPoint), glm::length(solver.GetMembrane().GetOrigin()) });
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * largest / nearest;
-  PatchPoint at;
-  if (!(rounding < 1e-3) || !solver.MeetRay(glm::normalize(sight), image, at))
+  const CurvedPatch patch = solver.GetPatches().GetPatch(image.Facet);
+  const glm::dvec3 target = image.SightPoint - solver.GetMembrane().GetOrigin();
+  const glm::dvec3& eye = solver.GetMedia().Eye;
+  glm::dvec2 b = patch.ProjectToFacet(target);
+  double l = 1.0;
+  if (!(rounding < 1e-3) || !MeetPatch(patch, { eye, target - eye }, b, l))
   {
     return;
   }
-  const glm::dvec3 before = glm::cross(at.Normal, glm::normalize(sight));
-  const glm::dvec3 behind = glm::cross(at.Normal, glm::normalize(onward));
+  const glm::dvec3 normal = glm::normalize(patch.Evaluate(b).Normal);
+  const glm::dvec3 before = glm::cross(normal, glm::normalize(sight));
+  const glm::dvec3 behind = glm::cross(normal, glm::normalize(onward));
   const double exterior = view.Reflects ? 1.0 : view.Exterior;
   const double interior = view.Reflects ? 1.0 : view.Interior;
   const double difference = glm::length(exterior * before - interior * behind);

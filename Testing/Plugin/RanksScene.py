@@ -80,7 +80,7 @@ def set_functions(array, low, high, isosurfaces):
 
 def show_ray_cast(mesh, view, array):
     display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", array))
     return display
 

@@ -34,7 +34,7 @@ def draw_volume(view, waves):
     ball = simple.Sphere(Radius=2, ThetaResolution=40, PhiResolution=40)
     simple.Show(ball, view)
     display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "Slope"))
     display.IsosurfaceValues = [-4.0, 5.0]
     for mode in ["Composite", "Isosurface"]:

@@ -58,7 +58,7 @@ def make_scene():
     with modified(view):
         PluginTesting.prepare_view(view)
     display = simple.Show(grid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     with modified(display):
         display.BlendMode = "Isosurface"

@@ -30,7 +30,7 @@ def make_bar(function):
 
 def show(view, bar):
     display = simple.Show(bar, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "Rising"))
     display.BlendMode = "Maximum intensity"
     display.SetScalarBarVisibility(view, False)

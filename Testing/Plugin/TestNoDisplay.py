@@ -60,7 +60,7 @@ def test():
         tell(DRAWN)
         return
     check_filter()
-    assert check_drawing("Tetrahedra Ray Cast") == check_drawing("Surface")
+    assert check_drawing("Volume (Exact)") == check_drawing("Surface")
 
 
 if __name__ == "__main__":

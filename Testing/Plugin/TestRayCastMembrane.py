@@ -35,7 +35,7 @@ def make_waves():
 
 def show(view, grid):
     display = simple.Show(grid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     view.CameraPosition = EYE
     view.CameraFocalPoint = [0, 0, 0]

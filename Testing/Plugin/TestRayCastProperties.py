@@ -63,7 +63,7 @@ def test():
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-3, 3] * 3))
     view = PluginTesting.make_view()
     display = simple.Show(grid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     simple.Render(view)
     mapper = PluginTesting.mapper_of(display)

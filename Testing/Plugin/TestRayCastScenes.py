@@ -20,7 +20,7 @@ STEPS = ["RTData", "200 - RTData"]
 
 def show(view, source):
     display = simple.Show(source, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     view.CameraPosition = [25, 18, 40]
     view.CameraFocalPoint = [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]

@@ -25,7 +25,7 @@ def sheet(height, slope):
 
 def show(view, grid):
     display = simple.Show(grid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     view.CameraPosition = EYE
     view.CameraFocalPoint = [0, 0, 0]

@@ -20,7 +20,7 @@ def write_mesh(path):
 def draw(reader, name):
     view = PluginTesting.make_view()
     display = simple.Show(reader, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     data = servermanager.Fetch(reader)
     simple.ColorBy(display, ("POINTS", data.GetPointData().GetArray(0).GetName()))
     simple.ResetCamera(view)

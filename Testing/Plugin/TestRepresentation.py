@@ -24,7 +24,7 @@ def test():
     # The default up to ParaView 5.13; that of 6.1 has more contrast, which makes the error larger.
     simple.GetColorTransferFunction("RTData").ApplyPreset("Cool to Warm")
     pictures = {}
-    for representation in ["Volume", "Tetrahedra Ray Cast"]:
+    for representation in ["Volume", "Volume (Exact)"]:
         display.SetRepresentationType(representation)
         simple.ColorBy(display, ("POINTS", "RTData"))
         simple.ResetCamera(view)
@@ -34,7 +34,7 @@ def test():
         pictures[representation] = PluginTesting.screenshot(view, name)
 
     theirs = PluginTesting.covered(pictures["Volume"])
-    ours = PluginTesting.covered(pictures["Tetrahedra Ray Cast"])
+    ours = PluginTesting.covered(pictures["Volume (Exact)"])
     overlap = len(theirs & ours) / max(1, len(theirs | ours))
     print("covered pixels: %d, built-in %d, overlap %.4f" % (len(ours), len(theirs), overlap))
     assert len(ours) > 0.05 * PluginTesting.SIZE**2, "the picture is all but empty"

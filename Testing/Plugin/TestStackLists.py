@@ -29,6 +29,8 @@ def test():
                                  Images="First image"),
         simple.RefractedLight(Geometry=floor, Membrane=surfaces),
         simple.TruePosition(Input=floor, Membrane=surfaces, EyePosition=EYE),
+        simple.SightRays(Input=floor, Membrane=surfaces, EyePosition=EYE),
+        simple.MembraneCells(Membrane=surfaces, EyePosition=EYE),
         simple.RefractionErrorVolume(Membrane=surfaces, EyePosition=EYE,
                                      SampleDimensions=[2, 2, 2])]
     for each in filters:

@@ -21,7 +21,7 @@ def make_scene(points, space):
     view = PluginTesting.make_view()
     view.UseFXAA = 0
     display = simple.Show(grid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     colors = simple.GetColorTransferFunction("RTData")
     colors.ColorSpace = space

@@ -21,7 +21,7 @@ def test():
 
     view = PluginTesting.make_view()
     display = simple.Show(solid, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "height"))
     simple.ResetCamera(view)
     drawn = PluginTesting.covered(PluginTesting.screenshot(view, "TetrahedralizeSurface"))

@@ -51,7 +51,7 @@ def check(name, mesh, motion=None, is_static=False):
     moves = motion and not is_static
     view = PluginTesting.make_view()
     display = simple.Show(series, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "wave"))
     rays = simple.TetrahedraRayIntegral(Input=series, ImageSize=[20, 20])
     rays.ScalarArray = ["POINTS", "wave"]
@@ -80,7 +80,7 @@ def check_last(name, series, view, last, time, worst):
     """Compares with the picture of a representation that draws the last step first."""
     other = PluginTesting.make_view()
     again = simple.Show(series, other)
-    again.SetRepresentationType("Tetrahedra Ray Cast")
+    again.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(again, ("POINTS", "wave"))
     other.ViewTime = time
     other.CameraPosition = view.CameraPosition
@@ -99,7 +99,7 @@ def check_blocks(mesh):
     both = simple.GroupDatasets(Input=[mesh, moved], BlockNames=["first", "second"])
     view = PluginTesting.make_view()
     display = simple.Show(both, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "RTData"))
     cells = mesh.GetDataInformation().GetNumberOfCells()
     for selectors, blocks in ((["/"], 2), (["/Root/second"], 1)):

@@ -31,7 +31,7 @@ def test():
 def check_frames(field):
     view = PluginTesting.make_view()
     display = simple.Show(field, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
+    display.SetRepresentationType("Volume (Exact)")
     simple.ColorBy(display, ("POINTS", "product"))
     fixed = PluginTesting.screenshot(view, "true-cells-fixed")
     mapper = PluginTesting.mapper_of(display)

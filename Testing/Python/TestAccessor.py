@@ -21,10 +21,10 @@ except ImportError:
 import meniscus
 import numpy
 from meniscus.api import accessor
-from meniscus.api.comparison import _difference
 from meniscus.api.functions import make_functions
 from meniscus.names import BLEND_MODES
 from meniscus.pyvista import add_volume
+from meniscus.rivals import difference
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
 CELLS = 8
@@ -333,8 +333,8 @@ class TestCompare(unittest.TestCase):
         # The same functions of the same field: VTK's mappers sample, and one of them leaves rays
         # out. Reversed opacities are a yardstick for unlike pictures.
         named = {"opacity": [0, 0.5]}
-        yardstick = _difference(picture_of(cube, "y", **named),
-                                picture_of(cube, "y", opacity=[0.5, 0]))
+        yardstick = difference(picture_of(cube, "y", **named),
+                               picture_of(cube, "y", opacity=[0.5, 0]))
         for mesh, scalars in ((cube, "y"), (halves_of(cube), "y"), (cube, "c")):
             found = meniscus.compare(mesh, scalars, mappers=["projected tetrahedra", "z sweep"],
                                      size=SIZE, frames=1, cpos=VIEW, **named)
@@ -349,10 +349,10 @@ class TestCompare(unittest.TestCase):
     def test_difference(self):
         """Pixels that are black in both pictures do not count."""
         first, second = numpy.zeros((4, 4, 3)), numpy.zeros((4, 4, 3))
-        self.assertEqual(_difference(first, second), 0.0)
+        self.assertEqual(difference(first, second), 0.0)
         first[0, 0] = 3.0
         second[1, 1] = 1.0
-        self.assertAlmostEqual(_difference(first, second), 5.0 ** 0.5)
+        self.assertAlmostEqual(difference(first, second), 5.0 ** 0.5)
 
     def test_bad_arguments(self):
         cube = make_cube()

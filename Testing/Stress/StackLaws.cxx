@@ -335,7 +335,7 @@ void StackChecker::CheckWayBack(
   }
   const StackPlace& place = path.Points[0].Place;
   const glm::dvec3 sight = glm::normalize(path.Points[0].Ray.Origin - this->Eye);
-  const StackTruePosition back =
+  const TruePosition back =
     FindTruePosition(this->Solver.GetStack(), this->GetLayer(0).GetBefore(), vertex.Position);
   double error = std::numeric_limits<double>::infinity();
   double first = error;

@@ -362,30 +362,6 @@ bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
 }
 
 //------------------------------------------------------------------------------
-bool CurvedMembraneSolver::MeetRay(
-  const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
-{
-  const glm::dvec3& eye = this->Optics.Eye;
-  const glm::dvec3 target = near.SightPoint - this->GetMembrane().GetOrigin();
-  // The direction is scaled to the distance of the surface, so that the line's parameter there is
-  // about 1.
-  const double distance =
-    std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
-  const ObjectLine ray{ eye, distance * direction };
-  std::int32_t facet = near.Facet;
-  glm::dvec2 b = this->GetPatches().GetPatch(facet).ProjectToFacet(target);
-  double l = 1.0;
-  if (!this->MeetLine(ray, -direction, facet, b, l))
-  {
-    return false;
-  }
-  at = this->GetPatches().GetPatch(facet).Evaluate(b);
-  at.Normal = glm::normalize(at.Normal);
-  at.Position += this->GetMembrane().GetOrigin();
-  return true;
-}
-
-//------------------------------------------------------------------------------
 bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong,
   std::int32_t& facet, glm::dvec2& b, double& l) const
 {

@@ -169,13 +169,6 @@ public:
   std::size_t CountVerticesBehindOtherPieces(std::size_t most) const;
 
   /**
-   * Intersection of the ray from the eye along the unit vector `direction` with the membrane near
-   * the sight point of a known image, in world coordinates, with the unit normal. Returns false if
-   * there is none.
-   */
-  bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
-
-  /**
    * Intersection of a line in local coordinates with the membrane near the place `b` in the patch
    * of `facet` and near the line's parameter `l`. The search crosses edges to neighbouring patches
    * as they are seen along `seenAlong`. Returns false if it finds none.

@@ -172,10 +172,17 @@ bool RefractionStack::FindNext(std::size_t link, const glm::dvec3& origin,
   const glm::dvec3& direction, SurfaceCrossing& crossing) const
 {
   const Link& next = this->Links[link];
-  const glm::dvec3 local = origin - next.Shift;
-  // Surfaces that touch may have the crossing before the origin, within rounding of both.
-  return next.Surface->FindCrossing(local, direction, next.Passage.FromFront ? -1 : 1,
-    -next.Surface->GetSlack(glm::length(local)), std::numeric_limits<double>::max(), crossing);
+  return next.FindCrossing(origin - next.Shift, direction, 0.0, crossing);
+}
+
+//------------------------------------------------------------------------------
+// Surfaces that touch may have the crossing before the origin, within rounding of both.
+bool RefractionStack::Link::FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction,
+  double least, SurfaceCrossing& crossing) const
+{
+  return this->Surface->FindCrossing(origin, direction, this->Passage.FromFront ? -1 : 1,
+    least - this->Surface->GetSlack(glm::length(origin)), std::numeric_limits<double>::max(),
+    crossing);
 }
 
 //------------------------------------------------------------------------------

@@ -88,6 +88,14 @@ public:
     glm::dvec3 Shift;  ///< origin of the surface, relative to that of the stack
     std::size_t Index; ///< in the list
     double Ratio;      ///< of the indices before and behind
+
+    /**
+     * The first crossing with a ray in the direction in which the link is passed, at a distance of
+     * at least `least` within rounding. `origin` is relative to the surface's origin. Returns false
+     * if there is none.
+     */
+    bool FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction, double least,
+      SurfaceCrossing& crossing) const;
   };
 
   /**

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -28,11 +29,12 @@ std::size_t GetSide(const RefractionStack::Link& link, bool behind)
 }
 
 //------------------------------------------------------------------------------
-StackPatches::StackPatches(const RefractionStack& stack, StackChain* chain)
-  : Stack(stack)
+StackPatches::StackPatches(
+  const std::vector<RefractionStack::Link>& links, const glm::dvec3& origin, StackChain* chain)
+  : Links(links)
+  , Origin(origin)
   , Chain(chain)
 {
-  const std::vector<RefractionStack::Link>& links = stack.GetLinks();
   if (chain && !links.empty())
   {
     chain->resize(std::max(chain->size(), links.back().Index + 1));
@@ -40,15 +42,23 @@ StackPatches::StackPatches(const RefractionStack& stack, StackChain* chain)
 }
 
 //------------------------------------------------------------------------------
-// The nearest crossing, relative to the surface's origin.
-bool StackPatches::Search(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
-  CrossingChain* chain, PatchPoint& at) const
+// The crossing nearest to the distance `near`, relative to the surface's origin.
+bool StackPatches::Search(const RefractionStack::Link& link, const glm::dvec3& origin,
+  const glm::dvec3& direction, double near, CrossingChain* chain, PatchPoint& at) const
 {
-  const RefractionStack::Link& link = this->Stack.GetLinks()[number];
   SurfaceCrossing crossing;
-  if (!this->Stack.FindNext(number, origin + link.Shift, direction, crossing))
+  if (!link.FindCrossing(origin, direction, 0.0, crossing))
   {
     return false;
+  }
+  SurfaceCrossing next = crossing;
+  // Crossings within rounding of the last one are the same, at a common edge of two patches.
+  const double slack = link.Surface->GetSlack(glm::length(origin));
+  while (
+    next.Distance < near && link.FindCrossing(origin, direction, next.Distance + 2.0 * slack, next))
+  {
+    crossing =
+      std::fabs(next.Distance - near) < std::fabs(crossing.Distance - near) ? next : crossing;
   }
   const CurvedPatch patch = link.Surface->GetPatch(crossing.Facet, false);
   // The direction is scaled, so that the parameter is about 1.
@@ -72,18 +82,19 @@ bool StackPatches::Search(std::size_t number, const glm::dvec3& origin, const gl
 
 //------------------------------------------------------------------------------
 bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
-  const glm::dvec3&, PatchPoint& at) const
+  const glm::dvec3& near, PatchPoint& at) const
 {
-  const RefractionStack::Link& link = this->Stack.GetLinks()[number];
+  const RefractionStack::Link& link = this->Links[number];
   const RefractingSurface& surface = *link.Surface;
-  const glm::dvec3 shift = this->Stack.GetOrigin() + link.Shift;
+  const glm::dvec3 shift = this->Origin + link.Shift;
   const double side = link.Passage.FromFront ? 1.0 : -1.0;
   // A ray that may cross the surface again is searched for.
   CrossingChain* chain =
     this->Chain && surface.IsCrossedOnce(direction) ? &(*this->Chain)[link.Index] : nullptr;
   const bool isNear = chain && chain->Follow(surface.GetPatches(), origin - shift, direction, at) &&
     side * glm::dot(at.Normal, direction) < 0.0;
-  if (!isNear && !this->Search(number, origin - shift, direction, chain, at))
+  if (!isNear &&
+    !this->Search(link, origin - shift, direction, glm::dot(near - origin, direction), chain, at))
   {
     return false;
   }
@@ -96,8 +107,8 @@ bool StackPatches::Meet(std::size_t number, const glm::dvec3& origin, const glm:
 void TraceSightRay(const RefractionStack& stack, double medium, const glm::dvec3& direction,
   StackSightRay& ray, StackChain* chain)
 {
-  const StackPatches surfaces(stack, chain);
   const std::vector<RefractionStack::Link>& links = stack.GetLinks();
+  const StackPatches surfaces(links, stack.GetOrigin(), chain);
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   constexpr double endless = std::numeric_limits<double>::infinity();
   ray.Legs.clear();

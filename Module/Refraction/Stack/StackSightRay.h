@@ -40,24 +40,27 @@ public:
 /** The crossings of a chain of neighbouring rays with the surface of each interface in a list. */
 using StackChain = std::vector<CrossingChain>;
 
-/** The patches of a stack's links. The nearest intersection counts, wherever `near` is. */
+/** The patches of links. The intersection nearest to `near` counts. */
 class StackPatches : public StackSurfaces
 {
 public:
   /**
-   * `stack` must outlive this object. With a `chain`, which is empty at first and must outlive this
-   * object too, intersections near those of the ray before need no search, and the last bits of the
-   * results depend on the rays before. A chain serves one list of interfaces, with any eyes.
+   * `links` are relative to `origin` in world coordinates, and must outlive this object. With a
+   * `chain`, which is empty at first and must outlive this object too, intersections near those of
+   * the ray before need no search, and the last bits of the results depend on the rays before. A
+   * chain serves one list of interfaces, with any eyes.
    */
-  explicit StackPatches(const RefractionStack& stack, StackChain* chain = nullptr);
+  StackPatches(const std::vector<RefractionStack::Link>& links, const glm::dvec3& origin,
+    StackChain* chain = nullptr);
   bool Meet(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
     const glm::dvec3& near, PatchPoint& at) const override;
 
 private:
-  bool Search(std::size_t number, const glm::dvec3& origin, const glm::dvec3& direction,
-    CrossingChain* chain, PatchPoint& at) const;
+  bool Search(const RefractionStack::Link& link, const glm::dvec3& origin,
+    const glm::dvec3& direction, double near, CrossingChain* chain, PatchPoint& at) const;
 
-  const RefractionStack& Stack;
+  const std::vector<RefractionStack::Link>& Links;
+  glm::dvec3 Origin;
   StackChain* Chain;
 };
 

@@ -66,6 +66,9 @@ public:
   /** Fits the trees to an eye. Solving is allowed only if the result is `Ready`. */
   EyeStatus SetEye(const glm::dvec3& eye, const RangeLoop& loop = SerialLoop);
 
+  /** Sets the eye of GetStack() alone, for rays that are traced through it. */
+  EyeStatus PlaceEye(const glm::dvec3& eye) { return this->Stack.SetEye(eye); }
+
   const RefractionStack& GetStack() const { return this->Stack; }
 
   /**

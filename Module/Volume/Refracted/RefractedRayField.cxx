@@ -38,7 +38,7 @@ bool RefractedRayField::View::operator==(const View& o) const
   return a.RowX == b.RowX && a.RowY == b.RowY && a.RowDepth == b.RowDepth && a.Origin == b.Origin &&
     a.Slope == b.Slope && a.ViewToWorld == b.ViewToWorld && this->Width == o.Width &&
     this->Height == o.Height && this->Center == o.Center && this->EyeDepth == o.EyeDepth &&
-    this->Exterior == o.Exterior && this->Interior == o.Interior && this->Mesh == o.Mesh;
+    this->Mesh == o.Mesh;
 }
 
 /** Rays of a rectangle of pixels, relative to the membrane's origin. */
@@ -122,22 +122,14 @@ private:
 };
 
 //------------------------------------------------------------------------------
-void RefractedRayField::Clear()
-{
-  this->Seen = false;
-  this->UndecidedRays = 0;
-  this->Refracted.Clear();
-}
-
-//------------------------------------------------------------------------------
 std::int64_t RefractedRayField::GetBytes() const
 {
   const std::size_t bytes = (this->TileBegin.capacity() + this->FacetOfSlot.capacity()) * 4;
-  return static_cast<std::int64_t>(bytes) + this->Refracted.GetBytes();
+  return static_cast<std::int64_t>(bytes);
 }
 
 //------------------------------------------------------------------------------
-void RefractedRayField::PrepareRays(const Membrane& surface)
+void RefractedRayField::PrepareRays(const Membrane& surface, const InterfaceMedia& media)
 {
   const RayFrame& frame = this->Of.Frame;
   const glm::dmat3& toWorld = frame.ViewToWorld;
@@ -154,7 +146,7 @@ void RefractedRayField::PrepareRays(const Membrane& surface)
   const glm::dmat3 edges = toWorld * mesh.HalfEdges;
   this->Mesh.Center = this->Of.Center - surface.GetOrigin() + toWorld * mesh.Center;
   this->Mesh.Half = SightMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
-  this->Mesh.Ratio = this->Of.Exterior / this->Of.Interior;
+  this->Mesh.Ratio = media.Exterior / media.Interior;
 }
 
 //------------------------------------------------------------------------------
@@ -314,12 +306,14 @@ void RefractedRayField::SortFacets(const std::vector<SeenFacet>& facets)
 
 //------------------------------------------------------------------------------
 void RefractedRayField::Build(
-  const Membrane& surface, const CurvedPatches& patches, const View& view, const RangeLoop& loop)
+  const Interface& interface, const View& view, RefractedRayTiles& rays, const RangeLoop& loop)
 {
+  const Membrane& surface = interface.Surface->GetMembrane();
+  const CurvedPatches& patches = interface.Surface->GetPatches();
   this->Of = view;
   this->Columns = (view.Width + TileSize - 1) / TileSize;
   this->Rows = (view.Height + TileSize - 1) / TileSize;
-  this->PrepareRays(surface);
+  this->PrepareRays(surface, interface.Media);
   std::vector<SeenFacet> facets(surface.GetFacets().size());
   const PixelRays image(*this, Box{ 0, this->Columns * TileSize, 0, this->Rows * TileSize });
   loop(facets.size(),
@@ -334,16 +328,15 @@ void RefractedRayField::Build(
 
   const std::size_t tiles = this->TileBegin.size() - 1;
   std::vector<TileSum> sums(tiles);
-  this->Refracted.Resize(tiles);
+  rays.Resize(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        sums[tile] = this->TraceTile(patches, facets, static_cast<int>(tile));
+        sums[tile] = this->TraceTile(patches, facets, static_cast<int>(tile), rays);
       }
     });
-  this->Seen = this->Refracted.HasRays();
   glm::dvec3 sum(0.0);
   this->UndecidedRays = 0;
   this->StepBounds = AxisBox();
@@ -458,16 +451,15 @@ bool RefractedRayField::HidesTile(const CurvedPatches& patches,
 }
 
 //------------------------------------------------------------------------------
-RefractedRayField::TileSum RefractedRayField::TraceTile(
-  const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile)
+RefractedRayField::TileSum RefractedRayField::TraceTile(const CurvedPatches& patches,
+  const std::vector<SeenFacet>& facets, int tile, RefractedRayTiles& all) const
 {
   TileSum sum;
   const PixelRays tileRays(*this, tile);
   if (this->HidesTile(patches, facets, tile, tileRays))
   {
-    this->Refracted.ChangeTile(tile).assign(
-      RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
-    this->Refracted.SetSquares(tile, 0, 0);
+    all.ChangeTile(tile).assign(RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
+    all.SetSquares(tile, 0, 0);
     return sum;
   }
   std::vector<MembraneHit> hits;
@@ -482,9 +474,8 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
       sum.Undecided += this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
     }
   }
-  const TileSquares goingOn =
-    this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum);
-  this->Refracted.SetSquares(tile, goingOn, goingOn);
+  const TileSquares goingOn = this->RefractTile(tileRays, hits, all.ChangeTile(tile), sum);
+  all.SetSquares(tile, goingOn, goingOn);
   return sum;
 }
 

@@ -4,8 +4,7 @@
 #define meniscus_Volume_Refracted_RefractedRayField_h
 
 #include "Common/RangeLoop.h"
-#include "Refraction/Membrane/CurvedPatches.h"
-#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Surface/Interface.h"
 #include "Refraction/Tubes/BoxTree.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Rays/BoundsInFrame.h"
@@ -25,9 +24,9 @@ namespace meniscus
 
 /**
  * First intersections of the rays of an image with a membrane of curved patches, and the refracted
- * rays behind it, by tiles. Facets are sorted into tiles by bounds of the projections of their
- * patches. In each pixel, the ray is intersected with the patches by Newton's method, starting from
- * its intersection with the facet.
+ * rays behind it, by tiles: the strategy of RefractedRayStack for one interface. Facets are sorted
+ * into tiles by bounds of the projections of their patches. In each pixel, the ray is intersected
+ * with the patches by Newton's method, starting from its intersection with the facet.
  */
 class RefractedRayField
 {
@@ -42,12 +41,6 @@ public:
     /** Depth of the eye: geometry at smaller depths is not seen. */
     double EyeDepth = 0.0;
     /**
-     * Indices of refraction on the side that the membrane's normals point to, and on the other
-     * side.
-     */
-    double Exterior = 1.0;
-    double Interior = 1.333;
-    /**
      * Bounds of the mesh. The refraction of rays that miss it on both sides of the membrane is not
      * computed.
      */
@@ -59,18 +52,13 @@ public:
   static constexpr int TileSize = RefractedRayTiles::TileSize;
   static constexpr int RaysOfTile = RefractedRayTiles::RaysOfTile;
 
-  /** Traces all rays to the membrane. */
-  void Build(const Membrane& surface, const CurvedPatches& patches, const View& view,
+  /**
+   * Traces all rays to the surface of an interface, whose patches are ready, and replaces `rays` by
+   * the refracted ones: leg 1 of the rays of the image (RayLegs).
+   */
+  void Build(const Interface& interface, const View& view, RefractedRayTiles& rays,
     const RangeLoop& loop = SerialLoop);
-  /** Removes all rays. */
-  void Clear();
 
-  /** The refracted rays: leg 1 of the rays of the image (RayLegs). */
-  const RefractedRayTiles& GetRays() const { return this->Refracted; }
-  const RefractedRay* GetTile(int tile) const { return this->Refracted.GetTile(tile); }
-  int GetNumberOfTiles() const { return this->Refracted.GetNumberOfTiles(); }
-  /** True if any ray meets the membrane. */
-  bool IsSeen() const { return this->Seen; }
   /**
    * Mean direction of the refracted rays in the frame of the view; a unit vector, or 0 if there are
    * none.
@@ -78,12 +66,12 @@ public:
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
   /** Bounds of the steps of the refracted rays, there as well; empty if there are none. */
   const AxisBox& GetStepBounds() const { return this->StepBounds; }
-  const View& GetView() const { return this->Of; }
   /**
    * Pairs of a ray and a patch that it touches, or runs along, within rounding, such as an outline
    * hit exactly: the ray counts as passing the patch there. 0 for nearly all views.
    */
   std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
+  /** Bytes of the tables that are kept for the next image, without the rays. */
   std::int64_t GetBytes() const;
 
 private:
@@ -114,7 +102,7 @@ private:
   };
   class PixelRays;
 
-  void PrepareRays(const Membrane& surface);
+  void PrepareRays(const Membrane& surface, const InterfaceMedia& media);
   SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet,
     const PixelRays& image) const;
   glm::dvec3 SightTo(const glm::dvec3& place) const;
@@ -133,7 +121,8 @@ private:
     /** Number of undecided rays. */
     std::int64_t Undecided = 0;
   };
-  TileSum TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile);
+  TileSum TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    RefractedRayTiles& all) const;
   std::int64_t TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const PixelRays& rays,
     std::vector<MembraneHit>& hits) const;
   void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
@@ -144,7 +133,6 @@ private:
   View Of;
   int Columns = 0;
   int Rows = 0;
-  bool Seen = false;
   std::int64_t UndecidedRays = 0;
   glm::dvec3 MeanDirection{ 0.0 };
   AxisBox StepBounds;
@@ -156,7 +144,6 @@ private:
   InstructionSet Set = BestInstructionSet();
   std::vector<std::int32_t> TileBegin;
   std::vector<std::int32_t> FacetOfSlot;
-  RefractedRayTiles Refracted;
 };
 
 }

@@ -34,20 +34,9 @@ bool HasSign(double product, double sign)
 }
 
 //------------------------------------------------------------------------------
-void RefractedRayStack::Clear()
-{
-  this->Interfaces.clear();
-  this->Rays.clear();
-  this->Untraced.clear();
-  this->Sums = Counts();
-  this->MeanDirection = glm::dvec3(0.0);
-  this->StepBounds = AxisBox();
-}
-
-//------------------------------------------------------------------------------
 std::int64_t RefractedRayStack::GetBytes() const
 {
-  std::int64_t bytes = 0;
+  std::int64_t bytes = this->Field.GetBytes();
   for (const RefractedRayTiles& tiles : this->Rays)
   {
     bytes += tiles.GetBytes();
@@ -65,6 +54,32 @@ void RefractedRayStack::Build(
     this->Rays.clear(); // tiles have rays of other pixels
   }
   this->Of = view;
+  this->Rays.resize(interfaces.size());
+  this->Untraced.clear();
+  this->Sums = Counts();
+  if (interfaces.size() == 1)
+  {
+    this->BuildOne(interfaces.front(), loop);
+  }
+  else
+  {
+    this->BuildAll(loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayStack::BuildOne(const Interface& interface, const RangeLoop& loop)
+{
+  this->Field.Build(interface, this->Of, this->Rays.front(), loop);
+  this->MeanDirection = this->Field.GetMeanDirection();
+  this->StepBounds = this->Field.GetStepBounds();
+  this->Sums.Undecided = this->Field.GetNumberOfUndecidedRays();
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayStack::BuildAll(const RangeLoop& loop)
+{
+  const View& view = this->Of;
   this->Columns = (view.Width + TileSize - 1) / TileSize;
   const int rows = (view.Height + TileSize - 1) / TileSize;
   const glm::dmat3& toWorld = view.Frame.ViewToWorld;
@@ -74,7 +89,6 @@ void RefractedRayStack::Build(
   this->MeshHalf = SightMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
 
   const auto tiles = static_cast<std::size_t>(this->Columns) * static_cast<std::size_t>(rows);
-  this->Rays.resize(interfaces.size());
   for (RefractedRayTiles& rays : this->Rays)
   {
     rays.Resize(tiles);
@@ -92,7 +106,6 @@ void RefractedRayStack::Build(
         sums[tile] = this->TraceTile(static_cast<int>(tile), sight, block);
       }
     });
-  this->Sums = Counts();
   glm::dvec3 sum(0.0);
   this->StepBounds = AxisBox();
   for (const TileSum& tile : sums)

@@ -22,11 +22,11 @@ namespace meniscus
 {
 
 /**
- * Rays of an image behind several refracting interfaces, in the order of a list. A ray meets the
- * first interface where it first intersects that surface, from either side. It meets each further
- * one at the first intersection behind the point where it was refracted last, at which it arrives
- * in the medium of that side of the surface; intersections from the other side do not count. A
- * closed surface that is listed twice is thus entered and left.
+ * Rays of an image behind one refracting interface or several, in the order of a list. A ray meets
+ * the first interface where it first intersects that surface, from either side. It meets each
+ * further one at the first intersection behind the point where it was refracted last, at which it
+ * arrives in the medium of that side of the surface; intersections from the other side do not
+ * count. A closed surface that is listed twice is thus entered and left.
  *
  * A ray that is totally reflected at an interface ends there. A ray that misses an interface ends
  * at the one before, where nothing is known about its further way; rays that miss the first
@@ -35,9 +35,9 @@ namespace meniscus
  * Blocks of rays that show nothing of the mesh by their bounds (StackVisibility) are not traced
  * behind the first interface.
  *
- * RefractedRayField does the same for one interface, faster: rays from one eye are sorted by the
- * projections of the patches. Here rays have any directions, and blocks of them descend a tree of
- * the patches.
+ * Rays through one interface are those of RefractedRayField, which sorts patches by their
+ * projections for the eye. Those of several interfaces have any directions: blocks of them descend
+ * trees of the patches.
  */
 class RefractedRayStack
 {
@@ -65,14 +65,15 @@ public:
     }
   };
 
-  /**
-   * Traces the rays. The boxes of the surfaces are ready. The media of each interface differ; the
-   * indices of `view` are not used.
-   */
+  /** Parts of the surfaces that Build() needs for a number of interfaces. */
+  static SurfaceParts GetNeededParts(std::size_t interfaces)
+  {
+    return interfaces > 1 ? SurfaceParts::Boxes : SurfaceParts::Patches;
+  }
+
+  /** Traces the rays. Media of an interface differ, unless it is the only one. */
   void Build(
     const std::vector<Interface>& interfaces, const View& view, const RangeLoop& loop = SerialLoop);
-  /** Removes all rays. */
-  void Clear();
 
   /** Rays behind each interface: legs 1 and following (RayLegs). */
   const std::vector<RefractedRayTiles>& GetRays() const { return this->Rays; }
@@ -103,6 +104,8 @@ private:
     Counts Rays;
   };
 
+  void BuildOne(const Interface& interface, const RangeLoop& loop);
+  void BuildAll(const RangeLoop& loop);
   TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
   void PrepareTile(int tile, bool mayShow);
   /** First pixel of a tile. */
@@ -124,6 +127,8 @@ private:
   void StoreBlock(const StackBlock& block, int tile, int number, TileSum& sum);
   void StoreSights(const StackBlock& block, int tile, int number);
 
+  /** Rays through one interface. */
+  RefractedRayField Field;
   std::vector<Interface> Interfaces;
   View Of;
   int Columns = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// True positions and error volumes through several interfaces: planes and spheres in closed form,
-// the way there and back, and lists that no class can use.
+// Error volumes through several interfaces: planes and spheres in closed form, and lists that
+// cannot be used.
 #include "ExactStack.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
@@ -14,7 +14,6 @@
 #include "vtkRefractionErrorVolume.h"
 #include "vtkSMPTools.h"
 #include "vtkSphere.h"
-#include "vtkTruePositionFilter.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -33,84 +32,11 @@ namespace reference = meniscus::reference;
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 const glm::dvec3 Up(0.0, 1.0, 0.0);
 
-/** Air, glass from 0 to -10, and water. */
-const std::vector<reference::ExactSurface> Pane{ { 1.0, 1.5, glm::dvec3(0.0), 0.0, Up },
-  { 1.5, 1.333, glm::dvec3(0.0, -10.0, 0.0), 0.0, Up } };
-
-/** A ball of glass. */
-const std::vector<reference::ExactSurface> Ball{ { 1.0, 1.5, glm::dvec3(0.0), 40.0 },
-  { 1.5, 1.0, glm::dvec3(0.0), 40.0, glm::dvec3(0.0), true } };
-
-/** Images of points in several depths behind a stack, on rays from the eye to a disc around 0. */
-std::vector<reference::ExactImage> MakeImages(
-  const std::vector<reference::ExactSurface>& surfaces, double radius)
-{
-  std::vector<reference::ExactImage> images;
-  for (int i = 0; i < 300; ++i)
-  {
-    const double r = radius * std::sqrt((i + 0.5) / 300.0);
-    const glm::dvec3 aim(r * std::cos(2.4 * i), 0.0, r * std::sin(2.4 * i));
-    const auto path = reference::TraceExactly(surfaces, Eye, aim - Eye);
-    EXPECT_TRUE(path.has_value());
-    images.push_back(reference::MakeImage(surfaces, *path, 1.0 + i % 60));
-  }
-  return images;
-}
-
-vtkSmartPointer<vtkTruePositionFilter> MakeInverse(vtkPointSet* seen)
-{
-  auto filter = vtkSmartPointer<vtkTruePositionFilter>::New();
-  filter->SetInputData(seen);
-  filter->SetEyePosition(Eye.x, Eye.y, Eye.z);
-  filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  return filter;
-}
-
-vtkSmartPointer<vtkTruePositionFilter> MakePaneInverse(vtkPointSet* seen)
-{
-  auto filter = MakeInverse(seen);
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.5, 1.333);
-  return filter;
-}
-
-int StateOf(vtkPointSet* data, vtkIdType i)
-{
-  return static_cast<int>(data->GetPointData()->GetArray("SeenState")->GetTuple1(i));
-}
-
 glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i)
 {
   glm::dvec3 point;
   data->GetPoint(i, &point.x);
   return point;
-}
-
-/** Largest distance of the positions found from those of the images; all must be refracted. */
-double MeasureInverse(
-  vtkTruePositionFilter* filter, const std::vector<reference::ExactImage>& images)
-{
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < images.size(); ++i)
-  {
-    const auto id = static_cast<vtkIdType>(i);
-    EXPECT_EQ(StateOf(filter->GetOutput(), id), vtkTruePositionFilter::REFRACTED);
-    largest = std::max(largest, glm::length(PointOf(filter->GetOutput(), id) - images[i].Point));
-  }
-  return largest;
-}
-
-vtkSmartPointer<vtkPolyData> MakeSeen(const std::vector<reference::ExactImage>& images)
-{
-  std::vector<Point> points;
-  for (const reference::ExactImage& image : images)
-  {
-    points.push_back({ image.Virtual.x, image.Virtual.y, image.Virtual.z });
-  }
-  return MakePoints(points);
 }
 
 vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume()
@@ -165,138 +91,6 @@ vtkSmartPointer<vtkRefractionErrorVolume> MakeCapVolume()
 }
 
 } // anonymous namespace
-
-//------------------------------------------------------------------------------
-TEST(StackTruePositions, AreThoseOfSnellsLawBehindAPane)
-{
-  const auto images = MakeImages(Pane, 80.0);
-  const auto filter = MakePaneInverse(MakeSeen(images));
-  // Rounding of numbers up to 300, in a few steps.
-  EXPECT_LT(MeasureInverse(filter, images), 1e-11);
-  vtkDataArray* paths = filter->GetOutput()->GetPointData()->GetArray("OpticalPath");
-  for (std::size_t i = 0; i < images.size(); ++i)
-  {
-    glm::dvec3 sight;
-    filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetTuple(i, &sight.x);
-    const auto path = reference::TraceExactly(Pane, Eye, images[i].Virtual - Eye);
-    EXPECT_LT(glm::length(sight - path->Points[0]), 1e-11);
-    const double optical = glm::length(path->Points[0] - Eye) +
-      1.5 * glm::length(path->Points[1] - path->Points[0]) +
-      1.333 * glm::length(images[i].Point - path->Points[1]);
-    EXPECT_NEAR(paths->GetTuple1(i), optical, 1e-10);
-  }
-}
-
-TEST(StackTruePositions, PointsInThePaneAreRefractedOnce)
-{
-  const std::vector<reference::ExactSurface> first{ Pane[0] };
-  std::vector<reference::ExactImage> images;
-  for (const double length : { 0.5, 4.0, 9.5 })
-  {
-    const auto path = reference::TraceExactly(first, Eye, -Eye);
-    images.push_back(reference::MakeImage(first, *path, length));
-  }
-  const auto filter = MakePaneInverse(MakeSeen(images));
-  EXPECT_LT(MeasureInverse(filter, images), 1e-11);
-}
-
-TEST(StackTruePositions, ABallIsListedTwice)
-{
-  const auto images = MakeImages(Ball, 25.0);
-  const auto filter = MakeInverse(MakeSeen(images));
-  const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 3, true));
-  vtkNew<vtkSphere> sphere;
-  sphere->SetRadius(40.0);
-  for (int i = 0; i < 2; ++i)
-  {
-    AddInterface(filter.Get(), ball, 1.0, 1.5);
-    filter->GetInterfaces()->GetInterface(i)->SetExactSurface(sphere);
-  }
-  EXPECT_LT(MeasureInverse(filter, images), 1e-9);
-  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
-}
-
-TEST(StackTruePositions, UndoTheRefractionOfTwoWavySurfaces)
-{
-  const auto upper = MakeMembrane(reference::MakeWaves(200.0, 40, 2.0, 3.0));
-  const auto lower = MoveBy(MakeMembrane(reference::MakeWaves(200.0, 30, 1.5, 2.0)), -15.0);
-  vtkNew<vtkRefractedGeometryFilter> forward;
-  forward->SetInputData(0, MakeGrid(30, 80.0, -60.0));
-  forward->SetEyePosition(Eye.x, Eye.y, Eye.z);
-  forward->SetImagesToFirstImage();
-  forward->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  forward->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  AddInterface(forward.Get(), upper, 1.0, 1.5);
-  AddInterface(forward.Get(), lower, 1.5, 1.333);
-  forward->Update();
-  ASSERT_EQ(forward->GetOutput()->GetNumberOfPoints(), 900);
-  const auto filter = MakeInverse(forward->GetOutput());
-  filter->SetInterfaces(forward->GetInterfaces());
-  filter->AddMembraneData(upper);
-  filter->AddMembraneData(lower);
-  filter->Update();
-  double largest = 0.0;
-  for (vtkIdType i = 0; i < 900; ++i)
-  {
-    ASSERT_EQ(StateOf(filter->GetOutput(), i), vtkTruePositionFilter::REFRACTED);
-    largest = std::max(largest,
-      glm::length(PointOf(filter->GetOutput(), i) -
-        PointOf(vtkDataSet::SafeDownCast(forward->GetInput(0)), i)));
-  }
-  // Newton's method ends 1e-12 of the membrane's size from the sight point.
-  EXPECT_LT(largest, 1e-9);
-}
-
-TEST(StackTruePositions, EveryRayThatEndsIsCounted)
-{
-  const double inf = std::numeric_limits<double>::infinity();
-  // In front; beside the pane; through the first surface, and past the second one, which is
-  // smaller; not finite.
-  const auto seen = MakePoints(
-    { { 5.0, 10.0, 3.0 }, { 400.0, -20.0, 0.0 }, { 98.0, -30.0, 0.0 }, { inf, 0.0, 0.0 } });
-  const auto filter = MakeInverse(seen);
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
-  AddInterface(filter.Get(), MakeMembrane(reference::MakePlane(-10.0, 100.0, 4)), 1.5, 1.333);
-  filter->Update();
-  const int states[4] = { vtkTruePositionFilter::UNREFRACTED, vtkTruePositionFilter::UNREFRACTED,
-    vtkTruePositionFilter::MISSED, vtkTruePositionFilter::NOT_FINITE };
-  for (vtkIdType i = 0; i < 4; ++i)
-  {
-    EXPECT_EQ(StateOf(filter->GetOutput(), i), states[i]) << i;
-    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i)) << i;
-  }
-  EXPECT_EQ(filter->GetNumberOfMissedPoints(), 1);
-
-  // Out of water through glass into air: beyond the critical angle of both, in glass 41.8 degrees.
-  const auto flat = MakePoints({ { -60.0, -12.0, 10.0 }, { 15.0, -3.0, 10.0 } });
-  const auto out = MakeInverse(flat);
-  AddInterface(out.Get(), MakePlaneAt(0.0), 1.333, 1.5);
-  AddInterface(out.Get(), MakePlaneAt(-10.0), 1.5, 1.0);
-  out->SetEyePosition(-60.0, 20.0, 10.0);
-  out->Update();
-  EXPECT_EQ(StateOf(out->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
-  // Refracted by the first surface; seen in the glass, at a depth of less than 10.
-  EXPECT_EQ(StateOf(out->GetOutput(), 1), vtkTruePositionFilter::REFRACTED);
-  out->SetInputData(MakePoints({ { 15.0, -16.0, 10.0 } }));
-  out->Update();
-  EXPECT_EQ(StateOf(out->GetOutput(), 0), vtkTruePositionFilter::TOTALLY_REFLECTED);
-  EXPECT_EQ(out->GetNumberOfTotallyReflectedPoints(), 1);
-}
-
-TEST(StackTruePositions, EqualIndicesChangeNoBit)
-{
-  const auto seen = MakePoints({ { 0.1, -30.7, 10.3 }, { 1e3, 7.7, 0.3 } });
-  const auto filter = MakeInverse(seen);
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.333, 1.333);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.333, 1.333);
-  filter->Update();
-  for (vtkIdType i = 0; i < 2; ++i)
-  {
-    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i));
-    EXPECT_NEAR(filter->GetOutput()->GetPointData()->GetArray("OpticalPath")->GetTuple1(i),
-      1.333 * glm::length(PointOf(seen, i) - Eye), 1e-11);
-  }
-}
 
 //------------------------------------------------------------------------------
 TEST(StackErrorVolume, PlanesHaveNoError)
@@ -467,15 +261,6 @@ TEST(StackErrorVolume, FlatFacetsAreAnError)
 }
 
 //------------------------------------------------------------------------------
-TEST(StackTruePositions, ListsThatCannotBeUsed)
-{
-  ExpectBadLists(
-    []() {
-      return MakeInverse(MakePoints({ { 1.0, -20.0, 2.0 } }));
-    },
-    [](vtkTruePositionFilter* filter) { return filter->GetOutput()->GetNumberOfPoints(); });
-}
-
 TEST(StackErrorVolume, ListsThatCannotBeUsed)
 {
   ExpectBadLists([]() { return MakeVolume(); },

@@ -100,14 +100,6 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
       view->Update();
       EXPECT_EQ(told->Warnings, 1) << "repeated: " << told->Text;
     }
-    vtkNew<vtkTruePositionFilter> truth;
-    truth->SetInputData(points);
-    truth->SetMembraneData(water);
-    truth->SetEyePosition(20.0, 300.0, 10.0);
-    const auto toldOfTruth = Observe(truth);
-    truth->Update();
-    EXPECT_TRUE(Contains(toldOfTruth->Text, expected)) << toldOfTruth->Text;
-
     vtkNew<vtkDoubleArray> eyes;
     eyes->SetName("Eye");
     eyes->SetNumberOfComponents(3);
@@ -120,10 +112,12 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
     vtkNew<vtkTriangulatedPositionFilter> triangulated;
     vtkNew<vtkSightRayFilter> rays;
     vtkNew<vtkTruePositionFilter> ofEyes;
+    vtkNew<vtkTruePositionFilter> truth;
     for (vtkSightRayAlgorithm* filter :
-      std::initializer_list<vtkSightRayAlgorithm*>{ triangulated, rays, ofEyes })
+      std::initializer_list<vtkSightRayAlgorithm*>{ triangulated, rays, ofEyes, truth })
     {
-      filter->SetEyeArrayName("Eye");
+      filter->SetEyeArrayName(filter == truth ? "" : "Eye");
+      filter->SetEyePosition(20.0, 300.0, 10.0);
       filter->SetInputData(points);
       filter->SetMembraneData(water);
       const auto toldOfEyes = Observe(filter);

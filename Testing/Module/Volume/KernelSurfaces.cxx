@@ -52,7 +52,7 @@ Sheet::Sheet(const std::function<double(double, double)>& height, int cells)
 }
 
 //------------------------------------------------------------------------------
-Sphere::Sphere(int resolution)
+Sphere::Sphere(int resolution, double radius)
 {
   std::vector<double> points{ 0.0, 0.0, 1.0, 0.0, 0.0, -1.0 };
   std::vector<std::int64_t> triangles;
@@ -80,8 +80,13 @@ Sphere::Sphere(int resolution)
     triangles.insert(triangles.end(), { 0, at(1, i), at(1, i + 1) });
     triangles.insert(triangles.end(), { 1, at(last, i + 1), at(last, i) });
   }
+  const std::vector<double> normals = points;
+  for (double& coordinate : points)
+  {
+    coordinate *= radius;
+  }
   this->Set({ points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr,
-    points.data() });
+    normals.data() });
 }
 
 //------------------------------------------------------------------------------
@@ -100,12 +105,12 @@ bool WorldBox::Meets(const glm::dvec3& start, const glm::dvec3& along, double en
 }
 
 //------------------------------------------------------------------------------
-RefractedRayField::View LookAt(
+RefractedRayStack::View LookAt(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel, int size)
 {
   const glm::dvec3 depth = glm::normalize(target - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(depth, glm::dvec3(0.1, 0.9, 0.2)));
-  RefractedRayField::View view;
+  RefractedRayStack::View view;
   view.Frame.ViewToWorld = glm::dmat3(right, glm::cross(depth, right), depth);
   AffinePixelMap& map = parallel ? view.Frame.Origin : view.Frame.Slope;
   const double step = (parallel ? width : width / glm::length(target - eye)) / size;
@@ -119,7 +124,7 @@ RefractedRayField::View LookAt(
 }
 
 //------------------------------------------------------------------------------
-void SetMesh(RefractedRayField::View& view, const WorldBox& box)
+void SetMesh(RefractedRayStack::View& view, const WorldBox& box)
 {
   const glm::dmat3 toFrame = glm::transpose(view.Frame.ViewToWorld);
   view.Mesh.Center = toFrame * (box.Center - view.Center);

@@ -4,7 +4,7 @@
 #define meniscus_Testing_Module_Volume_KernelSurfaces_h
 
 #include "Refraction/Surface/Interface.h"
-#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Refracted/RefractedRayStack.h"
 
 #include <glm/vec3.hpp>
 
@@ -40,10 +40,10 @@ struct Sheet : TestSurface
   Sheet(const std::function<double(double, double)>& height, int cells);
 };
 
-/** A closed unit sphere with its own normals; patches reproduce it. */
+/** A closed sphere about the origin with its own normals; patches reproduce it. */
 struct Sphere : TestSurface
 {
-  explicit Sphere(int resolution);
+  explicit Sphere(int resolution, double radius = 1.0);
 };
 
 /** A box along the world's axes. */
@@ -57,11 +57,11 @@ struct WorldBox
 };
 
 /** A view of size x size pixels from an eye, or along parallel rays. */
-RefractedRayField::View LookAt(
+RefractedRayStack::View LookAt(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel, int size);
 
 /** Sets the bounds of the mesh. */
-void SetMesh(RefractedRayField::View& view, const WorldBox& box);
+void SetMesh(RefractedRayStack::View& view, const WorldBox& box);
 
 }
 }

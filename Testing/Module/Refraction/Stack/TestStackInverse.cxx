@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@ using meniscus::Interface;
 using meniscus::SeenState;
 using meniscus::StackChain;
 using meniscus::StackSolver;
-using meniscus::StackTruePosition;
+using meniscus::TruePosition;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::MakeSurface;
 using meniscus::testing::MakeWaves;
@@ -83,7 +84,7 @@ struct Tally
   std::array<int, 5> States{}; // by SeenState
   double Largest = 0.0;        // distance of two positions
 
-  void Compare(const StackTruePosition& found, const StackTruePosition& alone)
+  void Compare(const TruePosition& found, const TruePosition& alone)
   {
     ASSERT_EQ(found.State, alone.State);
     ++this->States[static_cast<std::size_t>(alone.State)];
@@ -173,4 +174,37 @@ TEST(StackInverse, ChainsOfSeveralEyes)
   }
   EXPECT_LE(tally.Largest, Tolerance);
   EXPECT_GT(tally.Count(SeenState::Refracted), 1000);
+}
+
+//------------------------------------------------------------------------------
+// A ray through several crests of waves: the crossing nearest to a place counts, and the first one
+// from the eye on.
+TEST(StackInverse, SurfacesAreMetNearAPlace)
+{
+  const glm::dvec3 eye(-180.0, 16.0, 12.5);
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, -0.05, 0.0));
+  meniscus::RefractionStack stack;
+  stack.SetInterfaces({ { MakeSurface(MakeWaves(Size, 0.0, 15.0, 8.0, 60)), { 1.0, 1.333 } } });
+  ASSERT_EQ(stack.SetEye(eye), meniscus::EyeStatus::Ready);
+  const auto& link = stack.GetLinks().front();
+  std::vector<double> distances{ 0.0 };
+  meniscus::SurfaceCrossing crossing;
+  while (
+    link.FindCrossing(stack.GetEye() - link.Shift, direction, distances.back() + 1.0, crossing))
+  {
+    distances.push_back(crossing.Distance);
+  }
+  ASSERT_GT(distances.size(), 2u);
+  const meniscus::StackPatches patches(stack.GetLinks(), stack.GetOrigin());
+  for (std::size_t i = 0; i < distances.size(); ++i)
+  {
+    for (const double off : { -0.5, 0.0, 0.5 })
+    {
+      meniscus::PatchPoint at;
+      const glm::dvec3 near = eye + (distances[i] + off) * direction;
+      ASSERT_TRUE(patches.Meet(0, eye, direction, near, at));
+      EXPECT_NEAR(
+        glm::dot(at.Position - eye, direction), distances[std::max<std::size_t>(i, 1)], 1e-6);
+    }
+  }
 }

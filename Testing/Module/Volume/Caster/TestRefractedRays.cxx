@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays refracted at a membrane inside the mesh, with the kernel alone.
 #include "KernelMeshes.h"
+#include "KernelSurfaces.h"
 
-#include "Refraction/Membrane/CurvedPatches.h"
-#include "Refraction/Membrane/Membrane.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
-#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Refracted/RefractedRayStack.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
 
 #include <glm/geometric.hpp>
@@ -44,22 +43,21 @@ public:
     const std::vector<double> points{ -2, -2, -0.1, 3, -2, -0.1, 3, 3, 1.15, -2, 3, 1.15 };
     const std::vector<std::int64_t> triangles{ 0, 1, 2, 0, 2, 3 };
     const MembraneInput input{ points.data(), 4, triangles.data(), 2, nullptr, nullptr };
-    EXPECT_EQ(this->Surface.Build(input), MembraneStatus::Ready);
-    this->Patches.Build(this->Surface, SerialLoop);
+    const TestSurface surface(input);
 
     const RayFrame frame = FrameAlongZ(this->Mesh, 0.7, Size);
     this->Scene.Rays = FixedPointRays(frame, Size, Size);
     PlaceVertices(this->Mesh, this->Scalars, this->Scene.Rays, SerialLoop, this->Tables.Vertices);
     this->Tables.Intervals = PackIntervals(ConstantFunction(1.5));
-    const RefractedRayField::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
-      BoxOf(this->Tree, frame) };
-    this->Sight.Build(this->Surface, this->Patches, view);
+    this->Frame = frame;
+    this->Sight.Build({ surface.Between(1.0, 1.5) },
+      { frame, Size, Size, this->Mesh.GetCenter(), -50.0, BoxOf(this->Tree, frame) });
     this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), SerialLoop);
     this->Frames.Place(this->Mesh, this->Scalars, SerialLoop);
     this->Scene.Mesh = &this->Mesh;
     this->Scene.Boundary = &this->Mesh.GetBoundary();
     this->Scene.Tables = &this->Tables;
-    this->Scene.Refracted = { { &this->Sight.GetRays() }, &this->Frames, &this->Tree, false };
+    this->Scene.Refracted = { { &this->Sight.GetRays()[0] }, &this->Frames, &this->Tree, false };
   }
 
   std::vector<float> Cast(bool beginsInside, InstructionSet set, RayStatistics& sums)
@@ -82,18 +80,17 @@ public:
 
   RayLegs GetLegs() const
   {
-    return RayLegs(this->Sight.GetView().Frame, Size, Size, { &this->Sight.GetRays() });
+    return RayLegs(this->Frame, Size, Size, { &this->Sight.GetRays()[0] });
   }
 
   TetrahedralMesh Mesh;
-  RefractedRayField Sight;
+  RayFrame Frame;
+  RefractedRayStack Sight;
   RefractionFrames Frames;
 
 private:
   BoundaryTree Tree;
   std::vector<float> Scalars;
-  Membrane Surface;
-  CurvedPatches Patches;
   PacketTables Tables;
   TileCaster::Scene Scene;
 };
@@ -151,8 +148,8 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
   std::vector<RefractedRayLine> lines;
   LayOutRefractedRays(picture.GetLegs(), picture.Frames, SerialLoop, lines);
   ASSERT_EQ(lines.size(), std::size_t{ Size } * Size);
-  const RayFrame& frame = picture.Sight.GetView().Frame;
-  constexpr int tileSize = RefractedRayField::TileSize;
+  const RayFrame& frame = picture.Frame;
+  constexpr int tileSize = RefractedRayTiles::TileSize;
   int refracted = 0;
   for (int pixel = 0; pixel < Size * Size; ++pixel)
   {
@@ -160,7 +157,7 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
     const int row = pixel / Size;
     const RefractedRayLine& line = lines[static_cast<std::size_t>(pixel)];
     const RefractedRay* tile =
-      picture.Sight.GetTile(row / tileSize * (Size / tileSize) + column / tileSize);
+      picture.Sight.GetRays()[0].GetTile(row / tileSize * (Size / tileSize) + column / tileSize);
     const RefractedRay ray =
       tile ? tile[row % tileSize * tileSize + column % tileSize] : RefractedRay();
     if (!ray.MeetsInterface() || !ray.GoesOn())

@@ -7,7 +7,6 @@
 #include "KernelSurfaces.h"
 
 #include "Volume/Refracted/RayLegs.h"
-#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayStack.h"
 
 #include <glm/vec3.hpp>
@@ -35,15 +34,15 @@ inline const std::function<double(double, double)> Shapes[] = { [](double, doubl
   [](double x, double y) { return 0.05 * std::sin(5.0 * x + 1.0) * std::sin(4.0 * y); } };
 
 /** View whose rays are traced wherever they go. */
-inline RefractedRayField::View LookAtAll(
+inline RefractedRayStack::View LookAtAll(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool isParallel)
 {
-  RefractedRayField::View view = LookAt(eye, target, width, isParallel, Size);
+  RefractedRayStack::View view = LookAt(eye, target, width, isParallel, Size);
   SetMesh(view, Everywhere);
   return view;
 }
 
-inline RayLegs LegsOf(const RefractedRayStack& stack, const RefractedRayField::View& view)
+inline RayLegs LegsOf(const RefractedRayStack& stack, const RefractedRayStack::View& view)
 {
   std::vector<const RefractedRayTiles*> list;
   for (const RefractedRayTiles& rays : stack.GetRays())
@@ -62,7 +61,7 @@ struct WorldRay
 
 /** Leg of a pixel's ray in world coordinates; none if there is no such leg. */
 inline WorldRay LegOf(
-  const RayLegs& legs, const RefractedRayField::View& view, int column, int row, int number)
+  const RayLegs& legs, const RefractedRayStack::View& view, int column, int row, int number)
 {
   RayLeg leg;
   const int tile = row / TileSize * Columns + column / TileSize;

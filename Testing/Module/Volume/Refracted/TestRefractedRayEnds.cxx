@@ -30,7 +30,7 @@ struct EndedRays
   std::int64_t Untraced = 0;
 
   void Compare(
-    const std::vector<Interface>& list, RefractedRayField::View view, const WorldBox& box)
+    const std::vector<Interface>& list, RefractedRayStack::View view, const WorldBox& box)
   {
     RefractedRayStack all;
     SetMesh(view, Everywhere);
@@ -77,7 +77,7 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   EndedRays rays;
   for (int i = 0; i < 96; ++i)
   {
-    const RefractedRayField::View view =
+    const RefractedRayStack::View view =
       LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), random(0.5, 3.0)),
         random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), i % 3 == 0, Size);
     rays.Compare(pane, view,
@@ -111,7 +111,7 @@ TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
     const std::vector<Interface>& list =
       i % 4 == 0 ? above : (i % 4 == 1 ? below : (i % 4 == 2 ? ball : behind));
     const double side = i % 4 == 1 ? -1.0 : 1.0;
-    const RefractedRayField::View view =
+    const RefractedRayStack::View view =
       LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), side * random(1.5, 3.0)),
         random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 3.0), i % 3 == 0, Size);
     rays.Compare(list, view,
@@ -133,7 +133,7 @@ TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
   const Sheet front([](double, double) { return 0.0; }, 12);
   const Sheet back([](double x, double) { return -0.5 + 0.5 * x; }, 12);
   const std::vector<Interface> prism{ front.Between(1.0, 1.6), back.Between(1.6, 1.0) };
-  RefractedRayField::View view =
+  RefractedRayStack::View view =
     LookAt(glm::dvec3(0.0, 0.0, 20.0), glm::dvec3(0.0), 0.2, false, Size);
   const double depth = 4.0;
   // The angle between the surfaces is atan(1/2); rays come to the first one along its normal.
@@ -173,7 +173,7 @@ TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
   int met = 0;
   for (int i = 0; i < 24; ++i)
   {
-    RefractedRayField::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 2.0),
+    RefractedRayStack::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 2.0),
       random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), false, Size);
     view.Width = i % 3 == 0 ? Size - 13 : Size;
     SetMesh(view,
@@ -211,7 +211,7 @@ TEST(RefractedRayStack, StepBoundsChooseTheFramesOfAllRays)
   int several = 0;
   for (const double width : { 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5 })
   {
-    RefractedRayField::View view =
+    RefractedRayStack::View view =
       LookAt(glm::dvec3(0.3, 0.2, 2.5), glm::dvec3(0.0), width, false, Size);
     SetMesh(view, Everywhere);
     RefractedRayStack stack;
@@ -251,7 +251,7 @@ TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
   const Sheet front(Shapes[2], 12);
   const Sheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
   const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
-  RefractedRayField::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false);
+  RefractedRayStack::View view = LookAtAll(glm::dvec3(0.4, 0.2, 2.0), glm::dvec3(0.0), 1.7, false);
   RefractedRayStack forward;
   forward.Build(pane, view);
   RefractedRayStack backward;

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Intersections of rays with a membrane: rays that may be skipped, and instruction sets.
-#include "KernelSurfaces.h"
 #include "RefractionTestRandom.h"
+#include "StackedRays.h"
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"
 #include "Simd/InstructionSets.h"
-#include "Volume/Refracted/RefractedRayField.h"
 
 #include <glm/geometric.hpp>
 
@@ -25,16 +24,6 @@ using meniscus::testing::Random;
 namespace
 {
 
-constexpr int Size = 96;
-
-RefractedRay RayOf(const RefractedRayField& sight, int column, int row)
-{
-  constexpr int columns = (Size + RefractedRayField::TileSize - 1) / RefractedRayField::TileSize;
-  constexpr int side = RefractedRayField::TileSize;
-  const RefractedRay* tile = sight.GetTile(row / side * columns + column / side);
-  return tile ? tile[row % side * side + column % side] : RefractedRay();
-}
-
 struct Counts
 {
   int Shown = 0;
@@ -43,10 +32,9 @@ struct Counts
 };
 
 /** Compares the rays that reach the box with those of a field that skips none. */
-void Compare(
-  const RefractedRayField& all, const RefractedRayField& some, const WorldBox& box, Counts& counts)
+void Compare(const RefractedRayStack& all, const RefractedRayStack& some,
+  const RefractedRayStack::View& view, const WorldBox& box, Counts& counts)
 {
-  const RefractedRayField::View& view = all.GetView();
   const glm::dmat3& toWorld = view.Frame.ViewToWorld;
   for (int row = 0; row < Size; ++row)
   {
@@ -54,8 +42,8 @@ void Compare(
     {
       const double i = column + 0.5 - 0.5 * Size;
       const double j = row + 0.5 - 0.5 * Size;
-      const RefractedRay exact = RayOf(all, column, row);
-      const RefractedRay ray = RayOf(some, column, row);
+      const RefractedRay exact = RayOf(all.GetRays()[0], column, row);
+      const RefractedRay ray = RayOf(some.GetRays()[0], column, row);
       const bool same = exact.Depth == ray.Depth && exact.Step == ray.Step;
       const glm::dvec3 start = view.Center + toWorld * glm::dvec3(view.Frame.Origin.At(i, j), 0.0);
       const glm::dvec3 along = toWorld * glm::dvec3(view.Frame.Slope.At(i, j), 1.0);
@@ -74,10 +62,6 @@ void Compare(
   }
 }
 
-const std::function<double(double, double)> Shapes[] = { [](double, double) { return 0.0; },
-  [](double x, double y) { return std::sqrt(4.0 - x * x - y * y) - 1.7; },
-  [](double x, double y) { return 0.05 * std::sin(5.0 * x + 1.0) * std::sin(4.0 * y); } };
-
 }
 
 TEST(RefractedRayField, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
@@ -95,17 +79,18 @@ TEST(RefractedRayField, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
         const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
         const glm::dvec3 target =
           random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1));
-        RefractedRayField::View looking =
+        RefractedRayStack::View looking =
           LookAt(eye, target, random(0.5, 3.0), view % 3 == 0, Size);
         const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.5)),
           random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
-        SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
-        RefractedRayField all;
-        all.Build(sheet.Surface, sheet.Patches, looking);
+        SetMesh(looking, Everywhere);
+        const std::vector<Interface> water{ sheet.Between(1.0, 1.333) };
+        RefractedRayStack all;
+        all.Build(water, looking);
         SetMesh(looking, box);
-        RefractedRayField some;
-        some.Build(sheet.Surface, sheet.Patches, looking);
-        Compare(all, some, box, counts);
+        RefractedRayStack some;
+        some.Build(water, looking);
+        Compare(all, some, looking, box, counts);
         ASSERT_EQ(counts.Wrong, 0) << cells << " cells, view " << view;
       }
     }
@@ -132,12 +117,10 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
       const double distance = i % 4 == 3 ? 0.7 : random(1.2, 5.0);
       const glm::dvec3 eye =
         distance * glm::normalize(random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)));
-      RefractedRayField::View looking =
-        LookAt(eye, 0.1 * random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)), 2.5,
-          i % 3 == 2 && distance > 1.0, Size);
-      SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
-      RefractedRayField sight;
-      sight.Build(sphere.Surface, sphere.Patches, looking);
+      const RefractedRayStack::View looking = LookAtAll(eye,
+        0.1 * random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)), 2.5, i % 3 == 2 && distance > 1.0);
+      RefractedRayStack sight;
+      sight.Build({ sphere.Between(1.0, 1.333) }, looking);
       for (int pixel = 0; pixel < Size * Size; ++pixel)
       {
         const double x = pixel % Size + 0.5 - 0.5 * Size;
@@ -156,7 +139,7 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
         }
         const double root = std::sqrt(std::max(squared, 0.0));
         const double first = -half - root > looking.EyeDepth ? -half - root : -half + root;
-        const RefractedRay ray = RayOf(sight, pixel % Size, pixel / Size);
+        const RefractedRay ray = RayOf(sight.GetRays()[0], pixel % Size, pixel / Size);
         const bool meets = squared > 0.0 && first > looking.EyeDepth;
         met += meets;
         // The error of Newton's method is 1e-8 of a facet, more where the ray touches the sphere.
@@ -183,26 +166,22 @@ TEST(RefractedRayField, CountsRaysThatRunAlongAPatch)
     1.0 };
   const double normals[] = { 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, -sine, cosine, 0.0, -sine, cosine, 0.0 };
   const std::int64_t triangles[] = { 0, 2, 3, 0, 3, 1 };
-  Membrane surface;
-  CurvedPatches patches;
-  const MembraneInput input{ points, 4, triangles, 2, nullptr, normals };
-  ASSERT_EQ(surface.Build(input), MembraneStatus::Ready);
-  patches.Build(surface, SerialLoop);
-  RefractedRayField::View view;
+  const TestSurface cylinder({ points, 4, triangles, 2, nullptr, normals });
+  RefractedRayStack::View view;
   view.Width = Size;
   view.Height = Size;
   view.EyeDepth = -100.0;
   view.Frame.Origin.PerColumn = { 2.0 / Size, 0.0 };
   view.Frame.Origin.PerRow = { 0.0, 2.0 / Size };
-  SetMesh(view, { glm::dvec3(0.0), glm::dvec3(1e3) });
-  RefractedRayField sight;
+  SetMesh(view, Everywhere);
+  RefractedRayStack sight;
   for (const bool isAlong : { true, false })
   {
     // The pixel in the middle looks along the line from (0, -1, -1) to (0, -1, 1).
     const double half = isAlong ? 1.0 / Size : 0.0;
     view.Center = glm::dvec3(half, half - 1.0, 0.0);
-    sight.Build(surface, patches, view);
-    EXPECT_EQ(sight.GetNumberOfUndecidedRays() > 0, isAlong);
+    sight.Build({ cylinder.Between(1.0, 1.333) }, view);
+    EXPECT_EQ(sight.GetCounts().Undecided > 0, isAlong);
   }
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of virtual vertices against patches as the exact surface.
 #include "MembraneMeshes.h"
-#include "Refraction/Curved/ErrorSamples.h"
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Stack/ErrorSamples.h"
 #include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct SphereDeviation
   double Position = 0.0;
   double Normal = 0.0;
 
-  explicit SphereDeviation(const CurvedMembraneSolver& geometry)
+  explicit SphereDeviation(const meniscus::RefractingSurface& geometry)
   {
     constexpr int parts = 8;
     const auto count = static_cast<std::int32_t>(geometry.GetMembrane().GetFacets().size());
@@ -78,12 +79,14 @@ TEST(ErrorSamples, NearlyTangentialRaysMeetTheExactSphere)
   approximate.SetEye(eye, 1.0, Water);
   for (const int resolution : { 12, 16, 24, 48 })
   {
-    CurvedMembraneSolver reference;
-    reference.SetMembrane(MakeSphere(resolution, 1.0).AsInput());
-    reference.SetEye(eye, 1.0, Water);
-    const SphereDeviation deviation(reference);
-    const meniscus::PatchesAsSurface exact(reference);
-    const meniscus::ErrorSampler sampler(exact, eye, 1.0, Water);
+    const auto sphere = std::make_shared<meniscus::RefractingSurface>();
+    sphere->SetMembrane(MakeSphere(resolution, 1.0).AsInput(), meniscus::SurfaceParts::Crossings);
+    meniscus::RefractionStack reference;
+    reference.SetInterfaces({ { sphere, { 1.0, Water } } });
+    reference.SetEye(eye);
+    const SphereDeviation deviation(*sphere);
+    const meniscus::StackPatches exact(reference.GetLinks(), reference.GetOrigin());
+    const meniscus::ErrorSampler sampler(eye, reference.GetLinks(), exact);
     Random random(static_cast<unsigned>(resolution));
     int measured = 0;
     int tangential = 0;

@@ -2,51 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Error of virtual vertices, as the thesis measures it (section 4.1): the algorithm maps a point to
- * its virtual vertex; the sight ray of that vertex is traced through the exact surface, and Eq. 2.4
- * is inverted on the exact refracted ray. The error is the distance between the resulting point and
- * the original one.
+ * its virtual vertex; the sight ray of that vertex is traced through the exact surfaces, and
+ * Eq. 2.4 is inverted on the exact refracted ray. The error is the distance between the resulting
+ * point and the original one.
  */
-#ifndef meniscus_Refraction_Curved_ErrorSamples_h
-#define meniscus_Refraction_Curved_ErrorSamples_h
+#ifndef meniscus_Refraction_Stack_ErrorSamples_h
+#define meniscus_Refraction_Stack_ErrorSamples_h
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-#include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
-#include "Refraction/Sight/ExactSurface.h"
+#include "Refraction/Stack/StackSightRay.h"
+#include "Refraction/Stack/StackSolver.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <mutex>
+#include <vector>
 
 namespace meniscus
 {
-
-/** Curved patches as the exact surface, fitted to the same mesh or to a finer one. */
-class PatchesAsSurface : public ExactSurface
-{
-public:
-  /**
-   * `geometry` must have the same eye and media as the solver under test, and must outlive this
-   * object.
-   */
-  explicit PatchesAsSurface(const CurvedMembraneSolver& geometry)
-    : Geometry(geometry)
-  {
-  }
-  bool Meet(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
-    PatchPoint& at) const override;
-
-private:
-  const SightRaySearch& GetSearch() const;
-
-  const CurvedMembraneSolver& Geometry;
-  mutable std::once_flag HasSearch; ///< the search is prepared for the first ray that needs it
-  mutable std::unique_ptr<SightRaySearch> Search;
-};
 
 /** Outcome of one sample. */
 enum class SampleState : unsigned char
@@ -91,34 +67,41 @@ using ExactTrace = std::function<bool(const glm::dvec3& direction, ExactRay& ray
  */
 double FindAngularError(const glm::dvec3& seen, const glm::dvec3& point, const ExactTrace& trace);
 
+/** Measures errors of virtual vertices. World coordinates. */
 class ErrorSampler
 {
 public:
   /**
-   * The eye in world coordinates and the indices must be those of the geometries under test. Angles
-   * are measured if `angles` is set.
+   * `eye` and `links` are those of the solvers under test, and `exact` has the surfaces of the
+   * links; the latter two must outlive this object. Angles are measured if `angles` is set.
    */
-  ErrorSampler(const ExactSurface& exact, const glm::dvec3& eye, double exterior, double interior,
-    bool angles = false)
-    : Exact(exact)
-    , Optics{ eye, exterior, interior }
+  ErrorSampler(const glm::dvec3& eye, const std::vector<RefractionStack::Link>& links,
+    const StackSurfaces& exact, bool angles = false)
+    : Eye(eye)
+    , Links(links)
+    , Exact(exact)
     , Angles(angles)
   {
   }
 
   /** Error with the thesis's cells. Only points in exactly one cell are measured. */
-  ErrorSample Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const;
+  ErrorSample Measure(const FlatMembraneSolver& solver, const glm::dvec3& point) const;
 
   /** Error with curved patches. Only points with exactly one image are measured. */
-  ErrorSample Measure(const CurvedMembraneSolver& geometry, const glm::dvec3& point) const;
+  ErrorSample Measure(const CurvedMembraneSolver& solver, const glm::dvec3& point) const;
+
+  /** The same for several interfaces. The image must be behind at least one of them. */
+  ErrorSample Measure(const StackSolver& solver, const glm::dvec3& point) const;
 
 private:
-  ErrorSample Compare(const glm::dvec3& point, const VirtualVertex& vertex) const;
-  bool Trace(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
-    ExactRay& behind) const;
+  ErrorSample Compare(const glm::dvec3& point, const glm::dvec3& seen,
+    const std::vector<glm::dvec3>& sightPoints) const;
+  bool Trace(const std::vector<glm::dvec3>& sightPoints, const glm::dvec3& direction,
+    ExactRay& behind, glm::dvec3& first, double& between) const;
 
-  const ExactSurface& Exact;
-  Media Optics;
+  glm::dvec3 Eye;
+  const std::vector<RefractionStack::Link>& Links;
+  const StackSurfaces& Exact;
   bool Angles;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Refraction/Curved/ErrorSamples.h"
+#include "Refraction/Stack/ErrorSamples.h"
 
 #include "Refraction/Membrane/Optics.h"
 
@@ -29,6 +29,11 @@ void MakeFrame(const glm::dvec3& axis, glm::dvec3 frame[2])
     : (size.y <= size.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
   frame[0] = glm::normalize(glm::cross(axis, other));
   frame[1] = glm::cross(axis, frame[0]);
+}
+
+ErrorSample MakeWithoutImage(ImageState state)
+{
+  return { 0.0, state == ImageState::NotFinite ? SampleState::NotFinite : SampleState::NoImage };
 }
 
 /** Vector from the nearest place of a ray to a point. */
@@ -89,82 +94,113 @@ double FindAngularError(const glm::dvec3& seen, const glm::dvec3& point, const E
 }
 
 //------------------------------------------------------------------------------
-const SightRaySearch& PatchesAsSurface::GetSearch() const
+ErrorSample ErrorSampler::Measure(const FlatMembraneSolver& solver, const glm::dvec3& point) const
 {
-  std::call_once(
-    this->HasSearch, [this]() { this->Search = std::make_unique<SightRaySearch>(this->Geometry); });
-  return *this->Search;
-}
-
-//------------------------------------------------------------------------------
-// The patch that shows the point is the patch that the ray meets, or a neighbour of it. Where the
-// ray is nearly tangential, Newton's method from the sight point may diverge or end at a place that
-// the ray meets from behind; then all patches are searched.
-bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex,
-  const glm::dvec3& direction, PatchPoint& at) const
-{
-  std::vector<VirtualVertex> images;
-  if (this->Geometry.FindImages(point, images) != ImageState::Found)
+  const VirtualVertex vertex = solver.SolvePoint(point);
+  if (vertex.State != ImageState::Found)
   {
-    return false;
+    return MakeWithoutImage(vertex.State);
   }
-  const auto nearest = std::min_element(images.begin(), images.end(),
-    [&vertex](const VirtualVertex& a, const VirtualVertex& b)
-    {
-      const glm::dvec3 first = a.SightPoint - vertex.SightPoint;
-      const glm::dvec3 second = b.SightPoint - vertex.SightPoint;
-      return glm::dot(first, first) < glm::dot(second, second);
-    });
-  return (this->Geometry.MeetRay(direction, *nearest, at) &&
-           glm::dot(at.Normal, direction) < 0.0) ||
-    this->GetSearch().Find(direction, nearest->SightPoint, at);
+  return solver.HasOneCell(point, Wall)
+    ? this->Compare(point, vertex.Position, { vertex.SightPoint })
+    : ErrorSample{ 0.0, SampleState::SeveralImages };
 }
 
 //------------------------------------------------------------------------------
-ErrorSample ErrorSampler::Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const
+ErrorSample ErrorSampler::Measure(const CurvedMembraneSolver& solver, const glm::dvec3& point) const
 {
-  const VirtualVertex vertex = geometry.SolvePoint(point);
-  switch (vertex.State)
-  {
-    case ImageState::NotFinite:
-      return { 0.0, SampleState::NotFinite };
-    case ImageState::NoImage:
-    case ImageState::NotAsked:
-      return { 0.0, SampleState::NoImage };
-    case ImageState::Found:
-      break;
-  }
-  return geometry.HasOneCell(point, Wall) ? this->Compare(point, vertex)
-                                          : ErrorSample{ 0.0, SampleState::SeveralImages };
-}
-
-//------------------------------------------------------------------------------
-ErrorSample ErrorSampler::Measure(
-  const CurvedMembraneSolver& geometry, const glm::dvec3& point) const
-{
-  std::vector<VirtualVertex> images;
-  const ImageState state = geometry.FindImages(point, images);
+  thread_local std::vector<VirtualVertex> images; // kept so that its memory is reused
+  const ImageState state = solver.FindImages(point, images);
   if (state != ImageState::Found)
   {
-    return { 0.0, state == ImageState::NotFinite ? SampleState::NotFinite : SampleState::NoImage };
+    return MakeWithoutImage(state);
   }
-  return images.size() == 1 ? this->Compare(point, images.front())
+  return images.size() == 1 ? this->Compare(point, images[0].Position, { images[0].SightPoint })
                             : ErrorSample{ 0.0, SampleState::SeveralImages };
 }
 
 //------------------------------------------------------------------------------
-ErrorSample ErrorSampler::Compare(const glm::dvec3& point, const VirtualVertex& vertex) const
+ErrorSample ErrorSampler::Measure(const StackSolver& solver, const glm::dvec3& point) const
 {
-  const glm::dvec3 direction = glm::normalize(vertex.Position - this->Optics.Eye);
+  thread_local std::vector<StackPath> images; // kept so that its memory is reused
+  const ImageState state = solver.FindImages(point, images);
+  if (state != ImageState::Found)
+  {
+    return MakeWithoutImage(state);
+  }
+  if (images.size() > 1)
+  {
+    return { 0.0, SampleState::SeveralImages };
+  }
+  const StackPath& path = images.front();
+  if (path.Count == 0)
+  {
+    return MakeWithoutImage(ImageState::NoImage);
+  }
+  std::vector<glm::dvec3> sightPoints;
+  for (std::size_t k = 0; k < path.Count; ++k)
+  {
+    sightPoints.push_back(path.Points[k].Ray.Origin + solver.GetStack().GetOrigin());
+  }
+  return this->Compare(point, solver.MakeVertex(point, path).Position, sightPoints);
+}
+
+//------------------------------------------------------------------------------
+// The exact ray behind the interfaces of an image, which is seen by `sightPoints`. `first` is set
+// to the point in which it meets the first of them, `between` to its length from there to the last
+// one, each part divided by the index of refraction along it.
+bool ErrorSampler::Trace(const std::vector<glm::dvec3>& sightPoints, const glm::dvec3& direction,
+  ExactRay& behind, glm::dvec3& first, double& between) const
+{
+  behind = { this->Eye, direction };
+  between = 0.0;
+  for (std::size_t k = 0; k < sightPoints.size(); ++k)
+  {
+    const InterfacePassage& passage = this->Links[k].Passage;
+    PatchPoint at;
+    if (!this->Exact.Meet(k, behind.Origin, behind.Direction, sightPoints[k], at))
+    {
+      return false;
+    }
+    if (k == 0)
+    {
+      first = at.Position;
+    }
+    else
+    {
+      between += glm::length(at.Position - behind.Origin) / passage.Before;
+    }
+    const RefractionRay ray =
+      ComputeRefractionRay(behind.Direction, at.Normal, passage.Before / passage.Behind);
+    if (ray.Kind != RayKind::Refracted)
+    {
+      return false;
+    }
+    behind = { at.Position, ray.Direction };
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+ErrorSample ErrorSampler::Compare(
+  const glm::dvec3& point, const glm::dvec3& seen, const std::vector<glm::dvec3>& sightPoints) const
+{
+  const glm::dvec3 direction = glm::normalize(seen - this->Eye);
   ExactRay ray;
-  // A virtual vertex on the eye's side of the exact surface corresponds to no point behind it.
-  const bool refracted = this->Trace(point, vertex, direction, ray);
-  const double apparent = glm::dot(vertex.Position - ray.Origin, direction);
-  if (!refracted || apparent < 0.0)
+  glm::dvec3 first(0.0);
+  double between = 0.0;
+  if (!this->Trace(sightPoints, direction, ray, first, between))
   {
     return { 0.0, SampleState::NoExactPoint };
   }
-  const double depth = apparent * this->Optics.Interior / this->Optics.Exterior;
+  const double rest =
+    glm::dot(seen - first, direction) / this->Links.front().Passage.Before - between;
+  // A virtual vertex in front of the last exact surface corresponds to no point behind it.
+  const double depth = rest * this->Links[sightPoints.size() - 1].Passage.Behind;
+  if (depth < 0.0)
+  {
+    return { 0.0, SampleState::NoExactPoint };
+  }
   const double error = glm::length(ray.Origin + depth * ray.Direction - point);
   if (!std::isfinite(error))
   {
@@ -175,24 +211,9 @@ ErrorSample ErrorSampler::Compare(const glm::dvec3& point, const VirtualVertex& 
   {
     sample.Angle = FindAngularError(direction, point,
       [&](const glm::dvec3& along, ExactRay& behind)
-      { return this->Trace(point, vertex, along, behind); });
+      { return this->Trace(sightPoints, along, behind, first, between); });
   }
   return sample;
-}
-
-//------------------------------------------------------------------------------
-bool ErrorSampler::Trace(const glm::dvec3& point, const VirtualVertex& vertex,
-  const glm::dvec3& direction, ExactRay& behind) const
-{
-  PatchPoint at;
-  if (!this->Exact.Meet(point, vertex, direction, at))
-  {
-    return false;
-  }
-  const RefractionRay ray =
-    ComputeRefractionRay(direction, at.Normal, this->Optics.Exterior / this->Optics.Interior);
-  behind = { at.Position, ray.Direction };
-  return ray.Kind == RayKind::Refracted;
 }
 
 //------------------------------------------------------------------------------

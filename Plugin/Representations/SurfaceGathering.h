@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Methods of filters for ParaView whose refracting surfaces have a table of interfaces. */
+#ifndef SurfaceGathering_h
+#define SurfaceGathering_h
+
+#include "InterfaceTable.h"
+
+/**
+ * Declares in a class, after `private:`, what meniscusSurfaceGatheringMacro defines. The argument
+ * is the method by which the superclass requests its inputs.
+ */
+#define meniscusSurfaceGatheringDeclarations(className, requestExtent)                             \
+public:                                                                                            \
+  static className* New();                                                                         \
+  void PrintSelf(ostream& os, vtkIndent indent) override;                                          \
+  meniscusInterfaceTableDeclarations();                                                            \
+  void SetExactMembrane(vtkImplicitFunction* function);                                            \
+                                                                                                   \
+protected:                                                                                         \
+  className();                                                                                     \
+  ~className() override;                                                                           \
+  int FillInputPortInformation(int port, vtkInformation* info) override;                           \
+  int requestExtent(vtkInformation* request, vtkInformationVector** inputs,                        \
+    vtkInformationVector* outputs) override;                                                       \
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,                          \
+    vtkInformationVector* outputs) override;                                                       \
+                                                                                                   \
+private:                                                                                           \
+  className(const className&) = delete;                                                            \
+  void operator=(const className&) = delete;                                                       \
+  meniscus::InterfaceTable Table
+
+/**
+ * Defines the methods of a class whose surfaces are at an input port: every rank gathers them from
+ * all ranks and blocks, in the order of the table, and runs the superclass with them.
+ */
+#define meniscusSurfaceGatheringMacro(className, requestExtent, surfacePort, isOptional)           \
+  vtkStandardNewMacro(className);                                                                  \
+  meniscusInterfaceTableMacro(className);                                                          \
+  className::className()                                                                           \
+  {                                                                                                \
+    this->SetInterfaces(this->Table.GetInterfaces());                                              \
+  }                                                                                                \
+  className::~className() = default;                                                               \
+  void className::SetExactMembrane(vtkImplicitFunction* function)                                  \
+  {                                                                                                \
+    this->Table.SetExactSurface(function);                                                         \
+  }                                                                                                \
+  int className::FillInputPortInformation(int port, vtkInformation* info)                          \
+  {                                                                                                \
+    const int filled = this->Superclass::FillInputPortInformation(port, info);                     \
+    if (port == (surfacePort))                                                                     \
+    {                                                                                              \
+      meniscus::AcceptComposite(info);                                                             \
+    }                                                                                              \
+    return filled;                                                                                 \
+  }                                                                                                \
+  int className::requestExtent(                                                                    \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
+  {                                                                                                \
+    const int succeeded = this->Superclass::requestExtent(request, inputs, outputs);               \
+    meniscus::AskForPiece(inputs[surfacePort], outputs);                                           \
+    return succeeded;                                                                              \
+  }                                                                                                \
+  int className::RequestData(                                                                      \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
+  {                                                                                                \
+    std::string fault;                                                                             \
+    const auto surfaces = this->Table.GatherSurfaces(inputs[surfacePort], isOptional, fault);      \
+    if (!surfaces)                                                                                 \
+    {                                                                                              \
+      vtkErrorMacro(<< fault << "; the output is empty.");                                         \
+      return 0;                                                                                    \
+    }                                                                                              \
+    vtkInformationVector* ports[] = { inputs[0], inputs[0], nullptr };                             \
+    ports[surfacePort] = surfaces;                                                                 \
+    const int succeeded = this->Superclass::RequestData(request, ports, outputs);                  \
+    if ((surfacePort) == 0) /* the output is that of the surfaces alone */                         \
+    {                                                                                              \
+      meniscus::KeepOutputOfFirstRank(outputs);                                                    \
+    }                                                                                              \
+    return succeeded;                                                                              \
+  }                                                                                                \
+  void className::PrintSelf(ostream& os, vtkIndent indent)                                         \
+  {                                                                                                \
+    this->Superclass::PrintSelf(os, indent);                                                       \
+  }                                                                                                \
+  static_assert(true, "")
+
+#endif

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What helps to read a picture of a mesh: outline, axes with units, edges of the surface."""
+from __future__ import annotations
+
+from typing import Any
+
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkGeometryFilter
+from vtkmodules.vtkFiltersSources import vtkOutlineSource
+from vtkmodules.vtkRenderingAnnotation import vtkCubeAxesActor
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+INK = (0.1, 0.1, 0.15)
+_LINES = (0.35, 0.38, 0.45)
+
+
+class Furniture:
+    """Outline, axes and edges in the renderer of a volume; none is shown at first.
+
+    Names: "outline", "axes", "edges".
+    """
+
+    NAMES = ("outline", "axes", "edges")
+
+    def __init__(self, renderer: Any) -> None:
+        self._data: Any = None
+        self._box = vtkOutlineSource()
+        outline = self._make_lines()
+        outline.GetMapper().SetInputConnection(self._box.GetOutputPort())
+        self._axes = self._make_axes(renderer)
+        self._edges = self._make_lines()
+        self._edges.GetProperty().SetRepresentationToWireframe()
+        self._edges.GetMapper().ScalarVisibilityOff()
+        self._props = {"outline": outline, "axes": self._axes, "edges": self._edges}
+        for prop in self._props.values():
+            prop.VisibilityOff()
+            prop.PickableOff()
+            renderer.AddViewProp(prop)
+
+    @staticmethod
+    def _make_lines() -> Any:
+        actor = vtkActor()
+        actor.SetMapper(vtkPolyDataMapper())
+        actor.GetProperty().SetColor(*_LINES)
+        actor.GetProperty().LightingOff()
+        return actor
+
+    @staticmethod
+    def _make_axes(renderer: Any) -> Any:
+        axes = vtkCubeAxesActor()
+        axes.SetCamera(renderer.GetActiveCamera())
+        axes.SetFlyModeToOuterEdges()
+        axes.SetScreenSize(12.0)
+        axes.SetUseTextActor3D(False)
+        for number, name in enumerate("XYZ"):
+            for text in (axes.GetTitleTextProperty(number), axes.GetLabelTextProperty(number)):
+                text.SetColor(*INK)
+                text.SetFontSize(16)
+            getattr(axes, f"Set{name}Title")(name.lower())
+            getattr(axes, f"Set{name}AxisMinorTickVisibility")(False)
+            getattr(axes, f"Get{name}AxesLinesProperty")().SetColor(*_LINES)
+        return axes
+
+    def set_unit(self, unit: str) -> None:
+        """Unit of the lengths at the axes, such as "m"; empty: none."""
+        for name in "XYZ":
+            getattr(self._axes, f"Set{name}Units")(unit)
+
+    def set_data(self, data: Any, bounds: Any) -> None:
+        """Goes around another mesh."""
+        self._data = data
+        self._box.SetBounds(*bounds)
+        self._axes.SetBounds(*bounds)
+        if self.get("edges"):
+            self._update_edges()
+
+    def get(self, name: str) -> bool:
+        return bool(self._props[name].GetVisibility())
+
+    def set(self, name: str, shown: bool) -> None:
+        if name == "edges" and shown:
+            self._update_edges()
+        self._props[name].SetVisibility(bool(shown))
+
+    def _update_edges(self) -> None:
+        """Edges are found only while they are shown: this takes time for large meshes."""
+        composite = isinstance(self._data, vtkCompositeDataSet)
+        surface = vtkCompositeDataGeometryFilter() if composite else vtkGeometryFilter()
+        surface.SetInputDataObject(self._data)
+        surface.Update()
+        self._edges.GetMapper().SetInputDataObject(surface.GetOutput())
+
+    def set_clipping_plane(self, plane: Any) -> None:
+        """Cuts the edges, as the volume, at a plane; None: nothing."""
+        mapper = self._edges.GetMapper()
+        mapper.RemoveAllClippingPlanes()
+        if plane is not None:
+            mapper.AddClippingPlane(plane)

@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Options from the command line and from a file (TOML), checked by one parser."""
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, NoReturn
+
+import numpy
+
+from .files import ReadingError
+
+# Options that a file cannot have.
+_LINE_ONLY = ("help", "config")
+
+
+class OptionParser(argparse.ArgumentParser):
+    """A parser whose options may also stand in a file, as keys of the same names.
+
+    An option needs the name --config for the file's name, and a positional argument "mesh" with
+    nargs="*".
+    """
+
+    def __init__(self, **arguments: Any) -> None:
+        self._names: dict[str, argparse.Action] = {}
+        self._file = ""  # whose options are parsed
+        super().__init__(**arguments)
+
+    def add_argument(self, *names: Any, offers: Iterable[str] = (), **settings: Any
+                     ) -> argparse.Action:
+        """offers: values that complete() proposes; others are allowed."""
+        action = super().add_argument(*names, **settings)
+        if offers:
+            setattr(action, "completer", lambda **_: list(offers))  # as argcomplete expects it
+        for name in names:
+            if name.startswith("--"):
+                self._names[name[2:]] = action
+        return action
+
+    def error(self, message: str) -> NoReturn:
+        if self._file:
+            raise ReadingError(f"{self._file}: {message}")
+        super().error(message)
+
+    def complete(self) -> None:
+        """Answers a shell that asks for the words that may follow, by the package argcomplete, and
+        ends the program; does nothing otherwise."""
+        if "_ARGCOMPLETE" not in os.environ:
+            return
+        with contextlib.suppress(ImportError):
+            importlib.import_module("argcomplete").autocomplete(self)
+
+    def parse(self, arguments: Sequence[str] | None = None) -> argparse.Namespace:
+        """Options of the command line and, where it has none, of the file that it names. A file
+        with an error is a ReadingError."""
+        options = self.parse_args(arguments)
+        if options.config:
+            self._take_defaults(options.config)
+            options = self.parse_args(arguments)
+        if not options.mesh:
+            options.mesh = self.get_default("mesh")
+        if not options.mesh:
+            self.error("the following arguments are required: MESH")
+        return options
+
+    def _take_defaults(self, name: str) -> None:
+        values = read_toml(name)
+        mesh = values.pop("mesh", None)
+        if isinstance(mesh, str):
+            mesh = [mesh]
+        if mesh is not None and not (isinstance(mesh, list)
+                                     and all(isinstance(file, str) for file in mesh)):
+            raise ReadingError(f"{name}: mesh must be the name of a file, or a list of names")
+        known = [key for key in self._names if key not in _LINE_ONLY]
+        for key, value in values.items():
+            if key not in known:
+                raise ReadingError(f"{name}: there is no option '{key}'; known are "
+                                   + ", ".join(["mesh", *known]))
+            self._take_default(name, key, value)
+        self.set_defaults(mesh=mesh)
+
+    def _take_default(self, name: str, key: str, value: Any) -> None:
+        self._file = name
+        found = self.parse_args(self._words_of(name, key, value))
+        self._file = ""
+        if found.mesh:  # values that no option takes
+            raise ReadingError(f"{name}: {key} has too many values")
+        destination = self._names[key].dest
+        self.set_defaults(**{destination: getattr(found, destination)})
+
+    def _words_of(self, name: str, key: str, value: Any) -> list[str]:
+        """An option as words of a command line. A value that could be another option is joined
+        with the name of this one, or refused."""
+        if self._names[key].nargs == 0:
+            if not isinstance(value, bool):
+                raise ReadingError(f"{name}: {key} must be true or false")
+            return ["--" + key] if value else []
+        items = value if isinstance(value, list) else [value]
+        for item in items:
+            if isinstance(item, bool) or not isinstance(item, (int, float, str)):
+                raise ReadingError(f"{name}: {key} must be a number or text"
+                                   + (", or a list of them" if self._names[key].nargs else ""))
+            if isinstance(item, str) and item.startswith("-") and isinstance(value, list):
+                raise ReadingError(f"{name}: {key} must not begin with '-': '{item}'")
+        texts = [item if isinstance(item, str) else _text_of(item) for item in items]
+        if not isinstance(value, list):
+            return [f"--{key}={texts[0]}"]
+        return ["--" + key, *texts]
+
+
+def _text_of(number: float) -> str:
+    """A number as argparse takes it, which reads -1e-05 as the name of an option."""
+    if isinstance(number, int) or not numpy.isfinite(number):
+        return str(number)
+    return str(numpy.format_float_positional(number, trim="-"))
+
+
+def read_toml(name: str) -> dict[str, Any]:
+    """The keys and values of a file. TOML is data: nothing in it is run."""
+    for module in ("tomllib", "tomli"):  # of Python 3.11; a package
+        try:
+            toml = importlib.import_module(module)
+            break
+        except ImportError:
+            continue
+    else:
+        raise ReadingError("--config needs Python 3.11, or the package tomli: pip install tomli")
+    try:
+        with open(name, "rb") as file:
+            values: dict[str, Any] = toml.load(file)
+    except OSError as error:
+        raise ReadingError(f"{name}: {error.strerror}") from None
+    except ValueError as error:  # of the syntax, or of UTF-8
+        raise ReadingError(f"{name}: {error}") from None
+    return values
