@@ -115,7 +115,8 @@ class Scalars:
             if attributes.HasArray(self.name):
                 self.arrays.append(attributes.GetArray(self.name))
                 self.leaves.append(leaf)
-        if None in self.arrays:
+        # Since VTK 9.7 the comparison of an array with `==`, as by `in`, has one result per value.
+        if any(array is None for array in self.arrays):
             raise TypeError("The array '%s' is not numeric" % self.name)
 
     def _choose_component(self, component):
