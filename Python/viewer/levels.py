@@ -5,7 +5,8 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules import vtkCommonDataModel as model
-from vtkmodules.vtkCommonDataModel import VTK_POLYHEDRON, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (
+    VTK_POLYHEDRON, vtkImageData, vtkRectilinearGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
@@ -139,6 +140,43 @@ def _ranges_of_cells(grid, name, association, component):
     return expanded
 
 
+def _measure_boxes(leaf):
+    """Volumes of the cells of an image or a rectilinear grid."""
+    if isinstance(leaf, vtkImageData):
+        sizes = [numpy.full(max(count - 1, 1), spacing)
+                 for count, spacing in zip(leaf.GetDimensions(), leaf.GetSpacing())]
+    else:
+        sizes = [numpy.diff(vtk_to_numpy(axis).astype(float)) for axis in (
+            leaf.GetXCoordinates(), leaf.GetYCoordinates(), leaf.GetZCoordinates())]
+    x, y, z = sizes
+    return abs(z[:, None, None] * y[:, None] * x).ravel()
+
+
+def _ranges_of_boxes(leaf, name, association, component):
+    """The same as _ranges_of_cells() for an image or a rectilinear grid, without its cells, which
+    would take more memory than its values."""
+    if association == "cells":
+        values = values_of(leaf.GetCellData().GetArray(name), component)
+        return values, values
+    values = values_of(leaf.GetPointData().GetArray(name), component)
+    ranges = []
+    for find in (numpy.minimum, numpy.maximum):
+        found = values.reshape(leaf.GetDimensions()[::-1])
+        for axis in range(3):
+            found = numpy.moveaxis(found, axis, 0)
+            found = numpy.moveaxis(find(found[:-1], found[1:]), 0, axis)
+        ranges.append(found.ravel())
+    return ranges
+
+
+def _measure(leaf, name, association, component, drawn):
+    """Least and largest scalars, and volumes, of the cells of a data set."""
+    if isinstance(leaf, (vtkImageData, vtkRectilinearGrid)):
+        return (*_ranges_of_boxes(leaf, name, association, component), _measure_boxes(leaf))
+    grid = _as_grid(leaf)
+    return (*_ranges_of_cells(grid, name, association, component), _measure_cells(grid, drawn))
+
+
 class Levels:
     """Isosurface areas and volumes of a scalar field, by level.
 
@@ -157,12 +195,10 @@ class Levels:
             attributes = leaf.GetPointData() if association == "points" else leaf.GetCellData()
             drawn = drawn_cells_of(leaf)
             if drawn.any() and attributes.HasArray(name):
-                grid = _as_grid(leaf)
-                least, largest = _ranges_of_cells(grid, name, association, component)
                 chosen = slice(None) if drawn.all() else drawn
-                lows.append(least[chosen])
-                highs.append(largest[chosen])
-                volumes.append(_measure_cells(grid, drawn)[chosen])
+                found = _measure(leaf, name, association, component, drawn)
+                for column, part in zip((lows, highs, volumes), found):
+                    column.append(part[chosen])
         joined = [numpy.concatenate(parts) if parts else numpy.empty(0)
                   for parts in (lows, highs, volumes)]
         finite = numpy.isfinite(joined[0]) & numpy.isfinite(joined[1])

@@ -16,7 +16,9 @@ from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (
+    vtkImageData, vtkMultiBlockDataSet, vtkRectilinearGrid, vtkUnstructuredGrid)
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractUnstructuredGrid
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
@@ -99,6 +101,35 @@ class TestLevels(unittest.TestCase):
         self.assertEqual((found.low, found.high), (3.0, 3.0))
         self.assertEqual(found.get_isovalues(), [3.0])
         self.assertTrue(all(value > 0 for _, value in found.get_opacity()))
+
+    def test_boxes(self):
+        """Images and rectilinear grids have the levels of the same cells one by one."""
+        image, boxes = vtkImageData(), vtkRectilinearGrid()
+        image.SetSpacing(0.5, 1.0, 2.0)
+        for grid in (image, boxes):
+            grid.SetDimensions(5, 4, 3)
+        for axis, places in (("X", (0, 1, 3, 4, 9)), ("Y", (5, 4, 2, 1)), ("Z", (0, 1, 5))):
+            coordinates = vtkDoubleArray()
+            for place in places:
+                coordinates.InsertNextValue(place)
+            getattr(boxes, f"Set{axis}Coordinates")(coordinates)
+        for grid in (image, boxes):
+            for attributes, count in ((grid.GetPointData(), 60), (grid.GetCellData(), 24)):
+                array = vtkDoubleArray()
+                array.SetName("s")
+                for index in range(count):
+                    array.InsertNextValue((index * 37) % 61)
+                attributes.AddArray(array)
+            cells = vtkAppendFilter()
+            cells.AddInputData(grid)
+            cells.Update()
+            for association in ("points", "cells"):
+                found = levels.Levels(grid, "s", association)
+                expected = levels.Levels(cells.GetOutput(), "s", association)
+                self.assertEqual((found.low, found.high), (expected.low, expected.high))
+                for ours, theirs in ((found.areas, expected.areas),
+                                     (found.volumes, expected.volumes)):
+                    self.assertLess(abs(ours - theirs).max(), 1e-12 * theirs.max())
 
     def test_values_that_are_not_finite(self):
         found = levels.Levels(
