@@ -39,10 +39,14 @@ def skip(reason):
     sys.exit(SKIP)
 
 
+def load_again():
+    simple.LoadPlugin(os.environ["MENISCUS_PLUGIN"], remote=False, ns=vars(simple))
+
+
 def load_plugin():
     """Loads the plugin, unless an earlier test of this process has."""
     if not hasattr(simple, "RefractedGeometry"):
-        simple.LoadPlugin(os.environ["MENISCUS_PLUGIN"], remote=False, ns=vars(simple))
+        load_again()
 
 
 def value_of(proxy, name):

@@ -6,7 +6,7 @@ own plugins."""
 import os
 
 import PluginTesting
-import TestLoadPlugin
+import TestFilters
 from paraview import simple
 
 OTHER = "EmbossingRepresentations"
@@ -23,8 +23,8 @@ def test():
     if found:
         simple.LoadPlugin(other, remote=False, ns=globals())
     for _ in range(2):
-        PluginTesting.load_plugin()
-        TestLoadPlugin.check_plugin()
+        PluginTesting.load_again()
+        TestFilters.test()
     if not found:
         PluginTesting.skip("there is no %s: loaded twice, without another plugin" % other)
     print("FINISHED")
