@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares the sizes of VTK's classes that Meniscus uses and the lengths of their virtual function
-tables, by their headers and in the libraries of a wheel, so that no program is built with headers of
-another version or configuration. A member that fits into the padding of its class is not noticed.
+tables, by their headers and in the libraries of a wheel, so that no program is built with headers
+of another version or configuration. A member that fits into the padding of its class is not
+noticed.
 
 Arguments: the folder of the wheel's libraries; a file with the compiler's options for the headers.
 """
