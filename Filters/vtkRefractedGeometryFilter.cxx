@@ -39,7 +39,7 @@ constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 256;
 static_assert(
-  Grain % meniscus::CurvedMembraneSolver::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
+  Grain % meniscus::CurvedMembraneSolver::Chain == 0 && Grain % meniscus::CellImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
 
 // Chunks are solved side by side, as long as there are enough for all threads.
@@ -126,10 +126,21 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
   {
     options.Light = glm::dvec3(light[0], light[1], light[2]) / length;
   }
-  const meniscus::RefractionScene::Eye& eye = this->Scene.GetEye();
-  options.Eye = glm::dvec3(eye[0], eye[1], eye[2]);
-  options.Exterior = eye[3];
-  options.Interior = eye[4];
+  if (!this->HasStack)
+  {
+    const meniscus::RefractionScene::Eye& eye = this->Scene.GetEye();
+    options.Eye = glm::dvec3(eye[0], eye[1], eye[2]);
+    options.Exterior = eye[3];
+    options.Interior = eye[4];
+    return options;
+  }
+  const meniscus::RefractionStack& stack = this->Stack.GetSolver().GetStack();
+  options.Eye = stack.GetEye() + stack.GetOrigin();
+  if (!stack.GetLinks().empty())
+  {
+    options.Exterior = stack.GetLinks().front().Passage.Before;
+    options.Interior = stack.GetLinks().front().Passage.Behind;
+  }
   return options;
 }
 
@@ -137,15 +148,15 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
 void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFilter* self)
 {
   vtkCamera* camera = self->Camera;
-  if (!self->ViewCulling || !camera || camera->GetParallelProjection())
+  if (this->HasStack || !self->ViewCulling || !camera || camera->GetParallelProjection())
   {
-    this->IsViewActive = false; // an eye at infinity has no view frustum
+    this->IsViewActive = false; // an eye at infinity has no frustum; lists are not culled
     this->ViewTime = 0;
     return;
   }
   // The filter's time covers the camera's and does not change between the blocks of composite data.
   const vtkMTimeType time = self->GetMTime();
-  const vtkTypeInt64 eye = this->Scene.GetVersion().Rays;
+  const vtkTypeInt64 eye = this->GetRays();
   if (time != this->ViewTime || eye != this->ViewEye)
   {
     this->IsViewActive =
@@ -164,7 +175,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (this->IsViewActive)
   {
     block.UpdateTopology();
-    const bool isSolved = block.EyeUpdate == this->Scene.GetVersion().Rays;
+    const bool isSolved = block.Rays == this->GetRays();
     if (isSolved && block.Selection.IsActive && block.ViewChange == this->Scene.GetViewChange())
     {
       return;
@@ -178,7 +189,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
     block.CellsReady = false;
     // Chunks are not kept if the images of all points were solved at once.
     const bool isNew = block.All && selection.IsActive && !block.Selection.IsActive;
-    block.EyeUpdate = isNew ? -1 : block.EyeUpdate;
+    block.Rays = isNew ? -1 : block.Rays;
     block.Selection = std::move(selection);
   }
 }
@@ -187,13 +198,13 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
 bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
 {
-  constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
+  constexpr std::size_t chunkSize = meniscus::CellImages::Chunk;
   const std::size_t count = block.Points.size() / 3;
-  if (block.EyeUpdate != this->Scene.GetVersion().Rays || block.All)
+  if (block.Rays != this->GetRays() || block.All)
   {
     block.All = false;
     block.Images.reset();
-    block.EyeUpdate = this->Scene.GetVersion().Rays;
+    block.Rays = this->GetRays();
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
@@ -226,7 +237,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     });
   if (!done)
   {
-    block.EyeUpdate = -1;
+    block.Rays = -1;
     return false;
   }
   for (const std::size_t chunk : open)
@@ -246,7 +257,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::AreCellsReady(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const
 {
   block.UpdateTopology();
-  return block.EyeUpdate == this->Scene.GetVersion().Rays && block.All && block.CellsReady &&
+  return block.Rays == this->GetRays() && block.All && block.CellsReady &&
     block.Tolerance == self->GetTolerance() && block.ClosesSeams == self->CloseSeams;
 }
 
@@ -259,7 +270,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
     return true;
   }
   const double tolerance = self->GetTolerance();
-  const bool pointsReady = block.EyeUpdate == this->Scene.GetVersion().Rays && block.All;
+  const bool pointsReady = block.Rays == this->GetRays() && block.All;
   block.CellsReady = false;
   block.Assembly.IsReady = false;
   if (!this->SolveAllPoints(self, block, pointsReady))
@@ -291,18 +302,14 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const std::size_t count = block.Points.size() / 3;
   if (!isReady)
   {
-    const bool mayCross = !this->Scene.GetCurved().AreAllOnRaySide(block.Points.data(), count);
-    if (mayCross)
+    if (this->HasStack)
     {
-      this->Scene.GetCurved().PrepareSides();
+      block.MakeImages(this->Stack.GetSolver());
     }
-    block.All = true;
-    block.Vertices.clear();
-    block.Images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
-    block.Images->SetPoints(block.Points.data(), count, mayCross);
-    this->Scene.GetCurved().PrepareField();
-    const std::size_t cells = block.Topology.Lines.GetCount() + block.Topology.Polygons.GetCount();
-    block.Images->PrepareUnique(count, cells, meniscus::FacetLoop);
+    else
+    {
+      block.MakeImages(this->Scene.GetCurved());
+    }
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -315,8 +322,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
     return true; // only cells have changed
   }
   block.Images->SetWanted(block.Selection.Chunks);
-  block.EyeUpdate = -1;
-  constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
+  block.Rays = -1;
+  constexpr std::size_t chunkSize = meniscus::CellImages::Chunk;
   const auto chunks = static_cast<vtkIdType>((count + chunkSize - 1) / chunkSize);
   if (!this->Run(self, 0.0, 0.5, chunks, GetGrainOfChunks(chunks),
         [&block, count](std::size_t begin, std::size_t end)
@@ -332,7 +339,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
       this->Count(block.Images->GetState(i));
     }
   }
-  block.EyeUpdate = this->Scene.GetVersion().Rays;
+  block.Rays = this->GetRays();
   return true;
 }
 
@@ -458,7 +465,8 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   const meniscus::ObjectSurface surface = this->Internals->Surfaces.Get(geometry);
-  const int result = meniscus::HasStack(this->Interfaces, inputs[1])
+  this->Internals->HasStack = meniscus::HasStack(this->Interfaces, inputs[1]);
+  const int result = this->Internals->HasStack
     ? this->RequestStack(surface.Data, inputs[1], output)
     : this->RequestOne(surface.Data, vtkPolyData::GetData(inputs[1]), output);
   surface.RestoreIds(output);
@@ -486,38 +494,58 @@ int vtkRefractedGeometryFilter::RequestOne(
   {
     return 0;
   }
-  this->Internals->FailedInRun = 0;
+  this->WriteImages(input, output);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Solves what is not known of the images, and writes them. There is no output after an abort.
+void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* output)
+{
+  vtkInternals& internals = *this->Internals;
+  const bool hasStack = internals.HasStack;
+  internals.FailedInRun = 0;
   const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
-  this->Internals->UpdateView(this);
-  meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
-  block.StackUpdate = -1; // the vertices become those of one interface
-  this->Internals->Select(input, block);
+  internals.UpdateView(this);
+  meniscus::SolvedBlock& block = internals.GetBlock(input);
+  internals.Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   // While images change in every frame, their assembly is not kept for the next one.
-  const bool isKept = all && this->Internals->AreCellsReady(this, block);
-  if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
+  const bool isKept = all && !hasStack && internals.AreCellsReady(this, block);
+  if (!(all ? internals.SolveAll(this, input, block) : internals.SolveFirst(this, block)))
   {
-    return 1;
+    return;
   }
 
-  const meniscus::Membrane& surface = this->Internals->Scene.GetMembrane();
-  const meniscus::OutputOptions options = this->Internals->GetOptions(this);
+  const meniscus::Membrane& surface =
+    hasStack ? internals.Stack.GetFirstMembrane() : internals.Scene.GetMembrane();
+  const meniscus::OutputOptions options = internals.GetOptions(this);
+  meniscus::OutputOptions ofFirst = options;
+  ofFirst.VirtualNormals = options.VirtualNormals && !hasStack;
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input,
         block.Selection.IsActive ? block.Selected : block.Topology, *block.Images, block.Cells,
-        surface, options, block.Assembly, output)
+        surface, ofFirst, block.Assembly, output)
     : meniscus::BuildVirtualPolyData(
-        input, block.Vertices, block.Selection, surface, options, output);
+        input, block.Vertices, block.Selection, surface, ofFirst, output);
+  if (hasStack && all)
+  {
+    meniscus::AddStackImageArrays(
+      input, *block.Images, block.Cells, internals.Stack.GetSolver(), options, output);
+  }
+  else if (hasStack)
+  {
+    meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
+  }
   block.Kept.Reuse(output, isKept ? block.Assembly.Geometry.Get() : nullptr);
   block.Assembly.IsReady = isKept;
-  this->Internals->CulledVertices += block.Selection.CulledPoints;
-  this->Internals->CulledCells += block.Selection.CulledCells;
+  internals.CulledVertices += block.Selection.CulledPoints;
+  internals.CulledCells += block.Selection.CulledCells;
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
   // With a view, the solved part does not tell whether the rest has images.
-  this->ReportPoints(this->Internals->FailedInRun,
-    block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
+  this->ReportPoints(
+    internals.FailedInRun, block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
   this->ReportCells(report, input);
-  return 1;
 }
 
 //------------------------------------------------------------------------------

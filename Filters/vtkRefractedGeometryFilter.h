@@ -501,6 +501,7 @@ private:
   bool UpdateStack(vtkInformationVector* membranes);
   int RequestOne(vtkPolyData* input, vtkPolyData* membrane, vtkPolyData* output);
   int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
+  void WriteImages(vtkPolyData* input, vtkPolyData* output);
 
   int Mode = REFRACTION;
   double EyePosition[3] = { 0.0, 0.0, 1.0 };

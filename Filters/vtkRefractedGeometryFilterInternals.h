@@ -39,9 +39,15 @@ public:
   std::string DescribeNoImage(vtkRefractedGeometryFilter* self) const;
   meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
   bool SolveStack(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
-  bool SolveAllOfStack(
-    vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
-  meniscus::OutputOptions GetStackOptions(vtkRefractedGeometryFilter* self) const;
+  bool SolveFirst(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
+  {
+    return this->HasStack ? this->SolveStack(self, block) : this->Solve(self, block);
+  }
+  /** Number of the rays of the current run. */
+  vtkTypeInt64 GetRays() const
+  {
+    return this->HasStack ? this->Stack.GetRays() : this->Scene.GetVersion().Rays;
+  }
   /** Numbers of the current shapes, of one interface and of several ones. */
   using ShapeNumbers = std::pair<vtkTypeInt64, vtkTypeInt64>;
   ShapeNumbers GetShapes() const
@@ -52,6 +58,7 @@ public:
   meniscus::ObjectSurfaces Surfaces;
   meniscus::RefractionScene Scene; ///< of one interface
   meniscus::StackScene Stack;      ///< of several ones
+  bool HasStack = false;           ///< the current run has several interfaces
   std::list<meniscus::SolvedBlock> Blocks;
   vtkNew<vtkPolyData> Joined; ///< blocks of a composite output together, and the output's time
   vtkMTimeType JoinedTime = 0;

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/StackValidation.h"
+#include "Filters/Membrane/PreparedMembrane.h"
 
 #include "vtkImplicitFunction.h"
 #include "vtkPolyData.h"
@@ -196,6 +197,7 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
     return false;
   }
   ++this->EyeUpdates;
+  this->Rays = MembraneVersion::MakeNumber();
   messages.Warning += this->DescribeSides();
   return true;
 }

@@ -73,6 +73,8 @@ public:
 
   vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
+  /** Number of the rays for the current eye and surfaces, see MembraneVersion. */
+  vtkTypeInt64 GetRays() const { return this->Rays; }
 
 private:
   struct Entry
@@ -101,6 +103,7 @@ private:
   std::size_t InterfacesBehindEye = 0; ///< refracting interfaces that are left out
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;
+  vtkTypeInt64 Rays = -1;
 };
 
 }

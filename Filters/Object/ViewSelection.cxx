@@ -38,7 +38,7 @@ public:
     this->Selection.IsActive = true;
     this->Selection.Cells.assign(static_cast<std::size_t>(cells), false);
     this->Selection.Chunks.assign(
-      (this->IsUsed.size() + ObjectImages::Chunk - 1) / ObjectImages::Chunk, false);
+      (this->IsUsed.size() + CellImages::Chunk - 1) / ObjectImages::Chunk, false);
   }
 
   void Add(const ObjectTopology::Cells& cells)
@@ -94,7 +94,7 @@ private:
     }
     for (const std::int64_t* id = first; id != last; ++id)
     {
-      this->Selection.Chunks[static_cast<std::size_t>(*id) / ObjectImages::Chunk] = true;
+      this->Selection.Chunks[static_cast<std::size_t>(*id) / CellImages::Chunk] = true;
     }
     return true;
   }

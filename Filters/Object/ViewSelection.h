@@ -54,7 +54,7 @@ struct ViewSelection
 {
   bool IsActive = false;    ///< false: everything is selected
   std::vector<bool> Cells;  ///< by id of the input cell
-  std::vector<bool> Chunks; ///< of points, ObjectImages::Chunk points each
+  std::vector<bool> Chunks; ///< of points, CellImages::Chunk points each
   vtkIdType CulledCells = 0;
   vtkIdType CulledPoints = 0;
 
@@ -64,7 +64,7 @@ struct ViewSelection
   }
   bool HasPoint(std::size_t point) const
   {
-    return !this->IsActive || this->Chunks[point / ObjectImages::Chunk];
+    return !this->IsActive || this->Chunks[point / CellImages::Chunk];
   }
   bool operator==(const ViewSelection& o) const
   {

@@ -4,6 +4,9 @@
 
 #include "Common/CoherentOrder.h"
 #include "Filters/Common/PointCoordinates.h"
+#include "Filters/Common/ThreadedLoop.h"
+#include "Refraction/Images/ObjectImages.h"
+#include "Refraction/StackImages/StackImages.h"
 
 #include <algorithm>
 #include <cstring>
@@ -34,8 +37,7 @@ void SolvedBlock::UpdatePoints()
   if (!SameValues(values, this->Points))
   {
     this->Points = std::move(values);
-    this->EyeUpdate = -1;
-    this->StackUpdate = -1;
+    this->Rays = -1;
     this->OrderReady = false;
   }
   this->SourceTime = this->Source->GetMTime();
@@ -52,28 +54,50 @@ void SolvedBlock::UpdateOrder(const RangeLoop& loop)
 }
 
 //------------------------------------------------------------------------------
+void SolvedBlock::MakeImages(CurvedMembraneSolver& solver)
+{
+  const std::size_t count = this->Points.size() / 3;
+  const bool mayCross = !solver.AreAllOnRaySide(this->Points.data(), count);
+  if (mayCross)
+  {
+    solver.PrepareSides();
+  }
+  auto images = std::make_unique<ObjectImages>(solver);
+  images->SetPoints(this->Points.data(), count, mayCross);
+  solver.PrepareField();
+  images->PrepareUnique(
+    count, this->Topology.Lines.GetCount() + this->Topology.Polygons.GetCount(), FacetLoop);
+  this->SetImages(std::move(images));
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::MakeImages(const StackSolver& solver)
+{
+  auto images = std::make_unique<StackImages>(solver);
+  images->SetPoints(this->Points.data(), this->Points.size() / 3);
+  this->SetImages(std::move(images));
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::SetImages(std::unique_ptr<CellImages> images)
+{
+  this->All = true;
+  this->Vertices.clear();
+  this->Images = std::move(images);
+}
+
+//------------------------------------------------------------------------------
 bool SolvedBlock::IsSelected(std::size_t chunk) const
 {
-  const std::size_t first = chunk * ObjectImages::Chunk;
+  const std::size_t first = chunk * CellImages::Chunk;
   if (this->Order.empty() || !this->Selection.IsActive)
   {
     return this->Selection.HasPoint(first);
   }
-  const std::size_t last = std::min(first + ObjectImages::Chunk, this->Order.size());
+  const std::size_t last = std::min(first + CellImages::Chunk, this->Order.size());
   return std::any_of(this->Order.begin() + static_cast<std::ptrdiff_t>(first),
     this->Order.begin() + static_cast<std::ptrdiff_t>(last),
     [this](std::size_t point) { return this->Selection.HasPoint(point); });
-}
-
-//------------------------------------------------------------------------------
-void SolvedBlock::ForgetImages()
-{
-  this->EyeUpdate = -1;
-  this->StackUpdate = -1;
-  this->All = false;
-  this->Images.reset();
-  this->ImagesOfStack.reset();
-  this->Selection = ViewSelection();
 }
 
 //------------------------------------------------------------------------------

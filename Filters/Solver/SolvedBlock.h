@@ -7,8 +7,7 @@
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/KeptOutput.h"
 #include "Filters/Output/StackArrays.h"
-#include "Refraction/Images/ObjectImages.h"
-#include "Refraction/StackImages/StackImages.h"
+#include "Refraction/Images/CellImages.h"
 
 #include "vtkPolyData.h"
 #include "vtkWeakPointer.h"
@@ -23,6 +22,9 @@
 namespace meniscus
 {
 
+class CurvedMembraneSolver;
+class StackSolver;
+
 /** Virtual vertices of one block of geometry, with the values from which they were computed. */
 struct SolvedBlock
 {
@@ -35,17 +37,17 @@ struct SolvedBlock
 
   /** Determines `Order`, if the points are new. */
   void UpdateOrder(const RangeLoop& loop);
-  /** True if a chunk of ObjectImages::Chunk points in the order of solving has selected points. */
+  /** Replaces `Images` by all images of the points, which have to be solved. */
+  void MakeImages(CurvedMembraneSolver& solver);
+  void MakeImages(const StackSolver& solver);
+  /** True if a chunk of CellImages::Chunk points in the order of solving has selected points. */
   bool IsSelected(std::size_t chunk) const;
-
-  /** Discards images of all kinds. */
-  void ForgetImages();
 
   vtkWeakPointer<vtkPolyData> Source;
   vtkMTimeType SourceTime = 0;
   std::vector<double> Points;
-  vtkTypeInt64 EyeUpdate = -1; ///< number of the eye update for which the points are solved
-  bool All = false;            ///< true: all images; false: the first image only
+  vtkTypeInt64 Rays = -1; ///< number of the rays for which the points are solved
+  bool All = false;       ///< true: all images; false: the first image only
   std::vector<VirtualVertex> Vertices;
   std::vector<bool> SolvedChunks; ///< chunks of points in the order of solving
 
@@ -66,16 +68,16 @@ struct SolvedBlock
   bool ClosesSeams = false;
   bool CellsReady = false;
   ObjectTopology Selected; ///< the cells in view
-  std::unique_ptr<ObjectImages> Images;
+  std::unique_ptr<CellImages> Images;
   AllImages Cells;
   ImageAssembly Assembly; ///< of `Images` and `Cells`
 
-  /** Used with several interfaces only; with one image per point, `Vertices` has the images. */
-  vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved
-  StackDetails Stack;
-  std::unique_ptr<StackImages> ImagesOfStack; ///< null with one image per point
+  StackDetails Stack; ///< used with several interfaces and one image per point
 
   KeptOutput Kept;
+
+private:
+  void SetImages(std::unique_ptr<CellImages> images);
 };
 
 }

@@ -64,7 +64,28 @@ public:
 
   virtual ~CellImages() = default;
 
-  virtual bool IsWanted(std::size_t point) const = 0;
+  /** Sets the tolerance of the cells, an angle in radians at the eye, before they are mapped. */
+  virtual void SetTolerance(double tolerance) = 0;
+
+  /**
+   * Selects the chunks of points that are wanted from now on; an empty list selects all of them.
+   * Solved points are kept for later requests, unless all points were wanted.
+   */
+  void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
+  const std::vector<bool>& GetWanted() const { return this->Wanted; }
+  bool IsWanted(std::size_t point) const
+  {
+    return this->Wanted.empty() || this->Wanted[point / Chunk];
+  }
+
+  /**
+   * Solves the wanted and unsolved points in [begin, end), which must consist of whole chunks.
+   * Different ranges may run at once.
+   */
+  virtual void SolvePoints(std::size_t begin, std::size_t end) = 0;
+
+  /** Collects the results of SolvePoints. Cells of wanted points can be mapped afterwards. */
+  virtual void FinishPoints() = 0;
 
   /** State of a point; NotAsked if it has never been wanted. */
   ImageState GetState(std::size_t point) const { return this->States[point]; }
@@ -127,7 +148,8 @@ protected:
     const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole, ImageMesh& pieces,
     const RangeLoop& loop) const;
 
-  double Tolerance = 0.0; ///< angle in radians at the eye
+  double Tolerance = 0.0;   ///< angle in radians at the eye
+  std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
   const double* Points = nullptr;
   std::vector<std::uint32_t> Counts;
   std::vector<ImageState> States;

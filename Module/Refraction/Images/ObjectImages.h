@@ -38,8 +38,7 @@ public:
   {
   }
 
-  /** Sets the tolerance, an angle in radians at the eye. */
-  void SetTolerance(double tolerance)
+  void SetTolerance(double tolerance) override
   {
     this->Tolerance = tolerance;
     this->ForgetNodes();
@@ -59,26 +58,8 @@ public:
    */
   void PrepareUnique(std::size_t wanted, std::size_t cells, const RangeLoop& loop);
 
-  /**
-   * Selects the chunks of points that are wanted from now on; an empty list selects all of them.
-   * Solved points are kept for later requests, unless all points were wanted.
-   */
-  void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
-  const std::vector<bool>& GetWanted() const { return this->Wanted; }
-  bool IsWanted(std::size_t point) const override
-  {
-    return this->Wanted.empty() || this->Wanted[point / Chunk];
-  }
-
-  /**
-   * Solves the wanted and unsolved points in [begin, end), which must consist of whole chunks.
-   * Different ranges may run at once.
-   */
-  void SolvePoints(std::size_t begin, std::size_t end);
-
-  /** Collects the results of SolvePoints. Cells of wanted points can be mapped afterwards. */
-  void FinishPoints();
-
+  void SolvePoints(std::size_t begin, std::size_t end) override;
+  void FinishPoints() override;
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
@@ -157,7 +138,6 @@ private:
   double Farthest = 0.0;
   bool MayCross = false;
   std::vector<std::vector<VirtualVertex>> Chunks;
-  std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
   std::vector<bool> InFront;
   /** For the tolerance and the distances of the images; mapping adds to it. */
   std::unique_ptr<SharedNodes> Nodes;

@@ -32,16 +32,10 @@ public:
   /** Sets the object's points (x, y, z each; borrowed). Computes no image. */
   void SetPoints(const double* points, std::size_t count);
 
-  /** Solves the points in [begin, end), which must consist of whole chunks. */
-  void SolvePoints(std::size_t begin, std::size_t end);
-
-  /** Collects the results of SolvePoints. */
-  void FinishPoints();
-
-  /** Sets the tolerance of the cells, an angle in radians at the eye, before they are mapped. */
-  void SetTolerance(double tolerance);
-
-  bool IsWanted(std::size_t) const override { return true; }
+  /** All points are solved, whether they are wanted or not. */
+  void SolvePoints(std::size_t begin, std::size_t end) override;
+  void FinishPoints() override;
+  void SetTolerance(double tolerance) override;
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
