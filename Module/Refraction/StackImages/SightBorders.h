@@ -8,6 +8,7 @@
 #ifndef meniscus_Refraction_StackImages_SightBorders_h
 #define meniscus_Refraction_StackImages_SightBorders_h
 
+#include "Refraction/Images/SubCellDivision.h"
 #include "Refraction/Stack/StackSolver.h"
 #include "Refraction/Surface/CurveCrossings.h"
 
@@ -60,6 +61,12 @@ private:
  */
 void AddCrossing(const SightBorders::Edge& edge, const RefractedPoint& first,
   const RefractedPoint& last, std::vector<double>& places);
+
+/**
+ * Distance of a place from the nearest side of a cell of sight rays, as an angle at the eye;
+ * negative outside.
+ */
+double GetDepthInCell(const SubCell& sights, const glm::dvec2& place);
 
 /**
  * Places in the middles of the parts between neighbouring `crossings` that are longer than `least`,

@@ -235,29 +235,14 @@ private:
     return NotSplit;
   }
 
-  // Distance of a place from the nearest side of a cell, as an angle at the eye; negative outside.
   double GetDepth(const std::array<std::int32_t, 3>& nodes, const glm::dvec2& place) const
   {
-    const auto cross = [](const glm::dvec2& u, const glm::dvec2& v)
-    { return u.x * v.y - u.y * v.x; };
-    std::array<glm::dvec2, 3> b;
-    std::array<glm::dvec3, 3> sight;
+    SubCell cell;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      b[k] = this->Get(nodes[k]).B;
-      sight[k] = this->GetFrom(nodes[k], 0).Ray;
+      cell[k] = { this->Get(nodes[k]).B, this->GetFrom(nodes[k], 0) };
     }
-    const double whole = cross(b[1] - b[0], b[2] - b[0]);
-    const double area = glm::length(glm::cross(sight[1] - sight[0], sight[2] - sight[0]));
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const std::size_t i = (k + 1) % 3;
-      const std::size_t j = (k + 2) % 3;
-      const double part = cross(b[j] - b[i], place - b[i]) / whole;
-      least = std::min(least, part * area / glm::length(sight[j] - sight[i]));
-    }
-    return least;
+    return GetDepthInCell(cell, place);
   }
 
   // The corner of a border that is deepest inside a cell, of those that are not in `tried`; its
