@@ -25,6 +25,7 @@ using namespace meniscus::testing;
 
 constexpr double HalfWidth = 3.0;
 constexpr double Bottom = -2.0;
+const double FilterTolerance = 0.005 * std::acos(-1.0) / 180.0; ///< the filter's default
 constexpr double Thickness = 0.1; ///< of the wall, between y = 0 and y = Thickness
 
 /** The waterline, at points of equal distance with straight lines between them. */
@@ -253,8 +254,7 @@ TEST_P(RefractionStackWall, BordersAreFollowedToAFifthOfAPixel)
   constexpr double size = Scene::BoardSize;
   board.AddQuad(
     { -size, Scene::BoardAt, -size }, { 2.0 * size, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * size });
-  // The filter's default.
-  board.Map(solver, 0.005 * std::acos(-1.0) / 180.0);
+  board.Map(solver, FilterTolerance);
   const Difference result = Compare(scene, board, GetParam().Eye);
   EXPECT_GT(result.Covered, 5000);
   EXPECT_EQ(result.Wrong, 0) << "missing " << result.Missing << " twice " << result.Twice;
@@ -270,3 +270,30 @@ INSTANTIATE_TEST_SUITE_P(Walls, RefractionStackWall,
     Wall{ "AirBehindTwoFacets", 1, 120, 0.5, false, InFront },
     Wall{ "AirAtASlant", 10, 120, 0.5, false, AtASlant }),
   [](const ::testing::TestParamInfo<Wall>& wall) { return wall.param.Name; });
+
+//------------------------------------------------------------------------------
+// The rim of a flat and of a curved disc behind a large plane: a closed border within few facets.
+TEST(RefractionStackBorders, TheRimOfADiscIsFollowed)
+{
+  struct Disc
+  {
+    int Facets; ///< of the plane in front, along a side
+    double SphereRadius;
+  };
+  for (const Disc& disc : { Disc{ 1, 3.0 }, Disc{ 3, 0.0 } })
+  {
+    MembraneMesh mesh = meniscus::reference::MakeDisc(1.0, 5, disc.SphereRadius);
+    mesh.Translate({ 0.1, -0.5, 0.05 });
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(meniscus::reference::MakePlane(0.0, 3.0, disc.Facets)), { 1.0, 1.333 } },
+        { MakeSurface(mesh), { 1.333, 1.5 } } },
+      { 0.3, 2.0, 0.4 });
+    Object object;
+    object.AddQuad({ -3.0, -2.2, -3.0 }, { 6.0, 0.0, 0.0 }, { 0.0, 0.0, 6.0 });
+    object.Map(solver, FilterTolerance);
+    const Comparison result = Compare(solver, object, 60000, 5);
+    EXPECT_GT(result.Hits, 10000);
+    EXPECT_EQ(result.Wrong, 0) << disc.Facets;
+  }
+}
