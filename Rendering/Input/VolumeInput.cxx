@@ -481,7 +481,8 @@ std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
   this->OverlapsReported = this->BuildVersion;
   return std::to_string(rays) +
     " rays enter cells before they have left others: parts of the mesh overlap there, and the part "
-    "that a ray enters first is the only one to count.";
+    "that a ray enters first is the only one to count. Give each part a volume or a ray integral "
+    "of its own, or remove the cells of one part that are inside another.";
 }
 
 //------------------------------------------------------------------------------

@@ -64,6 +64,12 @@ public:
     return BoundStackRays(*this->Stack, facet, corners, count).IsValid();
   }
 
+  /** Bounds of a patch's rays behind `count` interfaces, at least one. */
+  const TubeBounds& GetBounds(std::int32_t facet, std::size_t count) const
+  {
+    return this->Bounds[count - 1][static_cast<std::size_t>(facet)];
+  }
+
   /**
    * Calls `visit(facet)` for every patch that may show a point of the cube with centre `middle` and
    * half side `padding` behind `count` interfaces, at least one.

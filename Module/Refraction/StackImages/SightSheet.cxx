@@ -33,7 +33,13 @@ constexpr int DeepestTest = 6;
 // PatchCrossings::Border, 1e-8.
 constexpr double SameCrossing = 1e-3;
 
+const double Pi = std::acos(-1.0);
+
 constexpr std::int32_t NotSplit = -1;
+
+// Places around a corner of a border that are traced.
+constexpr int PlacesAround = 8;
+constexpr int ShotSteps = 16;
 
 // Length of a side in barycentric coordinates: the same in both patches at a common edge.
 double GetLength(const glm::dvec2& a, const glm::dvec2& b)
@@ -58,6 +64,7 @@ public:
   {
     const RefractionStack::Link& link = this->Stack.GetLinks().front();
     patch.Surface = link.Surface->GetPatch(facet, !link.Passage.FromFront);
+    this->Near = sheet.Borders.FindNear(sheet.Solver.GetBeams(), facet);
   }
 
   void Run()
@@ -112,6 +119,7 @@ private:
     Node node;
     node.B = b;
     node.Legs = legs;
+    node.Rays = static_cast<int>(path.Count);
     const glm::dvec3& eye = this->Stack.GetEye();
     const glm::dvec3 sight = path.Points[0].Ray.Origin - eye;
     const double distance = glm::length(sight);
@@ -161,6 +169,11 @@ private:
     {
       return legsA > legsB ? this->FindLimit(a, b, legsA) : this->FindLimit(b, a, legsB);
     }
+    const std::int32_t atBorder = legsA < 0 ? NotSplit : this->SplitAtBorders(a, b, legsA);
+    if (atBorder != NotSplit)
+    {
+      return atBorder;
+    }
     const Node first = this->Get(a);
     const Node second = this->Get(b);
     const bool isChord = first.IsAtLimit && second.IsAtLimit && first.Beyond == second.Beyond;
@@ -172,9 +185,161 @@ private:
     const glm::dvec2 middle = 0.5 * (first.B + second.B);
     StackPath path;
     const int legs = this->Trace(middle, path);
-    const bool isSplit = isChord ? this->IsOffLimit(a, b)
+    const bool isSplit = isChord ? this->IsOffLimit(a, b, 0.5, first.Legs)
                                  : legs != legsA || this->IsBent(a, b, 0.0, 1.0, path, legs, 0);
     return isSplit ? this->Add(middle, path, legs) : NotSplit;
+  }
+
+  RefractedPoint GetFrom(std::int32_t node, std::size_t leg) const
+  {
+    const std::size_t ray = this->GetRay(node, leg);
+    return { { this->Result.Points[ray], glm::dvec3(0.0) }, this->Result.Directions[ray], true };
+  }
+
+  // A node between two borders that a side crosses, where another number of legs is seen than at
+  // its ends; or NotSplit.
+  std::int32_t SplitAtBorders(std::int32_t a, std::int32_t b, int legs)
+  {
+    const int rays = std::min(this->Get(a).Rays, this->Get(b).Rays);
+    this->Crossings.clear();
+    for (const SightBorders::Edge& edge : this->Near.Edges)
+    {
+      if (static_cast<int>(edge.Leg) <= rays)
+      {
+        AddCrossing(edge, this->GetFrom(a, edge.Leg), this->GetFrom(b, edge.Leg), this->Crossings);
+      }
+    }
+    if (this->Crossings.empty())
+    {
+      return NotSplit;
+    }
+    for (const std::int32_t end : { a, b })
+    {
+      if (this->Get(end).IsAtLimit)
+      {
+        this->Crossings.push_back(end == a ? 0.0 : 1.0);
+      }
+    }
+    const double angle = glm::length(this->GetFrom(a, 0).Ray - this->GetFrom(b, 0).Ray);
+    StackPath path;
+    for (const double s : FindPlacesBetween(this->Crossings, this->Sheet.Tolerance / angle))
+    {
+      const glm::dvec2 place = glm::mix(this->Get(a).B, this->Get(b).B, s);
+      const int found = this->Trace(place, path);
+      // A border that a side runs along crosses it within the tolerance.
+      if (found != legs && this->IsOffLimit(a, b, s, std::max(found, legs)))
+      {
+        return this->Add(place, path, found);
+      }
+    }
+    return NotSplit;
+  }
+
+  double GetDepth(const std::array<std::int32_t, 3>& nodes, const glm::dvec2& place) const
+  {
+    SubCell cell;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      cell[k] = { this->Get(nodes[k]).B, this->GetFrom(nodes[k], 0) };
+    }
+    return GetDepthInCell(cell, place);
+  }
+
+  // The corner of a border that is deepest inside a cell, of those that are not in `tried`; its
+  // number, or -1 if none is inside by more than the tolerance.
+  int FindCorner(const std::array<std::int32_t, 3>& nodes, const std::vector<int>& tried,
+    glm::dvec2& place) const
+  {
+    const int rays =
+      std::min({ this->Get(nodes[0]).Rays, this->Get(nodes[1]).Rays, this->Get(nodes[2]).Rays });
+    int best = -1;
+    double most = this->Sheet.Tolerance;
+    for (std::size_t i = 0; i < this->Near.Corners.size(); ++i)
+    {
+      const SightBorders::Corner& corner = this->Near.Corners[i];
+      if (static_cast<int>(corner.Leg) > rays)
+      {
+        continue;
+      }
+      SubCell cell;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        cell[k] = { this->Get(nodes[k]).B, this->GetFrom(nodes[k], corner.Leg) };
+      }
+      const glm::dvec2 guess = GuessSight(cell, corner.Point);
+      const double depth = this->GetDepth(nodes, guess);
+      if (depth > most && std::find(tried.begin(), tried.end(), static_cast<int>(i)) == tried.end())
+      {
+        most = depth;
+        best = static_cast<int>(i);
+        place = guess;
+      }
+    }
+    return best;
+  }
+
+  // A node at a corner of a border, just where the later surface is seen; or NotSplit.
+  std::int32_t AddCorner(const std::array<std::int32_t, 3>& nodes)
+  {
+    glm::dvec2 guess;
+    std::vector<int> tried;
+    for (int i = this->FindCorner(nodes, tried, guess); i >= 0;
+         i = this->FindCorner(nodes, tried, guess))
+    {
+      const SightBorders::Corner& corner = this->Near.Corners[static_cast<std::size_t>(i)];
+      StackPath path;
+      const bool isFound = this->Trace(guess, path) >= 0 &&
+        Shoot(this->Stack, { corner.Point, corner.Leg }, { this->Facet, guess }, ShotSteps, path) ==
+          ShotEnd::Converged &&
+        path.Points[0].Place.Facet == this->Facet &&
+        this->GetDepth(nodes, path.Points[0].Place.B) > 0.0 &&
+        std::all_of(nodes.begin(), nodes.end(),
+          [this, &path](std::int32_t node)
+          { return glm::length(this->GetFrom(node, 0).Ray - path.Sight) > this->Sheet.Tolerance; });
+      const std::int32_t node = isFound ? this->AddNear(path) : NotSplit;
+      tried.push_back(i);
+      if (node != NotSplit)
+      {
+        return node;
+      }
+    }
+    return NotSplit;
+  }
+
+  // A node next to the place of a path where most legs are seen, if fewer are seen on another side
+  // of the place; otherwise NotSplit.
+  std::int32_t AddNear(const StackPath& at)
+  {
+    const double perAngle = 1.0 / std::max(glm::length(at.SightBy[0]), glm::length(at.SightBy[1]));
+    const glm::dvec2 middle = at.Points[0].Place.B;
+    int most = std::numeric_limits<int>::min();
+    int least = std::numeric_limits<int>::max();
+    glm::dvec2 place;
+    StackPath path;
+    StackPath atMost;
+    for (int k = 0; k < PlacesAround; ++k)
+    {
+      const double angle = 2.0 * Pi * k / PlacesAround;
+      const glm::dvec2 next = middle +
+        0.25 * this->Sheet.Tolerance * perAngle * glm::dvec2(std::cos(angle), std::sin(angle));
+      const int legs = this->Trace(next, path);
+      least = std::min(least, legs);
+      if (legs > most)
+      {
+        most = legs;
+        place = next;
+        atMost = path;
+      }
+    }
+    if (most == least)
+    {
+      return NotSplit;
+    }
+    const std::int32_t added = this->Add(place, atMost, most);
+    Node& node = this->Result.Nodes[static_cast<std::size_t>(added)];
+    node.IsAtLimit = true;
+    node.Beyond = least;
+    return added;
   }
 
   // Last place, from `seen` towards `other`, where leg `legs` is seen. It may be just beyond
@@ -214,23 +379,23 @@ private:
     return limit;
   }
 
-  // True if the middle of a chord between two places at a limit is away from the limit by more than
-  // the tolerance, on both sides of it.
-  bool IsOffLimit(std::int32_t a, std::int32_t b) const
+  // True if a place on a side, from 0 to 1, is away from the limit of leg `legs` by more than the
+  // tolerance, on both sides of it.
+  bool IsOffLimit(std::int32_t a, std::int32_t b, double at, int legs) const
   {
     const Node& first = this->Get(a);
     const Node& second = this->Get(b);
     const glm::dvec2 along = second.B - first.B;
-    const glm::dvec2 middle = 0.5 * (first.B + second.B);
+    const glm::dvec2 middle = glm::mix(first.B, second.B, at);
     const double atEye = glm::length(this->GetPoint(a, 1) - this->GetPoint(b, 1)) /
       glm::length(this->GetPoint(a, 1) - this->Stack.GetEye());
     const glm::dvec2 shift =
       std::min(this->Sheet.Tolerance / atEye, 0.5) * glm::dvec2(-along.y, along.x);
     StackPath path;
-    const auto isSeen = [this, &first, &path](const glm::dvec2& place)
+    const auto isSeen = [this, legs, &path](const glm::dvec2& place)
     {
       const glm::dvec2 inside = glm::clamp(place, 0.0, 1.0);
-      return this->Trace(inside / std::max(1.0, inside.x + inside.y), path) >= first.Legs;
+      return this->Trace(inside / std::max(1.0, inside.x + inside.y), path) >= legs;
     };
     return isSeen(middle + shift) == isSeen(middle - shift);
   }
@@ -318,6 +483,15 @@ private:
       middle[k] = this->Split(cell.Nodes[(k + 1) % 3], cell.Nodes[(k + 2) % 3]);
       count += middle[k] != NotSplit;
     }
+    const std::int32_t corner =
+      count == 0 && depth < DeepestCell ? this->AddCorner(cell.Nodes) : NotSplit;
+    if (corner != NotSplit)
+    {
+      const std::array<std::int32_t, 3>& n = cell.Nodes;
+      this->AddChildren(
+        index, { { n[0], n[1], corner }, { n[1], n[2], corner }, { n[2], n[0], corner } }, depth);
+      return;
+    }
     if (count == 0 && this->MayPassMore(cell, depth))
     {
       for (std::size_t k = 0; k < 3; ++k)
@@ -329,15 +503,16 @@ private:
     }
     if (count > 0)
     {
-      this->AddChildren(index, cell.Nodes, middle, count, depth);
+      this->AddChildren(index, ListChildren(cell.Nodes, middle, count), depth);
     }
   }
 
+  using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
   // As SubCellDivision::Divide.
-  void AddChildren(std::size_t index, const std::array<std::int32_t, 3>& nodes,
-    const std::array<std::int32_t, 3>& middle, int count, int depth)
+  static Triangles ListChildren(
+    const std::array<std::int32_t, 3>& nodes, const std::array<std::int32_t, 3>& middle, int count)
   {
-    std::vector<std::array<std::int32_t, 3>> children;
     std::size_t k = 0;
     while (count < 3 && (middle[k] != NotSplit) != (count == 1))
     {
@@ -347,18 +522,19 @@ private:
     const std::size_t j = (k + 2) % 3;
     if (count == 1)
     {
-      children = { { nodes[k], nodes[i], middle[k] }, { nodes[k], middle[k], nodes[j] } };
+      return { { nodes[k], nodes[i], middle[k] }, { nodes[k], middle[k], nodes[j] } };
     }
-    else if (count == 2)
+    if (count == 2)
     {
-      children = { { nodes[k], middle[j], middle[i] }, { middle[j], nodes[i], nodes[j] },
+      return { { nodes[k], middle[j], middle[i] }, { middle[j], nodes[i], nodes[j] },
         { middle[j], nodes[j], middle[i] } };
     }
-    else
-    {
-      children = { { nodes[0], middle[2], middle[1] }, { nodes[1], middle[0], middle[2] },
-        { nodes[2], middle[1], middle[0] }, middle };
-    }
+    return { { nodes[0], middle[2], middle[1] }, { nodes[1], middle[0], middle[2] },
+      { nodes[2], middle[1], middle[0] }, middle };
+  }
+
+  void AddChildren(std::size_t index, const Triangles& children, int depth)
+  {
     const std::size_t first = this->Result.Cells.size();
     this->Result.Cells[index].FirstChild = static_cast<std::int32_t>(first);
     this->Result.Cells[index].Children = static_cast<std::int32_t>(children.size());
@@ -435,6 +611,8 @@ private:
   Patch& Result;
   int Links;
   std::unordered_map<std::uint64_t, std::int32_t> Sides;
+  SightBorders::Borders Near; ///< borders that the patch may show
+  std::vector<double> Crossings;
 };
 
 //------------------------------------------------------------------------------
@@ -443,6 +621,7 @@ SightSheet::SightSheet(const StackSolver& solver, double tolerance, double farth
   , Tolerance(tolerance)
   , Farthest(farthest)
   , Links(solver.GetStack().GetLinks().size())
+  , Borders(solver)
 {
   const std::size_t facets = this->Links == 0
     ? 0

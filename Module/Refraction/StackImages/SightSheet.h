@@ -9,14 +9,17 @@
  * A ray has legs: leg 0 from the eye to the first surface, leg k behind interface k. A leg is seen
  * if the ray goes on to the next surface, or if it is the last one. Where the number of legs that
  * are seen changes along a side, at a border of a later surface or at a critical angle, the side is
- * divided. Whether and where a side is divided depends on that side alone, so that neighbours, of
- * one patch or of two, have the same nodes bit by bit.
+ * divided. A side that crosses borders of later surfaces several times is divided between the
+ * crossings, and a cell with a corner of a border inside is divided there. Whether and where a side
+ * is divided depends on that side alone, so that neighbours, of one patch or of two, have the same
+ * nodes bit by bit.
  */
 #ifndef meniscus_Refraction_StackImages_SightSheet_h
 #define meniscus_Refraction_StackImages_SightSheet_h
 
 #include "Refraction/Images/SubCellDivision.h"
 #include "Refraction/Stack/StackSolver.h"
+#include "Refraction/StackImages/SightBorders.h"
 
 #include <array>
 #include <cstddef>
@@ -70,7 +73,10 @@ public:
   std::size_t GetNumberOfLinks() const { return this->Links; }
 
 private:
-  /** Divisions of a cell, each at a side that has at most half of its length before, or a limit. */
+  /**
+   * Divisions of a cell, each at a side that has at most half of its length before, at a limit, or
+   * at a border; next to the middle of the side or of the cell, if there are many.
+   */
   static constexpr int DeepestCell = 24;
   /** Each division leaves at most three more cells to visit. */
   static constexpr std::size_t StackSize = 3 * DeepestCell + 4;
@@ -79,6 +85,7 @@ private:
   {
     glm::dvec2 B;
     int Legs = -1;          ///< last leg that is seen; -1 where the surface faces away
+    int Rays = 0;           ///< last leg that has a ray, which may miss the next surface
     int Beyond = -1;        ///< at a limit: last leg that is seen just beyond
     bool IsAtLimit = false; ///< the last place on a side where this leg is seen
     bool IsFirst = false;   ///< the sight ray has not met the first surface before
@@ -99,6 +106,7 @@ private:
   double Tolerance;
   double Farthest;
   std::size_t Links;
+  SightBorders Borders;
   mutable std::vector<std::unique_ptr<Patch>> Patches;
   mutable std::unique_ptr<std::once_flag[]> Once;
 };

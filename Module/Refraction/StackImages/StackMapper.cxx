@@ -28,24 +28,6 @@ constexpr double Grid = 1024.0;
 // Error of a sum of areas, for thousands of parts with some roundings each.
 constexpr double Covered = 1e-10;
 
-// Twice the signed area of a polygon in the primitive's second and third barycentric coordinates.
-double GetArea(const StackMapper::Polygon& polygon)
-{
-  const auto place = [](const StackMapper::Corner& corner)
-  {
-    return glm::dvec2(corner.Value[2], corner.Value[3]) /
-      (corner.Value[1] + corner.Value[2] + corner.Value[3]);
-  };
-  double area = 0.0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
-    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
-    area += u.x * v.y - u.y * v.x;
-  }
-  return area;
-}
-
 glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double s)
 {
   return (1.0 - s) * a + s * b;
@@ -259,110 +241,6 @@ bool StackMapper::IsWhole(
     }
   }
   return std::fabs(sum - 1.0) <= Covered;
-}
-
-//------------------------------------------------------------------------------
-void StackMapper::Emit(
-  const ObjectPrimitive& primitive, const std::vector<Part>& parts, ImageMesh& images) const
-{
-  for (const Part& part : parts)
-  {
-    const Context context{ primitive, part.Leg, part.Facet,
-      SightSheet::GetSurface(this->Sheet.GetPatch(part.Facet)), part.Cell };
-    const bool isEmitted = primitive.IsLine ? this->EmitLine(context, part.Corners, images)
-                                            : this->EmitPolygon(context, part, images);
-    if (!isEmitted && this->IsVisible(context, part.Corners))
-    {
-      this->Solver.CountUndecided();
-    }
-    else if (!isEmitted)
-    {
-      this->Solver.CountNarrowPart();
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// False if a part is seen as a strip, or as a dot, narrower than the tolerance: interpolation may
-// have found it where the rays only come near the primitive.
-bool StackMapper::IsVisible(const Context& context, const Polygon& polygon) const
-{
-  const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
-  std::vector<glm::dvec3> sights;
-  for (const Corner& corner : polygon)
-  {
-    sights.push_back(glm::normalize(context.Patch.Evaluate(corner.B).Position - eye));
-  }
-  double longest = 0.0;
-  double area = 0.0;
-  for (std::size_t i = 1; i < sights.size(); ++i)
-  {
-    longest = std::max(longest, glm::length(sights[i] - sights[0]));
-    area += 0.5 * glm::length(glm::cross(sights[i - 1] - sights[0], sights[i] - sights[0]));
-  }
-  // A polygon of area A and length L has a width of A / L at least, and 2 A / L at most.
-  const double width = context.Primitive.IsLine ? longest : area / longest;
-  return width > this->Sheet.GetTolerance();
-}
-
-//------------------------------------------------------------------------------
-// Returns false if interpolation has found the primitive where the corners do not.
-bool StackMapper::EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const
-{
-  const double area = GetArea(part.Corners);
-  if (!(std::fabs(area) > 0.0))
-  {
-    return true;
-  }
-  std::vector<MappedPoint> points;
-  std::size_t unseenEnds = 0;
-  for (const Corner& corner : part.Corners)
-  {
-    points.push_back(this->MakePoint(context, corner));
-    if (points.back().Outcome == Finding::Elsewhere)
-    {
-      return false; // as PrimitiveMapper::IsSeen
-    }
-    unseenEnds += points.back().Outcome == Finding::EndWithoutImage;
-  }
-  if (unseenEnds == points.size())
-  {
-    return false;
-  }
-  const int orientation = this->GetOrientation(context.Patch, part, area);
-  const auto first = static_cast<std::int64_t>(images.Points.size());
-  const auto count = static_cast<std::int64_t>(points.size());
-  for (MappedPoint& point : points)
-  {
-    point.Point.Vertex.Orientation = static_cast<signed char>(orientation);
-    images.Points.push_back(point.Point);
-  }
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    images.Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
-  }
-  images.EndCell(context.Primitive.SourceCell, orientation);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-bool StackMapper::EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const
-{
-  const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
-  const bool turned = along(polygon[0]) > along(polygon[1]);
-  const MappedPoint ends[2] = { this->MakePoint(context, polygon[turned ? 1 : 0]),
-    this->MakePoint(context, polygon[turned ? 0 : 1]) };
-  if (ends[0].Outcome == Finding::Elsewhere || ends[1].Outcome == Finding::Elsewhere)
-  {
-    return false;
-  }
-  for (const MappedPoint& end : ends)
-  {
-    images.Connectivity.push_back(static_cast<std::int64_t>(images.Points.size()));
-    images.Points.push_back(end.Point);
-  }
-  images.EndCell(context.Primitive.SourceCell, 1);
-  return true;
 }
 
 //------------------------------------------------------------------------------

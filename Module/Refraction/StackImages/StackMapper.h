@@ -15,6 +15,7 @@
 #include "Refraction/Images/ObjectPrimitive.h"
 #include "Refraction/StackImages/SightSheet.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -62,8 +63,9 @@ public:
 
   /**
    * Adds the parts with exact corners: convex polygons with the winding of the triangle, or lines
-   * of two points. Parts whose corners contradict each other are left out; the solver counts them
-   * as undecided if they are wider than the tolerance.
+   * of two points. Parts whose corners contradict each other are mapped from smaller cells. What
+   * is still contradictory is left out; the solver counts it as undecided if it is wider than the
+   * tolerance.
    */
   void Emit(
     const ObjectPrimitive& primitive, const std::vector<Part>& parts, ImageMesh& images) const;
@@ -95,6 +97,11 @@ private:
   void ClipCell(const ObjectPrimitive& primitive, const Part& cell, std::vector<Part>& parts) const;
   double GetSlack(std::size_t surface, const glm::dvec3& place) const;
   bool ResolveTies(const ObjectPrimitive& primitive, const Part& cell, Polygon& whole) const;
+  void EmitPart(
+    const ObjectPrimitive& primitive, const Part& part, int depth, ImageMesh& images) const;
+  bool DivideCell(const Part& part, std::array<LegCell, 4>& quarters) const;
+  /** Twice the signed area of a polygon in the primitive's second and third coordinates. */
+  static double GetArea(const Polygon& polygon);
   bool IsVisible(const Context& context, const Polygon& polygon) const;
   bool EmitPolygon(const Context& context, const Part& part, ImageMesh& images) const;
   int GetOrientation(const CurvedPatch& patch, const Part& part, double area) const;

@@ -169,6 +169,7 @@ TEST(MeshWarnings, OverlappingBodies)
     }
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("parts of the mesh overlap"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("ray integral of its own"), std::string::npos) << warnings[0];
     // The inner body covers a quarter of the outer one's front, seen nearly along an axis.
     const double share = std::stod(warnings[0].substr(warnings[0].find("): ") + 3)) / (64.0 * 64.0);
     EXPECT_GT(share, 0.15);
@@ -176,4 +177,35 @@ TEST(MeshWarnings, OverlappingBodies)
     rays->SetImageSize(32, 32);
     EXPECT_TRUE(UpdateAndListen(rays).empty());
   }
+}
+
+/** Bodies with filters of their own, over the same rays: their integrals are those of the sum. */
+TEST(MeshWarnings, OverlappingBodiesAddUpOverTheSameRays)
+{
+  const Grid outer = MakeBlock(4, ConstantField(1.0));
+  const Grid inner = MakeBlock(3, ConstantField(5.0));
+  TransformPoints(inner, { 0.0, 0.0, 0.0 }, 0.5);
+  std::vector<std::vector<double>> integrals;
+  for (const Grid& body : { outer, inner })
+  {
+    const Filter rays = MakeFilter(body, 8, 8);
+    rays->SetFrameModeToParallel();
+    const double* bounds = outer->GetBounds();
+    const double width = bounds[1] - bounds[0];
+    rays->SetFrameOrigin(bounds[0] + 0.1 * width, bounds[2] + 0.1 * width, bounds[5] + width);
+    rays->SetFrameAxis1(0.8 * width, 0.0, 0.0);
+    rays->SetFrameAxis2(0.0, 0.8 * width, 0.0);
+    rays->ComputeIntegralOn();
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
+    integrals.push_back(ValuesOf(rays, "Integral"));
+  }
+  const double outerLength = outer->GetBounds()[5] - outer->GetBounds()[4];
+  const double innerLength = inner->GetBounds()[5] - inner->GetBounds()[4];
+  double largest = 0.0;
+  for (std::size_t i = 0; i < integrals[0].size(); ++i)
+  {
+    EXPECT_NEAR(integrals[0][i], outerLength, 1e-5) << i;
+    largest = std::max(largest, integrals[0][i] + integrals[1][i]);
+  }
+  EXPECT_NEAR(largest, outerLength + 5.0 * innerLength, 1e-5);
 }

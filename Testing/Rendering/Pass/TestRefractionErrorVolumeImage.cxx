@@ -87,6 +87,43 @@ void AddActor(vtkRenderer* renderer, vtkPolyData* data, bool isMembrane)
   renderer->AddActor(actor);
 }
 
+/**
+ * Errors grow from the axis, along which rays are not refracted, to the rim. They are mostly below
+ * 10 units, and have the same sum in each quarter of the disc.
+ */
+void ExpectErrorsOfTheThesis(vtkImageData* volume)
+{
+  vtkDataArray* errors = volume->GetPointData()->GetScalars();
+  double sum[2] = { 0.0, 0.0 }; // within half of the radius, and beyond
+  int count[2] = { 0, 0 };
+  int below = 0;
+  double quarters[4] = { 0.0, 0.0, 0.0, 0.0 };
+  for (vtkIdType i = 0; i < volume->GetNumberOfPoints(); ++i)
+  {
+    const double error = errors->GetTuple1(i);
+    if (!std::isfinite(error))
+    {
+      continue;
+    }
+    double p[3];
+    volume->GetPoint(i, p);
+    const int part = std::hypot(p[0], p[2]) > 0.5 * Radius ? 1 : 0;
+    sum[part] += error;
+    ++count[part];
+    below += error < 10.0;
+    quarters[(p[0] > 0.0 ? 1 : 0) + (p[2] > 0.0 ? 2 : 0)] += error;
+  }
+  ASSERT_GT(count[0], 100);
+  ASSERT_GT(count[1], 100);
+  EXPECT_GT(below, 0.95 * (count[0] + count[1]));
+  EXPECT_LT(sum[0] / count[0], 0.5 * sum[1] / count[1]);
+  // The disc's mesh is the same after a quarter turn, up to rounding.
+  for (const double quarter : quarters)
+  {
+    EXPECT_NEAR(quarter, quarters[0], 1e-6 * quarters[0]);
+  }
+}
+
 } // anonymous namespace
 
 TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
@@ -110,6 +147,7 @@ TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
   // Mostly below 10 units; above that far below the rim, where rays turn the most.
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
   EXPECT_GT(volume->GetLargestError(), 10.0);
+  ExpectErrorsOfTheThesis(volume->GetOutput());
 
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);

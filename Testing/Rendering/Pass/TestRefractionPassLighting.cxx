@@ -224,9 +224,11 @@ public:
     }
   }
 
+  /** The medium attenuates sight rays, and the light on its way if `lightIsAttenuated`. */
   void ExpectLit(const std::string& what, const std::vector<Lamp>& lamps,
-    const glm::dvec3& coefficients = glm::dvec3(0.0))
+    const glm::dvec3& coefficients = glm::dvec3(0.0), bool lightIsAttenuated = true)
   {
+    const glm::dvec3 ofLight = lightIsAttenuated ? coefficients : glm::dvec3(0.0);
     this->SetLamps(lamps);
     for (const double x : { 0.0, 1.5 })
     {
@@ -235,7 +237,7 @@ public:
         [&](const Sight& sight, int channel)
         {
           const FloorSight floor = FloorOf(this->GetCamera(), sight);
-          return std::clamp(LitColor(lamps, floor, coefficients)[channel] *
+          return std::clamp(LitColor(lamps, floor, ofLight)[channel] *
               std::exp(-coefficients[channel] *
                 glm::distance(floor.Place, glm::dvec3(sight.Point[0], sight.Point[1], 0.0))),
             0.0, 1.0);
@@ -340,6 +342,20 @@ TEST(RefractionPassLighting, TheMediumAttenuatesLightOnItsWay)
   {
     pool.ExpectLit("attenuated", { lamp }, coefficients);
   }
+}
+
+/** Without LightAttenuation the medium dims only what is seen, not the light. */
+TEST(RefractionPassLighting, LightAttenuationCanBeLeftOut)
+{
+  LitPool pool;
+  const glm::dvec3 coefficients(0.8, 0.2, 0.05);
+  pool.Pass->SetAttenuationCoefficients(coefficients.r, coefficients.g, coefficients.b);
+  EXPECT_TRUE(pool.Pass->GetLightAttenuation());
+  pool.Pass->LightAttenuationOff();
+  pool.ExpectLit("sun", { Distant(0.8, -0.3, 0.4) }, coefficients, false);
+  pool.ExpectLit("lamp", { Near(0.7, -0.4, -0.6) }, coefficients, false);
+  pool.Pass->LightAttenuationOn();
+  pool.ExpectLit("attenuated again", { Near(0.7, -0.4, -0.6) }, coefficients);
 }
 
 TEST(RefractionPassLighting, WithoutNormalsFacetsAreLit)

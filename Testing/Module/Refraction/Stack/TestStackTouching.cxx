@@ -232,3 +232,52 @@ TEST(RefractionStackTouching, TrianglesInThePlaneOfARayAreCoveredAsOtherRaysAre)
   EXPECT_LE(result.Wrong, solver.GetNumberOfNarrowParts()) << "of " << result.Rays;
   EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
 }
+
+//------------------------------------------------------------------------------
+// A ball in both sides of a pane. Where it is seen edge-on next to a side, the error of the sheet's
+// rays moves corners far along the triangles; no piece may be left out there.
+TEST(RefractionStackTouching, BallInAPaneLosesNoPieces)
+{
+  struct Ball
+  {
+    double Height;
+    int Rings;
+  };
+  for (const Ball& ball : { Ball{ 0.0, 31 }, Ball{ -0.02, 31 }, Ball{ 0.05, 48 } })
+  {
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(MakePlane(0.0, 6.0, 10)), { 1.0, 1.5 } },
+        { MakeSurface(MakePlane(-0.1, 6.0, 10)), { 1.5, 1.333 } } },
+      { 0.3, 2.0, 2.0 });
+    Object object;
+    const int around = 2 * ball.Rings;
+    const auto place = [&ball, around](int ring, int k)
+    {
+      const double polar = std::acos(-1.0) * ring / ball.Rings;
+      const double turn = 2.0 * std::acos(-1.0) * (k % around) / around;
+      return glm::dvec3(0.013, ball.Height, 0.0) +
+        0.4 *
+        glm::dvec3(
+          std::sin(polar) * std::cos(turn), std::cos(polar), -std::sin(polar) * std::sin(turn));
+    };
+    for (int ring = 0; ring < ball.Rings; ++ring)
+    {
+      for (int k = 0; k < around; ++k)
+      {
+        if (ring + 1 < ball.Rings)
+        {
+          object.AddTriangle(place(ring, k), place(ring + 1, k), place(ring + 1, k + 1));
+        }
+        if (ring > 0)
+        {
+          object.AddTriangle(place(ring, k), place(ring + 1, k + 1), place(ring, k + 1));
+        }
+      }
+    }
+    // The filter's default.
+    object.Map(solver, 0.005 * std::acos(-1.0) / 180.0);
+    EXPECT_GT(object.Report.Mapped, 100u);
+    EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0) << ball.Height;
+  }
+}

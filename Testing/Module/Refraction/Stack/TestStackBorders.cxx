@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A second surface that ends in a curve: the wall of a tank with water behind its lower part, up to
+// the waterline of waves. Truth: rays through the two planes, in closed form, that meet the back
+// below the line.
+#include "StackCellScene.h"
+#include "StackTestScene.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <ostream>
+#include <vector>
+
+namespace
+{
+
+using meniscus::StackSolver;
+using meniscus::reference::MembraneMesh;
+using namespace meniscus::testing;
+
+constexpr double HalfWidth = 3.0;
+constexpr double Bottom = -2.0;
+const double FilterTolerance = 0.005 * std::acos(-1.0) / 180.0; ///< the filter's default
+constexpr double Thickness = 0.1; ///< of the wall, between y = 0 and y = Thickness
+
+/** The waterline, at points of equal distance with straight lines between them. */
+class Waterline
+{
+public:
+  explicit Waterline(int parts)
+  {
+    for (int i = 0; i <= parts; ++i)
+    {
+      const double x = HalfWidth * (2.0 * i / parts - 1.0);
+      this->Heights.push_back(0.06 * std::sin(4.0 * x + 0.3) + 0.03 * std::sin(13.0 * x));
+    }
+  }
+
+  int GetParts() const { return static_cast<int>(this->Heights.size()) - 1; }
+  double GetX(int i) const { return HalfWidth * (2.0 * i / this->GetParts() - 1.0); }
+  double GetPointHeight(int i) const { return this->Heights[static_cast<std::size_t>(i)]; }
+  double GetHeight(double x) const
+  {
+    const double place = 0.5 * (x / HalfWidth + 1.0) * this->GetParts();
+    const int i = std::clamp(static_cast<int>(place), 0, this->GetParts() - 1);
+    return glm::mix(this->GetPointHeight(i), this->GetPointHeight(i + 1), place - i);
+  }
+
+private:
+  std::vector<double> Heights;
+};
+
+/** A wall across y with points at (x, z) = place(i, j); its normals point to -y, to the eye. */
+template <typename Place>
+MembraneMesh MakeWall(double y, int columns, int rows, const Place& place)
+{
+  MembraneMesh mesh;
+  for (int j = 0; j <= rows; ++j)
+  {
+    for (int i = 0; i <= columns; ++i)
+    {
+      const glm::dvec2 at = place(i, j);
+      mesh.AddPoint({ at.x, y, at.y }, { 0.0, -1.0, 0.0 });
+    }
+  }
+  for (int j = 0; j < rows; ++j)
+  {
+    for (int i = 0; i < columns; ++i)
+    {
+      const std::int64_t corner = j * (columns + 1) + i;
+      mesh.AddTriangle(corner, corner + 1, corner + columns + 2);
+      mesh.AddTriangle(corner, corner + columns + 2, corner + columns + 1);
+    }
+  }
+  return mesh;
+}
+
+struct Wall
+{
+  const char* Name;
+  int FrontCells;
+  int LineParts;
+  double Field; ///< half width of the view at the distance of the wall
+  bool IsBelow; ///< the part of the back that is below the line, with water behind it
+  glm::dvec3 Eye;
+};
+
+std::ostream& operator<<(std::ostream& out, const Wall& wall)
+{
+  return out << wall.Name;
+}
+
+/** A view of a board behind the wall. */
+class Scene
+{
+public:
+  static constexpr int Pixels = 192;
+  static constexpr double BoardAt = 1.0;
+  static constexpr double BoardSize = 1.2;
+
+  explicit Scene(const Wall& wall)
+    : Tested(wall)
+    , Line(wall.LineParts)
+  {
+    const glm::dvec3 target(0.0, 0.0, 0.0);
+    this->Forward = glm::normalize(target - wall.Eye);
+    this->Right = glm::normalize(glm::cross(this->Forward, glm::dvec3(0.0, 0.0, 1.0)));
+    this->Up = glm::cross(this->Right, this->Forward);
+    this->Pixel = 2.0 * wall.Field / Pixels / glm::length(wall.Eye);
+  }
+
+  MembraneMesh MakeFront() const
+  {
+    const int cells = this->Tested.FrontCells;
+    return MakeWall(0.0, cells, cells,
+      [cells](int i, int j) {
+        return glm::dvec2(HalfWidth * (2.0 * i / cells - 1.0), -Bottom * (2.0 * j / cells - 1.0));
+      });
+  }
+
+  MembraneMesh MakeBack() const
+  {
+    constexpr int rows = 4;
+    return MakeWall(Thickness, this->Line.GetParts(), rows,
+      [this](int i, int j)
+      {
+        const double part = static_cast<double>(j) / rows;
+        const double line = this->Line.GetPointHeight(i);
+        return glm::dvec2(this->Line.GetX(i),
+          this->Tested.IsBelow ? glm::mix(Bottom, line, part) : glm::mix(line, -Bottom, part));
+      });
+  }
+
+  glm::dvec3 GetDirection(double column, double row) const
+  {
+    return glm::normalize(this->Forward +
+      this->Pixel * ((column - 0.5 * Pixels) * this->Right + (row - 0.5 * Pixels) * this->Up));
+  }
+  double GetPixel() const { return this->Pixel; }
+  double GetBehind() const { return this->Tested.IsBelow ? 1.333 : 1.0; }
+
+  /** True if the ray shows the board through both sides. */
+  bool ShowsBoard(const glm::dvec3& direction) const
+  {
+    glm::dvec3 at = this->Tested.Eye;
+    glm::dvec3 way = direction;
+    const double depths[3] = { 0.0, Thickness, BoardAt };
+    const double indices[3] = { 1.0, 1.5, this->GetBehind() };
+    for (int k = 0; k < 3; ++k)
+    {
+      at += (depths[k] - at.y) / way.y * way;
+      if (k == 2)
+      {
+        break;
+      }
+      const double line = this->Line.GetHeight(at.x);
+      if (std::fabs(at.x) > HalfWidth || at.z < Bottom || at.z > -Bottom ||
+        (k == 1 && (at.z < line) != this->Tested.IsBelow))
+      {
+        return false;
+      }
+      const glm::dvec2 across = indices[k] / indices[k + 1] * glm::dvec2(way.x, way.z);
+      const double squared = glm::dot(across, across);
+      if (squared >= 1.0)
+      {
+        return false;
+      }
+      way = { across.x, std::sqrt(1.0 - squared), across.y };
+    }
+    return std::fabs(at.x) < BoardSize && std::fabs(at.z) < BoardSize;
+  }
+
+private:
+  Wall Tested;
+  Waterline Line;
+  glm::dvec3 Forward;
+  glm::dvec3 Right;
+  glm::dvec3 Up;
+  double Pixel;
+};
+
+struct Difference
+{
+  int Covered = 0;
+  int Wrong = 0;   ///< pixels that differ from the truth at all places within a fifth of a pixel
+  int Missing = 0; ///< of these: pixels without an image
+  int Twice = 0;
+};
+
+Difference Compare(const Scene& scene, const Object& object, const glm::dvec3& eye)
+{
+  constexpr double within = 0.2;
+  const std::vector<Piece> pieces = ListPieces(object, eye);
+  Difference result;
+  for (int row = 0; row < Scene::Pixels; ++row)
+  {
+    for (int column = 0; column < Scene::Pixels; ++column)
+    {
+      const double x = column + 0.5;
+      const double y = row + 0.5;
+      const glm::dvec3 direction = scene.GetDirection(x, y);
+      const bool truth = scene.ShowsBoard(direction);
+      int count = 0;
+      for (const Piece& piece : pieces)
+      {
+        count += glm::dot(direction, piece.Middle) >= piece.Cosine - 1e-12 &&
+          Covers(piece.Corners, direction);
+      }
+      result.Covered += truth;
+      result.Twice += count > 1;
+      if (truth == (count > 0))
+      {
+        continue;
+      }
+      bool isNear = false;
+      for (int k = 0; k < 16; ++k)
+      {
+        const double angle = std::acos(-1.0) * k / 8.0;
+        isNear = isNear ||
+          scene.ShowsBoard(scene.GetDirection(
+            x + within * std::cos(angle), y + within * std::sin(angle))) != truth;
+      }
+      result.Wrong += !isNear;
+      result.Missing += !isNear && truth;
+    }
+  }
+  return result;
+}
+
+class RefractionStackWall : public ::testing::TestWithParam<Wall>
+{
+};
+
+const glm::dvec3 InFront(0.3, -4.0, 0.4);
+const glm::dvec3 AtASlant(2.5, -3.0, 1.5);
+
+}
+
+//------------------------------------------------------------------------------
+TEST_P(RefractionStackWall, BordersAreFollowedToAFifthOfAPixel)
+{
+  const Scene scene(GetParam());
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(scene.MakeFront()), { 1.0, 1.5 } },
+      { MakeSurface(scene.MakeBack()), { 1.5, scene.GetBehind() } } },
+    GetParam().Eye);
+  Object board;
+  constexpr double size = Scene::BoardSize;
+  board.AddQuad(
+    { -size, Scene::BoardAt, -size }, { 2.0 * size, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * size });
+  board.Map(solver, FilterTolerance);
+  const Difference result = Compare(scene, board, GetParam().Eye);
+  EXPECT_GT(result.Covered, 5000);
+  EXPECT_EQ(result.Wrong, 0) << "missing " << result.Missing << " twice " << result.Twice;
+  EXPECT_EQ(result.Twice, 0);
+  EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Walls, RefractionStackWall,
+  ::testing::Values(Wall{ "WaterBehindTwoFacets", 1, 240, 0.3, true, InFront },
+    Wall{ "WaterBehindFewFacets", 4, 120, 0.3, true, InFront },
+    Wall{ "WaterBehindAFineLine", 4, 600, 0.3, true, InFront },
+    Wall{ "WaterAtASlant", 4, 120, 1.0, true, AtASlant },
+    Wall{ "AirBehindTwoFacets", 1, 120, 0.5, false, InFront },
+    Wall{ "AirAtASlant", 10, 120, 0.5, false, AtASlant }),
+  [](const ::testing::TestParamInfo<Wall>& wall) { return wall.param.Name; });
+
+//------------------------------------------------------------------------------
+// The rim of a flat and of a curved disc behind a large plane: a closed border within few facets.
+TEST(RefractionStackBorders, TheRimOfADiscIsFollowed)
+{
+  struct Disc
+  {
+    int Facets; ///< of the plane in front, along a side
+    double SphereRadius;
+  };
+  for (const Disc& disc : { Disc{ 1, 3.0 }, Disc{ 3, 0.0 } })
+  {
+    MembraneMesh mesh = meniscus::reference::MakeDisc(1.0, 5, disc.SphereRadius);
+    mesh.Translate({ 0.1, -0.5, 0.05 });
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(meniscus::reference::MakePlane(0.0, 3.0, disc.Facets)), { 1.0, 1.333 } },
+        { MakeSurface(mesh), { 1.333, 1.5 } } },
+      { 0.3, 2.0, 0.4 });
+    Object object;
+    object.AddQuad({ -3.0, -2.2, -3.0 }, { 6.0, 0.0, 0.0 }, { 0.0, 0.0, 6.0 });
+    object.Map(solver, FilterTolerance);
+    const Comparison result = Compare(solver, object, 60000, 5);
+    EXPECT_GT(result.Hits, 10000);
+    EXPECT_EQ(result.Wrong, 0) << disc.Facets;
+  }
+}
