@@ -47,6 +47,15 @@ function (meniscus_target_flags target)
   endif ()
 endfunction ()
 
+# meniscus_optimize_less(TARGET): for programs whose own code does little, such as tests of a shared
+# library: the optimiser takes half of the time of their compilation. Other flags than CMake's
+# default are the user's, and stay.
+function (meniscus_optimize_less target)
+  if (CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif ()
+endfunction ()
+
 # Headers that many sources include, by subject: kernel, vtk, rendering, tests.
 set(meniscus_headers_kernel
   <algorithm> <array> <cmath> <cstddef> <cstdint> <functional> <limits> <memory> <numeric> <string>
@@ -76,6 +85,43 @@ function (meniscus_precompile_headers target)
     list(APPEND headers ${meniscus_headers_${subject}})
   endforeach ()
   target_precompile_headers(${target} PRIVATE ${headers})
+endfunction ()
+
+# meniscus_compile_together(TARGET [FOLDER...]): with MENISCUS_UNITY_BUILD, the sources of a folder,
+# by default of all folders, are compiled together, six at a time, because reading headers and
+# instantiating templates takes longer than the rest. Names in anonymous namespaces are therefore
+# unique in such a folder. Sources with options of their own are compiled by themselves.
+option(MENISCUS_UNITY_BUILD "Compile several sources of a folder together" OFF)
+function (meniscus_compile_together target)
+  get_target_property(aliased "${target}" ALIASED_TARGET)
+  if (aliased)
+    set(target "${aliased}")
+  endif ()
+  get_target_property(base ${target} SOURCE_DIR)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "^[^$]*\\.cxx$")
+  foreach (source IN LISTS sources)
+    get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${base}")
+    get_filename_component(folder "${source}" DIRECTORY)
+    file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${folder}")
+    get_source_file_property(generated "${source}" TARGET_DIRECTORY ${target} GENERATED)
+    if (generated OR (ARGN AND NOT folder IN_LIST ARGN))
+      continue ()
+    endif ()
+    list(APPEND grouped_${folder} "${source}")
+    list(LENGTH grouped_${folder} count)
+    math(EXPR part "(${count} + 5) / 6")
+    string(MAKE_C_IDENTIFIER "${folder}_${part}" group)
+    set_source_files_properties("${source}" TARGET_DIRECTORY ${target}
+      PROPERTIES UNITY_GROUP "${group}")
+  endforeach ()
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD      ${MENISCUS_UNITY_BUILD}
+    UNITY_BUILD_MODE GROUP)
+  # GCC takes the sources for headers, in which members of such types would be a mistake.
+  if (MENISCUS_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif ()
 endfunction ()
 
 # Tests also run on real meshes where they find them.

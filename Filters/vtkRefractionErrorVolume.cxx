@@ -39,9 +39,9 @@ namespace
 
 // Number of samples that a thread takes at once. Progress is reported about a hundred times, but
 // not for fewer samples than keep all threads of a large machine busy.
-constexpr vtkIdType Grain = 128;
-constexpr vtkIdType ProgressSteps = 100;
-constexpr vtkIdType SmallestStep = 64 * Grain;
+constexpr vtkIdType SampleGrain = 128;
+constexpr vtkIdType SampleProgressSteps = 100;
+constexpr vtkIdType SmallestSampleStep = 64 * SampleGrain;
 
 using Links = std::vector<meniscus::RefractionStack::Link>;
 
@@ -480,11 +480,11 @@ bool vtkRefractionErrorVolume::MeasureSamples(bool hasStack, vtkImageData* outpu
 bool vtkRefractionErrorVolume::RunOverSamples(
   vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body)
 {
-  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
+  const vtkIdType step = std::max(count / SampleProgressSteps, SmallestSampleStep);
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, Grain, body);
+    vtkSMPTools::For(first, last, SampleGrain, body);
     this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
     if (this->GetAbortExecute())
     {

@@ -17,8 +17,8 @@ namespace
 {
 
 // Points between two reports of progress, at least, and number of reports.
-constexpr vtkIdType SmallestStep = 16384;
-constexpr vtkIdType ProgressSteps = 20;
+constexpr vtkIdType SmallestPointStep = 16384;
+constexpr vtkIdType PointProgressSteps = 20;
 
 }
 
@@ -148,7 +148,7 @@ bool vtkSightRayAlgorithm::UpdateScene(
 bool vtkSightRayAlgorithm::RunInSteps(
   vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body)
 {
-  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
+  const vtkIdType step = std::max(count / PointProgressSteps, SmallestPointStep);
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);

@@ -45,7 +45,7 @@ namespace
 {
 
 // Points per task of a thread, a few microseconds each.
-constexpr vtkIdType Grain = 256;
+constexpr vtkIdType TriangulationGrain = 256;
 
 /** Observations in the order of the points that they see, and the first one of each point. */
 struct Tracks
@@ -99,7 +99,7 @@ Tracks CollectTracks(vtkDataArray* ids)
 }
 
 /** Points and arrays of the output. */
-struct PointArrays
+struct TriangulatedPointArrays
 {
   vtkNew<vtkDoubleArray> Positions;
   vtkNew<vtkIdTypeArray> Ids;
@@ -108,7 +108,7 @@ struct PointArrays
   vtkNew<vtkDoubleArray> Angles;
   vtkNew<vtkUnsignedCharArray> States;
 
-  explicit PointArrays(const std::vector<vtkIdType>& ids)
+  explicit TriangulatedPointArrays(const std::vector<vtkIdType>& ids)
   {
     this->Positions->SetNumberOfComponents(3);
     this->Ids->SetName("PointId");
@@ -220,7 +220,7 @@ int vtkTriangulatedPositionFilter::RequestData(
     return 0;
   }
   const Tracks tracks = CollectTracks(ids);
-  PointArrays arrays(tracks.Ids);
+  TriangulatedPointArrays arrays(tracks.Ids);
   const double medium = this->GetExteriorIndexOfRefraction();
   const auto triangulate = [&](vtkIdType begin, vtkIdType end)
   {
@@ -244,7 +244,8 @@ int vtkTriangulatedPositionFilter::RequestData(
     }
   };
   if (!this->RunInSteps(static_cast<vtkIdType>(tracks.Ids.size()),
-        [&](vtkIdType begin, vtkIdType end) { vtkSMPTools::For(begin, end, Grain, triangulate); }))
+        [&](vtkIdType begin, vtkIdType end)
+        { vtkSMPTools::For(begin, end, TriangulationGrain, triangulate); }))
   {
     return 1;
   }

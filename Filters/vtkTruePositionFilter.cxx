@@ -46,14 +46,14 @@ static_assert(vtkTruePositionFilter::APPARENT == static_cast<int>(meniscus::Seen
   "the same depths");
 
 /** Arrays of the output. */
-struct PointArrays
+struct SeenPointArrays
 {
   vtkNew<vtkDoubleArray> Positions;
   vtkNew<vtkUnsignedCharArray> States;
   vtkNew<vtkDoubleArray> SightPoints;
   vtkNew<vtkDoubleArray> Paths;
 
-  explicit PointArrays(vtkIdType count)
+  explicit SeenPointArrays(vtkIdType count)
   {
     this->States->SetName("SeenState");
     this->SightPoints->SetName("SightPoint");
@@ -165,7 +165,7 @@ bool vtkTruePositionFilter::MovePoints(
   vtkPointSet* input, const meniscus::PointEyes& eyes, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
-  PointArrays arrays(count);
+  SeenPointArrays arrays(count);
   this->Internals->UpdatePoints(input);
   const std::vector<double>& coordinates = this->Internals->Coordinates;
   const std::vector<std::uint32_t>& order = this->Internals->Order;

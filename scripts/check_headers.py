@@ -11,6 +11,7 @@ and Rendering are checked.
 import concurrent.futures
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -29,9 +30,18 @@ def flags_of_folders(builds):
             commands = json.load(file)
         for command in commands:
             kept = kept_words(shlex.split(command["command"]))
-            path = os.path.relpath(os.path.join(command["directory"], command["file"]), ROOT)
-            flags.setdefault(os.path.dirname(path), (kept, command["directory"]))
+            for source in sources_of(os.path.join(command["directory"], command["file"])):
+                folder = os.path.dirname(os.path.relpath(source, ROOT))
+                flags.setdefault(folder, (kept, command["directory"]))
     return flags
+
+
+def sources_of(path):
+    """The file itself, or the sources that CMake's unity build compiles together in it."""
+    if not os.path.basename(path).startswith("unity_"):
+        return [path]
+    with open(path, encoding="utf-8") as file:
+        return re.findall(r'^#include "(.*)"$', file.read(), re.MULTILINE)
 
 
 def kept_words(words):

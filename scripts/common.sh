@@ -93,8 +93,9 @@ install_packages()
     die "apt-get not found; install the equivalents of: ${missing[*]}"
   say "Installing ${missing[*]}"
   update_package_lists
+  # As Debian's installer does, without waiting for the disk after each package.
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
-    "${missing[@]}"
+    -o Dpkg::Options::=--force-unsafe-io "${missing[@]}"
 }
 
 # configure PRESET [CMAKE-ARGUMENT...]

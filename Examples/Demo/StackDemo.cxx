@@ -52,7 +52,7 @@
 namespace
 {
 
-constexpr int PictureSize = 768;
+constexpr int StackPictureSize = 768;
 constexpr int Samples = 2; // pixels of the window per pixel of the picture, along a side
 constexpr double Glass = 1.52;
 
@@ -203,7 +203,7 @@ public:
   {
     this->Window->SetOffScreenRendering(1);
     this->Window->SetMultiSamples(0);
-    this->Window->SetSize(Samples * PictureSize, Samples * PictureSize);
+    this->Window->SetSize(Samples * StackPictureSize, Samples * StackPictureSize);
     this->Window->AddRenderer(this->Renderer);
     this->Renderer->SetBackground(0.86, 0.91, 0.95);
     this->Renderer->SetBackground2(0.45, 0.62, 0.84);
@@ -236,7 +236,7 @@ public:
   {
     vtkCamera* camera = this->Renderer->GetActiveCamera();
     filter->SetCamera(camera);
-    filter->SetAngularTolerance(0.5 * camera->GetViewAngle() / (Samples * PictureSize));
+    filter->SetAngularTolerance(0.5 * camera->GetViewAngle() / (Samples * StackPictureSize));
   }
 
   bool Write(const std::string& folder, const std::string& name, const std::string& caption)
@@ -260,8 +260,8 @@ public:
       std::fprintf(stderr, "error: %s cannot be written\n", file.c_str());
       return false;
     }
-    std::printf(
-      "wrote %s (%d x %d): %s\n", file.c_str(), PictureSize, PictureSize, caption.c_str());
+    std::printf("wrote %s (%d x %d): %s\n", file.c_str(), StackPictureSize, StackPictureSize,
+      caption.c_str());
     return true;
   }
 

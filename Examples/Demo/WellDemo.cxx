@@ -29,7 +29,7 @@
 namespace
 {
 
-constexpr int PictureSize = 512;
+constexpr int WellPictureSize = 512;
 constexpr int WaterCells = 96;
 constexpr unsigned char Background[3] = { 24, 30, 40 };
 
@@ -71,7 +71,7 @@ public:
 
   vtkSmartPointer<vtkImageData> Draw()
   {
-    this->Window->SetSize(PictureSize, PictureSize);
+    this->Window->SetSize(WellPictureSize, WellPictureSize);
     this->Window->Render();
     vtkNew<vtkWindowToImageFilter> image;
     image->SetInput(this->Window);
@@ -131,7 +131,7 @@ vtkSmartPointer<vtkImageData> MakeDifference(vtkImageData* a, vtkImageData* b, i
     }
     differing += largest > 2.0; // beyond rounding
   }
-  return MakeImage(pixels, PictureSize);
+  return MakeImage(pixels, WellPictureSize);
 }
 
 bool CompareWithRays(WellWindow& window, vtkPolyData* well, const std::string& folder)
@@ -142,7 +142,7 @@ bool CompareWithRays(WellWindow& window, vtkPolyData* well, const std::string& f
   const auto drawn = window.Draw();
   ShowProgress("Tracing rays", 0.0);
   const auto traced =
-    MakeImage(TraceDemoWell(well, water, View, PictureSize, Background), PictureSize);
+    MakeImage(TraceDemoWell(well, water, View, WellPictureSize, Background), WellPictureSize);
   ShowProgress("Tracing rays", 1.0);
   std::fprintf(stderr, "\n");
   int differing = 0;
@@ -156,10 +156,10 @@ bool CompareWithRays(WellWindow& window, vtkPolyData* well, const std::string& f
   std::printf("wrote %s/well-comparison.png (3 x %d x %d): virtual geometry with all images, %lld "
               "cells of %lld; rays through the exact waves; their difference, %.2f %% of the "
               "pixels, most on edges of colours\n",
-    folder.c_str(), PictureSize, PictureSize,
+    folder.c_str(), WellPictureSize, WellPictureSize,
     static_cast<long long>(window.GetFilter()->GetOutput()->GetNumberOfCells()),
     static_cast<long long>(well->GetNumberOfCells()),
-    100.0 * differing / (static_cast<double>(PictureSize) * PictureSize));
+    100.0 * differing / (static_cast<double>(WellPictureSize) * WellPictureSize));
   return WritePicture(sideBySide->GetOutput(), folder + "/well-comparison.png");
 }
 

@@ -117,10 +117,10 @@ bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, 
 }
 
 /** Collects points and cells of the output. */
-class Builder
+class ImageBuilder
 {
 public:
-  Builder(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
+  ImageBuilder(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
     const AllImages& cells, ImageAssembly& assembly, vtkPolyData* output)
     : Input(input)
     , Topology(topology)
@@ -402,7 +402,7 @@ VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopolog
   const CellImages& images, const AllImages& cells, const Membrane& membrane,
   const OutputOptions& options, ImageAssembly& assembly, vtkPolyData* output)
 {
-  Builder builder(input, topology, images, cells, assembly, output);
+  ImageBuilder builder(input, topology, images, cells, assembly, output);
   if (!assembly.IsReady || !(assembly.Options == options) ||
     assembly.Geometry->GetPoints()->GetDataType() != GetPointType(input, options.PointsPrecision))
   {

@@ -22,10 +22,10 @@ namespace meniscus
 namespace
 {
 
-class Builder
+class VirtualBuilder
 {
 public:
-  Builder(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
+  VirtualBuilder(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
     const ViewSelection& selection, const Membrane& membrane, vtkPolyData* output)
     : Input(input)
     , Vertices(vertices)
@@ -231,7 +231,7 @@ VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
   const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,
   const Membrane& membrane, const OutputOptions& options, vtkPolyData* output)
 {
-  return Builder(input, vertices, selection, membrane, output).Run(options);
+  return VirtualBuilder(input, vertices, selection, membrane, output).Run(options);
 }
 
 }

@@ -7,6 +7,7 @@
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/GridLayout.h"
 #include "Volume/Division/ShapeTest.h"
+#include "Volume/Mesh/PointBox.h"
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
@@ -24,11 +25,6 @@ namespace meniscus
 {
 namespace
 {
-
-bool IsFinite(const glm::dvec3& at)
-{
-  return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
-}
 
 /** Corners of the cells of data sets, which are numbered consecutively; for one thread. */
 class CornerReader

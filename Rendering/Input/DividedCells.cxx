@@ -9,6 +9,7 @@
 #include "Rendering/Input/GridLayout.h"
 #include "Rendering/Input/PointsSource.h"
 #include "Rendering/Input/TetrahedraSource.h"
+#include "Volume/Mesh/PointBox.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -26,11 +27,6 @@ namespace meniscus
 {
 namespace
 {
-
-bool IsFinite(const glm::dvec3& at)
-{
-  return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
-}
 
 /** Length of the diagonal of the box around the points that are finite. */
 double DiagonalOf(const PointFields& fields)
@@ -178,16 +174,6 @@ std::int64_t BudgetOf(const DivisionSettings& settings, std::int64_t fixedPieces
   return std::min<std::int64_t>(budget, TetrahedralMesh::MaximumNumberOfCells);
 }
 
-std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
-{
-  std::vector<vtkDataSet*> grids;
-  for (const InputPart& part : input.Parts)
-  {
-    grids.push_back(part.Grid);
-  }
-  return grids;
-}
-
 /** The loop, unless a data set must be read by one thread. */
 const RangeLoop& LoopFor(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
 {
@@ -219,7 +205,7 @@ DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeL
   const std::function<bool(double)>& progress)
 {
   this->Clear();
-  const std::vector<vtkDataSet*> grids = GridsOf(request.Fields);
+  const std::vector<vtkDataSet*> grids = GetGrids(request.Fields);
   if (!MayBeCurved(grids))
   {
     return DivisionStatus::Ok;
@@ -296,7 +282,7 @@ void DividedCells::FreeView()
 //------------------------------------------------------------------------------
 bool DividedCells::Holds(const DivisionRequest& request, const RangeLoop& loop) const
 {
-  const std::vector<vtkDataSet*> grids = GridsOf(request.Fields);
+  const std::vector<vtkDataSet*> grids = GetGrids(request.Fields);
   const PointsSource points(grids, loop);
   const PointFields fields = FieldsOf(request, points, loop);
   const DivisionMeasure measure = MeasureFor(request, fields);
@@ -325,7 +311,7 @@ bool DividedCells::Holds(const DivisionRequest& request, const RangeLoop& loop) 
 std::vector<double> DividedCells::ComputePositions(
   const InputBlocks& input, const RangeLoop& loop) const
 {
-  return this->ComputePositions(PointsSource(GridsOf(input), loop), loop);
+  return this->ComputePositions(PointsSource(GetGrids(input), loop), loop);
 }
 
 //------------------------------------------------------------------------------

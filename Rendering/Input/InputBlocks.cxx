@@ -253,4 +253,15 @@ InputBlocks CollectGrids(vtkDataObject* input)
   return blocks;
 }
 
+//------------------------------------------------------------------------------
+std::vector<vtkDataSet*> GetGrids(const InputBlocks& input)
+{
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
+  {
+    grids.push_back(part.Grid);
+  }
+  return grids;
+}
+
 }

@@ -77,6 +77,9 @@ InputReport CollectInputBlocks(
  */
 InputBlocks CollectGrids(vtkDataObject* input);
 
+/** The data sets of the parts, in their order. */
+std::vector<vtkDataSet*> GetGrids(const InputBlocks& input);
+
 }
 
 #endif

@@ -50,7 +50,7 @@ std::vector<vtkObject*> HoldersOf(vtkDataSet* grid)
   return { grid, grid->GetPointData(), grid->GetCellData() };
 }
 
-Storage PointsOf(vtkDataSet* grid)
+Storage PointStorageOf(vtkDataSet* grid)
 {
   Storage storage;
   storage.Holders = HoldersOf(grid);
@@ -88,7 +88,7 @@ void AddCells(vtkCellArray* cells, Storage& storage)
 }
 
 /** The cells, the ghost flags, and the number of points, of which the cells are made. */
-Storage CellsOf(vtkDataSet* grid)
+Storage CellStorageOf(vtkDataSet* grid)
 {
   Storage storage;
   storage.Holders = HoldersOf(grid);
@@ -192,7 +192,7 @@ vtkDataSetAttributes* AttributesOf(vtkDataSet* grid, FieldAssociation place)
 //------------------------------------------------------------------------------
 std::vector<ObjectVersion> CellVersions(const InputBlocks& input)
 {
-  return VersionsOf(input, CellsOf);
+  return VersionsOf(input, CellStorageOf);
 }
 
 //------------------------------------------------------------------------------
@@ -202,7 +202,7 @@ std::uint64_t DigestCells(const InputBlocks& input)
   for (const InputPart& part : input.Parts)
   {
     digest.Add(static_cast<std::uint64_t>(part.Grid->GetDataObjectType()));
-    AddStorage(CellsOf(part.Grid), part.Grid, digest);
+    AddStorage(CellStorageOf(part.Grid), part.Grid, digest);
     AddCellTypes(part.Grid, digest);
   }
   return digest.GetValue();
@@ -211,7 +211,7 @@ std::uint64_t DigestCells(const InputBlocks& input)
 //------------------------------------------------------------------------------
 std::vector<ObjectVersion> PointVersions(const InputBlocks& input)
 {
-  return VersionsOf(input, PointsOf);
+  return VersionsOf(input, PointStorageOf);
 }
 
 //------------------------------------------------------------------------------
@@ -220,7 +220,7 @@ std::uint64_t DigestPoints(const InputBlocks& input)
   ContentDigest digest;
   for (const InputPart& part : input.Parts)
   {
-    AddStorage(PointsOf(part.Grid), part.Grid, digest);
+    AddStorage(PointStorageOf(part.Grid), part.Grid, digest);
   }
   return digest.GetValue();
 }

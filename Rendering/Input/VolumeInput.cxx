@@ -21,16 +21,6 @@ namespace meniscus
 namespace
 {
 
-std::vector<vtkDataSet*> GridsOf(const InputBlocks& input)
-{
-  std::vector<vtkDataSet*> grids;
-  for (const InputPart& part : input.Parts)
-  {
-    grids.push_back(part.Grid);
-  }
-  return grids;
-}
-
 std::string DescribeFolded(std::int64_t cells)
 {
   return cells == 0 ? std::string()
@@ -70,7 +60,7 @@ InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
     (!newPoints || this->MovePoints(input));
   if (!holds)
   {
-    report = this->BuildMesh(GridsOf(input), progress, division);
+    report = this->BuildMesh(GetGrids(input), progress, division);
     this->BuildError = report.Error;
   }
   return report;
@@ -136,7 +126,7 @@ bool VolumeInput::MovePoints(const InputBlocks& input)
   }
   else
   {
-    const PointsSource points(GridsOf(input), ThreadedLoop);
+    const PointsSource points(GetGrids(input), ThreadedLoop);
     moved = this->Mesh.MovePoints(points.GetView(), ThreadedLoop);
   }
   if (moved)
@@ -500,7 +490,7 @@ void VolumeInput::FindInputCells(const InputBlocks& input)
   {
     return;
   }
-  const TetrahedraSource source(GridsOf(input), ThreadedLoop);
+  const TetrahedraSource source(GetGrids(input), ThreadedLoop);
   this->InputCells = FindSourceCells(this->Mesh, source.GetView(), ThreadedLoop);
   ++this->InputCellSearches;
 }

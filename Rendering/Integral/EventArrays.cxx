@@ -15,7 +15,7 @@ namespace meniscus
 namespace
 {
 
-constexpr const char* Names[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
+constexpr const char* EventNames[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
   "LargestContribution" };
 
 /** Makes an array whose tuples all have one value. */
@@ -87,7 +87,7 @@ EventArrays::EventArrays(const EventChoice& choice, std::int64_t pixels)
       continue;
     }
     OfEvent& arrays = this->Arrays[kind];
-    const std::string name = Names[kind];
+    const std::string name = EventNames[kind];
     Prepare(arrays.Depth, name + "Depth", 1, pixels, none);
     Prepare(arrays.Value, name + "Value", 1, pixels, none);
     Prepare(arrays.Position, name + "Position", 3, pixels, none);

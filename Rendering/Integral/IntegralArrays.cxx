@@ -14,9 +14,9 @@ namespace meniscus
 namespace
 {
 
-constexpr const char* Names[NumberOfIntegralArrays] = { "Integral", "PathLength", "OpticalDepth",
-  "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum", "MaximumDepth", "RGBA",
-  "EnergyBins" };
+constexpr const char* IntegralNames[NumberOfIntegralArrays] = { "Integral", "PathLength",
+  "OpticalDepth", "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum", "MaximumDepth",
+  "RGBA", "EnergyBins" };
 
 /** True for arrays with a number that only rays through the mesh have. */
 bool IsUndefinedOutside(IntegralArray array)
@@ -77,7 +77,7 @@ IntegralArrays::IntegralArrays(
     }
     const auto array = static_cast<IntegralArray>(i);
     vtkFloatArray* made = this->Arrays[i];
-    made->SetName(Names[i]);
+    made->SetName(IntegralNames[i]);
     made->SetNumberOfComponents(ComponentsOf(array, choice.NumberOfBins));
     made->SetNumberOfTuples(pixels);
     made->Fill(IsUndefinedOutside(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0);
@@ -149,7 +149,7 @@ void IntegralArrays::AddTo(vtkImageData* image)
     image->GetPointData()->AddArray(this->Arrays[i]);
     if (isFirst)
     {
-      image->GetPointData()->SetActiveScalars(Names[i]);
+      image->GetPointData()->SetActiveScalars(IntegralNames[i]);
       isFirst = false;
     }
   }
