@@ -82,7 +82,7 @@ def _make_panel(found: Comparison, pixels: Any) -> Any:
     actor = vtkActor2D()
     actor.SetMapper(mapper)
     renderer = vtkRenderer()
-    renderer.AddActor2D(actor)
+    renderer.AddViewProp(actor)
     lines = (found.name, f"{found.milliseconds:.1f} ms", f"RMS {found.rms:.2f} of 255")
     for index, line in enumerate(lines):
         text = vtkTextActor()
@@ -91,7 +91,7 @@ def _make_panel(found: Comparison, pixels: Any) -> Any:
         text.GetTextProperty().SetFontSize(18 if index == 0 else 15)
         text.GetTextProperty().SetBold(index == 0)
         text.GetTextProperty().SetColor(*_INK)
-        renderer.AddActor2D(text)
+        renderer.AddViewProp(text)
     return renderer
 
 
