@@ -124,7 +124,7 @@ class TestTruePositions(unittest.TestCase):
             meniscus.true_positions(self.seen, self.eyes, 3.0)
 
     def test_surface_upside_down(self):
-        with self.assertWarnsRegex(RuntimeWarning, "faces the eye"):
+        with self.assertWarnsRegex(RuntimeWarning, "faces an eye"):
             meniscus.true_positions(self.seen, (0, 0, 2), (SQUARE[0], SQUARE[1][:, ::-1]))
 
 
