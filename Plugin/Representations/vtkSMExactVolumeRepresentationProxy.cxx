@@ -14,6 +14,7 @@
 #include "vtkSMArrayListDomain.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSession.h"
 #include "vtkSessionIterator.h"
 #include "vtkSmartPointer.h"
 
@@ -40,9 +41,25 @@ void NameClass(vtkPVXMLElement* definition)
   }
 }
 
+/**
+ * True for sessions of servers and of their clients: a server sends its definitions to clients that
+ * may not know this class yet.
+ */
+bool IsOfServer(vtkSession* session)
+{
+  const auto type = vtkProcessModule::GetProcessType();
+  return (session && session->IsA("vtkSMSessionClient")) ||
+    type == vtkProcessModule::PROCESS_SERVER || type == vtkProcessModule::PROCESS_DATA_SERVER ||
+    type == vtkProcessModule::PROCESS_RENDER_SERVER;
+}
+
 /** Names this class in a session's definition of the representations of unstructured grids. */
 void NameClassIn(vtkSession* session)
 {
+  if (IsOfServer(session))
+  {
+    return;
+  }
   auto* base = vtkPVSessionBase::SafeDownCast(session);
   vtkSIProxyDefinitionManager* manager = base ? base->GetProxyDefinitionManager() : nullptr;
   if (manager)

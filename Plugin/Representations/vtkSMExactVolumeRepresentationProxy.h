@@ -12,7 +12,7 @@
  *
  * XML can extend a definition of ParaView, but not change its class. UseForUnstructuredGrids(),
  * which the plugin calls when it is loaded, does so for the definition
- * `UnstructuredGridRepresentation` of every session.
+ * `UnstructuredGridRepresentation` of every session without a server.
  */
 #ifndef vtkSMExactVolumeRepresentationProxy_h
 #define vtkSMExactVolumeRepresentationProxy_h

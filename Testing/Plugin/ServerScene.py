@@ -69,7 +69,7 @@ def main():
     if PORT:
         simple.Connect("localhost", PORT)
         simple.LoadPlugin(os.environ["MENISCUS_PLUGIN"], remote=True, ns=vars(simple))
-    PluginTesting.load_plugin()
+    PluginTesting.load_again()  # in the client, which needs it as well
     plane = simple.Plane(Origin=[-14, -14, 14], Point1=[14, -14, 14], Point2=[-14, 14, 14],
                          XResolution=40, YResolution=40)
     waves = simple.Calculator(Input=plane, CoordinateResults=1,
