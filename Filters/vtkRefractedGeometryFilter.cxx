@@ -499,7 +499,7 @@ int vtkRefractedGeometryFilter::RequestOne(
 }
 
 //------------------------------------------------------------------------------
-// Solves what is not known of the images, and writes them. There is no output after an abort.
+// Solves the images that are not known yet and writes all of them. An abort leaves no output.
 void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* output)
 {
   vtkInternals& internals = *this->Internals;

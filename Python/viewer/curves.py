@@ -25,7 +25,7 @@ LARGEST_OPACITY = 1.0 - 1.0 / 512.0
 # Coefficients are not linear between the points of a curve; so many pieces follow it.
 _PIECES = 8
 # A simplified curve has at most so many points, or so small an error, whichever comes first: more
-# points could not be told apart with the mouse.
+# points would be too close for the mouse.
 _POINTS = 12
 _ERROR = 0.02
 
