@@ -231,12 +231,12 @@ public:
   vtkRenderer* GetRenderer() { return this->Renderer; }
   vtkRefractionPass* GetPass() { return this->Pass; }
 
-  /** Sets the filter's eye; its tolerance is half a pixel of the window. */
+  /** Sets the filter's eye; its tolerance is half a pixel of the picture. */
   void Follow(vtkRefractedGeometryFilter* filter)
   {
     vtkCamera* camera = this->Renderer->GetActiveCamera();
     filter->SetCamera(camera);
-    filter->SetAngularTolerance(0.5 * camera->GetViewAngle() / (Samples * StackPictureSize));
+    filter->SetAngularTolerance(0.5 * camera->GetViewAngle() / StackPictureSize);
   }
 
   bool Write(const std::string& folder, const std::string& name, const std::string& caption)
