@@ -35,10 +35,13 @@ function (meniscus_find_rooms)
   set(meniscus_rooms ${rooms} PARENT_SCOPE)
 endfunction ()
 
-# Reads Testing/TestTimes.txt: meniscus_long_tests has the names of the tests that take long, and
-# meniscus_seconds_NAME their usual time.
+# Reads Testing/TestTimes.txt, with a sanitizer Testing/SanitizerTimes.txt: meniscus_long_tests has
+# the names of the tests that take long, and meniscus_seconds_NAME their usual time.
 function (meniscus_read_times)
   set(file "${PROJECT_SOURCE_DIR}/Testing/TestTimes.txt")
+  if (MENISCUS_SANITIZER)
+    set(file "${PROJECT_SOURCE_DIR}/Testing/SanitizerTimes.txt")
+  endif ()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
   file(STRINGS "${file}" lines REGEX "^[0-9]+ ")
   set(names)
@@ -67,13 +70,10 @@ function (meniscus_add_process name target filter seconds labels)
 endfunction ()
 
 # Adds the tests of a suite: one process for those that are quick, and one for each that takes long.
-# The label "sanitized" marks what scripts/sanitize runs: unit tests, and quick pipeline tests.
+# The label "sanitized" marks what scripts/sanitize runs: quick unit tests and pipeline tests.
 function (meniscus_add_suite suite target label room prefix all)
   set(quick_labels "${label};${room}")
   set(long_labels "${label};${room};long")
-  if (label STREQUAL "unit")
-    list(APPEND long_labels sanitized)
-  endif ()
   if (label MATCHES "^(unit|pipeline)$")
     list(APPEND quick_labels sanitized)
   endif ()
