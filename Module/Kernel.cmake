@@ -25,6 +25,7 @@ foreach (room
     Volume/Optics
     Volume/Mesh
     Volume/Division
+    Volume/Graded
     Volume/Packet/Data
     Volume/Rays
     Volume/Packet/Models

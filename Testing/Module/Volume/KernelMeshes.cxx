@@ -20,26 +20,32 @@ MeshArrays SingleTetrahedron()
 //------------------------------------------------------------------------------
 MeshArrays KuhnGrid(int n)
 {
+  return KuhnBlock(n, n, n, n);
+}
+
+//------------------------------------------------------------------------------
+MeshArrays KuhnBlock(int nx, int ny, int nz, double perUnit)
+{
   MeshArrays mesh;
-  for (int k = 0; k <= n; ++k)
+  for (int k = 0; k <= nz; ++k)
   {
-    for (int j = 0; j <= n; ++j)
+    for (int j = 0; j <= ny; ++j)
     {
-      for (int i = 0; i <= n; ++i)
+      for (int i = 0; i <= nx; ++i)
       {
-        mesh.Points.insert(mesh.Points.end(), { i / double(n), j / double(n), k / double(n) });
+        mesh.Points.insert(mesh.Points.end(), { i / perUnit, j / perUnit, k / perUnit });
       }
     }
   }
   // From one corner of the cube to the opposite one, along the axes in every order.
-  const std::int64_t axis[3] = { 1, n + 1, std::int64_t(n + 1) * (n + 1) };
+  const std::int64_t axis[3] = { 1, nx + 1, std::int64_t(nx + 1) * (ny + 1) };
   const int orders[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
     { 2, 1, 0 } };
-  for (int k = 0; k < n; ++k)
+  for (int k = 0; k < nz; ++k)
   {
-    for (int j = 0; j < n; ++j)
+    for (int j = 0; j < ny; ++j)
     {
-      for (int i = 0; i < n; ++i)
+      for (int i = 0; i < nx; ++i)
       {
         for (const auto& order : orders)
         {

@@ -41,6 +41,9 @@ MeshArrays SingleTetrahedron();
 /** n^3 cubes of edge 1 / n that fill [0, 1]^3, each split into Kuhn's 6 tetrahedra. */
 MeshArrays KuhnGrid(int n);
 
+/** nx * ny * nz such cubes, with a corner at the origin and so many per unit of length. */
+MeshArrays KuhnBlock(int nx, int ny, int nz, double perUnit);
+
 /**
  * Moves every point by up to `amount` along each axis, with a fixed seed; large amounts invert
  * cells.

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Graded/BoundaryCrossings.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+
+/** A straight ray about the point of it that is nearest to the mesh's centre. */
+struct BoundaryCrossings::Line
+{
+  glm::dvec3 Point;
+  glm::dvec3 Direction;
+  /** Distance of the ray's origin from that point along the ray. */
+  double Begin;
+};
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/**
+ * Growth of the boxes of the tree. They are boxes of vertices rounded to single precision, off by
+ * up to 2^-25 of the radius; the crossing is found with less error in double precision.
+ */
+constexpr double BoxGrowth = 0x1p-23;
+
+/** True if the line is in a box somewhere from `begin` to `end`. */
+bool MeetsBox(const BoundaryTree::Node& node, const glm::dvec3& point, const glm::dvec3& direction,
+  const glm::dvec3& inverse, double begin, double end)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double middle = node.Center[axis] - point[axis];
+    const double half = node.Half[axis] + BoxGrowth;
+    if (direction[axis] == 0.0)
+    {
+      if (std::abs(middle) > half)
+      {
+        return false;
+      }
+      continue;
+    }
+    const double reach = half * std::abs(inverse[axis]);
+    const double at = middle * inverse[axis];
+    begin = std::max(begin, at - reach);
+    end = std::min(end, at + reach);
+  }
+  return begin <= end;
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool BoundaryCrossings::Cross(
+  const Line& line, std::int32_t number, BoundaryCrossing& crossing) const
+{
+  const BoundaryFace& face = this->Tree.GetFaces()[static_cast<std::size_t>(number)];
+  glm::dvec3 corners[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    corners[i] = this->Mesh.GetPosition(face.Vertices[i]) - line.Point;
+  }
+  double edges[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    const int a = (i + 1) % 3;
+    const int b = (i + 2) % 3;
+    edges[i] = face.Vertices[a] < face.Vertices[b]
+      ? glm::dot(line.Direction, glm::cross(corners[a], corners[b]))
+      : -glm::dot(line.Direction, glm::cross(corners[b], corners[a]));
+  }
+  const bool leaves = edges[0] >= 0.0 && edges[1] >= 0.0 && edges[2] >= 0.0;
+  const bool enters = edges[0] <= 0.0 && edges[1] <= 0.0 && edges[2] <= 0.0;
+  const double sum = edges[0] + edges[1] + edges[2];
+  // A face that is seen edge-on is crossed by none; its neighbours are.
+  if (!(leaves || enters) || sum == 0.0)
+  {
+    return false;
+  }
+  glm::dvec3 place(0.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    crossing.Weights[i] = edges[i] / sum;
+    place += crossing.Weights[i] * corners[i];
+  }
+  crossing.Face = number;
+  crossing.Enters = enters;
+  crossing.Distance = glm::dot(place, line.Direction) - line.Begin;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dvec3& direction,
+  bool leavingToo, const std::vector<std::int32_t>& excluded) const
+{
+  Line line;
+  line.Begin = glm::dot(origin, direction);
+  line.Point = origin - line.Begin * direction;
+  line.Direction = direction;
+  const glm::dvec3 inverse = 1.0 / direction;
+  const auto& nodes = this->Tree.GetNodes();
+  BoundaryCrossing nearest;
+  nearest.Distance = Infinity;
+  for (std::size_t n = 0; n < nodes.size();)
+  {
+    const BoundaryTree::Node& node = nodes[n];
+    if (!MeetsBox(node, line.Point, direction, inverse, line.Begin - BoxGrowth,
+          line.Begin + nearest.Distance))
+    {
+      n = static_cast<std::size_t>(node.Skip);
+      continue;
+    }
+    ++n;
+    BoundaryCrossing crossing;
+    if (node.Face < 0 || !this->Cross(line, node.Face, crossing) ||
+      crossing.Distance < -DistanceError || !(crossing.Enters || leavingToo))
+    {
+      continue;
+    }
+    const bool isNear = crossing.Distance <= DistanceError;
+    if (isNear && std::find(excluded.begin(), excluded.end(), node.Face) != excluded.end())
+    {
+      continue;
+    }
+    crossing.Distance = std::max(crossing.Distance, 0.0);
+    if (crossing.Distance < nearest.Distance)
+    {
+      nearest = crossing;
+    }
+  }
+  return nearest;
+}
+
+}

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Graded_BoundaryCrossings_h
+#define meniscus_Volume_Graded_BoundaryCrossings_h
+
+#include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Crossing of a straight ray with a face of the boundary. */
+struct BoundaryCrossing
+{
+  /** Number of the face in BoundaryTree::GetFaces(); -1 if there is no crossing. */
+  std::int32_t Face = -1;
+  /** Distance from the ray's origin in units of its direction's length, >= 0. */
+  double Distance = 0.0;
+  /** Barycentric weights of the face's vertices, in their order; >= 0, with the sum 1. */
+  std::array<double, 3> Weights{};
+  /** True if the ray enters the mesh by the face. */
+  bool Enters = false;
+};
+
+/**
+ * First crossing of a straight ray with the boundary of a mesh.
+ *
+ * A face is crossed if three determinants of the direction and two vertices have no different
+ * signs. Each is computed for the ascending order of the vertices, so that the two faces at an edge
+ * decide alike: no ray passes between them, and a ray through an edge or a vertex crosses all faces
+ * at it.
+ */
+class BoundaryCrossings
+{
+public:
+  /**
+   * Largest error of a distance, in units of the mesh's radius: positions of at most 1 in size, 32
+   * roundings of 2^-53 each in weights, position and projection.
+   */
+  static constexpr double DistanceError = 0x1p-48;
+
+  /** @param mesh, tree as they are at each search; both must outlive this object. */
+  BoundaryCrossings(const TetrahedralMesh& mesh, const BoundaryTree& tree)
+    : Mesh(mesh)
+    , Tree(tree)
+  {
+  }
+
+  /**
+   * Finds the nearest crossing; of equal ones, that of the lowest number.
+   * @param origin relative to the mesh's centre, in units of its radius.
+   * @param direction unit vector.
+   * @param leavingToo true if faces by which the ray leaves the mesh count, too.
+   * @param excluded numbers of faces that do not count within DistanceError of the origin.
+   */
+  BoundaryCrossing Find(const glm::dvec3& origin, const glm::dvec3& direction, bool leavingToo,
+    const std::vector<std::int32_t>& excluded) const;
+
+private:
+  struct Line;
+  bool Cross(const Line& line, std::int32_t face, BoundaryCrossing& crossing) const;
+
+  const TetrahedralMesh& Mesh;
+  const BoundaryTree& Tree;
+};
+
+}
+
+#endif

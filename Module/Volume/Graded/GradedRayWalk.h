@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Walk of rays through a mesh whose index of refraction n bends them: n^2 is linear in each cell.
+ *
+ * Method:
+ * 1. The path in a cell is a parabola (GradedCell.h). The ray leaves by the face whose barycentric
+ *    weight is the first to fall below 0; of equal ones, by that opposite the vertex of the lowest
+ *    rank.
+ * 2. A ray's place is its barycentric weights. They pass to the next cell unchanged, with a weight
+ *    of exactly 0 for the vertex that is new, so that no rounding puts a ray outside of its cell.
+ *    A ray that has entered by a face moves away from it or along it, never back at once.
+ * 3. n^2 is continuous across linked faces, and so is the momentum p, |p| = n.
+ * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays.
+ * 5. Outside of the mesh, rays are straight. They enter it as often as they meet its boundary.
+ *
+ * A ray can glide along a face to which n^2 rises from both sides, or along an edge. Its zigzag has
+ * infinitely many crossings as its height tends to 0. A ray that returns to the same cell in steps
+ * that are all shorter than GlideLength is taken along the face, or along the edge, to the next
+ * cell.
+ *
+ * A ray that enters from outside leaves again, but for a set of measure zero (Poincare's recurrence
+ * theorem); its steps are limited all the same.
+ */
+#ifndef meniscus_Volume_Graded_GradedRayWalk_h
+#define meniscus_Volume_Graded_GradedRayWalk_h
+
+#include "Volume/Graded/BoundaryCrossings.h"
+#include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** A field in a mesh, and how rays go through it. Everything must outlive the walk. */
+struct GradedMedium
+{
+  const TetrahedralMesh* Mesh = nullptr;
+  /** Tree over the mesh's boundary. */
+  const BoundaryTree* Tree = nullptr;
+  /** Squared index of each vertex; not NaN at active cells. */
+  const std::vector<double>* SquaredIndices = nullptr;
+  /**
+   * Index outside of the mesh, where Snell's law holds on the boundary. With 0, the index outside
+   * is everywhere that at the boundary, and rays enter and leave in their directions: the boundary
+   * is the end of the data, not of the medium.
+   */
+  double OutsideIndex = 0.0;
+  /**
+   * Largest number of steps of one ray; 0 for four times the number of active cells, at least 4096.
+   * A straight ray crosses each cell at most once.
+   */
+  std::int64_t MaximumNumberOfSteps = 0;
+};
+
+enum class GradedRayState : std::uint8_t
+{
+  /** The ray has not met the mesh. */
+  Missed,
+  /** The ray has left the mesh for good. */
+  Left,
+  /** The ray was stopped in the mesh after the largest number of steps. */
+  Trapped,
+  /** The ray has no way out of a cell, which only numbers that are not finite can bring about. */
+  Lost
+};
+
+/** Result of a ray. Positions are relative to the mesh's centre, in units of its radius. */
+struct GradedRayResult
+{
+  GradedRayState State = GradedRayState::Missed;
+  /** Place at which the ray first entered the mesh; its origin if it began or stayed outside. */
+  glm::dvec3 Entry{ 0.0 };
+  /** Place at which it last left the mesh or was stopped. */
+  glm::dvec3 Exit{ 0.0 };
+  /** Direction after that; unit length. */
+  glm::dvec3 Direction{ 0.0 };
+  /** Integral of n along the path from Entry to Exit, in units of the radius. */
+  double OpticalPath = 0.0;
+};
+
+/** Sums over rays. */
+struct GradedRayStatistics
+{
+  /** Rays that met the mesh. */
+  std::int64_t Rays = 0;
+  std::int64_t Steps = 0;
+  /** Total reflections at the boundary. */
+  std::int64_t Reflections = 0;
+  /** Steps along a face or an edge; steps in flat and inverted cells. */
+  std::int64_t Glides = 0;
+  std::int64_t FlatSteps = 0;
+  std::int64_t InvertedSteps = 0;
+  std::int64_t Trapped = 0;
+  std::int64_t Lost = 0;
+
+  void Add(const GradedRayStatistics& other);
+};
+
+class GradedRayWalk
+{
+public:
+  /**
+   * Longest step, in units of the cell, that may be part of a zigzag. The zigzag's height is less
+   * than a quarter of it, which is below the goal of 1e-12 for a path in a cell.
+   */
+  static constexpr double GlideLength = 0x1p-40;
+
+  explicit GradedRayWalk(const GradedMedium& medium);
+
+  /**
+   * Follows a ray until it has left the mesh for good. It may begin inside of the mesh.
+   * @param origin relative to the mesh's centre, in units of its radius.
+   * @param direction any length but 0.
+   */
+  GradedRayResult Walk(
+    const glm::dvec3& origin, const glm::dvec3& direction, GradedRayStatistics& statistics) const;
+
+private:
+  struct Path;
+  struct Quadratics;
+
+  bool MayBeInside(const glm::dvec3& place) const;
+  bool BeginInside(Path& path) const;
+  bool EnterMesh(Path& path) const;
+  void PutIn(const BoundaryCrossing& crossing, Path& path) const;
+  void CrossCells(Path& path) const;
+  void PassTo(std::int32_t link, int face, Path& path) const;
+  bool LeaveMesh(int face, Path& path) const;
+  int CrossCell(Path& path) const;
+  void WatchForZigzag(Path& path) const;
+  const TetrahedralMesh::Cell& CellOf(const Path& path) const;
+  double SquaredIndexAt(const Path& path) const;
+  glm::dvec3 PlaceOf(const Path& path) const;
+  glm::dvec3 OutwardNormal(std::int64_t cell, int face) const;
+
+  GradedMedium Medium;
+  BoundaryCrossings Crossings;
+  std::int64_t MaximumNumberOfSteps;
+};
+
+}
+
+#endif

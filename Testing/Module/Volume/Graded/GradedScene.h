@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Module_Volume_Graded_GradedScene_h
+#define meniscus_Testing_Module_Volume_Graded_GradedScene_h
+
+#include "KernelMeshes.h"
+#include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/RefractiveIndex.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/** n^2 as a function of the position. */
+using SquaredIndexField = std::function<double(const glm::dvec3&)>;
+
+/** A mesh in a field of n^2; rays in the coordinates of its points. */
+class GradedScene
+{
+public:
+  GradedScene(const MeshArrays& arrays, const SquaredIndexField& field, double outsideIndex = 0.0)
+  {
+    this->Mesh.Build(arrays.View());
+    for (const std::int32_t point : this->Mesh.GetSourcePoints())
+    {
+      this->Squares.push_back(field(arrays.PointAt(point)));
+    }
+    this->Unknown = ActivateCellsWithIndex(this->Mesh, this->Squares);
+    this->Tree.Build(this->Mesh);
+    this->Medium.Mesh = &this->Mesh;
+    this->Medium.Tree = &this->Tree;
+    this->Medium.SquaredIndices = &this->Squares;
+    this->Medium.OutsideIndex = outsideIndex;
+  }
+  GradedScene(const GradedScene&) = delete;
+  GradedScene& operator=(const GradedScene&) = delete;
+
+  GradedRayResult Trace(const glm::dvec3& origin, const glm::dvec3& direction)
+  {
+    const double radius = this->Mesh.GetRadius();
+    const glm::dvec3 center = this->Mesh.GetCenter();
+    GradedRayResult result =
+      GradedRayWalk(this->Medium).Walk((origin - center) / radius, direction, this->Statistics);
+    result.Entry = center + radius * result.Entry;
+    result.Exit = center + radius * result.Exit;
+    result.OpticalPath *= radius;
+    return result;
+  }
+
+  TetrahedralMesh Mesh;
+  BoundaryTree Tree;
+  std::vector<double> Squares;
+  std::int64_t Unknown = 0;
+  GradedMedium Medium;
+  GradedRayStatistics Statistics;
+};
+
+/** A cube [-half, half]^3 of n^3 cubes, each split into 6 tetrahedra. */
+inline MeshArrays CenteredGrid(int n, double half)
+{
+  MeshArrays arrays = KuhnGrid(n);
+  for (double& coordinate : arrays.Points)
+  {
+    coordinate = half * (2.0 * coordinate - 1.0);
+  }
+  return arrays;
+}
+
+/** The same mapped to a ball of that radius: each cube about the centre becomes a sphere. */
+inline MeshArrays BallOfCubes(int n, double radius)
+{
+  MeshArrays arrays = CenteredGrid(n, radius);
+  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
+  {
+    const glm::dvec3 point = arrays.PointAt(static_cast<std::int64_t>(p / 3));
+    const glm::dvec3 size = glm::abs(point);
+    const double length = glm::length(point);
+    const double scale = length > 0.0 ? std::max(size.x, std::max(size.y, size.z)) / length : 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      arrays.Points[p + static_cast<std::size_t>(axis)] = scale * point[axis];
+    }
+  }
+  return arrays;
+}
+
+/** Two unit vectors perpendicular to a unit vector and to each other. */
+inline void CrossAxes(const glm::dvec3& direction, glm::dvec3& first, glm::dvec3& second)
+{
+  first = glm::normalize(glm::cross(
+    direction, std::abs(direction.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0, 1, 0)));
+  second = glm::cross(direction, first);
+}
+
+}
+}
+
+#endif

@@ -1,0 +1,408 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays that a varying index of refraction bends: single cells, degenerate ways, robustness.
+#include "GradedScene.h"
+
+#include "GradedRayIntegrator.h"
+#include "RandomNumbers.h"
+#include "Volume/Graded/GradedCell.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+SquaredIndexField LinearField(double base, const glm::dvec3& slope)
+{
+  return [=](const glm::dvec3& p) { return base + glm::dot(slope, p); };
+}
+
+/** A field of random values, one per point of the mesh. */
+SquaredIndexField RandomField(double contrast, RandomNumbers& random)
+{
+  return [contrast, &random](const glm::dvec3&) { return 1.0 + contrast * random.Uniform(); };
+}
+
+/** Moves all points that are not on the boundary of the unit cube. */
+void JitterInside(MeshArrays& arrays, double amount, RandomNumbers& random)
+{
+  for (double& coordinate : arrays.Points)
+  {
+    const double move = random.Uniform(-amount, amount);
+    coordinate += coordinate == 0.0 || coordinate == 1.0 ? 0.0 : move;
+  }
+}
+
+glm::dvec3 RandomPoint(RandomNumbers& random)
+{
+  const double x = random.Uniform();
+  const double y = random.Uniform();
+  return { x, y, random.Uniform() };
+}
+
+void ExpectAllThrough(const GradedRayStatistics& statistics)
+{
+  EXPECT_EQ(statistics.Lost, 0);
+  EXPECT_EQ(statistics.Trapped, 0);
+}
+
+}
+
+TEST(GradedCell, TimeToZeroIsTheFirstRoot)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_DOUBLE_EQ(TimeToZero(1.0, -2.0, 0.0), 0.5);
+  EXPECT_DOUBLE_EQ(TimeToZero(1.0, 0.0, -2.0), 1.0);
+  EXPECT_DOUBLE_EQ(TimeToZero(0.0, 1.0, -2.0), 1.0);
+  EXPECT_DOUBLE_EQ(TimeToZero(2.0, -3.0, 2.0), 1.0);
+  EXPECT_EQ(TimeToZero(0.0, -1.0, 5.0), 0.0);
+  EXPECT_EQ(TimeToZero(0.0, 0.0, -1.0), 0.0);
+  EXPECT_EQ(TimeToZero(1.0, 1.0, 1.0), infinity);
+  EXPECT_EQ(TimeToZero(1.0, -1.0, 4.0), infinity);
+  EXPECT_EQ(TimeToZero(0.0, 0.0, 0.0), infinity);
+  // Small curvatures: the other formula for the root loses all digits.
+  EXPECT_NEAR(TimeToZero(1.0, -1.0, 1.0e-17), 1.0, 1.0e-15);
+  EXPECT_NEAR(TimeToZero(1.0e-20, -1.0, -1.0), 1.0e-20, 1.0e-35);
+}
+
+TEST(GradedCell, PathIsAParabola)
+{
+  RandomNumbers random(1);
+  int turned = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const glm::dvec3 slope = random.Uniform(0.0, 0.9) * random.GetDirection();
+    GradedScene scene(SingleTetrahedron(), LinearField(2.0, slope));
+    const glm::dvec3 target = 0.25 * RandomPoint(random);
+    const glm::dvec3 direction = random.GetDirection();
+    const GradedRayResult ray = scene.Trace(target - 3.0 * direction, direction);
+    ASSERT_EQ(ray.State, GradedRayState::Left);
+    // The momentum along the slope tells the time; positions of the mesh are rounded to 2^-31.
+    const double n = std::sqrt(2.0 + glm::dot(slope, ray.Entry));
+    const glm::dvec3 momentum = n * direction;
+    const glm::dvec3 force = 0.5 * slope;
+    const glm::dvec3 end = std::sqrt(2.0 + glm::dot(slope, ray.Exit)) * ray.Direction;
+    const double time = glm::dot(end - momentum, force) / glm::dot(force, force);
+    turned += glm::dot(momentum, force) * glm::dot(end, force) < 0.0 ? 1 : 0;
+    const glm::dvec3 exact = ray.Entry + time * momentum + 0.5 * time * time * force;
+    // Rounded vertices change the slope by 2^-30 or so, and the time is a quotient.
+    EXPECT_NEAR(glm::length(exact - ray.Exit), 0.0, 1.0e-8 / glm::length(slope));
+    const double path =
+      time * (n * n + time * (glm::dot(momentum, force) + time * glm::dot(force, force) / 3.0));
+    EXPECT_NEAR(ray.OpticalPath, path, 1.0e-8 / glm::length(slope));
+  }
+  EXPECT_GT(turned, 10);
+}
+
+// With the gradient of the vertices that the mesh has rounded.
+TEST(GradedCell, PathIsExactToRounding)
+{
+  const MeshArrays cell{ { 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 } };
+  RandomNumbers random(2);
+  double worst = 0.0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const glm::dvec3 slope = random.Uniform(0.05, 0.5) * random.GetDirection();
+    GradedScene scene(cell, LinearField(2.0, slope));
+    const glm::dvec3 direction = random.GetDirection();
+    const glm::dvec3 target = 0.3 * RandomPoint(random);
+    const GradedRayResult ray = scene.Trace(target - 3.0 * direction, direction);
+    ASSERT_EQ(ray.State, GradedRayState::Left);
+    // The field that the mesh has at its vertices.
+    glm::dvec3 corners[4];
+    double values[4];
+    for (int v = 0; v < 4; ++v)
+    {
+      corners[v] = scene.Mesh.GetCenter() + scene.Mesh.GetRadius() * scene.Mesh.GetPosition(v);
+      values[v] = scene.Squares[static_cast<std::size_t>(v)];
+    }
+    const glm::dmat3 edges(
+      corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]);
+    const glm::dvec3 force = 0.5 * glm::inverse(glm::transpose(edges)) *
+      glm::dvec3(values[1] - values[0], values[2] - values[0], values[3] - values[0]);
+    const auto squareAt = [&](const glm::dvec3& p)
+    { return values[0] + 2.0 * glm::dot(force, p - corners[0]); };
+    const glm::dvec3 momentum = std::sqrt(squareAt(ray.Entry)) * direction;
+    const glm::dvec3 end = std::sqrt(squareAt(ray.Exit)) * ray.Direction;
+    const double time = 2.0 * glm::dot(ray.Exit - ray.Entry, momentum + end) /
+      glm::dot(momentum + end, momentum + end);
+    const glm::dvec3 exact = ray.Entry + time * momentum + 0.5 * time * time * force;
+    worst = std::max(worst, glm::length(exact - ray.Exit));
+  }
+  EXPECT_LT(worst, 1.0e-12);
+}
+
+TEST(GradedRayWalk, LinearFieldIsOneParabolaInAnyMesh)
+{
+  MeshArrays arrays = KuhnBlock(64, 2, 2, 4.0);
+  RandomNumbers random(3);
+  for (std::size_t i = 0; i < arrays.Points.size(); ++i)
+  {
+    arrays.Points[i] += random.Uniform(-0.03, 0.03);
+  }
+  const glm::dvec3 slope(0.002, 0.001, -0.0015);
+  GradedScene scene(arrays, LinearField(1.7, slope));
+  for (int i = 0; i < 200; ++i)
+  {
+    const glm::dvec3 origin(-1.0, random.Uniform(0.15, 0.25), random.Uniform(0.25, 0.35));
+    const glm::dvec3 direction =
+      glm::normalize(glm::dvec3(1.0, random.Uniform(-0.005, 0.005), random.Uniform(-0.005, 0.005)));
+    const GradedRayResult ray = scene.Trace(origin, direction);
+    const glm::dvec3 momentum = std::sqrt(1.7 + glm::dot(slope, ray.Entry)) * direction;
+    const glm::dvec3 end = std::sqrt(1.7 + glm::dot(slope, ray.Exit)) * ray.Direction;
+    // The momentum across the slope stays across the slope, to the rounding of positions, 2^-31.
+    EXPECT_NEAR(glm::length(glm::cross(end - momentum, slope)) / glm::length(slope), 0.0, 2.0e-8);
+  }
+  EXPECT_GT(scene.Statistics.Steps, 200 * 100);
+  ExpectAllThrough(scene.Statistics);
+}
+
+TEST(GradedRayWalk, AgreesWithRungeKutta)
+{
+  RandomNumbers random(4);
+  double worst = 0.0;
+  std::int64_t rays = 0;
+  for (int mesh = 0; mesh < 12; ++mesh)
+  {
+    MeshArrays arrays = KuhnGrid(3);
+    JitterInside(arrays, 0.08, random);
+    GradedScene scene(arrays, RandomField(mesh % 2 == 0 ? 0.05 : 0.8, random));
+    std::vector<double> squares(arrays.Points.size() / 3);
+    std::vector<double> points(arrays.Points.size());
+    for (std::size_t v = 0; v < scene.Squares.size(); ++v)
+    {
+      const auto source = static_cast<std::size_t>(scene.Mesh.GetSourcePoints()[v]);
+      squares[source] = scene.Squares[v];
+      const glm::dvec3 place = scene.Mesh.GetPosition(static_cast<std::int64_t>(v));
+      std::copy(&place.x, &place.x + 3, &points[3 * source]);
+    }
+    const reference::GradedRayIntegrator integrator(points, arrays.Cells, squares);
+    const GradedRayWalk walk(scene.Medium);
+    for (int i = 0; i < 40; ++i, ++rays)
+    {
+      const glm::dvec3 direction = random.GetDirection();
+      const glm::dvec3 target = random.Uniform(0.0, 0.4) * random.GetDirection();
+      const GradedRayResult ray = walk.Walk(target - 3.0 * direction, direction, scene.Statistics);
+      reference::LightRay light;
+      light.Position = { ray.Entry.x, ray.Entry.y, ray.Entry.z };
+      const double index = std::sqrt(integrator.SquaredIndexAt(light.Position));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        light.Momentum[axis] = index * direction[axis];
+      }
+      light = integrator.Follow(light, 2.0e-3);
+      const glm::dvec3 exit(light.Position[0], light.Position[1], light.Position[2]);
+      worst = std::max(worst, glm::length(exit - ray.Exit));
+      EXPECT_NEAR(ray.OpticalPath, light.OpticalPath, 1.0e-6);
+    }
+    ExpectAllThrough(scene.Statistics);
+  }
+  EXPECT_LT(worst, 1.0e-6) << rays << " rays";
+}
+
+TEST(GradedRayWalk, RaysReturn)
+{
+  RandomNumbers random(5);
+  MeshArrays arrays = KuhnGrid(6);
+  JitterInside(arrays, 0.05, random);
+  GradedScene scene(arrays,
+    [](const glm::dvec3& p)
+    { return 1.5 + 0.4 * std::sin(5.0 * p.x) * std::cos(4.0 * p.y + p.z); });
+  for (const double outside : { 0.0, 1.0 })
+  {
+    scene.Medium.OutsideIndex = outside;
+    for (int i = 0; i < 500; ++i)
+    {
+      const glm::dvec3 direction = random.GetDirection();
+      const glm::dvec3 origin = RandomPoint(random) - 3.0 * direction;
+      const GradedRayResult there = scene.Trace(origin, direction);
+      if (there.State != GradedRayState::Left || there.OpticalPath == 0.0)
+      {
+        continue;
+      }
+      const GradedRayResult back =
+        scene.Trace(there.Exit + 0.5 * there.Direction, -there.Direction);
+      EXPECT_NEAR(glm::length(back.Exit - there.Entry), 0.0, 1.0e-9);
+      EXPECT_NEAR(glm::length(back.Direction + direction), 0.0, 1.0e-9);
+      EXPECT_NEAR(back.OpticalPath, there.OpticalPath, 1.0e-9);
+    }
+  }
+  ExpectAllThrough(scene.Statistics);
+}
+
+// Random fields and meshes of all kinds: with inverted cells, flat cells and holes.
+TEST(GradedRayWalk, NoRayIsLost)
+{
+  RandomNumbers random(6);
+  GradedRayStatistics sums;
+  for (int mesh = 0; mesh < 40; ++mesh)
+  {
+    MeshArrays arrays = KuhnGrid(4);
+    const double amounts[4] = { 0.0, 0.05, 0.12, 0.3 };
+    Jitter(arrays, amounts[mesh % 4], static_cast<unsigned int>(mesh));
+    if (mesh % 3 == 1)
+    {
+      // A layer of cubes becomes flat.
+      for (std::size_t p = 2; p < arrays.Points.size(); p += 3)
+      {
+        arrays.Points[p] = std::abs(arrays.Points[p] - 0.5) < 0.1 ? 0.25 : arrays.Points[p];
+      }
+    }
+    for (std::size_t c = 0; mesh % 3 == 2 && c + 4 < arrays.Cells.size(); c += 4)
+    {
+      if (random.Below(3) == 0)
+      {
+        arrays.Cells.erase(arrays.Cells.begin() + static_cast<std::ptrdiff_t>(c),
+          arrays.Cells.begin() + static_cast<std::ptrdiff_t>(c + 4));
+      }
+    }
+    GradedScene scene(arrays, RandomField(mesh % 5 == 0 ? 3.0 : 0.1, random), mesh % 2);
+    for (int i = 0; i < 300; ++i)
+    {
+      const int axis = random.Below(12);
+      const glm::dvec3 direction =
+        axis < 3 ? glm::dvec3(axis == 0, axis == 1, axis == 2) : random.GetDirection();
+      const glm::dvec3 target =
+        i % 2 == 0 ? glm::dvec3(arrays.PointAt(random.Below(125))) : RandomPoint(random);
+      const GradedRayResult ray = scene.Trace(target - 2.0 * direction, direction);
+      EXPECT_TRUE(std::isfinite(ray.OpticalPath));
+      EXPECT_NEAR(glm::length(ray.Direction), 1.0, 1.0e-14);
+    }
+    sums.Add(scene.Statistics);
+  }
+  EXPECT_EQ(sums.Lost, 0);
+  EXPECT_GT(sums.Rays, 8000);
+  EXPECT_GT(sums.FlatSteps, 100);
+  EXPECT_GT(sums.InvertedSteps, 100);
+  // Rays that total reflection between random facets keeps for thousands of steps.
+  EXPECT_LT(sums.Trapped, sums.Rays / 100);
+}
+
+// n^2 falls on both sides of a plane of faces: a ray in it stays there.
+TEST(GradedRayWalk, RayGlidesAlongARidge)
+{
+  GradedScene plane(CenteredGrid(4, 1.0), [](const glm::dvec3& p) { return 3.0 - std::abs(p.y); });
+  GradedScene edge(
+    CenteredGrid(4, 1.0), [](const glm::dvec3& p) { return 3.0 - std::abs(p.y) - std::abs(p.z); });
+  for (GradedScene* scene : { &plane, &edge })
+  {
+    for (const double z : { 0.0, 0.1, 0.3 })
+    {
+      const double place = scene == &edge ? 0.0 : z;
+      const GradedRayResult ray =
+        scene->Trace(glm::dvec3(-2.0, 0.0, place), glm::dvec3(1.0, 0.0, 0.0));
+      EXPECT_NEAR(glm::length(ray.Exit - glm::dvec3(1.0, 0.0, place)), 0.0, 1.0e-9);
+      EXPECT_NEAR(ray.OpticalPath, 2.0 * std::sqrt(3.0), 1.0e-9);
+    }
+    ExpectAllThrough(scene->Statistics);
+    EXPECT_GT(scene->Statistics.Glides, 0);
+  }
+}
+
+TEST(GradedRayWalk, PrismRefractsAndReflectsTotally)
+{
+  GradedScene glass(KuhnGrid(2), LinearField(2.25, glm::dvec3(0.0)), 1.0);
+  // Through two parallel sides: shifted, not turned.
+  const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, 0.1, 1.0));
+  const GradedRayResult through = glass.Trace(glm::dvec3(0.3, 0.4, -0.5), slanted);
+  EXPECT_NEAR(glm::length(through.Direction - slanted), 0.0, 1.0e-14);
+  const glm::dvec3 inside = glm::normalize(glm::dvec3(0.3, 0.1, 0.0) / (1.5 * std::sqrt(1.1)) +
+    glm::dvec3(0.0, 0.0, std::sqrt(1.0 - 0.1 / (2.25 * 1.1))));
+  EXPECT_NEAR(glm::length(through.Exit - (through.Entry + inside / inside.z)), 0.0, 3.0e-9);
+  EXPECT_NEAR(through.OpticalPath, 1.5 / inside.z, 3.0e-9);
+  // In by one side at an angle, totally reflected at the next one.
+  const GradedRayResult reflected =
+    glass.Trace(glm::dvec3(0.5, 0.5, 0.95) - glm::normalize(glm::dvec3(1.0, 0.0, 0.4)),
+      glm::dvec3(1.0, 0.0, 0.4));
+  EXPECT_EQ(glass.Statistics.Reflections, 1);
+  EXPECT_NEAR(reflected.Direction.z, -0.4 / std::sqrt(1.16), 1.0e-12);
+  ExpectAllThrough(glass.Statistics);
+}
+
+TEST(GradedRayWalk, RayIsStoppedAfterItsSteps)
+{
+  // A ray from inside of a dense cube meets all sides beyond the critical angle, for ever.
+  GradedScene glass(KuhnGrid(2), LinearField(9.0, glm::dvec3(0.0)), 1.0);
+  const GradedRayResult ray = glass.Trace(glm::dvec3(0.4, 0.45, 0.3), glm::dvec3(1.0, 1.1, 1.2));
+  EXPECT_EQ(ray.State, GradedRayState::Trapped);
+  EXPECT_EQ(glass.Statistics.Trapped, 1);
+  EXPECT_EQ(glass.Statistics.Steps, 4096);
+}
+
+TEST(GradedRayWalk, RayBeginsInside)
+{
+  GradedScene scene(KuhnGrid(4), LinearField(2.0, glm::dvec3(0.0, 0.5, 0.0)));
+  const glm::dvec3 origin(0.4, 0.3, 0.2);
+  const GradedRayResult ray = scene.Trace(origin, glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(ray.Entry, origin);
+  const double n = std::sqrt(2.15);
+  const double time = 0.6 / n;
+  EXPECT_NEAR(glm::length(ray.Exit - glm::dvec3(1.0, 0.3 + 0.125 * time * time, 0.2)), 0.0, 3.0e-9);
+}
+
+TEST(GradedRayWalk, MissedMeshChangesNothing)
+{
+  GradedScene scene(KuhnGrid(1), LinearField(2.0, glm::dvec3(0.0)));
+  const GradedRayResult ray = scene.Trace(glm::dvec3(3.0), glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(ray.State, GradedRayState::Missed);
+  EXPECT_EQ(ray.OpticalPath, 0.0);
+  EXPECT_EQ(scene.Statistics.Rays, 0);
+  EXPECT_EQ(GradedScene({ {}, {} }, LinearField(2.0, glm::dvec3(0.0)))
+              .Trace(glm::dvec3(3.0), glm::dvec3(1.0, 0.0, 0.0))
+              .State,
+    GradedRayState::Missed);
+}
+
+TEST(GradedRayWalk, GapIsCrossedStraight)
+{
+  MeshArrays arrays = KuhnBlock(3, 1, 1, 1.0);
+  arrays.Cells.erase(arrays.Cells.begin() + 24, arrays.Cells.begin() + 48);
+  GradedScene scene(arrays, LinearField(2.25, glm::dvec3(0.0)), 1.0);
+  const GradedRayResult ray = scene.Trace(glm::dvec3(-1.0, 0.4, 0.3), glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_NEAR(ray.OpticalPath, 1.5 + 1.0 + 1.5, 1.0e-8);
+  EXPECT_NEAR(glm::length(ray.Exit - glm::dvec3(3.0, 0.4, 0.3)), 0.0, 1.0e-8);
+}
+
+TEST(RefractiveIndex, UnusableValuesAreCounted)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  IndexFaults faults;
+  const std::vector<double> squares =
+    SquareIndices({ 1.5, 0.9, 0.0, -1.0, nan, 1.0e200, 1.0e-200 }, faults);
+  EXPECT_EQ(squares[0], 2.25);
+  EXPECT_EQ(squares[1], 0.9 * 0.9);
+  for (std::size_t i = 2; i < squares.size(); ++i)
+  {
+    EXPECT_TRUE(std::isnan(squares[i])) << i;
+  }
+  EXPECT_EQ(faults.NotFinite, 2);
+  EXPECT_EQ(faults.NotPositive, 3);
+  EXPECT_EQ(faults.BelowOne, 1);
+  const std::vector<double> gas =
+    SquareIndicesOfGas({ 0.0, 1.22552, -1.0, nan }, GladstoneDaleOfAir, faults);
+  EXPECT_EQ(gas[0], 1.0);
+  EXPECT_NEAR(std::sqrt(gas[1]), 1.000277147, 1.0e-9);
+  EXPECT_EQ(faults.NotPositive, 1);
+  EXPECT_EQ(faults.NotFinite, 1);
+}
+
+TEST(RefractiveIndex, CellsWithoutAnIndexAreHoles)
+{
+  GradedScene scene(KuhnBlock(3, 1, 1, 1.0),
+    [](const glm::dvec3& p) {
+      return p.x > 2.5 && p.y > 0.5 && p.z > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 2.25;
+    });
+  EXPECT_EQ(scene.Unknown, 6);
+  const GradedRayResult ray = scene.Trace(glm::dvec3(-1.0, 0.4, 0.3), glm::dvec3(1.0, 0.0, 0.0));
+  EXPECT_NEAR(ray.Exit.x, 2.0, 1.0e-8);
+}
