@@ -108,7 +108,7 @@ void ExpectEye(ComparisonSheet& sheet, int row)
 {
   const StackPicture view{ "Navarro's eye", { MakeCornea(Anterior, 50), MakeCornea(Posterior, 50) },
     { { 1.0, Anterior.Behind }, { Anterior.Behind, Posterior.Behind } },
-    { { 8.0, 36.0, -14.0 }, { 0.0, -2.0, 0.0 }, 0.14, Pixels } };
+    { { 8.0, 36.0, -14.0 }, { 0.0, -2.0, 0.0 }, 0.14, Pixels }, 0.005, 2e-4 };
   const auto object = BoardScene{ MakeBoard(-Pupil, 12.0), std::nullopt }.MakeData();
   const auto rays =
     MakeExactRays({ MakeExactCornea(Anterior, 1.0), MakeExactCornea(Posterior, Anterior.Behind) },
