@@ -50,7 +50,7 @@ void ExpectPane(ComparisonSheet& sheet, int row)
   constexpr double side = 400.0;
   const StackPicture view{ "air, glass, water",
     { MakePlane(0.0, side, 8), MakePlane(-20.0, side, 8) }, { { 1.0, Glass }, { Glass, Water } },
-    { { 60.0, 130.0, -190.0 }, { 0.0, -62.0, 0.0 }, 0.30, Pixels } };
+    { { 60.0, 130.0, -190.0 }, { 0.0, -62.0, 0.0 }, 0.30, Pixels }, 0.005, 5e-5 };
   const std::vector<ExactSurface> exact{ { 1.0, Glass, glm::dvec3(0.0), 0.0, Up },
     { Glass, Water, { 0.0, -20.0, 0.0 }, 0.0, Up } };
   ExpectScene(sheet, row, view, MakeBoardAndRing(-100.0, 120.0),
