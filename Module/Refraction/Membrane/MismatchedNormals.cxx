@@ -131,6 +131,35 @@ Fans CollectFans(const std::vector<glm::dvec3>& positions, const std::vector<Fac
   return fans;
 }
 
+/**
+ * Normal that continues the normals of a vertex's neighbours. Neighbours in one line, as around the
+ * corner of a sliver at a border, say nothing about the slope across it: their mean counts there,
+ * not the facets, which may lean far from the surface.
+ */
+glm::dvec3 ContinueNormal(const std::vector<glm::dvec3>& positions,
+  const std::vector<glm::dvec3>& normals, std::int32_t vertex, const Fan& fan,
+  const glm::dvec3& mean)
+{
+  glm::dvec3 sum(0.0);
+  const auto fit = [&](const glm::dvec3& start)
+  {
+    NormalFit result(start);
+    sum = glm::dvec3(0.0);
+    for (const std::int32_t corner : fan.Corners)
+    {
+      const auto other = static_cast<std::size_t>(corner);
+      result.Add(glm::normalize(positions[other] - positions[static_cast<std::size_t>(vertex)]),
+        normals[other]);
+      sum += glm::dot(normals[other], mean) < 0.0 ? -normals[other] : normals[other];
+    }
+    return result;
+  };
+  const NormalFit aboutFacets = fit(mean);
+  const double length = glm::length(sum);
+  return aboutFacets.IsDetermined() || !(length > 0.0) ? aboutFacets.Solve()
+                                                       : fit(sum / length).Solve();
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -199,14 +228,7 @@ std::vector<std::int32_t> FindWildNormals(const std::vector<glm::dvec3>& positio
     {
       continue;
     }
-    NormalFit fit(mean);
-    for (const std::int32_t corner : fan.Corners)
-    {
-      const auto other = static_cast<std::size_t>(corner);
-      fit.Add(glm::normalize(positions[other] - positions[static_cast<std::size_t>(vertex)]),
-        normals[other]);
-    }
-    if (DistanceOf(normal, fit.Solve()) > most)
+    if (DistanceOf(normal, ContinueNormal(positions, normals, vertex, fan, mean)) > most)
     {
       wild.push_back(vertex);
     }

@@ -169,20 +169,19 @@ bool RefractionStack::MeetNear(
 
 //------------------------------------------------------------------------------
 bool RefractionStack::FindNext(std::size_t link, const glm::dvec3& origin,
-  const glm::dvec3& direction, SurfaceCrossing& crossing) const
+  const glm::dvec3& direction, SurfaceCrossing& crossing, double most) const
 {
   const Link& next = this->Links[link];
-  return next.FindCrossing(origin - next.Shift, direction, 0.0, crossing);
+  return next.FindCrossing(origin - next.Shift, direction, 0.0, crossing, most);
 }
 
 //------------------------------------------------------------------------------
 // Surfaces that touch may have the crossing before the origin, within rounding of both.
 bool RefractionStack::Link::FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction,
-  double least, SurfaceCrossing& crossing) const
+  double least, SurfaceCrossing& crossing, double most) const
 {
   return this->Surface->FindCrossing(origin, direction, this->Passage.FromFront ? -1 : 1,
-    least - this->Surface->GetSlack(glm::length(origin)), std::numeric_limits<double>::max(),
-    crossing);
+    least - this->Surface->GetSlack(glm::length(origin)), most, crossing);
 }
 
 //------------------------------------------------------------------------------

@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -91,11 +92,11 @@ public:
 
     /**
      * The first crossing with a ray in the direction in which the link is passed, at a distance of
-     * at least `least` within rounding. `origin` is relative to the surface's origin. Returns false
-     * if there is none.
+     * at least `least` within rounding, and at most `most`. `origin` is relative to the surface's
+     * origin. Returns false if there is none.
      */
     bool FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction, double least,
-      SurfaceCrossing& crossing) const;
+      SurfaceCrossing& crossing, double most = std::numeric_limits<double>::max()) const;
   };
 
   /**
@@ -148,11 +149,11 @@ public:
   bool IsFirstCrossing(const StackPath& path) const;
 
   /**
-   * Distance along a ray to the nearest crossing with interface `link` in its direction. Returns
-   * false if there is none.
+   * Nearest crossing of a ray with interface `link` in its direction, at a distance of at most
+   * `most`. Returns false if there is none.
    */
   bool FindNext(std::size_t link, const glm::dvec3& origin, const glm::dvec3& direction,
-    SurfaceCrossing& crossing) const;
+    SurfaceCrossing& crossing, double most = std::numeric_limits<double>::max()) const;
 
 private:
   /**

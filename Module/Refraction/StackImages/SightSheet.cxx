@@ -127,7 +127,7 @@ private:
     const double slack = SameCrossing * this->Result.Surface.GetSize();
     node.IsFirst = legs >= 0 &&
       (this->Stack.GetLinks()[0].Surface->IsCrossedOnce(path.Sight) ||
-        !this->Stack.FindNext(0, eye, path.Sight, before) || before.Distance >= distance - slack);
+        !this->Stack.FindNext(0, eye, path.Sight, before, distance - slack));
     this->Result.Nodes.push_back(node);
     this->Result.Points.push_back(eye);
     this->Result.Directions.push_back(path.Sight);

@@ -90,7 +90,8 @@ bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
 
 //------------------------------------------------------------------------------
 // True if a cell is behind parallel planes, on one leg, and its image is straight: the middles of
-// its sides and its own middle are drawn within the tolerance of their exact sight rays.
+// its sides and its own middle are drawn within half of the tolerance of their exact sight rays, as
+// those of other whole cells.
 bool StackImages::IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count) const
 {
   const ParallelPlanes& planes = this->Solver.GetPlanes();
@@ -115,7 +116,7 @@ bool StackImages::IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count
     const glm::dvec3 drawn = image - stack.GetOrigin() - stack.GetEye();
     const glm::dvec3 sight = planes.FindSight(place - stack.GetOrigin(), passed);
     // Written so that a NaN fails.
-    return glm::length(glm::cross(drawn, sight)) <= this->Tolerance * glm::length(drawn);
+    return glm::length(glm::cross(drawn, sight)) <= 0.5 * this->Tolerance * glm::length(drawn);
   };
   glm::dvec3 middle(0.0);
   glm::dvec3 image(0.0);

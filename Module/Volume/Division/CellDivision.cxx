@@ -4,6 +4,7 @@
 
 #include "Common/BlockLoop.h"
 #include "Volume/Division/DivisionRound.h"
+#include "Volume/Division/DivisionWatch.h"
 #include "Volume/Division/ShapeTest.h"
 
 #include <glm/common.hpp>
@@ -37,15 +38,12 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
   {
     piece.NewEdges = piece.Degree > 0 ? EveryEdge : 0;
   }
-  DivisionRound round(this->Pieces, fields, functions, limits, loop);
-  round.Measure();
-  // The first rounds take little time. Most divisions end within thirty.
-  double rounds = 0.0;
-  const auto goesOn = [&](double share)
+  DivisionWatch watch(loop, progress);
+  DivisionRound round(this->Pieces, fields, functions, limits, watch);
+  if (!watch.Run(0.25, [&round]() { round.Measure(); }))
   {
-    rounds += share;
-    return progress(1.0 - std::exp2(-rounds / 8.0));
-  };
+    return DivisionStatus::Aborted;
+  }
   const auto hasRoom = [&]()
   { return static_cast<std::int64_t>(this->Pieces.size()) < limits.MostPieces; };
   // A threshold that takes less than the budget is lowered by this factor at least. One that takes
@@ -58,9 +56,18 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
   while (fits && round.HasPending() && hasRoom())
   {
     threshold = std::max(limits.Tolerance, std::min(round.ChooseThreshold(), step * threshold));
-    while (fits && round.Mark(threshold))
+    for (bool isMarked = true; fits && isMarked;)
     {
-      fits = round.FitBudget();
+      const bool goesOn = watch.Run(0.5,
+        [&]()
+        {
+          isMarked = round.Mark(threshold);
+          fits = !isMarked || round.FitBudget();
+        });
+      if (!goesOn)
+      {
+        return DivisionStatus::Aborted;
+      }
       if (!fits && threshold < step * reached.Error && attempts-- > 0)
       {
         fits = true;
@@ -68,18 +75,13 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
         threshold = std::sqrt(threshold * reached.Error);
         continue;
       }
-      if (!goesOn(0.5))
+      const auto split = [&round]()
       {
-        return DivisionStatus::Aborted;
-      }
-      round.AddPoints();
-      if (!goesOn(0.25))
-      {
-        return DivisionStatus::Aborted;
-      }
-      round.Split();
-      round.Measure();
-      if (!goesOn(0.25))
+        round.Split();
+        round.Measure();
+      };
+      if (isMarked &&
+        !(watch.Run(0.25, [&round]() { round.AddPoints(); }) && watch.Run(0.25, split)))
       {
         return DivisionStatus::Aborted;
       }
@@ -102,9 +104,12 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
   this->Counts.UnresolvedEdges = round.GetNumberOfUnresolved();
   const double place = limits.Measure.OfPlace > 0.0 ? limits.Tolerance / limits.Measure.OfPlace
                                                     : std::numeric_limits<double>::infinity();
-  this->CountFolded(round.GetSamples(), place);
-  this->KeepEdges();
-  return DivisionStatus::Ok;
+  const auto finish = [&]()
+  {
+    this->CountFolded(round.GetSamples(), place);
+    this->KeepEdges(watch);
+  };
+  return watch.Run(0.25, finish) ? DivisionStatus::Ok : DivisionStatus::Aborted;
 }
 
 //------------------------------------------------------------------------------
@@ -148,22 +153,24 @@ void CellDivision::CountFolded(const std::vector<CellSample>& samples, double to
 }
 
 //------------------------------------------------------------------------------
-void CellDivision::KeepEdges()
+void CellDivision::KeepEdges(DivisionWatch& watch)
 {
   EdgeIndex edges(2 * this->Pieces.size());
   this->Edges.clear();
-  for (const CellPiece& piece : this->Pieces)
-  {
-    for (int e = 0; piece.Degree > 0 && e < 6; ++e)
+  watch.ForEach(this->Pieces.size(),
+    [this, &edges](std::size_t p)
     {
-      if (edges.Add(EdgeOf(piece, e)))
+      const CellPiece& piece = this->Pieces[p];
+      for (int e = 0; piece.Degree > 0 && e < 6; ++e)
       {
-        this->Edges.push_back({ { piece.Places[static_cast<std::size_t>(EdgeEnds[e][0])],
-                                  piece.Places[static_cast<std::size_t>(EdgeEnds[e][1])] },
-          piece.Cell });
+        if (edges.Add(EdgeOf(piece, e)))
+        {
+          this->Edges.push_back({ { piece.Places[static_cast<std::size_t>(EdgeEnds[e][0])],
+                                    piece.Places[static_cast<std::size_t>(EdgeEnds[e][1])] },
+            piece.Cell });
+        }
       }
-    }
-  }
+    });
   this->Edges.shrink_to_fit();
 }
 

@@ -19,6 +19,8 @@
 namespace meniscus
 {
 
+class DivisionWatch;
+
 enum class DivisionStatus
 {
   Ok,
@@ -69,8 +71,9 @@ public:
   /**
    * Divides the cells, which replaces earlier results.
    * @param pieces tetrahedra of the cells; those of one cell follow each other.
-   * @param progress called several times per round with the fraction done, an estimate, since the
-   *   number of rounds is not known; returns false to abort.
+   * @param progress called several times per round, and every 131,072 edges or pieces, with the
+   *   fraction done, an estimate, since the number of rounds is not known; returns false to abort.
+   *   Always on the calling thread.
    */
   DivisionStatus Divide(std::vector<CellPiece> pieces, const PointFields& fields,
     const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
@@ -98,7 +101,7 @@ private:
     std::int32_t Cell;
   };
 
-  void KeepEdges();
+  void KeepEdges(DivisionWatch& watch);
   void CountFolded(const std::vector<CellSample>& samples, double tolerance);
 
   std::vector<CellPiece> Pieces;

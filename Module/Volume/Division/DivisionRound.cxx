@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Division/DivisionRound.h"
 
-#include "Common/BlockLoop.h"
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -41,17 +39,17 @@ struct EdgeOwner
 
 //------------------------------------------------------------------------------
 DivisionRound::DivisionRound(std::vector<CellPiece>& pieces, const PointFields& fields,
-  const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop)
+  const ShapeFunctionsMaker& functions, const DivisionLimits& limits, DivisionWatch& watch)
   : Pieces(pieces)
   , Fields(fields)
   , Functions(functions)
   , Limits(limits)
-  , Loop(loop)
+  , Watch(watch)
   , Points(fields.NumberOfPoints)
   , Samples(static_cast<std::size_t>(fields.NumberOfPoints))
   , Levels(static_cast<std::size_t>(fields.NumberOfPoints), 0)
 {
-  ForEachBlock(this->Samples.size(), loop,
+  watch.ForEachBlock(this->Samples.size(),
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t p = first; p < last; ++p)
@@ -92,19 +90,20 @@ void DivisionRound::MeasureEdges()
 {
   EdgeIndex edges(this->Pieces.size());
   std::vector<EdgeOwner> owners;
-  for (std::size_t p = 0; p < this->Pieces.size(); ++p)
-  {
-    CellPiece& piece = this->Pieces[p];
-    for (int e = 0; piece.NewEdges != 0 && e < 6; ++e)
+  this->Watch.ForEach(this->Pieces.size(),
+    [this, &edges, &owners](std::size_t p)
     {
-      if ((piece.NewEdges >> e & 1) != 0 && edges.Add(EdgeOf(piece, e)))
+      const CellPiece& piece = this->Pieces[p];
+      for (int e = 0; piece.NewEdges != 0 && e < 6; ++e)
       {
-        owners.push_back({ static_cast<std::int32_t>(p), e });
+        if ((piece.NewEdges >> e & 1) != 0 && edges.Add(EdgeOf(piece, e)))
+        {
+          owners.push_back({ static_cast<std::int32_t>(p), e });
+        }
       }
-    }
-  }
+    });
   std::vector<double> errors(owners.size(), 0.0);
-  ForEachBlock(owners.size(), this->Loop,
+  this->Watch.ForEachBlock(owners.size(),
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       ShapeTest test(this->Fields, this->Functions, this->Limits.Measure);
@@ -165,7 +164,7 @@ void DivisionRound::MeasureInside()
     double Kept = 0.0;
   };
   std::vector<Found> found(NumberOfBlocks(this->Pieces.size()));
-  ForEachBlock(this->Pieces.size(), this->Loop,
+  this->Watch.ForEachBlock(this->Pieces.size(),
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       ShapeTest test(this->Fields, this->Functions, this->Limits.Measure);
@@ -250,7 +249,7 @@ double DivisionRound::ChooseThreshold() const
  * out: their edges are halved for their neighbours only, and the points that this adds lie where
  * the neighbours' shape functions say.
  */
-void DivisionRound::AddLongEdges(std::vector<Wish>& wishes, double error) const
+void DivisionRound::AddLongEdges(std::vector<Wish>& wishes, double error)
 {
   // Halvings that lead to pieces in proportion reach edges of a thousandth of a cell by then.
   constexpr int many = 10;
@@ -262,22 +261,23 @@ void DivisionRound::AddLongEdges(std::vector<Wish>& wishes, double error) const
       late.Add(wish.Edge);
     }
   }
-  for (std::size_t p = 0; late.GetSize() > 0 && p < this->Pieces.size(); ++p)
-  {
-    const CellPiece& piece = this->Pieces[p];
-    for (const auto& face : PieceFaces)
+  this->Watch.ForEach(late.GetSize() > 0 ? this->Pieces.size() : 0,
+    [this, &late, &wishes, error](std::size_t p)
     {
-      const bool isLate = piece.Degree > 0 &&
-        (late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||
-          late.Find(EdgeOf(piece, face.Edges[1])) != EdgeIndex::None ||
-          late.Find(EdgeOf(piece, face.Edges[2])) != EdgeIndex::None);
-      if (isLate)
+      const CellPiece& piece = this->Pieces[p];
+      for (const auto& face : PieceFaces)
       {
-        const int edge = this->LongestEdge(piece, face.Corners, 3);
-        wishes.push_back(this->WishFor(piece, edge, error, false));
+        const bool isLate = piece.Degree > 0 &&
+          (late.Find(EdgeOf(piece, face.Edges[0])) != EdgeIndex::None ||
+            late.Find(EdgeOf(piece, face.Edges[1])) != EdgeIndex::None ||
+            late.Find(EdgeOf(piece, face.Edges[2])) != EdgeIndex::None);
+        if (isLate)
+        {
+          const int edge = this->LongestEdge(piece, face.Corners, 3);
+          wishes.push_back(this->WishFor(piece, edge, error, false));
+        }
       }
-    }
-  }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -371,10 +371,10 @@ int DivisionRound::FirstCut(const std::array<std::int32_t, 6>& marks) const
  * Number of pieces after the split. A piece with n marked edges becomes n + 1 pieces, and one more
  * if the edge opposite to the first cut is marked, which both halves have.
  */
-std::int64_t DivisionRound::CountParts() const
+std::int64_t DivisionRound::CountParts()
 {
   std::vector<std::int64_t> counts(NumberOfBlocks(this->Pieces.size()), 0);
-  ForEachBlock(this->Pieces.size(), this->Loop,
+  this->Watch.ForEachBlock(this->Pieces.size(),
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       for (std::size_t p = first; p < last; ++p)
@@ -412,22 +412,23 @@ bool DivisionRound::FitBudget()
   }
   // Pieces that each rank adds, at most: one per piece with the edge, and one per opposite edge.
   std::vector<std::int64_t> added(count, 0);
-  for (const CellPiece& piece : this->Pieces)
-  {
-    const std::array<std::int32_t, 6> marks = this->MarksOf(piece);
-    for (int e = 0; e < 6; ++e)
+  this->Watch.ForEach(this->Pieces.size(),
+    [this, &ranks, &added](std::size_t p)
     {
-      const std::int32_t mark = marks[static_cast<std::size_t>(e)];
-      const std::int32_t other = marks[static_cast<std::size_t>(OppositeEdge(e))];
-      if (mark != EdgeIndex::None)
+      const std::array<std::int32_t, 6> marks = this->MarksOf(this->Pieces[p]);
+      for (int e = 0; e < 6; ++e)
       {
-        const std::size_t rank = ranks[static_cast<std::size_t>(mark)];
-        const bool isSecond =
-          other != EdgeIndex::None && ranks[static_cast<std::size_t>(other)] < rank;
-        added[rank] += isSecond ? 2 : 1;
+        const std::int32_t mark = marks[static_cast<std::size_t>(e)];
+        const std::int32_t other = marks[static_cast<std::size_t>(OppositeEdge(e))];
+        if (mark != EdgeIndex::None)
+        {
+          const std::size_t rank = ranks[static_cast<std::size_t>(mark)];
+          const bool isSecond =
+            other != EdgeIndex::None && ranks[static_cast<std::size_t>(other)] < rank;
+          added[rank] += isSecond ? 2 : 1;
+        }
       }
-    }
-  }
+    });
   std::int64_t pieces = static_cast<std::int64_t>(this->Pieces.size());
   std::size_t kept = 0;
   while (pointsFit && kept < count && pieces + added[kept] <= this->Limits.MostPieces)
@@ -458,7 +459,7 @@ void DivisionRound::AddPoints()
   this->Samples.resize(first + count);
   std::vector<WeightedPoints> rows(
     NumberOfBlocks(count), WeightedPoints(this->Fields.NumberOfPoints));
-  ForEachBlock(count, this->Loop,
+  this->Watch.ForEachBlock(count,
     [&](std::size_t block, std::size_t begin, std::size_t end)
     {
       CellSampler sampler(this->Fields, this->Functions);
@@ -517,7 +518,7 @@ void DivisionRound::SplitPiece(const CellPiece& piece, std::vector<CellPiece>& p
 void DivisionRound::Split()
 {
   std::vector<std::vector<CellPiece>> parts(NumberOfBlocks(this->Pieces.size()));
-  ForEachBlock(this->Pieces.size(), this->Loop,
+  this->Watch.ForEachBlock(this->Pieces.size(),
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       for (std::size_t p = first; p < last; ++p)

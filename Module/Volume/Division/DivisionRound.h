@@ -3,9 +3,9 @@
 #ifndef meniscus_Volume_Division_DivisionRound_h
 #define meniscus_Volume_Division_DivisionRound_h
 
-#include "Common/RangeLoop.h"
 #include "Volume/Division/CellPiece.h"
 #include "Volume/Division/DivisionLimits.h"
+#include "Volume/Division/DivisionWatch.h"
 #include "Volume/Division/EdgeIndex.h"
 #include "Volume/Division/ShapeFunctions.h"
 #include "Volume/Division/ShapeTest.h"
@@ -51,7 +51,7 @@ public:
 
   /** @param pieces source of the cells to divide. All arguments must outlive this object. */
   DivisionRound(std::vector<CellPiece>& pieces, const PointFields& fields,
-    const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop);
+    const ShapeFunctionsMaker& functions, const DivisionLimits& limits, DivisionWatch& watch);
 
   /** Measures all edges that have not been measured. Those beyond the tolerance become pending. */
   void Measure();
@@ -89,7 +89,7 @@ public:
 private:
   void MeasureEdges();
   void MeasureInside();
-  void AddLongEdges(std::vector<Wish>& wishes, double error) const;
+  void AddLongEdges(std::vector<Wish>& wishes, double error);
   void MarkWishes(const std::vector<Wish>& wishes);
   Wish WishFor(const CellPiece& piece, int edge, double error, bool isBeyond) const;
   int LongestEdge(const CellPiece& piece, const int* corners, int count) const;
@@ -99,14 +99,14 @@ private:
   std::array<std::int32_t, 6> MarksOf(const CellPiece& piece) const;
   /** The longest marked edge of a piece; -1 without. */
   int FirstCut(const std::array<std::int32_t, 6>& marks) const;
-  std::int64_t CountParts() const;
+  std::int64_t CountParts();
   void SplitPiece(const CellPiece& piece, std::vector<CellPiece>& parts) const;
 
   std::vector<CellPiece>& Pieces;
   const PointFields& Fields;
   const ShapeFunctionsMaker& Functions;
   const DivisionLimits& Limits;
-  const RangeLoop& Loop;
+  DivisionWatch& Watch;
   WeightedPoints Points;
   /** Samples at all points: each point is an end of many edges. */
   std::vector<CellSample> Samples;

@@ -76,7 +76,8 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture
     AddComparison(sheet, row, picture.Name, picture.Camera, drawn, traced, colour);
   const int pixels = picture.Camera.GetPixels();
   EXPECT_GT(compared.Covered, pixels * pixels / 20) << picture.Name;
-  EXPECT_LE(compared.Coverage + compared.Place, compared.Covered / 1000) << picture.Name;
+  EXPECT_LE(compared.Coverage + compared.Place, picture.Differing * compared.Covered)
+    << picture.Name;
 }
 
 }

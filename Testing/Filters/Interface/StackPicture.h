@@ -24,6 +24,8 @@ struct StackPicture
   std::vector<InterfaceMedia> Media;
   PixelCamera Camera;
   double Tolerance = 0.005; ///< the filter's default
+  /** Largest part of the covered pixels that may differ from traced rays. */
+  double Differing = 1e-3;
 
   /** Connects the surfaces and the list to a filter; interfaces of one body share a data set. */
   template <typename Filter>
@@ -61,9 +63,8 @@ RayTracer MakeExactRays(const std::vector<reference::ExactSurface>& surfaces, co
   const Outline& outline);
 
 /**
- * A row of the sheet: all images of an object, and traced rays. At most 0.1 % of the covered
- * pixels may show another place, by more than half a pixel, or be covered in one of the two
- * pictures only.
+ * A row of the sheet: all images of an object, and traced rays. A pixel differs if it shows another
+ * place, by more than half a pixel, or is covered in one of the two pictures only.
  */
 void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture,
   vtkPolyData* object, const PlacePicture& traced, const PlaceColour& colour);

@@ -50,7 +50,7 @@ void ExpectPane(ComparisonSheet& sheet, int row)
   constexpr double side = 400.0;
   const StackPicture view{ "air, glass, water",
     { MakePlane(0.0, side, 8), MakePlane(-20.0, side, 8) }, { { 1.0, Glass }, { Glass, Water } },
-    { { 60.0, 130.0, -190.0 }, { 0.0, -62.0, 0.0 }, 0.30, Pixels } };
+    { { 60.0, 130.0, -190.0 }, { 0.0, -62.0, 0.0 }, 0.30, Pixels }, 0.005, 5e-5 };
   const std::vector<ExactSurface> exact{ { 1.0, Glass, glm::dvec3(0.0), 0.0, Up },
     { Glass, Water, { 0.0, -20.0, 0.0 }, 0.0, Up } };
   ExpectScene(sheet, row, view, MakeBoardAndRing(-100.0, 120.0),
@@ -108,7 +108,7 @@ void ExpectEye(ComparisonSheet& sheet, int row)
 {
   const StackPicture view{ "Navarro's eye", { MakeCornea(Anterior, 50), MakeCornea(Posterior, 50) },
     { { 1.0, Anterior.Behind }, { Anterior.Behind, Posterior.Behind } },
-    { { 8.0, 36.0, -14.0 }, { 0.0, -2.0, 0.0 }, 0.14, Pixels } };
+    { { 8.0, 36.0, -14.0 }, { 0.0, -2.0, 0.0 }, 0.14, Pixels }, 0.005, 2e-4 };
   const auto object = BoardScene{ MakeBoard(-Pupil, 12.0), std::nullopt }.MakeData();
   const auto rays =
     MakeExactRays({ MakeExactCornea(Anterior, 1.0), MakeExactCornea(Posterior, Anterior.Behind) },

@@ -296,6 +296,45 @@ TEST(RefractionNormals, WildNormalsAreReplacedAndCounted)
   }
 }
 
+// A spherical cap, a square grid drawn to a disc: at two corners of the grid the only facet is a
+// sliver along the rim, at right angles to the axis, while the surface leans by 45 degrees. Its two
+// neighbours are nearly in one line and say nothing about the slope across it.
+TEST(RefractionNormals, ExactNormalsAtSliversOfARimAreNotWild)
+{
+  constexpr int cells = 50;
+  const double rim = std::sqrt(0.5);
+  MembraneMesh cap;
+  for (int j = 0; j <= cells; ++j)
+  {
+    for (int i = 0; i <= cells; ++i)
+    {
+      const glm::dvec2 place(2.0 * i / cells - 1.0, 2.0 * j / cells - 1.0);
+      const double r = rim * std::max(std::fabs(place.x), std::fabs(place.y));
+      const glm::dvec2 at = r > 0.0 ? r / glm::length(place) * place : place;
+      const glm::dvec3 point(at.x, std::sqrt(1.0 - r * r), at.y);
+      cap.AddPoint(point, point);
+    }
+  }
+  for (std::int64_t j = 0; j < cells; ++j)
+  {
+    for (std::int64_t i = 0; i < cells; ++i)
+    {
+      const std::int64_t a = j * (cells + 1) + i;
+      cap.AddTriangle(a, a + cells + 1, a + 1);
+      cap.AddTriangle(a + 1, a + cells + 1, a + cells + 2);
+    }
+  }
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(cap.AsInput()), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetReport().WildNormals, 0u);
+  for (std::size_t i = 0; i < membrane.GetNormals().size(); ++i)
+  {
+    EXPECT_LT(
+      glm::length(membrane.GetNormals()[i] - Load(cap.Normals, static_cast<std::int64_t>(i))),
+      1e-12);
+  }
+}
+
 // A wall of water whose exact normals turn within one coarse facet, and a ridge whose normals are
 // the means of both sides.
 TEST(RefractionNormals, SteepAndCreasedNormalsAreNotWild)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A second surface that ends in a curve: the wall of a tank with water behind its lower part, up to
-// the waterline of waves. Truth: rays through the two planes, in closed form, that meet the back
-// below the line.
+// the waterline of waves. Truth: rays through the two sides, exactly, that meet the back below the
+// line. The front is a plane, or has waves itself.
 #include "StackCellScene.h"
 #include "StackTestScene.h"
 
@@ -88,6 +88,27 @@ struct Wall
   double Field; ///< half width of the view at the distance of the wall
   bool IsBelow; ///< the part of the back that is below the line, with water behind it
   glm::dvec3 Eye;
+  double Waves = 0.0; ///< amplitude of waves of the front
+
+  static constexpr double WaveNumber = 5.0;
+
+  /** Place of the front, and its derivatives by x and z. */
+  double GetFront(double x, double z) const
+  {
+    return this->Waves * std::sin(WaveNumber * x) * std::sin(WaveNumber * z);
+  }
+  glm::dvec2 GetSlopes(double x, double z) const
+  {
+    return this->Waves * WaveNumber *
+      glm::dvec2(std::cos(WaveNumber * x) * std::sin(WaveNumber * z),
+        std::sin(WaveNumber * x) * std::cos(WaveNumber * z));
+  }
+  /** Unit normal of the front, to the eye. */
+  glm::dvec3 GetNormal(double x, double z) const
+  {
+    const glm::dvec2 slopes = this->GetSlopes(x, z);
+    return glm::normalize(glm::dvec3(slopes.x, -1.0, slopes.y));
+  }
 };
 
 std::ostream& operator<<(std::ostream& out, const Wall& wall)
@@ -117,10 +138,19 @@ public:
   MembraneMesh MakeFront() const
   {
     const int cells = this->Tested.FrontCells;
-    return MakeWall(0.0, cells, cells,
+    MembraneMesh mesh = MakeWall(0.0, cells, cells,
       [cells](int i, int j) {
         return glm::dvec2(HalfWidth * (2.0 * i / cells - 1.0), -Bottom * (2.0 * j / cells - 1.0));
       });
+    for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+    {
+      const double x = mesh.Points[i];
+      const double z = mesh.Points[i + 2];
+      const glm::dvec3 normal = this->Tested.GetNormal(x, z);
+      mesh.Points[i + 1] = this->Tested.GetFront(x, z);
+      std::copy(&normal.x, &normal.x + 3, mesh.Normals.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    return mesh;
   }
 
   MembraneMesh MakeBack() const
@@ -149,33 +179,47 @@ public:
   {
     glm::dvec3 at = this->Tested.Eye;
     glm::dvec3 way = direction;
-    const double depths[3] = { 0.0, Thickness, BoardAt };
-    const double indices[3] = { 1.0, 1.5, this->GetBehind() };
-    for (int k = 0; k < 3; ++k)
+    this->MeetFront(at, way);
+    if (!IsOnWall(at) || !Refract(this->Tested.GetNormal(at.x, at.z), 1.0 / 1.5, way))
     {
-      at += (depths[k] - at.y) / way.y * way;
-      if (k == 2)
-      {
-        break;
-      }
-      const double line = this->Line.GetHeight(at.x);
-      if (std::fabs(at.x) > HalfWidth || at.z < Bottom || at.z > -Bottom ||
-        (k == 1 && (at.z < line) != this->Tested.IsBelow))
-      {
-        return false;
-      }
-      const glm::dvec2 across = indices[k] / indices[k + 1] * glm::dvec2(way.x, way.z);
-      const double squared = glm::dot(across, across);
-      if (squared >= 1.0)
-      {
-        return false;
-      }
-      way = { across.x, std::sqrt(1.0 - squared), across.y };
+      return false;
     }
+    at += (Thickness - at.y) / way.y * way;
+    if (!IsOnWall(at) || (at.z < this->Line.GetHeight(at.x)) != this->Tested.IsBelow ||
+      !Refract(glm::dvec3(0.0, -1.0, 0.0), 1.5 / this->GetBehind(), way))
+    {
+      return false;
+    }
+    at += (BoardAt - at.y) / way.y * way;
     return std::fabs(at.x) < BoardSize && std::fabs(at.z) < BoardSize;
   }
 
 private:
+  static bool IsOnWall(const glm::dvec3& at)
+  {
+    return std::fabs(at.x) <= HalfWidth && at.z >= Bottom && at.z <= -Bottom;
+  }
+
+  // Snell's law; false under total reflection.
+  static bool Refract(const glm::dvec3& normal, double ratio, glm::dvec3& way)
+  {
+    const double cosine = -glm::dot(way, normal);
+    const double squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    way = ratio * way + (ratio * cosine - std::sqrt(std::max(squared, 0.0))) * normal;
+    return squared > 0.0;
+  }
+
+  // Newton's method, from the plane on; the front is nearly flat.
+  void MeetFront(glm::dvec3& at, const glm::dvec3& way) const
+  {
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec2 slopes = this->Tested.GetSlopes(at.x, at.z);
+      at += (this->Tested.GetFront(at.x, at.z) - at.y) /
+        (way.y - slopes.x * way.x - slopes.y * way.z) * way;
+    }
+  }
+
   Wall Tested;
   Waterline Line;
   glm::dvec3 Forward;
@@ -268,7 +312,10 @@ INSTANTIATE_TEST_SUITE_P(Walls, RefractionStackWall,
     Wall{ "WaterBehindAFineLine", 4, 600, 0.3, true, InFront },
     Wall{ "WaterAtASlant", 4, 120, 1.0, true, AtASlant },
     Wall{ "AirBehindTwoFacets", 1, 120, 0.5, false, InFront },
-    Wall{ "AirAtASlant", 10, 120, 0.5, false, AtASlant }),
+    Wall{ "AirAtASlant", 10, 120, 0.5, false, AtASlant },
+    Wall{ "WaterBehindWaves", 48, 120, 0.3, true, InFront, 0.02 },
+    Wall{ "WaterBehindWavesAtASlant", 48, 120, 1.0, true, AtASlant, 0.02 },
+    Wall{ "AirBehindWaves", 48, 120, 0.5, false, InFront, 0.02 }),
   [](const ::testing::TestParamInfo<Wall>& wall) { return wall.param.Name; });
 
 //------------------------------------------------------------------------------

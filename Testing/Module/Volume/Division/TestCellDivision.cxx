@@ -499,6 +499,68 @@ TEST(CellDivision, ProgressAscendsAndEachReportMayAbort)
   }
 }
 
+/** Shape functions that count how often they are evaluated. */
+class CountedShape : public Trilinear
+{
+public:
+  CountedShape(const std::vector<std::array<std::int64_t, 8>>& cells, std::size_t& count)
+    : Trilinear(cells)
+    , Count(count)
+  {
+  }
+  void Weigh(std::int32_t cell, const glm::dvec3& place, PointWeights& row) override
+  {
+    ++this->Count;
+    Trilinear::Weigh(cell, place, row);
+  }
+
+private:
+  std::size_t& Count;
+};
+
+// A round measures half a million edges here: reports come within it, not only at its end.
+TEST(CellDivision, ProgressAndAbortActWithinTheStepsOfARound)
+{
+  Block block(24, 0.2, 7);
+  block.SetValues([](const glm::dvec3& at) { return std::sin(40.0 * at.x) * at.y * at.z; });
+  std::size_t count = 0;
+  std::size_t most = 0;
+  std::size_t between = 0;
+  const auto divide = [&](std::size_t reports)
+  {
+    count = 0;
+    std::size_t last = 0;
+    std::size_t reported = 0;
+    double done = 0.0;
+    CellDivision division;
+    DivisionLimits limits = LimitsOf(1.0, 5e-3);
+    limits.MostPieces = 300000;
+    return division.Divide(
+      block.GetPieces(), block.Fields,
+      [&block, &count]() { return std::make_unique<CountedShape>(block.Cells, count); }, limits,
+      SerialLoop,
+      [&](double now)
+      {
+        EXPECT_GE(now, done);
+        EXPECT_LT(now, 1.0);
+        done = now;
+        between = count - last;
+        most = std::max(most, between);
+        last = count;
+        return ++reported <= reports;
+      });
+  };
+  ASSERT_EQ(divide(100000), DivisionStatus::Ok);
+  const std::size_t all = count;
+  // An edge is measured at three places.
+  EXPECT_LE(most, 3u * 131072u);
+  EXPECT_GT(all, 2 * most);
+  // The first report of all comes within the first step, and an abort there ends it.
+  EXPECT_EQ(divide(0), DivisionStatus::Aborted);
+  EXPECT_LE(count, most);
+  EXPECT_EQ(count, between);
+}
+
 TEST(CellDivision, FoldedCellsAreCounted)
 {
   Block block(2, 0.2, 17);
