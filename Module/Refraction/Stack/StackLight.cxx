@@ -161,13 +161,13 @@ StackLight::Corner StackLight::Trace(std::int32_t facet, const glm::dvec2& b, St
   const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
   const PathEnd end = this->Stack.Trace({ facet, b }, links.size(), false, path);
   Corner corner{ b, {} };
-  double transmittance = 1.0;
+  PlateTransmittance transmittance;
   for (std::size_t k = 0; k < path.Count; ++k)
   {
     const PathPoint& point = path.Points[k];
     const InterfacePassage& passage = links[k].Passage;
-    transmittance *= 1.0 - FresnelReflectance(point.Cosine, passage.Before, passage.Behind);
-    Leg leg{ point.Ray.Origin, point.Ray.Direction, 0.0, transmittance };
+    transmittance.Add(point.Cosine, passage.Before, passage.Behind);
+    Leg leg{ point.Ray.Origin, point.Ray.Direction, 0.0, transmittance.Get() };
     SurfaceCrossing crossing;
     if (k + 1 == links.size())
     {
