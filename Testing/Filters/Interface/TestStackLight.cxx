@@ -143,6 +143,31 @@ TEST(StackLight, PaneUnderTheSun)
   }
 }
 
+/** The path is that behind the first side. */
+TEST(StackLight, VectorsOfTheLightBehindAPane)
+{
+  const double angle = 0.9;
+  const auto filter =
+    MakePaneLight(MakeGrid(5, 20.0, -30.0), { std::sin(angle), std::cos(angle), 0.0 });
+  filter->LightVectorsOn();
+  filter->Update();
+  const double sine = std::sin(angle) / Water;
+  const double cosine = std::sqrt(1.0 - sine * sine);
+  const double inGlass = std::sqrt(1.0 - std::pow(std::sin(angle) / Glass, 2.0));
+  const double across = std::cos(angle) * MakeTransmittance(std::sin(angle), 1.0, Water) / cosine;
+  vtkDataSetAttributes* data = filter->GetOutput()->GetCellData();
+  for (vtkIdType i = 0; i < 16; ++i)
+  {
+    double vector[3];
+    data->GetArray("RefractionLightVector")->GetTuple(i, vector);
+    EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel);
+    EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel);
+    EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel);
+    EXPECT_NEAR(
+      data->GetArray("RefractionLightPath")->GetTuple1(i), 10.0 / inGlass + 20.0 / cosine, 0.01);
+  }
+}
+
 /** A floor at the very end of vertical rays, where its bounds end: no cell is dark. */
 TEST(StackLight, NoCellIsLeftOut)
 {
