@@ -16,6 +16,7 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -37,7 +38,11 @@
 namespace
 {
 
+using meniscus::CellLight;
+
 constexpr char ArrayName[] = "RefractionIrradiance";
+constexpr char VectorName[] = "RefractionLightVector";
+constexpr char PathName[] = "RefractionLightPath";
 
 // Distance of a light at infinity, in sizes of the scene. Its rays are parallel up to the inverse
 // of that, and the tolerance of the view in degrees corresponds to a six-thousandth of the scene.
@@ -92,37 +97,74 @@ glm::dvec3 TupleOf(vtkDataArray* array, vtkIdType i)
 }
 
 //------------------------------------------------------------------------------
-/** Light that each cell of the input receives: (1 - F) A', summed over its images. */
-std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtkIdType cells)
+/** Area vector of each cell of the input; 0 for lines, vertices and cells with unknown points. */
+std::vector<glm::dvec3> ListAreas(vtkPolyData* data)
 {
-  std::vector<double> flux(static_cast<std::size_t>(cells), 0.0);
+  std::vector<glm::dvec3> areas(static_cast<std::size_t>(data->GetNumberOfCells()));
+  const vtkIdType points = data->GetNumberOfPoints();
+  ForSurfaces(data,
+    [&](vtkIdType cell, vtkIdType size, const vtkIdType* ids, bool isStrip)
+    {
+      const bool known =
+        std::all_of(ids, ids + size, [points](vtkIdType i) { return i >= 0 && i < points; });
+      const auto place = [data](vtkIdType point)
+      {
+        glm::dvec3 position;
+        data->GetPoint(point, &position.x);
+        return position;
+      };
+      areas[static_cast<std::size_t>(cell)] =
+        known ? AreaOf(size, ids, isStrip, place) : glm::dvec3(0.0);
+    });
+  return areas;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Light that each cell of the input receives: (1 - F) A', summed over its images. Vectors and paths
+ * are sums as well if the images have true positions.
+ */
+std::vector<CellLight> GatherLight(
+  vtkPolyData* images, const glm::dvec3& light, const std::vector<glm::dvec3>& areas)
+{
+  std::vector<CellLight> received(areas.size());
   vtkDataArray* sights = images->GetPointData()->GetArray("SightPoint");
+  vtkDataArray* places = images->GetPointData()->GetArray("TruePosition");
   vtkDataArray* reflectance = images->GetPointData()->GetArray("Reflectance");
   vtkDataArray* sources = images->GetCellData()->GetArray("SourceCellId");
   if (!sights || !reflectance || !sources)
   {
-    return flux; // no image at all
+    return received; // no image at all
   }
   ForSurfaces(images,
     [&](vtkIdType cell, vtkIdType size, const vtkIdType* points, bool isStrip)
     {
       glm::dvec3 middle(0.0);
+      glm::dvec3 place(0.0);
       double transmitted = 0.0;
       for (vtkIdType i = 0; i < size; ++i)
       {
         middle += TupleOf(sights, points[i]) / static_cast<double>(size);
+        place += TupleOf(places ? places : sights, points[i]) / static_cast<double>(size);
         transmitted += (1.0 - reflectance->GetComponent(points[i], 0)) / static_cast<double>(size);
       }
       const glm::dvec3 area =
         AreaOf(size, points, isStrip, [sights](vtkIdType point) { return TupleOf(sights, point); });
       const double seen = std::fabs(glm::dot(area, glm::normalize(middle - light)));
-      const auto source = static_cast<vtkIdType>(sources->GetComponent(cell, 0));
-      if (source >= 0 && source < cells && std::isfinite(seen))
+      const auto source = static_cast<std::size_t>(sources->GetComponent(cell, 0));
+      if (source >= areas.size() || !std::isfinite(seen))
       {
-        flux[static_cast<std::size_t>(source)] += transmitted * seen;
+        return;
       }
+      // In front of the membrane, sight points are the points themselves.
+      const glm::dvec3 behind = middle - place;
+      const double path = glm::length(behind);
+      const glm::dvec3 toLight = path > 0.0 ? behind / path : glm::normalize(light - place);
+      const double own = glm::length(areas[source]);
+      const double cosine = own > 0.0 ? glm::dot(areas[source], toLight) / own : 0.0;
+      received[source].Add(transmitted * seen, toLight, cosine, path);
     });
-  return flux;
+  return received;
 }
 
 //------------------------------------------------------------------------------
@@ -160,57 +202,104 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
+vtkSmartPointer<vtkFloatArray> MakeArray(const char* name, int components, vtkIdType tuples)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(ArrayName);
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
-  array->FillValue(0.0f);
+  array->Fill(0.0);
   return array;
 }
 
 //------------------------------------------------------------------------------
-/** @param light position or direction for one-sided lighting, otherwise null. */
-void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const glm::dvec3* light)
+/** Arrays of the light of cells, or of points, whose light is a sum over cells. */
+class LightArrays
 {
-  const auto ofCells = MakeArray(output->GetNumberOfCells());
+public:
+  LightArrays(vtkIdType tuples, bool areVectors)
+    : Irradiance(MakeArray(ArrayName, 1, tuples))
+  {
+    if (areVectors)
+    {
+      this->Vector = MakeArray(VectorName, 3, tuples);
+      this->Path = MakeArray(PathName, 1, tuples);
+    }
+  }
+
+  /** Sets a tuple from sums over an area. */
+  void Set(vtkIdType tuple, const CellLight& light, double area)
+  {
+    this->Irradiance->SetValue(tuple, static_cast<float>(light.Flux / area));
+    if (this->Vector)
+    {
+      const glm::dvec3 vector = light.Vector / area;
+      this->Vector->SetTuple(tuple, &vector.x);
+      this->Path->SetValue(
+        tuple, light.Flux > 0.0 ? static_cast<float>(light.Path / light.Flux) : 0.0f);
+    }
+  }
+
+  void AddTo(vtkDataSetAttributes* attributes) const
+  {
+    for (vtkFloatArray* array : { this->Irradiance.Get(), this->Vector.Get(), this->Path.Get() })
+    {
+      if (array)
+      {
+        attributes->AddArray(array);
+      }
+    }
+  }
+
+private:
+  vtkSmartPointer<vtkFloatArray> Irradiance;
+  vtkSmartPointer<vtkFloatArray> Vector;
+  vtkSmartPointer<vtkFloatArray> Path;
+};
+
+//------------------------------------------------------------------------------
+/** @param light position or direction for one-sided lighting, otherwise null. */
+void AddIrradiance(vtkPolyData* output, const std::vector<CellLight>& received,
+  const std::vector<glm::dvec3>& areas, const glm::dvec3* light, bool areVectors)
+{
+  LightArrays ofCells(output->GetNumberOfCells(), areVectors);
   const vtkIdType points = output->GetNumberOfPoints();
-  std::vector<double> sum(static_cast<std::size_t>(points), 0.0);
+  std::vector<CellLight> sum(static_cast<std::size_t>(points));
   std::vector<double> weight(static_cast<std::size_t>(points), 0.0);
   ForSurfaces(output,
-    [&](vtkIdType cell, vtkIdType size, const vtkIdType* ids, bool isStrip)
+    [&](vtkIdType cell, vtkIdType size, const vtkIdType* ids, bool)
     {
-      const bool known =
-        std::all_of(ids, ids + size, [points](vtkIdType i) { return i >= 0 && i < points; });
-      const auto place = [output](vtkIdType point)
-      {
-        glm::dvec3 position;
-        output->GetPoint(point, &position.x);
-        return position;
-      };
-      const glm::dvec3 area = known ? AreaOf(size, ids, isStrip, place) : glm::dvec3(0.0);
-      const double length = glm::length(area);
+      const auto number = static_cast<std::size_t>(cell);
+      const double length = glm::length(areas[number]);
       if (!(length > 0.0) || !std::isfinite(length))
       {
         return;
       }
-      const bool turnedAway = light && !(glm::dot(area, *light - place(ids[0])) > 0.0);
-      const double irradiance = turnedAway ? 0.0 : flux[static_cast<std::size_t>(cell)] / length;
-      ofCells->SetValue(cell, static_cast<float>(irradiance));
+      glm::dvec3 first;
+      output->GetPoint(ids[0], &first.x);
+      const bool turnedAway = light && !(glm::dot(areas[number], *light - first) > 0.0);
+      const CellLight own = turnedAway ? CellLight() : received[number];
+      ofCells.Set(cell, own, length);
       for (vtkIdType i = 0; i < size; ++i)
       {
-        sum[static_cast<std::size_t>(ids[i])] += length * irradiance;
+        CellLight& total = sum[static_cast<std::size_t>(ids[i])];
+        total.Flux += own.Flux;
+        total.Vector += own.Vector;
+        total.Path += own.Path;
         weight[static_cast<std::size_t>(ids[i])] += length;
       }
     });
-  const auto ofPoints = MakeArray(points);
+  LightArrays ofPoints(points, areVectors);
   for (vtkIdType i = 0; i < points; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
-    ofPoints->SetValue(i, weight[at] > 0.0 ? static_cast<float>(sum[at] / weight[at]) : 0.0f);
+    if (weight[at] > 0.0)
+    {
+      ofPoints.Set(i, sum[at], weight[at]);
+    }
   }
-  output->GetCellData()->AddArray(ofCells);
-  output->GetPointData()->AddArray(ofPoints);
+  ofCells.AddTo(output->GetCellData());
+  ofPoints.AddTo(output->GetPointData());
 }
 
 } // anonymous namespace
@@ -353,6 +442,7 @@ bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
   first->AddItem(this->Interfaces->GetFirstInterface());
   this->View->SetInterfaces(
     this->Interfaces->GetNumberOfItems() > 1 ? first.Get() : this->Interfaces.Get());
+  this->View->SetTrueGeometry(this->LightVectors);
   this->View->SetAbortExecute(0);
   this->View->Update();
   return this->GetAbortExecute() == 0;
@@ -377,7 +467,7 @@ int vtkRefractedLightFilter::RequestData(
   output->ShallowCopy(input);
   if (input->GetNumberOfPoints() == 0)
   {
-    AddIrradiance(output, {}, nullptr);
+    AddIrradiance(output, {}, {}, nullptr, this->LightVectors);
     return 1;
   }
   meniscus::SceneMessages messages;
@@ -397,15 +487,15 @@ int vtkRefractedLightFilter::RequestData(
     output->Initialize();
     return 0;
   }
+  const std::vector<glm::dvec3> areas = ListAreas(input);
   const meniscus::RefractionStack& stack = this->Internals->Stack.GetSolver().GetStack();
   if (hasStack && !stack.GetLinks().empty())
   {
     const meniscus::LitTriangles lit = CollectTriangles(input);
     meniscus::StackLight gathering(stack, lit);
     gathering.SetOneSided(this->OneSided);
-    AddIrradiance(output,
-      gathering.Gather(static_cast<std::size_t>(input->GetNumberOfCells()), meniscus::ThreadedLoop),
-      nullptr);
+    AddIrradiance(output, gathering.Gather(areas.size(), meniscus::ThreadedLoop), areas, nullptr,
+      this->LightVectors);
     return 1;
   }
   // Without a refracting interface, the first surface bounds the light.
@@ -415,9 +505,8 @@ int vtkRefractedLightFilter::RequestData(
   }
   glm::dvec3 light;
   this->View->GetEyePosition(&light.x);
-  const std::vector<double> flux =
-    GatherFlux(this->View->GetOutput(), light, input->GetNumberOfCells());
-  AddIrradiance(output, flux, this->OneSided ? &light : nullptr);
+  AddIrradiance(output, GatherLight(this->View->GetOutput(), light, areas), areas,
+    this->OneSided ? &light : nullptr, this->LightVectors);
   return 1;
 }
 
@@ -442,6 +531,7 @@ void vtkRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->LightPosition[2] << ")\n";
   os << indent << "Positional: " << (this->Positional ? "on" : "off") << "\n";
   os << indent << "OneSided: " << (this->OneSided ? "on" : "off") << "\n";
+  os << indent << "LightVectors: " << (this->LightVectors ? "on" : "off") << "\n";
   os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
 }

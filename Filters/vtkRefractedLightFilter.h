@@ -87,6 +87,20 @@ public:
 
   /** @{ */
   /**
+   * Set/Get whether cells and points also get the arrays `RefractionLightVector` (3 floats) and
+   * `RefractionLightPath` (1 float). The vector is the light that passes an area across the rays,
+   * in the units of the irradiance, times the unit vector back along the ray, summed over all rays
+   * that reach the cell: its product with a unit normal is the irradiance of a surface with that
+   * normal. The path is the mean length of the rays behind the membrane, weighted by their light.
+   * vtkRefractionPass lights objects by them. Default is off.
+   */
+  vtkSetMacro(LightVectors, bool);
+  vtkGetMacro(LightVectors, bool);
+  vtkBooleanMacro(LightVectors, bool);
+  /** @} */
+
+  /** @{ */
+  /**
    * Set/Get the indices of refraction on the light's side and behind the membrane. Must be positive
    * and finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
    */
@@ -168,6 +182,7 @@ private:
   double LightPosition[3] = { 0.0, 0.0, 1.0 };
   bool Positional = false;
   bool OneSided = false;
+  bool LightVectors = false;
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
   vtkNew<vtkRefractedGeometryFilter> View;
   vtkNew<vtkPolyData> Surfaces;

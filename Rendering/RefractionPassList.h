@@ -3,6 +3,8 @@
 #ifndef meniscus_Rendering_RefractionPassList_h
 #define meniscus_Rendering_RefractionPassList_h
 
+#include "Rendering/Pass/WaveLight.h"
+
 #include "vtkActor.h"
 #include "vtkProp3D.h"
 #include "vtkRefractedGeometryFilter.h"
@@ -10,6 +12,7 @@
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkVolume.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,10 @@ struct Refraction
   bool IsLitInTrueSpace = false;
   /** Last error about its lighting. */
   std::string LightingError{};
+  /** Light of lamps in front of a membrane that is not flat. */
+  std::shared_ptr<WaveLight> Waves{};
+  /** True if its shader reads the light from tables. */
+  bool ReadsTables = false;
   /** Array of sight points that its mapper's shader gets. */
   std::string SightArray{};
 

@@ -25,6 +25,7 @@
 #include "vtkOpenGLState.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3D.h"
+#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
@@ -38,6 +39,7 @@
 #include "vtkVolume.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,7 +79,12 @@ public:
   vtkTypeInt64 Drawn = 0;
   vtkTypeInt64 Skipped = 0;
 
+  /** Tables that are active; null for none. */
+  meniscus::WaveLight* Tables = nullptr;
+  vtkTypeInt64 LightUpdates = 0;
+
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
+  void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
 };
 
 //------------------------------------------------------------------------------
@@ -86,6 +93,22 @@ vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) 
   vtkTexture* texture =
     this->Reflection ? this->Reflection.Get() : renderer->GetEnvironmentTexture();
   return texture && texture->GetCubeMap() ? texture : nullptr;
+}
+
+//------------------------------------------------------------------------------
+/** Activates the tables of an object instead of those of another one; null for none. */
+void vtkRefractionPass::vtkInternals::ActivateTables(
+  meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces)
+{
+  if (this->Tables && tables != this->Tables)
+  {
+    this->Tables->Deactivate();
+  }
+  this->Tables = tables;
+  if (tables)
+  {
+    tables->Activate(program, areSurfaces);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -207,6 +230,12 @@ vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionPass::GetNumberOfLightUpdates() const
+{
+  return this->Internals->LightUpdates;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionPass::GetNumberOfSkippedLights() const
 {
   return this->Internals->SkippedLights;
@@ -230,7 +259,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
       const meniscus::Refraction* refraction = this->Internals->Refractions.Find(prop);
       if (refraction && refraction->IsLitInTrueSpace)
       {
-        meniscus::LightInTrueSpace(sources);
+        meniscus::LightInTrueSpace(sources, refraction->ReadsTables);
       }
       meniscus::SeeThroughMedium(sources);
       break;
@@ -255,6 +284,8 @@ bool vtkRefractionPass::SetShaderParameters(
   {
     internals.Lighting.SetUniforms(
       program, object, refraction->ListRelativeIndices().back(), this->LightAttenuation);
+    internals.ActivateTables(refraction->ReadsTables ? refraction->Waves.get() : nullptr, program,
+      object->GetProperty()->GetRepresentation() == VTK_SURFACE);
   }
   return true;
 }
@@ -411,6 +442,7 @@ void vtkRefractionPass::DrawObjects(
     internals.Opaque->Render(&objects);
     internals.Translucent->Render(&objects);
     this->PostRender(&objects);
+    internals.ActivateTables(nullptr, nullptr, false);
     this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
   }
   this->DrawVolumes(renderer, membrane, vtkTetrahedraRayCastMapper::BEHIND);
@@ -504,6 +536,48 @@ void vtkRefractionPass::UpdateLighting(vtkRenderer* renderer, vtkActor* membrane
     vtkWarningMacro(<< warning << ".");
   }
   internals.LastLightWarning = warning;
+  for (meniscus::Refraction& refraction : internals.Refractions.All)
+  {
+    if (refraction.Membrane == membrane && refraction.IsLitInTrueSpace)
+    {
+      this->UpdateWaves(renderer, refraction);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Computes the light on an object through waves; its shader is made again if it begins or ends. */
+void vtkRefractionPass::UpdateWaves(vtkRenderer* renderer, meniscus::Refraction& refraction)
+{
+  vtkInternals& internals = *this->Internals;
+  const std::vector<meniscus::WaveSource> sources =
+    internals.Lighting.ListWaveSources(refraction.Filter);
+  bool readsTables = false;
+  if (!sources.empty() && refraction.Object->GetVisibility())
+  {
+    refraction.Waves =
+      refraction.Waves ? refraction.Waves : std::make_shared<meniscus::WaveLight>();
+    meniscus::WaveLight& waves = *refraction.Waves;
+    const vtkTypeInt64 before = waves.GetNumberOfUpdates();
+    waves.Update(refraction.Filter, sources, this->NumberOfLightCells);
+    internals.LightUpdates += waves.GetNumberOfUpdates() - before;
+    if (!waves.IsEmpty())
+    {
+      const std::string error =
+        waves.Upload(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()),
+          refraction.GetMapper()->GetInput());
+      readsTables = error.empty();
+      if (!readsTables)
+      {
+        vtkErrorMacro("The light through waves is not drawn: " << error << ".");
+      }
+    }
+  }
+  if (readsTables != refraction.ReadsTables)
+  {
+    refraction.ReadsTables = readsTables;
+    internals.ShaderTime.Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -543,6 +617,10 @@ void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
   for (auto& refraction : internals.Refractions.All)
   {
     refraction.Object->ReleaseGraphicsResources(window);
+    if (refraction.Waves)
+    {
+      refraction.Waves->Release(window);
+    }
   }
   if (internals.Reflection)
   {
@@ -571,6 +649,8 @@ void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Lighting: " << (this->Lighting == TRUE_SPACE ? "TRUE_SPACE" : "VIRTUAL_SPACE")
      << "\n";
   os << indent << "LightAttenuation: " << (this->LightAttenuation ? "on" : "off") << "\n";
+  os << indent << "NumberOfLightCells: " << this->NumberOfLightCells << "\n";
+  os << indent << "NumberOfLightUpdates: " << this->GetNumberOfLightUpdates() << "\n";
   os << indent << "NumberOfSkippedLights: " << this->GetNumberOfSkippedLights() << "\n";
   os << indent << "AdjustClippingRange: " << (this->AdjustClippingRange ? "on" : "off") << "\n";
   os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";

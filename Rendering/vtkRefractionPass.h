@@ -74,6 +74,11 @@ class vtkRenderer;
 class vtkTexture;
 class vtkVolume;
 
+namespace meniscus
+{
+struct Refraction;
+}
+
 class VTKMENISCUS_EXPORT vtkRefractionPass : public vtkOpenGLRenderPass
 {
 public:
@@ -235,20 +240,25 @@ public:
    * its sight point. TrueGeometry of the filter must be on; otherwise there is an error, and the
    * object is lit in virtual space. The lights are those of the renderer, up to 16: directional,
    * positional and spot, with VTK's falloff and Phong's model, on both sides of a surface. Lights
-   * behind the membrane shine straight. The rays of those in front of it are refracted, by Snell's
-   * law at a flat membrane; at another one, by the plane that fits its points best. That plane also
-   * decides on which side a light is. Lights on it (within rounding), or along it at infinity, are
-   * left out, with a warning; GetNumberOfSkippedLights() counts them in each drawing of a membrane.
-   * Behind several interfaces, lights in front of the first one are refracted as if the media
+   * behind the membrane shine straight. The plane that fits the membrane's points best decides on
+   * which side a light is. Lights on it (within rounding), or along it at infinity, are left out,
+   * with a warning; GetNumberOfSkippedLights() counts them in each drawing of a membrane.
+   *
+   * The rays of lights in front of a flat membrane are refracted by Snell's law, and have the flux
+   * that it transmits: Fresnel's loss and the change of a beam's width. Of a light at infinity at
+   * the angle of incidence i, the share (1 - F) cos i / cos r arrives across the refracted rays,
+   * which have the angle r. Behind several flat interfaces, lights are refracted as if the media
    * between were not there, which is exact for parallel planes and lights at infinity.
    *
-   * Refracted light has the flux that this plane transmits: Fresnel's loss and the change of a
-   * beam's width are included. Of a light at infinity at the angle of incidence i, the share
-   * (1 - F) cos i / cos r arrives across the refracted rays, which have the angle r.
+   * Through a membrane that is not flat, or a list with such a surface, a vtkRefractedLightFilter
+   * computes the light of scene lights in front of it on each object: the pattern of waves, with
+   * all ways of the light to a point. Only light through the membrane arrives then. Highlights have
+   * the mean direction of the light at a point. The light is computed again when a light, a
+   * membrane or an object changes, not when the camera moves; NumberOfLightCells is its resolution.
+   * Lights that follow the camera, and objects of several blocks, are lit by the plane above.
    *
-   * Not modelled: shadows, focusing of the light by waves, light that the membrane reflects back
-   * into the water, and light that has more than one way to a point. The material is the ambient,
-   * diffuse and specular one; physically based shading has no effect.
+   * Not modelled: shadows, and light that the membrane reflects back into the water. The material
+   * is the ambient, diffuse and specular one; physically based shading has no effect.
    */
   void SetLighting(int lighting);
   vtkGetMacro(Lighting, int);
@@ -263,6 +273,24 @@ public:
   vtkGetMacro(LightAttenuation, bool);
   vtkBooleanMacro(LightAttenuation, bool);
   /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the number of cells into which each object is divided for its light through a membrane
+   * that is not flat, with TRUE_SPACE. Details of the light that are smaller than a cell are not
+   * resolved. The time that a light, a membrane or an object that changed takes is proportional to
+   * it: vtkRefractedLightFilter computes each cell. With 0, such membranes refract light at the
+   * plane that fits their points best. Default is 100000. Range 0 to 4000000.
+   */
+  vtkSetClampMacro(NumberOfLightCells, int, 0, 4000000);
+  vtkGetMacro(NumberOfLightCells, int);
+  /** @} */
+
+  /**
+   * Number of times since construction that the light of one source on one object was computed
+   * through a membrane that is not flat. A camera that moves does not add to it.
+   */
+  vtkTypeInt64 GetNumberOfLightUpdates() const;
 
   /** Number of lights left out since construction: see SetLighting(). */
   vtkTypeInt64 GetNumberOfSkippedLights() const;
@@ -320,6 +348,7 @@ private:
   void UpdateMedium();
   void ChooseLighting();
   void UpdateLighting(vtkRenderer* renderer, vtkActor* membrane);
+  void UpdateWaves(vtkRenderer* renderer, meniscus::Refraction& refraction);
 
   bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
@@ -330,6 +359,7 @@ private:
   bool InfiniteMedium = false;
   int Lighting = VIRTUAL_SPACE;
   bool LightAttenuation = true;
+  int NumberOfLightCells = 100000;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -78,12 +78,13 @@ void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint)
 }
 
 //------------------------------------------------------------------------------
-void LightInTrueSpace(const ShaderSources& sources)
+void LightInTrueSpace(const ShaderSources& sources, bool readsTables)
 {
   PassOn(sources, "vec3", "truePosition");
   PassOn(sources, "vec3", "trueNormal");
   PassOn(sources, "vec3", "sightPoint");
-  AppendToShader(sources.Fragment, Declarations, vtkTrueSpaceLighting);
+  AppendToShader(sources.Fragment, Declarations,
+    std::string("#define HAS_LIT_TABLES ") + (readsTables ? "1\n" : "0\n") + vtkTrueSpaceLighting);
   AppendToShader(sources.Fragment, "  //VTK::Light::Impl",
     "  gl_FragData[0].rgb = lightInTrueSpace(ambientColor, diffuseColor, truePositionVSOutput,\n"
     "    trueNormalVSOutput, sightPointVSOutput, refractionDepthVSOutput > 0.0);");

@@ -31,8 +31,11 @@ void SeeThroughMedium(const ShaderSources& sources);
  * @param sightPoint name of the array of the points of refraction next to the object.
  */
 void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint);
-/** Replaces the lighting of a refracted object; before SeeThroughMedium(). */
-void LightInTrueSpace(const ShaderSources& sources);
+/**
+ * Replaces the lighting of a refracted object; before SeeThroughMedium().
+ * @param readsTables whether lights have tables: WaveLight.
+ */
+void LightInTrueSpace(const ShaderSources& sources, bool readsTables);
 
 }
 

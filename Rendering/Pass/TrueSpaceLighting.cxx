@@ -14,6 +14,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRefractedGeometryFilter.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
@@ -45,6 +46,49 @@ std::array<float, Size> ToFloats(const Numbers& numbers)
   return floats;
 }
 
+//------------------------------------------------------------------------------
+/**
+ * True if the points of a surface are in a plane within the rounding errors of floats, and if its
+ * normals are those of the plane within the errors that this gives to normals of facets.
+ */
+bool LiesInPlane(vtkPolyData* surface, const double (&origin)[3], const double (&normal)[3])
+{
+  double bounds[6];
+  surface->GetBounds(bounds);
+  double reach = 0.0;
+  for (const double bound : bounds)
+  {
+    reach = std::max(reach, std::fabs(bound));
+  }
+  const double slack = 4.0 * Rounding * reach;
+  const vtkIdType points = surface->GetNumberOfPoints();
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    double place[3];
+    surface->GetPoint(i, place);
+    vtkMath::Subtract(place, origin, place);
+    if (!(std::fabs(vtkMath::Dot(place, normal)) <= slack))
+    {
+      return false;
+    }
+  }
+  vtkDataArray* normals = surface->GetPointData()->GetNormals();
+  const double facet = surface->GetLength() / std::sqrt(static_cast<double>(points));
+  for (vtkIdType i = 0; normals && i < points; ++i)
+  {
+    double own[3];
+    double across[3];
+    normals->GetTuple(i, own);
+    vtkMath::Normalize(own);
+    vtkMath::Cross(own, normal, across);
+    if (!(vtkMath::Norm(across) * facet <= slack))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -58,18 +102,41 @@ std::string TrueSpaceLighting::DescribeMissing(vtkActor* object)
 }
 
 //------------------------------------------------------------------------------
-/** Fits a plane to the membrane's points, in world coordinates; its normal points to the eye. */
+const TrueSpaceLighting::Fit& TrueSpaceLighting::FitOf(vtkPolyData* surface)
+{
+  Fit& fit = this->Fits[surface];
+  if (surface && surface->GetNumberOfPoints() > 0 && fit.Time != surface->GetMTime())
+  {
+    vtkPlane::ComputeBestFittingPlane(surface->GetPoints(), fit.Origin, fit.Normal);
+    fit.IsFlat = LiesInPlane(surface, fit.Origin, fit.Normal);
+    fit.Time = surface->GetMTime();
+  }
+  return fit;
+}
+
+//------------------------------------------------------------------------------
+std::vector<WaveSource> TrueSpaceLighting::ListWaveSources(vtkRefractedGeometryFilter* filter)
+{
+  bool isFlat = !filter->GetExactMembrane();
+  const double* first = nullptr;
+  for (int i = 0; isFlat && i < filter->GetNumberOfMembranes(); ++i)
+  {
+    const Fit& fit = this->FitOf(vtkPolyData::SafeDownCast(filter->GetInputDataObject(1, i)));
+    first = first ? first : fit.Normal;
+    double across[3];
+    vtkMath::Cross(first, fit.Normal, across);
+    isFlat = fit.IsFlat && vtkMath::Norm(across) <= std::sqrt(Rounding);
+  }
+  return isFlat ? std::vector<WaveSource>() : this->Waves;
+}
+
+//------------------------------------------------------------------------------
+/** Finds the membrane's plane in world coordinates; its normal points to the eye. */
 void TrueSpaceLighting::FitPlane(vtkActor* membrane)
 {
-  vtkPolyData* data = DataOf(membrane);
-  Fit& fit = this->Fits[membrane];
-  if (data && data->GetNumberOfPoints() > 0 && fit.Time != data->GetMTime())
-  {
-    vtkPlane::ComputeBestFittingPlane(data->GetPoints(), fit.Origin, fit.Normal);
-    fit.Time = data->GetMTime();
-  }
-  vtkMatrix4x4* matrix = membrane->GetMatrix();
+  const Fit& fit = this->FitOf(DataOf(membrane));
   double place[4] = { fit.Origin[0], fit.Origin[1], fit.Origin[2], 1.0 };
+  vtkMatrix4x4* matrix = membrane->GetMatrix();
   double normal[4] = { fit.Normal[0], fit.Normal[1], fit.Normal[2], 0.0 };
   matrix->MultiplyPoint(place, place);
   // Normals are transformed by the inverse of the transpose.
@@ -96,23 +163,30 @@ void TrueSpaceLighting::FitPlane(vtkActor* membrane)
 }
 
 //------------------------------------------------------------------------------
+/** Height above the membrane of a light, or of the direction to it. */
+double TrueSpaceLighting::HeightOf(const double (&position)[4]) const
+{
+  double height = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    height += this->Plane[i] * position[i];
+  }
+  return height;
+}
+
+//------------------------------------------------------------------------------
 /**
  * True if the side of the surface on which a light is cannot be decided: its height is within the
  * rounding error of the sum of three products of floats.
  */
 bool TrueSpaceLighting::IsOnSurface(const double (&position)[4], const double (&about)[3]) const
 {
-  double height = 0.0;
   double size = position[3] * this->Reach;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    height += this->Plane[i] * position[i];
-  }
   for (const double coordinate : about)
   {
     size = std::max(size, std::fabs(coordinate));
   }
-  return !(std::fabs(height) > 4.0 * Rounding * size);
+  return !(std::fabs(this->HeightOf(position)) > 4.0 * Rounding * size);
 }
 
 //------------------------------------------------------------------------------
@@ -148,8 +222,15 @@ bool TrueSpaceLighting::Add(vtkLight* light)
     hasCone ? std::cos(vtkMath::RadiansFromDegrees(light->GetConeAngle())) : -2.0 };
   const double* values = light->GetAttenuationValues();
   const double falloff[4] = { values[0], values[1], values[2], light->GetExponent() };
+  // The light of those that follow the camera would have to be computed for each frame.
+  const bool isRead = this->HeightOf(position) > 0.0 && light->LightTypeIsSceneLight();
+  const int table = isRead ? static_cast<int>(this->Waves.size()) : -1;
   this->Lights.push_back(
-    { ToFloats<4>(position), ToFloats<3>(color), ToFloats<4>(cone), ToFloats<4>(falloff) });
+    { ToFloats<4>(position), ToFloats<3>(color), ToFloats<4>(cone), ToFloats<4>(falloff), table });
+  if (isRead)
+  {
+    this->Waves.push_back({ { position[0], position[1], position[2] }, isPositional });
+  }
   return true;
 }
 
@@ -159,6 +240,7 @@ std::string TrueSpaceLighting::Update(vtkRenderer* renderer, vtkActor* membrane)
   renderer->GetActiveCamera()->GetPosition(this->Eye.data());
   this->FitPlane(membrane);
   this->Lights.clear();
+  this->Waves.clear();
   this->Skipped = 0;
   int beyond = 0;
   vtkLightCollection* lights = renderer->GetLights();
@@ -200,6 +282,7 @@ void TrueSpaceLighting::SetUniforms(
   std::vector<float> colors;
   std::vector<float> cones;
   std::vector<float> falloffs;
+  std::vector<int> tables;
   const auto append = [](std::vector<float>& to, const auto& from)
   { to.insert(to.end(), from.begin(), from.end()); };
   for (const Light& light : this->Lights)
@@ -208,6 +291,7 @@ void TrueSpaceLighting::SetUniforms(
     append(colors, light.Color);
     append(cones, light.Cone);
     append(falloffs, light.Falloff);
+    tables.push_back(light.Table);
   }
   const int number = static_cast<int>(this->Lights.size());
   program->SetUniformi("trueLights", number);
@@ -217,6 +301,10 @@ void TrueSpaceLighting::SetUniforms(
     program->SetUniform3fv("trueLightColor", number, colors.data());
     program->SetUniform4fv("trueLightCone", number, cones.data());
     program->SetUniform4fv("trueLightFalloff", number, falloffs.data());
+    if (program->IsUniformUsed("trueLightTable"))
+    {
+      program->SetUniform1iv("trueLightTable", number, tables.data());
+    }
   }
   vtkProperty* property = object->GetProperty();
   const double* color = property->GetSpecularColor();

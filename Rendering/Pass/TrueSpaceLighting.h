@@ -3,6 +3,8 @@
 #ifndef meniscus_Rendering_Pass_TrueSpaceLighting_h
 #define meniscus_Rendering_Pass_TrueSpaceLighting_h
 
+#include "Rendering/Pass/WaveLight.h"
+
 #include "vtkType.h"
 
 #include <array>
@@ -12,6 +14,8 @@
 
 class vtkActor;
 class vtkLight;
+class vtkPolyData;
+class vtkRefractedGeometryFilter;
 class vtkRenderer;
 class vtkShaderProgram;
 
@@ -20,8 +24,9 @@ namespace meniscus
 
 /**
  * Lights of a renderer for objects behind a membrane, whose fragments are lit at their true
- * positions (vtkTrueSpaceLighting.glsl). Lights in front of the membrane are refracted at the plane
- * that fits its points best, which is the membrane itself if that is flat.
+ * positions (vtkTrueSpaceLighting.glsl). Lights in front of a flat membrane are refracted by
+ * Snell's law in the shader, and so are those that follow the camera, at the plane that fits the
+ * membrane's points best. The light of others comes from tables: WaveLight.
  */
 class TrueSpaceLighting
 {
@@ -41,6 +46,12 @@ public:
   static std::string DescribeMissing(vtkActor* object);
 
   /**
+   * Lights in front of the membrane of an object whose light depends on its waves; none if all
+   * surfaces in front of the object are flat.
+   */
+  std::vector<WaveSource> ListWaveSources(vtkRefractedGeometryFilter* filter);
+
+  /**
    * Sets the uniforms of vtkTrueSpaceLighting.glsl, if the program uses them.
    * @param index index of refraction behind the membrane relative to that in front of it.
    */
@@ -55,21 +66,27 @@ private:
     std::array<float, 3> Color;
     std::array<float, 4> Cone;
     std::array<float, 4> Falloff;
+    int Table; ///< number of its tables; -1 if its rays are traced in the shader
   };
-
-  void FitPlane(vtkActor* membrane);
-  bool IsOnSurface(const double (&position)[4], const double (&about)[3]) const;
-  bool Add(vtkLight* light);
-
-  /** Plane of a membrane's points in its own coordinates, and the time of these points. */
+  /** Plane that fits the points of a surface best, and the time of these points. */
   struct Fit
   {
     double Origin[3] = { 0.0, 0.0, 0.0 };
     double Normal[3] = { 0.0, 0.0, 1.0 };
+    bool IsFlat = true;
     vtkMTimeType Time = 0;
   };
-  std::map<vtkActor*, Fit> Fits;
+
+  const Fit& FitOf(vtkPolyData* surface);
+  void FitPlane(vtkActor* membrane);
+  double HeightOf(const double (&position)[4]) const;
+  bool IsOnSurface(const double (&position)[4], const double (&about)[3]) const;
+  bool Add(vtkLight* light);
+
+  /** By surface; a surface of another time is fitted again. */
+  std::map<vtkPolyData*, Fit> Fits;
   std::vector<Light> Lights;
+  std::vector<WaveSource> Waves;
   int Skipped = 0;
   std::array<double, 3> Eye{ 0.0, 0.0, 0.0 };
   /** Unit normal towards the eye, and the height of the origin. */

@@ -121,6 +121,113 @@ LightRay traceLight(vec4 light, vec3 point, bool isBehind)
   return ray;
 }
 
+#if HAS_LIT_TABLES
+// Light through waves, from tables: Rendering/Pass/LitMesh.h.
+uniform samplerBuffer litFaces;
+uniform samplerBuffer litPlaces;       // vector and path, for one light after another
+uniform isamplerBuffer litPrimitives;
+uniform int litPlacesOfLight;
+uniform int litNumberOfPrimitives;
+uniform int trueLightTable[MAXIMUM_OF_LIGHTS]; // -1: none
+
+// Places of a grid around a point, and their weights.
+struct LitPlace
+{
+  bool isKnown;
+  ivec3 places;
+  vec3 weights;
+};
+
+// Number of a place in a grid of rows of n + 1, n, ... 1 places.
+int numberInGrid(int n, int column, int row)
+{
+  return row * (n + 1) - row * (row - 1) / 2 + column;
+}
+
+// The place in the triangle, of those that the fragment's cell has, that contains the point.
+LitPlace findLitPlace(vec3 point)
+{
+  LitPlace place;
+  int primitive = gl_PrimitiveID + PrimitiveIDOffset;
+  int face = primitive < litNumberOfPrimitives ? texelFetch(litPrimitives, primitive).r : -1;
+  place.isKnown = face >= 0;
+  place.places = ivec3(0);
+  place.weights = vec3(0.0);
+  float best = -1.0e30;
+  vec2 at = vec2(0.0);
+  int n = 1;
+  int first = 0;
+  bool hasMore = place.isKnown;
+  while (hasMore)
+  {
+    vec4 a = texelFetch(litFaces, 3 * face);
+    vec4 b = texelFetch(litFaces, 3 * face + 1);
+    vec4 c = texelFetch(litFaces, 3 * face + 2);
+    vec3 u = b.xyz - a.xyz;
+    vec3 v = c.xyz - a.xyz;
+    vec3 w = point - a.xyz;
+    float square = dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v);
+    vec2 own = vec2(dot(v, v) * dot(u, w) - dot(u, v) * dot(v, w),
+      dot(u, u) * dot(v, w) - dot(u, v) * dot(u, w)) / square;
+    // How far it is inside, and its height in sizes of the triangle: grids have cells of several
+    // faces.
+    float inside = min(min(own.x, own.y), 1.0 - own.x - own.y);
+    float height = length(w - own.x * u - own.y * v) * inversesqrt(sqrt(max(square, 1.0e-37)));
+    float quality = min(inside, 0.0) - height;
+    if (quality > best)
+    {
+      best = quality;
+      at = own;
+      n = int(a.w);
+      first = int(b.w);
+    }
+    hasMore = c.w > 0.0;
+    ++face;
+  }
+  at = max(at, vec2(0.0));
+  at /= max(at.x + at.y, 1.0);
+  vec2 scaled = float(n) * at;
+  int row = min(int(scaled.y), n - 1);
+  int column = min(int(scaled.x), n - 1 - row);
+  vec2 rest = scaled - vec2(column, row);
+  bool isUpper = rest.x + rest.y > 1.0 && column + row + 1 < n;
+  int corner = isUpper ? numberInGrid(n, column + 1, row + 1) : numberInGrid(n, column, row);
+  int right = numberInGrid(n, column + 1, row);
+  int above = numberInGrid(n, column, row + 1);
+  place.places = first + (isUpper ? ivec3(corner, above, right) : ivec3(corner, right, above));
+  rest = isUpper ? 1.0 - rest : rest;
+  place.weights = vec3(1.0 - rest.x - rest.y, rest);
+  return place;
+}
+
+// Mean ray of a light that waves refract.
+LightRay readLight(LitPlace place, int table, vec4 light, vec3 point)
+{
+  vec4 read = vec4(0.0);
+  for (int k = 0; k < 3; ++k)
+  {
+    read += place.weights[k] * texelFetch(litPlaces, table * litPlacesOfLight + place.places[k]);
+  }
+  LightRay ray;
+  ray.flux = length(read.xyz);
+  ray.arrives = ray.flux > 0.0;
+  ray.toLight = ray.arrives ? read.xyz / ray.flux : surfacePlane.xyz;
+  ray.inMedium = max(read.w, 0.0);
+  ray.fromLight = -ray.toLight;
+  ray.path = 0.0;
+  if (light.w != 0.0)
+  {
+    // The tables have the light of a lamp relative to that where its rays meet the membrane.
+    vec3 before = point + ray.inMedium * ray.toLight - light.xyz;
+    float far = max(length(before), 1.0e-30);
+    ray.fromLight = before / far;
+    ray.path = far + ray.inMedium;
+    ray.flux *= (ray.path / far) * (ray.path / far);
+  }
+  return ray;
+}
+#endif
+
 // Phong's model as VTK has it: light of all lights that the surface reflects to the eye.
 vec3 lightInTrueSpace(
   vec3 ambient, vec3 diffuse, vec3 position, vec3 givenNormal, vec3 sightPoint, bool isBehind)
@@ -139,9 +246,18 @@ vec3 lightInTrueSpace(
   normal = side < 0.0 ? -normal : normal;
 
   vec3 color = ambient;
+#if HAS_LIT_TABLES
+  LitPlace place = findLitPlace(position);
+#endif
   for (int i = 0; i < trueLights; ++i)
   {
+#if HAS_LIT_TABLES
+    bool isRead = place.isKnown && isBehind && trueLightTable[i] >= 0;
+    LightRay ray = isRead ? readLight(place, trueLightTable[i], trueLightPosition[i], position)
+                          : traceLight(trueLightPosition[i], position, isBehind);
+#else
     LightRay ray = traceLight(trueLightPosition[i], position, isBehind);
+#endif
     float strength = ray.arrives ? ray.flux : 0.0;
     if (trueLightPosition[i].w != 0.0)
     {

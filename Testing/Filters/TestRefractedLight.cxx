@@ -7,6 +7,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
@@ -127,6 +128,51 @@ TEST(RefractedLight, FlatWaterUnderTheSun)
     for (vtkIdType i = 0; i < OfPoints(filter)->GetNumberOfTuples(); ++i)
     {
       EXPECT_NEAR(OfPoints(filter)->GetComponent(i, 0), expected, Parallel) << angle;
+    }
+  }
+}
+
+/** Light across the rays, back along them, and their length in the water; on walls as well. */
+TEST(RefractedLight, VectorsOfTheLightUnderFlatWater)
+{
+  constexpr double depth = 20.0;
+  const auto floor = MakeGrid(5, 20.0, -depth);
+  auto wall = MakePoints({ { 0, -22, -2 }, { 0, -22, 2 }, { 0, -18, 2 }, { 0, -18, -2 } });
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell({ 0, 1, 2, 3 });
+  wall->SetPolys(polys);
+  for (const double angle : { 0.0, 0.3, 0.9, 1.3 })
+  {
+    const double sine = std::sin(angle) / Water;
+    const double cosine = std::sqrt(1.0 - sine * sine);
+    const double across = std::cos(angle) * MakeTransmittance(std::cos(angle)) / cosine;
+    for (vtkPolyData* object : { floor.Get(), wall.Get() })
+    {
+      if (object == wall.Get() && angle == 0.0)
+      {
+        continue; // the light passes it
+      }
+      auto filter =
+        MakeLight(object, MakeFlatMembrane(), { std::sin(angle), std::cos(angle), 0.0 });
+      filter->Update();
+      EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("RefractionLightVector"));
+      filter->LightVectorsOn();
+      filter->Update();
+      for (vtkDataSetAttributes* data :
+        { static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetCellData()),
+          static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetPointData()) })
+      {
+        vtkDataArray* vectors = data->GetArray("RefractionLightVector");
+        vtkDataArray* paths = data->GetArray("RefractionLightPath");
+        ASSERT_TRUE(vectors && paths);
+        for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
+        {
+          EXPECT_NEAR(vectors->GetComponent(i, 0), across * sine, 2.0 * Parallel) << angle;
+          EXPECT_NEAR(vectors->GetComponent(i, 1), across * cosine, 2.0 * Parallel) << angle;
+          EXPECT_NEAR(vectors->GetComponent(i, 2), 0.0, 2.0 * Parallel) << angle;
+          EXPECT_NEAR(paths->GetComponent(i, 0), depth / cosine, 0.01) << angle;
+        }
+      }
     }
   }
 }

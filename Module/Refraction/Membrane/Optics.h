@@ -125,7 +125,9 @@ inline PolarizedReflectance ComputePolarizedReflectance(
 
 /**
  * Light that passes interfaces one behind another, with the reflections between them to all orders,
- * as parallel plates without absorption have them. Interfaces are added from the eye on.
+ * as parallel plates without absorption have them: G. G. Stokes, "On the intensity of the light
+ * reflected from or transmitted through a pile of plates", Proc. R. Soc. 11 (1862). The light is
+ * summed without interference, for each polarisation. Interfaces are added from the eye on.
  */
 class PlateTransmittance
 {

@@ -70,6 +70,17 @@ public:
     *this = kept;
   }
 
+  /** Mean distance behind the leg's origin, of the corners. @pre there is a corner */
+  double GetBehind() const
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < this->Count; ++i)
+    {
+      sum += this->Points[i].Behind;
+    }
+    return sum / static_cast<double>(this->Count);
+  }
+
   double GetArea() const
   {
     double sum = 0.0;
@@ -117,9 +128,9 @@ StackLight::StackLight(const RefractionStack& stack, const LitTriangles& lit)
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> StackLight::Gather(std::size_t cells, const RangeLoop& loop) const
+std::vector<CellLight> StackLight::Gather(std::size_t cells, const RangeLoop& loop) const
 {
-  std::vector<double> light(cells, 0.0);
+  std::vector<CellLight> light(cells);
   if (this->Lit.Triangles.empty())
   {
     return light;
@@ -148,7 +159,8 @@ std::vector<double> StackLight::Gather(std::size_t cells, const RangeLoop& loop)
     {
       for (const Share& share : shares[i])
       {
-        light[static_cast<std::size_t>(share.Cell)] += share.Light;
+        light[static_cast<std::size_t>(share.Cell)].Add(
+          share.Light, share.ToLight, share.Cosine, share.Path);
       }
     }
   }
@@ -161,13 +173,14 @@ StackLight::Corner StackLight::Trace(std::int32_t facet, const glm::dvec2& b, St
   const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
   const PathEnd end = this->Stack.Trace({ facet, b }, links.size(), false, path);
   Corner corner{ b, {} };
-  double transmittance = 1.0;
+  PlateTransmittance transmittance;
+  double before = 0.0;
   for (std::size_t k = 0; k < path.Count; ++k)
   {
     const PathPoint& point = path.Points[k];
     const InterfacePassage& passage = links[k].Passage;
-    transmittance *= 1.0 - FresnelReflectance(point.Cosine, passage.Before, passage.Behind);
-    Leg leg{ point.Ray.Origin, point.Ray.Direction, 0.0, transmittance };
+    transmittance.Add(point.Cosine, passage.Before, passage.Behind);
+    Leg leg{ point.Ray.Origin, point.Ray.Direction, 0.0, transmittance.Get(), before };
     SurfaceCrossing crossing;
     if (k + 1 == links.size())
     {
@@ -186,6 +199,7 @@ StackLight::Corner StackLight::Trace(std::int32_t facet, const glm::dvec2& b, St
     {
       break;
     }
+    before += leg.Length;
     corner.Legs.push_back(leg);
   }
   return corner;
@@ -326,6 +340,7 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
     0.5 * std::fabs(glm::dot(glm::cross(places[1] - places[0], places[2] - places[0]), sight));
   const double light =
     area * (rays[0]->Transmittance + rays[1]->Transmittance + rays[2]->Transmittance) / 3.0;
+  const double before = (rays[0]->Before + rays[1]->Before + rays[2]->Before) / 3.0;
   this->Tree.Visit(tube, most,
     [&](std::int32_t item, const TubeRange&)
     {
@@ -361,7 +376,8 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
       const double share = 2.0 * image.GetArea();
       if (share > 0.0) // not for a NaN either, at a focus
       {
-        shares.push_back({ this->Lit.Cells[number], share * light });
+        shares.push_back({ this->Lit.Cells[number], share * light, -along,
+          facing / glm::length(normal), before + image.GetBehind() });
       }
       return most;
     });

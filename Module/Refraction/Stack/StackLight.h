@@ -19,7 +19,11 @@
 #include "Refraction/Stack/RefractionStack.h"
 #include "Refraction/Tubes/BoxTree.h"
 
+#include <glm/vec3.hpp>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,6 +39,34 @@ struct LitTriangles
   std::vector<std::int64_t> Cells; ///< of each triangle
 };
 
+/** Light that a cell receives; sums over its beams. */
+struct CellLight
+{
+  /** Area of the first surface that it passes, across the incident rays, times the transmittance.
+   */
+  double Flux = 0.0;
+  /**
+   * Unit vectors to the light, times the beam's flux, over the cosine of their angle with the
+   * cell's normal: the area of the cell times the light that passes an area across the beam.
+   */
+  glm::dvec3 Vector{ 0.0 };
+  /** Lengths of the path behind the first surface, times the flux. */
+  double Path = 0.0;
+
+  /**
+   * Adds a beam. `cosine` is that of the angle with the cell's normal, of either sign. Beams that
+   * graze the cell count in Vector as if they had the least cosine: their share of the light is
+   * then below half a step of a colour of 8 bits.
+   */
+  void Add(double flux, const glm::dvec3& toLight, double cosine, double path)
+  {
+    constexpr double least = 0.5 / 255.0;
+    this->Flux += flux;
+    this->Vector += flux / std::max(std::fabs(cosine), least) * toLight;
+    this->Path += flux * path;
+  }
+};
+
 class StackLight
 {
 public:
@@ -44,12 +76,8 @@ public:
   /** Lights triangles only from the side from which their points are counter-clockwise. */
   void SetOneSided(bool oneSided) { this->OneSided = oneSided; }
 
-  /**
-   * Light on each of `cells` cells: area of the first surface that it passes, projected along the
-   * rays from the light, times the transmittance of the interfaces in front of the cell. The result
-   * does not depend on the number of threads.
-   */
-  std::vector<double> Gather(std::size_t cells, const RangeLoop& loop) const;
+  /** Light on each of `cells` cells. The result does not depend on the number of threads. */
+  std::vector<CellLight> Gather(std::size_t cells, const RangeLoop& loop) const;
 
 private:
   /** A ray behind one interface, up to the next one. */
@@ -59,6 +87,7 @@ private:
     glm::dvec3 Direction;
     double Length;        ///< up to the farthest lit point behind the last interface
     double Transmittance; ///< of the interfaces before the leg
+    double Before;        ///< length of the path between the first interface and the leg
   };
   struct Corner
   {
@@ -78,6 +107,9 @@ private:
   {
     std::int64_t Cell;
     double Light;
+    glm::dvec3 ToLight;
+    double Cosine;
+    double Path;
   };
 
   Corner Trace(std::int32_t facet, const glm::dvec2& b, StackPath& path) const;

@@ -14,6 +14,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
@@ -90,6 +92,62 @@ TEST(RefractionPassStack, APaneReflectsByBothSides)
           const double passed = MakePlateTransmittance(SineOf(sight), Glass, behind);
           return passed + (1.0 - passed) * Background[channel];
         });
+    }
+  }
+}
+
+/**
+ * The middle of the picture, seen at an angle, for several stacks of plates. m panes in air
+ * transmit (1 - R) / (1 + (2 m - 1) R) of each polarisation: Stokes's pile of plates.
+ */
+TEST(RefractionPassStack, StacksOfPlatesInClosedForm)
+{
+  struct Stack
+  {
+    std::string Name;
+    std::vector<double> Media; // behind each surface
+  };
+  const std::vector<Stack> stacks{ { "water", { Water } }, { "a pane in air", { Glass, 1.0 } },
+    { "a pane on water", { Glass, Water } }, { "two panes", { Glass, 1.0, Glass, 1.0 } },
+    { "dense glass", { 2.4, 1.0 } } };
+  for (const Stack& stack : stacks)
+  {
+    Pool pool;
+    pool.GetCamera()->SetViewAngle(10.0);
+    pool.Filter->SetImagesToFirstImage();
+    pool.Filter->SetInteriorIndexOfRefraction(stack.Media[0]);
+    for (std::size_t i = 1; i < stack.Media.size(); ++i)
+    {
+      vtkNew<vtkRefractingInterface> next;
+      next->SetExteriorIndexOfRefraction(stack.Media[i - 1]);
+      next->SetInteriorIndexOfRefraction(stack.Media[i]);
+      pool.Filter->GetInterfaces()->AddItem(next);
+      pool.Filter->AddMembraneConnection(
+        MakePlane(5.0, -0.1 * static_cast<double>(i), 4)->GetOutputPort());
+    }
+    for (const double degrees : { 0.0, 45.0, 60.0, 75.0 })
+    {
+      SCOPED_TRACE(stack.Name + " at " + std::to_string(degrees));
+      const double angle = degrees * std::acos(-1.0) / 180.0;
+      const double sine = std::sin(angle);
+      pool.GetCamera()->SetPosition(4.0 * sine, 0.0, 4.0 * std::cos(angle));
+      double passed = 0.0;
+      for (std::size_t k = 0; k < 2; ++k)
+      {
+        const double r = MakeFresnelAt(sine, 1.0, stack.Media[0])[k];
+        const double last =
+          stack.Media.size() > 1 ? MakeFresnelAt(sine, stack.Media[0], stack.Media[1])[k] : 0.0;
+        const double panes = 0.5 * static_cast<double>(stack.Media.size());
+        passed += stack.Media.back() == 1.0 ? (1.0 - r) / (1.0 + (2.0 * panes - 1.0) * r)
+                                            : (1.0 - r) * (1.0 - last) / (1.0 - r * last);
+      }
+      passed *= 0.5;
+      const ByteImage image = pool.Render();
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        EXPECT_NEAR(image.GetPixel(Size / 2, Size / 2)[channel] / 255.0,
+          passed + (1.0 - passed) * Background[channel], Rounding);
+      }
     }
   }
 }

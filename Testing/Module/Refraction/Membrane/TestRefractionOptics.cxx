@@ -153,7 +153,8 @@ TEST(RefractionOptics, PolarizedReflectancesHaveTheUnpolarisedOneAsTheirMean)
 /** A pane of glass in air: (1 - R) / (1 + R) for each polarisation. */
 TEST(RefractionOptics, APaneTransmitsWithAllReflectionsInIt)
 {
-  const std::pair<double, double> expected[] = { { 0.0, 0.9231 }, { 75.0, 0.6182 } };
+  const std::pair<double, double> expected[] = { { 0.0, 0.9231 }, { 45.0, 0.9074 },
+    { 60.0, 0.8481 }, { 75.0, 0.6182 } };
   for (const auto& [degrees, share] : expected)
   {
     const double cosine = std::cos(glm::radians(degrees));

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Pass/WaveLight.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRefractedGeometryFilter.h"
+#include "vtkShaderProgram.h"
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+/** Divides the object if it or the number of cells changed. Returns false without an object. */
+bool WaveLight::UpdateMesh(vtkRefractedGeometryFilter* filter, int cells)
+{
+  vtkDataSet* object = vtkDataSet::SafeDownCast(filter->GetInputDataObject(0, 0));
+  if (!object || cells < 1)
+  {
+    return false;
+  }
+  const ObjectSurface surface = this->Surfaces.Get(object);
+  if (surface.Data != this->MeshSurface || surface.Data->GetMTime() != this->MeshTime ||
+    cells != this->MeshCells)
+  {
+    this->Mesh.Build(surface.Data, surface.Cells, cells);
+    this->MeshSurface = surface.Data;
+    this->MeshTime = surface.Data->GetMTime();
+    this->MeshCells = cells;
+    this->IsUploaded = false;
+  }
+  return this->Mesh.GetCells()->GetNumberOfCells() > 0;
+}
+
+//------------------------------------------------------------------------------
+/** Gives the membranes and interfaces of the object to a light, if it has others. */
+void WaveLight::SetScene(vtkRefractedLightFilter* light, vtkRefractedGeometryFilter* filter) const
+{
+  const int membranes = filter->GetNumberOfMembranes();
+  bool isKnown = light->GetNumberOfMembranes() == membranes;
+  for (int i = 0; isKnown && i < membranes; ++i)
+  {
+    isKnown = light->GetInputDataObject(1, i) == filter->GetInputDataObject(1, i);
+  }
+  if (!isKnown)
+  {
+    light->RemoveAllMembranes();
+    for (int i = 0; i < membranes; ++i)
+    {
+      light->AddMembraneData(vtkPolyData::SafeDownCast(filter->GetInputDataObject(1, i)));
+    }
+  }
+  if (light->GetInputDataObject(0, 0) != this->Mesh.GetCells())
+  {
+    light->SetInputData(this->Mesh.GetCells());
+  }
+  light->SetInterfaces(filter->GetInterfaces());
+  light->LightVectorsOn();
+}
+
+//------------------------------------------------------------------------------
+void WaveLight::Update(
+  vtkRefractedGeometryFilter* filter, const std::vector<WaveSource>& sources, int cells)
+{
+  const std::size_t lights = this->UpdateMesh(filter, cells) ? sources.size() : 0;
+  this->IsUploaded = this->IsUploaded && lights == this->Sources.size();
+  while (this->Sources.size() > lights)
+  {
+    this->Sources.pop_back();
+  }
+  while (this->Sources.size() < lights)
+  {
+    this->Sources.emplace_back();
+  }
+  std::size_t number = 0;
+  for (Source& source : this->Sources)
+  {
+    const WaveSource& wanted = sources[number++];
+    this->SetScene(source.Filter, filter);
+    source.Filter->SetLightPosition(wanted.Place.data());
+    source.Filter->SetPositional(wanted.IsPositional);
+    source.Filter->Update();
+    const vtkMTimeType time = source.Filter->GetOutput()->GetMTime();
+    if (time != source.Time)
+    {
+      source.Time = time;
+      ++this->Updates;
+      this->IsUploaded = false;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Vector and path at the places of all grids, for one light after another. */
+std::vector<float> WaveLight::ListPlaces() const
+{
+  const std::vector<vtkIdType>& places = this->Mesh.GetPlaces();
+  std::vector<float> values;
+  values.reserve(4 * places.size() * this->Sources.size());
+  for (const Source& source : this->Sources)
+  {
+    vtkPointData* data = source.Filter->GetOutput()->GetPointData();
+    vtkDataArray* vectors = data->GetArray("RefractionLightVector");
+    vtkDataArray* paths = data->GetArray("RefractionLightPath");
+    for (const vtkIdType place : places)
+    {
+      // After an error there is no light.
+      for (int c = 0; c < 3; ++c)
+      {
+        values.push_back(vectors ? static_cast<float>(vectors->GetComponent(place, c)) : 0.0f);
+      }
+      values.push_back(paths ? static_cast<float>(paths->GetComponent(place, 0)) : 0.0f);
+    }
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+std::string WaveLight::Upload(vtkOpenGLRenderWindow* window, vtkPolyData* images)
+{
+  std::string error;
+  if (!this->IsUploaded)
+  {
+    const std::vector<float>& faces = this->Mesh.GetFaces();
+    const std::vector<float> places = this->ListPlaces();
+    error = this->Faces.Upload(window, faces.data(), faces.size(), 4, 3);
+    error = error.empty() ? this->Places.Upload(window, places.data(), places.size(), 4, 1) : error;
+    this->ImagesTime = 0;
+    this->IsUploaded = error.empty();
+  }
+  if (error.empty() && this->ImagesTime != images->GetMTime())
+  {
+    std::vector<std::int32_t> primitives = this->Mesh.ListPrimitives(images);
+    primitives.push_back(-1); // a table is never empty
+    error = this->Primitives.Upload(window, primitives.data(), primitives.size(), 1, 1);
+    this->ImagesTime = error.empty() ? images->GetMTime() : 0;
+  }
+  return error;
+}
+
+//------------------------------------------------------------------------------
+void WaveLight::Activate(vtkShaderProgram* program, bool areSurfaces)
+{
+  this->Faces.Activate(program, "litFaces");
+  this->Places.Activate(program, "litPlaces");
+  this->Primitives.Activate(program, "litPrimitives");
+  program->SetUniformi("litPlacesOfLight", static_cast<int>(this->Mesh.GetPlaces().size()));
+  program->SetUniformi("litNumberOfPrimitives",
+    areSurfaces ? static_cast<int>(this->Primitives.GetNumberOfRows()) : 0);
+}
+
+//------------------------------------------------------------------------------
+void WaveLight::Deactivate()
+{
+  this->Faces.Deactivate();
+  this->Places.Deactivate();
+  this->Primitives.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void WaveLight::Release(vtkWindow* window)
+{
+  this->Faces.Release(window);
+  this->Places.Release(window);
+  this->Primitives.Release(window);
+  this->IsUploaded = false;
+}
+
+}
