@@ -34,6 +34,7 @@ foreach (room
     Volume/Entries
     Volume/Refracted
     Volume/Caster
+    Volume/Illumination
     Surface)
   add_subdirectory("${room}")
 endforeach ()

@@ -32,6 +32,10 @@ public:
   meniscus::RefractionMedium Medium;
   meniscus::RefractionMedium Surroundings;
 
+  /** Light of the frame, if its medium attenuates it. */
+  meniscus::VolumeIllumination::Request IlluminationRequest;
+  vtkRenderWindow* IlluminationWindow = nullptr;
+
   /** Bounds of the input. */
   meniscus::DrawnBounds Bounds;
   /** Last warning about data sets that are left out. */

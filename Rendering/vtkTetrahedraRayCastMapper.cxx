@@ -306,11 +306,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
   vtkInternals& internals = *this->Internals;
   meniscus::VolumeInput& input = internals.Input;
   this->SetAbortExecute(0);
-  const auto goOn = [this, window](double fraction)
-  {
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute() && !window->CheckAbortStatus();
-  };
+  const auto goOn = [this, window](double fraction) { return this->GoOn(window, fraction); };
   const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
   const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
   meniscus::DivisionRequest division;
@@ -446,6 +442,11 @@ std::string vtkTetrahedraRayCastMapper::DrawFrame(
     vtkWarningMacro("Rendering with the backend " << choice.Name << ": " << choice.Reasons << ".");
   }
   internals.UpdateGradients(parts, frame.Optics);
+  if (frame.Optics.Illuminated && !this->UpdateIllumination(frame))
+  {
+    internals.ClearStatistics();
+    return std::string(); // aborted
+  }
   const std::string error = internals.Draw(frame, *choice.Backend);
   if (error.empty())
   {
@@ -538,6 +539,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
     this->Gradients == VERTEX_GRADIENTS;
+  this->PrepareIllumination(renderer, volume, frame);
   // Rays that are refracted nowhere see through no medium; other modes show no light.
   if (frame.Refracting.Wanted && frame.Optics.Model().HidesBehind())
   {

@@ -497,6 +497,34 @@ public:
 
   /** @{ */
   /**
+   * Set/Get how far shadows reach in a medium whose property shades, as a fraction of the diameter
+   * of a sphere about the volume, in [0, 1]; VTK's name and range. Each light is attenuated by the
+   * medium on this part of its way, exactly, as seen from the vertices of the mesh and linear in
+   * between. The ambient light is attenuated by the mean over 32 directions (ambient occlusion). If
+   * there are several lights, the one that is brightest in the volume's middle has shadows of its
+   * own, the others share a mean of theirs by brightness. Shadows are cast again if the mesh, the
+   * opacity, the clipping planes or the place of a light in relation to the volume have changed,
+   * for that light alone, and not for another camera (a headlight moves with it). Default is 0:
+   * light is not attenuated; NaN counts as 0. Composite blending only, for scalars of points.
+   */
+  void SetGlobalIlluminationReach(float reach);
+  vtkGetMacro(GlobalIlluminationReach, float);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the share of light that a medium scatters, in [0, 2]; VTK's name and range. 0, the
+   * default: light is reflected at the gradient, as without shadows; 2: it is scattered, once, by
+   * Henyey and Greenstein's phase function of the property's ScatteringAnisotropy (0 in VTK before
+   * 9.2); 1: half of each; linear in between. Used with GlobalIlluminationReach only. NaN counts as
+   * 0. In contrast to VTK's mapper for images, there are shadows with 0, too.
+   */
+  void SetVolumetricScatteringBlending(float blending);
+  vtkGetMacro(VolumetricScatteringBlending, float);
+  /** @} */
+
+  /** @{ */
+  /**
    * Set/Get the number of pixels between neighbouring rays, along each axis, >= 1; the pixels
    * between are interpolated. Used only if AutoAdjustSampleDistances is off. Default is 1.
    */
@@ -750,6 +778,9 @@ private:
   std::string PrepareView(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
+  bool GoOn(vtkRenderWindow* window, double fraction);
+  void PrepareIllumination(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
+  bool UpdateIllumination(meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
   friend class vtkTetrahedraVolumePicker;
   std::string WriteDepths(const meniscus::RayCastFrame& frame);
@@ -776,6 +807,8 @@ private:
   double MediumRange[2] = { 0.0, 1.0 };
   double MediumColor[3] = { 0.0, 0.0, 0.0 };
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
+  float GlobalIlluminationReach = 0.0f;
+  float VolumetricScatteringBlending = 0.0f;
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;
   vtkTypeBool AutoAdjustSampleDistances = 1;

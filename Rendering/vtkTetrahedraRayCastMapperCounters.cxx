@@ -224,6 +224,10 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MediumRange: " << this->MediumRange[0] << " " << this->MediumRange[1] << "\n";
   os << indent << "MediumColor: " << this->MediumColor[0] << " " << this->MediumColor[1] << " "
      << this->MediumColor[2] << "\n";
+  os << indent << "GlobalIlluminationReach: " << this->GlobalIlluminationReach << "\n";
+  os << indent << "VolumetricScatteringBlending: " << this->VolumetricScatteringBlending << "\n";
+  os << indent << "NumberOfShadowCasts: " << this->Internals->Illumination.GetNumberOfCasts()
+     << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
   os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";

@@ -453,6 +453,18 @@ void vtkTetrahedraRayCastRepresentation::SetGradients(int location)
 }
 
 //------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetGlobalIlluminationReach(double reach)
+{
+  this->Mapper->SetGlobalIlluminationReach(static_cast<float>(reach));
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetVolumetricScatteringBlending(double blending)
+{
+  this->Mapper->SetVolumetricScatteringBlending(static_cast<float>(blending));
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetCellDivision(int division)
 {
   this->Mapper->SetCellDivision(division);

@@ -75,6 +75,8 @@ public:
   void SetPreIntegrationLengthSize(int size);
   void SetOpacityModel(int model);
   void SetGradients(int location);
+  void SetGlobalIlluminationReach(double reach);
+  void SetVolumetricScatteringBlending(double blending);
   void SetCellDivision(int division);
   void SetDivisionTolerance(double tolerance);
   void SetMaximumNumberOfPieces(int pieces);

@@ -242,6 +242,10 @@ class MeshScene:
     def is_lit(self):
         return bool(self.volume.GetProperty().GetShade())
 
+    def set_shadows(self, reach):
+        """reach: share of the volume's size over which it casts shadows into itself; 0: none."""
+        self.mapper.SetGlobalIlluminationReach(reach)
+
     def set_backend(self, name):
         if name not in BACKENDS:
             raise ReadingError(f"There is no backend '{name}'; known are " + ", ".join(BACKENDS))

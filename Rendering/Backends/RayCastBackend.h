@@ -136,6 +136,8 @@ struct RayCastFeatures
   bool CellScalars = false;
   bool SeveralComponents = false;
   bool Shading = false;
+  /** The light of a medium is attenuated on its way through it (GlobalIlluminationReach). */
+  bool GlobalIllumination = false;
   bool GradientOpacity = false;
   bool PreIntegration = false;
   bool ClippingPlanes = false;

@@ -118,6 +118,7 @@ RayCastFeatures RayCastRequest::GetFeatures() const
   features.CellScalars = optics.CellScalars;
   features.SeveralComponents = optics.HasComponents();
   features.Shading = optics.Shading;
+  features.GlobalIllumination = optics.Illuminated;
   features.GradientOpacity = optics.GradientOpacity;
   features.PreIntegration = optics.PreIntegrated;
   features.ClippingPlanes = !optics.ClippingPlanes.empty();

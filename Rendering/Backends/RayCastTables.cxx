@@ -30,6 +30,7 @@ std::vector<RayCastTableState> RayCastTables::ListWanted(const RayCastFrame& fra
   addIf(optics.VertexGradients, RayCastTable::VertexGradients, this->VertexGradients.GetVersion());
   addIf(optics.UsesCellGradients(), RayCastTable::CellGradients, this->CellGradients.GetVersion());
   addIf(optics.HasComponents(), RayCastTable::Components, this->Components.GetVersion());
+  addIf(optics.Illuminated, RayCastTable::Illumination, this->Illumination.GetVersion());
   addIf(optics.PreIntegrated, RayCastTable::PreIntegration, this->PreIntegration.GetVersion());
   addIf(frame.Refracting.Met, RayCastTable::RefractedRays, this->Membrane.GetSightVersion());
   return tables;
@@ -41,7 +42,7 @@ std::int64_t RayCastTables::GetBytes() const
   const std::size_t vectors = this->Components.GetValues().size();
   const std::size_t table = this->PreIntegration.GetTable().GetValues().size();
   return this->Input.GetBytes() + this->Membrane.GetBytes() + this->VertexGradients.GetBytes() +
-    this->CellGradients.GetBytes() +
+    this->CellGradients.GetBytes() + this->Illumination.GetBytes() +
     static_cast<std::int64_t>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 

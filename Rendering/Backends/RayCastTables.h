@@ -5,6 +5,7 @@
 
 #include "Common/TableVersion.h"
 #include "Rendering/Backends/RayCastMembrane.h"
+#include "Rendering/Backends/VolumeIllumination.h"
 #include "Rendering/Input/VolumeComponents.h"
 #include "Rendering/Input/VolumeGradients.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -29,6 +30,7 @@ enum class RayCastTable
   VertexGradients,
   CellGradients,
   Components,
+  Illumination,
   Functions,
   PreIntegration,
   RefractedRays,
@@ -56,6 +58,7 @@ struct RayCastTables
   VolumePreIntegration PreIntegration;
   VolumeGradients VertexGradients{ FieldAssociation::Points };
   VolumeGradients CellGradients{ FieldAssociation::Cells };
+  VolumeIllumination Illumination;
   RayCastMembrane Membrane;
 
   /** Lists the tables that a frame reads. */

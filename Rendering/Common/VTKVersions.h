@@ -100,6 +100,22 @@ bool KeepsComponentsApart(Array*, long)
   return VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 0);
 }
 
+/**
+ * Anisotropy of a property's scattering, in [-1, 1]; 0 in versions before 9.2, which have no such
+ * member.
+ */
+template <typename Property>
+auto GetScatteringAnisotropy(Property* property, int)
+  -> decltype(static_cast<double>(property->GetScatteringAnisotropy()))
+{
+  return static_cast<double>(property->GetScatteringAnisotropy());
+}
+template <typename Property>
+double GetScatteringAnisotropy(Property*, long)
+{
+  return 0.0;
+}
+
 /** Name of a cell type, such as "vtkWedge"; may be null. */
 inline const char* NameOfCellType(int type)
 {

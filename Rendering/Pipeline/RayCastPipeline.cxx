@@ -140,10 +140,32 @@ std::string RayCastPipeline::ComputeFrame(
   input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
   input.ViewToClip =
     ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
+  return this->PlaceIn(input, place);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastPipeline::ComputeWorldFrame(vtkVolume* volume, ViewContext& place) const
+{
+  RayFrameInput input;
+  input.ModelToWorld = ToGlm(volume->GetMatrix());
+  const std::string error = this->PlaceIn(input, place);
+  // It has no image: its frame is the same wherever the volume is.
+  place.Frame.Origin = AffinePixelMap();
+  place.Frame.Slope = AffinePixelMap();
+  place.Frame.NearDepth = 0.0;
+  place.Frame.DepthNumerator = glm::dvec2(0.0);
+  place.Frame.DepthDenominator = glm::dvec2(1.0);
+  return error;
+}
+
+//------------------------------------------------------------------------------
+/** Adds the mesh to the input and computes the frame. */
+std::string RayCastPipeline::PlaceIn(RayFrameInput& input, ViewContext& place) const
+{
   input.Center = this->Input.GetMesh().GetCenter();
   input.Radius = this->Input.GetMesh().GetRadius();
   input.SmallestCell = this->Input.GetMesh().GetSmallestCell();
-  input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;
   place.GradientScale = this->Input.GetNormalization().GradientScale;

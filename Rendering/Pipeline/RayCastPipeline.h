@@ -46,6 +46,12 @@ public:
     vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const;
 
   /**
+   * As above, for a frame of the world, which does not depend on the camera: with x and y as in the
+   * world and depth along -z.
+   */
+  std::string ComputeWorldFrame(vtkVolume* volume, ViewContext& place) const;
+
+  /**
    * Updates the gradients that the optics need.
    * @param parts source of the input's scalars.
    */
@@ -79,6 +85,7 @@ private:
     std::vector<RayCastTableState> Tables;
   };
 
+  std::string PlaceIn(RayFrameInput& input, ViewContext& place) const;
   bool Trace(const RayCastFrame& frame);
   bool IsRepeated(const ImageSource& source) const;
 

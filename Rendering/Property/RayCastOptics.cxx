@@ -103,7 +103,7 @@ bool operator==(const RayCastOptics& a, const RayCastOptics& b)
   {
     return std::tie(optics.Blending, optics.CellScalars, optics.Components,
       optics.NumberOfFunctions, optics.DataRange, optics.PreIntegrated, optics.CompactCells,
-      optics.WideCells, optics.NumberOfLegs, optics.LongLists, optics.Shading,
+      optics.WideCells, optics.NumberOfLegs, optics.LongLists, optics.Shading, optics.Illuminated,
       optics.GradientOpacity, optics.VertexGradients, optics.GradientToFrame,
       optics.GradientMagnitude, optics.Lighting, optics.ClippingPlanes, optics.Medium);
   };

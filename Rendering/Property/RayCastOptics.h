@@ -46,6 +46,8 @@ struct RayCastOptics
   /** True if lists of entries per tile of any length have been uploaded; for one leg only. */
   bool LongLists = false;
   bool Shading = false;
+  /** True if the medium attenuates its light: see VolumeIllumination. */
+  bool Illuminated = false;
   bool GradientOpacity = false;
   /**
    * True: gradients interpolated between vertices; false: those of the cells. Used with one of the

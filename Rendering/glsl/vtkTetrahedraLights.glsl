@@ -25,6 +25,24 @@ uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-
 uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // for distance^0, 1, 2; exponent in the cone
 #endif
 
+#if VERTEX_LIGHT
+// Global illumination, see SurfaceLighting: the light whose transmittance is known apart, the share
+// of light that is scattered, and its anisotropy; and the numbers of VertexLight at the place that
+// is lit.
+uniform int brightestLight;
+uniform float scattering;
+uniform float anisotropy;
+vec3 lightReached;
+
+// Henyey and Greenstein's phase function, 1 in the mean; for the cosine of the turn of light.
+float phase(float cosine)
+{
+  float square =
+    max(1.0 + anisotropy * anisotropy - 2.0 * anisotropy * cosine, SMALLEST_TURN);
+  return (1.0 - anisotropy * anisotropy) / (square * sqrt(square));
+}
+#endif
+
 #if CELL_GRADIENTS
 uniform samplerBuffer cellGradients;
 
@@ -91,15 +109,24 @@ float gradientOpacity(vec3 gradient)
 // the emitted colour, and the light that is added to it, at a depth on the ray.
 void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
 {
+#if VERTEX_LIGHT
+  reflected = vec3(ambient * lightReached.x);
+#else
   reflected = vec3(ambient);
+#endif
   highlight = vec3(0.0);
   vec3 normal = gradientToFrame * gradient;
   float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
-  if (!(largest > 0.0))
+  bool isFacing = largest > 0.0;
+#if VERTEX_LIGHT
+  vec3 scattered = reflected;
+#else
+  if (!isFacing)
   {
     return;
   }
-  normal = normalize(normal / largest);
+#endif
+  normal = isFacing ? normalize(normal / largest) : vec3(0.0);
   vec3 toEye = -normalize(rayAlong);
   normal = dot(normal, toEye) < 0.0 ? -normal : normal;
 #if NUMBER_OF_LIGHTS > 0
@@ -116,6 +143,11 @@ void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
     strength *= lightCone[i].w >= -1.0 && lightFalloff[i].w != 0.0
       ? pow(clamp(inCone, 0.0, 1.0), lightFalloff[i].w)
       : 1.0;
+#if VERTEX_LIGHT
+    strength *= i == brightestLight ? lightReached.y : lightReached.z;
+    scattered += lit ? strength * diffuse * phase(-dot(toLight, toEye)) * lightDiffuse[i]
+                     : vec3(0.0);
+#endif
     float facing = min(dot(normal, toLight), 1.0);
     if (lit && facing > 0.0)
     {
@@ -126,5 +158,9 @@ void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
                      : vec3(0.0);
     }
   }
+#endif
+#if VERTEX_LIGHT
+  reflected = mix(reflected, scattered, scattering);
+  highlight *= 1.0 - scattering;
 #endif
 }

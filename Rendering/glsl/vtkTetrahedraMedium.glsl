@@ -26,7 +26,13 @@ void lightSegment()
   vec3 end = start;
 #endif
 #if SHADING
+#if VERTEX_LIGHT
+  lightReached = LIGHT_OF(segmentValuesStart);
+#endif
   light(start, segmentStartDepth, segmentReflected[0], segmentHighlight[0]);
+#if VERTEX_LIGHT
+  lightReached = LIGHT_OF(segmentValuesEnd);
+#endif
   light(end, segmentEndDepth, segmentReflected[1], segmentHighlight[1]);
 #endif
 #if GRADIENT_OPACITY

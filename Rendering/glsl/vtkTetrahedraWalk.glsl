@@ -52,6 +52,9 @@ uniform samplerBuffer intervals;     // functions of the optical model by interv
 #if VERTEX_GRADIENTS
 uniform samplerBuffer vertexGradients;
 #endif
+#if VERTEX_LIGHT
+uniform samplerBuffer vertexLight;
+#endif
 #if VERTEX_COMPONENTS
 uniform samplerBuffer vertexComponents;
 #endif
@@ -102,14 +105,20 @@ float segmentDone;   // fraction integrated
 float segmentScalar; // scalar at that fraction
 #if VERTEX_VALUES
 // Values interpolated besides depth and scalar.
-#if VERTEX_GRADIENTS && VERTEX_COMPONENTS
-#define VertexValues mat2x3
-#define GRADIENT_OF(values) values[0]
-#define COMPONENTS_OF(values) values[1]
-#else
+#if VERTEX_VALUES == 1
 #define VertexValues vec3
 #define GRADIENT_OF(values) values
+#define LIGHT_OF(values) values
 #define COMPONENTS_OF(values) values
+#else
+#if VERTEX_VALUES == 2
+#define VertexValues mat2x3
+#else
+#define VertexValues mat3x3
+#endif
+#define GRADIENT_OF(values) values[0]
+#define LIGHT_OF(values) values[VERTEX_GRADIENTS]
+#define COMPONENTS_OF(values) values[VERTEX_GRADIENTS + VERTEX_LIGHT]
 #endif
 VertexValues valuesA; // at the face's vertices
 VertexValues valuesB;
@@ -121,14 +130,17 @@ bool segmentIsNew;
 
 VertexValues fetchValues(int vertex)
 {
-#if VERTEX_GRADIENTS && VERTEX_COMPONENTS
-  return mat2x3(
-    texelFetch(vertexGradients, vertex).xyz, texelFetch(vertexComponents, vertex).xyz);
-#elif VERTEX_GRADIENTS
-  return texelFetch(vertexGradients, vertex).xyz;
-#else
-  return texelFetch(vertexComponents, vertex).xyz;
+  VertexValues values;
+#if VERTEX_GRADIENTS
+  GRADIENT_OF(values) = texelFetch(vertexGradients, vertex).xyz;
 #endif
+#if VERTEX_LIGHT
+  LIGHT_OF(values) = texelFetch(vertexLight, vertex).xyz;
+#endif
+#if VERTEX_COMPONENTS
+  COMPONENTS_OF(values) = texelFetch(vertexComponents, vertex).xyz;
+#endif
+  return values;
 }
 #endif
 #if NEEDS_POSITION

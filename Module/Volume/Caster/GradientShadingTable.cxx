@@ -45,6 +45,9 @@ void GradientShadingTable::Pack(const SurfaceLighting* lighting, const glm::dmat
     this->Medium.Diffuse = static_cast<float>(lighting->Diffuse);
     this->Medium.Specular = static_cast<float>(lighting->Specular);
     this->Medium.SpecularPower = static_cast<float>(lighting->SpecularPower);
+    this->Medium.BrightestLight = lighting->BrightestLight;
+    this->Medium.Scattering = static_cast<float>(lighting->Scattering);
+    this->Medium.Anisotropy = static_cast<float>(lighting->Anisotropy);
     for (const RayCastLight& light : lighting->Lights)
     {
       this->Lights.emplace_back();

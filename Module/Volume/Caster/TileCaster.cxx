@@ -100,35 +100,33 @@ FrameOptics TileCaster::SightOptics() const
 }
 
 //------------------------------------------------------------------------------
-/** Sets the mesh and the tables that map scalars to colours, except for those of a LegFrame. */
-void TileCaster::SetOptics(PacketJob& job) const
+void TileCaster::SetOptics(const Scene& scene, PacketJob& job)
 {
-  const PacketTables& tables = *this->Input.Tables;
+  const PacketTables& tables = *scene.Tables;
   const auto sizeOf = [](const auto& table) { return static_cast<std::int32_t>(table.size()); };
-  const TetrahedralMesh& mesh = *this->Input.Mesh;
-  job.Blending = this->Input.Blending;
-  job.Emitting = this->Input.Emitting;
+  const TetrahedralMesh& mesh = *scene.Mesh;
+  job.Blending = scene.Blending;
+  job.Emitting = scene.Emitting;
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
-  job.CellScalars = this->Input.CellScalars;
+  job.CellScalars = scene.CellScalars;
   job.Surfaces = tables.Surfaces.data();
   job.NumberOfSurfaces = sizeOf(tables.Surfaces);
-  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
-  job.CellGradients = this->Input.CellGradients ? &this->Input.CellGradients->x : nullptr;
+  job.VertexGradients = scene.VertexGradients ? &scene.VertexGradients->x : nullptr;
+  job.CellGradients = scene.CellGradients ? &scene.CellGradients->x : nullptr;
   job.Intervals = tables.Intervals.data();
   job.NumberOfIntervals = sizeOf(tables.Intervals);
-  job.TerminationTransmittance = this->Input.TerminationTransmittance;
-  const ScalarRange& range = this->Input.DataRange;
+  job.TerminationTransmittance = scene.TerminationTransmittance;
+  const ScalarRange& range = scene.DataRange;
   job.SharePerScalar = static_cast<float>(1.0 / (range.Highest - range.Lowest));
   job.ShareAtZero = static_cast<float>(-range.Lowest / (range.Highest - range.Lowest));
-  job.Mixture = this->Input.Mixture;
-  job.Components = this->Input.Components ? &this->Input.Components->x : nullptr;
+  job.Mixture = scene.Mixture;
+  job.Components = scene.Components ? &scene.Components->x : nullptr;
   for (std::size_t i = 0; i < tables.OtherIntervals.size(); ++i)
   {
     job.OtherIntervals[i] = tables.OtherIntervals[i].data();
     job.NumberOfOtherIntervals[i] = sizeOf(tables.OtherIntervals[i]);
   }
-  job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -319,7 +317,9 @@ RayStatistics TileCaster::Cast(
   {
     return work.Sums;
   }
-  this->SetOptics(work.Job);
+  SetOptics(this->Input, work.Job);
+  work.Job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
+  work.Job.VertexLight = this->Input.VertexLight ? &this->Input.VertexLight->x : nullptr;
   work.Job.KeepsValues = legs > 1;
   if (work.Job.KeepsValues)
   {
@@ -337,7 +337,7 @@ RayStatistics TileCaster::Cast(
 RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* opaqueDepth) const
 {
   TileWork work{ PacketJob{}, workspace, nullptr, RayStatistics() };
-  this->SetOptics(work.Job);
+  SetOptics(this->Input, work.Job);
   work.Job.Measuring = this->Input.Measuring;
   work.Job.KeepsValues = true;
   // It hides nothing.

@@ -85,6 +85,8 @@ public:
      */
     const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
+    /** NumberOfVertexLights numbers per vertex, for a lit medium; null without shadows. */
+    const glm::vec3* VertexLight = nullptr;
     /** True if Tables has a gradient opacity, a factor of the attenuation. */
     bool GradientOpacity = false;
     /** Factor from the length of a gradient in the frame to the argument of that table. */
@@ -106,6 +108,9 @@ public:
   explicit TileCaster(const Scene& scene, const RangeLoop& loop = SerialLoop);
   TileCaster(const TileCaster&) = delete;
   TileCaster& operator=(const TileCaster&) = delete;
+
+  /** Sets the mesh and the tables that map scalars to colours, except for those of a LegFrame. */
+  static void SetOptics(const Scene& scene, PacketJob& job);
 
   int GetNumberOfTiles() const { return this->Legs.GetNumberOfTiles(); }
   int GetWidth() const { return this->Legs.GetWidth(); }
@@ -149,7 +154,6 @@ public:
 
 private:
   FrameOptics SightOptics() const;
-  void SetOptics(PacketJob& job) const;
   /** A tile that is being cast. */
   struct TileWork;
   void CastLegs(int tile, const float* opaqueDepth, TileWork& work) const;

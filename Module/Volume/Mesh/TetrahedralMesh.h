@@ -211,6 +211,11 @@ public:
   bool SetActiveCells(const std::vector<std::uint8_t>& active, std::int64_t unknown,
     const RangeLoop& loop = SerialLoop);
 
+  /** True if rays visit the cell. */
+  bool IsActiveCell(std::int64_t cell) const
+  {
+    return this->IsActive[static_cast<std::size_t>(cell)];
+  }
   std::int64_t GetNumberOfActiveCells() const { return this->ActiveCells; }
   /** Number of cells without a scalar in the last update of the active cells. */
   std::int64_t GetNumberOfUnknownCells() const { return this->UnknownCells; }

@@ -48,6 +48,12 @@ struct AbsorptionFit
  */
 constexpr float LargestLightStrength = 18446744073709551616.0f;
 
+/**
+ * Least value of 1 + g^2 - 2 g c, the base of Henyey and Greenstein's phase function. Its rounding
+ * error is up to 2^-22, so that lower values would have no correct digits.
+ */
+constexpr float SmallestTurn = 1.0f / 1048576.0f; // 2^-20
+
 /** Optical depth beyond which nothing can be told apart; its square is finite. */
 constexpr float LargestDepth = 1.0e+18f;
 

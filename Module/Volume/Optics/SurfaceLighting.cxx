@@ -39,7 +39,25 @@ bool operator==(const RayCastLight& a, const RayCastLight& b)
 bool operator==(const SurfaceLighting& a, const SurfaceLighting& b)
 {
   return a.Ambient == b.Ambient && a.Diffuse == b.Diffuse && a.Specular == b.Specular &&
-    a.SpecularPower == b.SpecularPower && a.Lights == b.Lights;
+    a.SpecularPower == b.SpecularPower && a.Lights == b.Lights && a.Scattering == b.Scattering &&
+    a.Anisotropy == b.Anisotropy && a.BrightestLight == b.BrightestLight;
+}
+
+//------------------------------------------------------------------------------
+double StrengthAt(const RayCastLight& light, const glm::dvec3& place, glm::dvec3& toLight)
+{
+  toLight = glm::dvec3(light.Position) - light.Position.w * place;
+  const double distance = glm::length(toLight);
+  toLight /= distance;
+  const glm::dvec3 powers(1.0, distance, distance * distance);
+  double strength =
+    std::min<double>(1.0 / glm::dot(glm::dvec3(light.Falloff), powers), LargestLightStrength);
+  const double inCone = -glm::dot(toLight, glm::dvec3(light.Cone));
+  if (light.Cone.w >= -1.0 && light.Falloff.w != 0.0)
+  {
+    strength *= std::pow(Clamped(inCone), light.Falloff.w);
+  }
+  return inCone >= light.Cone.w ? strength : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -58,19 +76,10 @@ ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
   facing = glm::dot(facing, toEye) < 0.0 ? -facing : facing;
   for (const RayCastLight& source : lighting.Lights)
   {
-    glm::dvec3 toLight = glm::dvec3(source.Position) - source.Position.w * place;
-    const double distance = glm::length(toLight);
-    toLight /= distance;
-    const glm::dvec3 powers(1.0, distance, distance * distance);
-    double strength =
-      std::min<double>(1.0 / glm::dot(glm::dvec3(source.Falloff), powers), LargestLightStrength);
-    const double inCone = -glm::dot(toLight, glm::dvec3(source.Cone));
-    if (source.Cone.w >= -1.0 && source.Falloff.w != 0.0)
-    {
-      strength *= std::pow(Clamped(inCone), source.Falloff.w);
-    }
+    glm::dvec3 toLight;
+    const double strength = StrengthAt(source, place, toLight);
     const double cosine = Clamped(glm::dot(facing, toLight));
-    if (inCone >= source.Cone.w && cosine > 0.0)
+    if (cosine > 0.0)
     {
       const double glance = Clamped(glm::dot(2.0 * cosine * facing - toLight, toEye));
       light.Reflected += strength * lighting.Diffuse * cosine * source.Diffuse;

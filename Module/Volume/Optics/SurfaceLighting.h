@@ -34,10 +34,24 @@ struct SurfaceLighting
   double Specular = 0.0;
   double SpecularPower = 1.0;
   std::vector<RayCastLight> Lights;
+  /**
+   * Global illumination of a medium: the share, in [0, 1], of its light that it scatters instead of
+   * reflecting it at its gradient, by Henyey and Greenstein's phase function of this anisotropy;
+   * and the light whose transmittance is known apart from that of the others.
+   */
+  double Scattering = 0.0;
+  double Anisotropy = 0.0;
+  int BrightestLight = 0;
 };
 
 bool operator==(const RayCastLight& a, const RayCastLight& b);
 bool operator==(const SurfaceLighting& a, const SurfaceLighting& b);
+
+/**
+ * Strength of a light at a place, a factor of its colours: by distance and cone.
+ * @param toLight gets the direction from the place to the light, of length 1.
+ */
+double StrengthAt(const RayCastLight& light, const glm::dvec3& place, glm::dvec3& toLight);
 
 /** Effect of light on an emitted colour: it is multiplied by Reflected, then Highlight is added. */
 struct ReflectedLight

@@ -15,6 +15,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -371,15 +372,15 @@ void RayBundleEntries::Workspace::Add(std::int32_t ray, const PacketEntry& entry
 
 //------------------------------------------------------------------------------
 void RayBundleEntries::Collect(
-  const LineBlock* blocks, std::size_t count, Workspace& workspace) const
+  const LineBlock* blocks, std::size_t count, Workspace& workspace, double last) const
 {
-  const double last = this->Frame.Extent;
+  last = std::clamp(last, -this->Frame.Extent, this->Frame.Extent);
   double first = last;
   for (const LineBlock* lines = blocks; lines != blocks + count; ++lines)
   {
     for (int i = 0; i < lines->Count; ++i)
     {
-      first = std::min(first, std::max(lines->From[i], -last));
+      first = std::min(first, std::max(lines->From[i], -this->Frame.Extent));
     }
   }
   workspace.NumberOfHits = 0;
@@ -413,13 +414,92 @@ bool RayBundleEntries::Enters(
 }
 
 //------------------------------------------------------------------------------
+/** A line about the vertices of a cell, in double precision. */
+struct RayBundleEntries::NearLine
+{
+  std::array<std::int32_t, 4> Vertices;
+  double Depths[4];
+  /** Twice the area that the edge from vertex i to vertex j spans with the line. */
+  double Areas[4][4];
+  /** Bound of the error of the areas that decide, which are of floats. */
+  double Margin;
+
+  int IndexOf(std::int32_t vertex) const
+  {
+    return static_cast<int>(
+      std::find(this->Vertices.begin(), this->Vertices.end(), vertex) - this->Vertices.begin());
+  }
+};
+
+//------------------------------------------------------------------------------
+auto RayBundleEntries::LineNear(std::int64_t cell, const PacketRay& ray) const -> NearLine
+{
+  NearLine line;
+  line.Vertices = this->Mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices;
+  const std::int32_t pivot = this->Frame.Rays.GetPivot();
+  double places[4][2];
+  double largest = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    const PacketVertex& vertex = this->Frame.Vertices[static_cast<std::size_t>(line.Vertices[k])];
+    line.Depths[k] = static_cast<double>(vertex.Place[2]) - pivot;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      places[k][axis] = static_cast<double>(vertex.Place[axis]) - ray.Offset[axis] -
+        ray.Fraction[axis] - (double{ ray.Slope[axis] } + ray.SlopeRest[axis]) * line.Depths[k];
+      largest = std::max(largest, std::fabs(places[k][axis]));
+    }
+  }
+  // About a line along the depth, only the conversion to floats rounds.
+  const bool isParallel = ray.Slope[0] == 0.0f && ray.Slope[1] == 0.0f;
+  const double error =
+    isParallel ? 1.0 + largest / (1 << 23) : double{ FixedPointRays::RoundingOfRay };
+  line.Margin = 4.0 * error * (largest + error);
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      line.Areas[i][j] = places[i][0] * places[j][1] - places[i][1] * places[j][0];
+    }
+  }
+  return line;
+}
+
+//------------------------------------------------------------------------------
+/** As Enters(), by the double-precision areas where these decide. */
+bool RayBundleEntries::Enters(
+  const PacketFace& face, const NearLine& line, const PacketRay& ray, PacketEntry& entry) const
+{
+  const int at[3] = { line.IndexOf(face.Vertices[0]), line.IndexOf(face.Vertices[1]),
+    line.IndexOf(face.Vertices[2]) };
+  const double areas[3] = { line.Areas[at[0]][at[1]], line.Areas[at[1]][at[2]],
+    line.Areas[at[2]][at[0]] };
+  const double least = std::min({ areas[0], areas[1], areas[2] });
+  if (std::fabs(least) <= line.Margin)
+  {
+    return this->Enters(face, ray, entry);
+  }
+  if (least < 0.0)
+  {
+    return false;
+  }
+  const double* const depths = line.Depths;
+  const double first = depths[at[0]];
+  const double across = areas[2] * (depths[at[1]] - first) + areas[0] * (depths[at[2]] - first);
+  entry = { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace,
+    static_cast<float>(first + across / (areas[0] + areas[1] + areas[2])) };
+  return true;
+}
+
+//------------------------------------------------------------------------------
 bool RayBundleEntries::EntersCell(
   std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const
 {
+  const NearLine line = this->LineNear(cell, ray);
   for (int k = 0; k < 4; ++k)
   {
     const PacketFace face = EnteredFace(this->Mesh.GetFace(cell, k), this->Frame.Rays.GetFrame());
-    if (this->Enters(face, ray, entry) && this->Frame.Rays.ToFrame(entry.Depth) <= before)
+    if (this->Enters(face, line, ray, entry) && this->Frame.Rays.ToFrame(entry.Depth) <= before)
     {
       return true;
     }

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -86,8 +87,12 @@ public:
     std::vector<PacketSpan> Spans;
   };
 
-  /** Sets the faces and the hits of the workspace to the entries of the lines of `count` blocks. */
-  void Collect(const LineBlock* blocks, std::size_t count, Workspace& workspace) const;
+  /**
+   * Sets the faces and the hits of the workspace to the entries of the lines of `count` blocks.
+   * @param last depth behind which no entries are needed.
+   */
+  void Collect(const LineBlock* blocks, std::size_t count, Workspace& workspace,
+    double last = std::numeric_limits<double>::infinity()) const;
 
   /**
    * Finds an entry of a line before a given depth into the cell at a face, or into a cell next to
@@ -100,6 +105,9 @@ public:
   bool FindEntryNear(
     std::int32_t cellFace, const PacketRay& ray, double before, PacketEntry& entry) const;
 
+  /** Finds the face by which a line enters a cell before a given depth. False if there is none. */
+  bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;
+
 private:
   struct Bundle;
   Bundle Bound(const LineBlock* blocks, std::size_t count, double first, double last) const;
@@ -109,7 +117,10 @@ private:
   void AddSpans(const Bundle& bundle, int lines, Workspace& workspace) const;
   void AddHits(const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const;
   bool Enters(const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const;
-  bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;
+  struct NearLine;
+  NearLine LineNear(std::int64_t cell, const PacketRay& ray) const;
+  bool Enters(
+    const PacketFace& face, const NearLine& line, const PacketRay& ray, PacketEntry& entry) const;
 
   const TetrahedralMesh& Mesh;
   const BoundaryTree& Tree;

@@ -21,46 +21,6 @@ namespace meniscus
 namespace
 {
 
-/**
- * Rotation to a frame whose depth is along or against an axis of the cube (a column of `axes`); the
- * handedness is always the same.
- */
-glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
-{
-  const int axis = (2 + index / 2) % 3;
-  const double sign = index % 2 == 0 ? 1.0 : -1.0;
-  return glm::transpose(
-    glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
-}
-
-/**
- * The frame `view` after a rotation, with a grid for slopes within 1.
- * @param sightPoint a point where refracted rays begin, in the view; they have their pivot there.
- */
-RefractionFrame MakeFrame(
-  const RayFrame& view, const glm::dmat3& rotation, const glm::dvec3& sightPoint)
-{
-  RefractionFrame frame;
-  frame.FromView = rotation;
-  RayFrame turned;
-  const glm::dmat3 rows =
-    glm::transpose(rotation * glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth)));
-  turned.RowX = rows[0];
-  turned.RowY = rows[1];
-  turned.RowDepth = rows[2];
-  turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
-  turned.Handedness = view.Handedness;
-  turned.SmallestCell = view.SmallestCell;
-  frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
-  // FixedPointRays reserves range for 1 + the steepest slope; a ray of slope 1 that meets the mesh
-  // passes the origin within 2 extents.
-  turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
-  const double pivot = std::clamp((rotation * sightPoint).z, -frame.Extent, frame.Extent);
-  const double spacing = FixedPointRays::SpacingAt(view, sightPoint.z);
-  frame.Rays = FixedPointRays(turned, 1, 1, pivot, spacing);
-  return frame;
-}
-
 /** Steps of the rays of a square of pixels. */
 struct SquareSteps
 {
@@ -106,6 +66,39 @@ glm::dvec3 MeanSightPoint(const RayLegs& legs)
   return count > 0 ? sum / static_cast<double>(count) : sum;
 }
 
+}
+
+//------------------------------------------------------------------------------
+RefractionFrame RefractionFrame::Make(
+  const RayFrame& view, const glm::dmat3& rotation, double steepest, double pivot, double spacing)
+{
+  RefractionFrame frame;
+  frame.FromView = rotation;
+  RayFrame turned;
+  const glm::dmat3 rows =
+    glm::transpose(rotation * glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth)));
+  turned.RowX = rows[0];
+  turned.RowY = rows[1];
+  turned.RowDepth = rows[2];
+  turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
+  turned.Handedness = view.Handedness;
+  turned.SmallestCell = view.SmallestCell;
+  frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
+  // FixedPointRays reserves range for 1 + the steepest slope; a ray of slope 1 that meets the mesh
+  // passes the origin within 2 extents.
+  turned.Slope.Base = glm::dvec2(std::max((1.0 + steepest) * frame.Extent - 1.0, 0.0));
+  frame.Rays =
+    FixedPointRays(turned, 1, 1, std::clamp(pivot, -frame.Extent, frame.Extent), spacing);
+  return frame;
+}
+
+//------------------------------------------------------------------------------
+glm::dmat3 RefractionFrames::RotationTo(const glm::dmat3& axes, int index)
+{
+  const int axis = (2 + index / 2) % 3;
+  const double sign = index % 2 == 0 ? 1.0 : -1.0;
+  return glm::transpose(
+    glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
 }
 
 //------------------------------------------------------------------------------
@@ -216,7 +209,9 @@ void RefractionFrames::Turn(
     this->Frames[index] = RefractionFrame();
     if (this->Needed >> index & 1u)
     {
-      this->Frames[index] = MakeFrame(legs.GetSight(), RotationTo(this->Axes, index), sightPoint);
+      const glm::dmat3 rotation = RotationTo(this->Axes, index);
+      this->Frames[index] = RefractionFrame::Make(legs.GetSight(), rotation, 1.0,
+        (rotation * sightPoint).z, FixedPointRays::SpacingAt(legs.GetSight(), sightPoint.z));
       this->Frames[index].Vertices = std::move(room);
     }
   }

@@ -48,6 +48,14 @@ struct RefractionFrame
   /** Vertices of the mesh, after they have been placed. */
   std::vector<PacketVertex> Vertices;
 
+  /**
+   * The frame `view` after a rotation. Only its maps to the frame and to the world are used.
+   * @param steepest largest slope of rays in the frame, 0 or 1.
+   * @param pivot depth of the rays' pivot in the frame; moved into the mesh's bounds.
+   * @param spacing smallest distance of rays at the pivot, in units of the frame.
+   */
+  static RefractionFrame Make(const RayFrame& view, const glm::dmat3& rotation, double steepest,
+    double pivot, double spacing);
   /** Rotates lights from the frame of the view to this frame. */
   SurfaceLighting Turn(const SurfaceLighting& lighting) const;
 };
@@ -76,6 +84,11 @@ public:
    */
   void Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop);
 
+  /**
+   * Rotation to a frame whose depth is along or against an axis of the cube (a column of `axes`);
+   * the handedness is always the same.
+   */
+  static glm::dmat3 RotationTo(const glm::dmat3& axes, int index);
   /** Index of the frame for a ray of that direction. */
   int IndexOf(const glm::dvec3& step) const { return IndexAlong(this->Axes, step); }
   /** The same for frames along the axes of another cube. */

@@ -3,6 +3,7 @@
 #include "Rendering/Backends/Native/NativeScene.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Backends/PacketScene.h"
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
 #include "Volume/Rays/PlacedVertices.h"
@@ -25,20 +26,7 @@ void NativeScene::UpdateProperty(const VolumePropertyTables& property)
     return;
   }
   this->PropertyVersion = property.GetVersion();
-  this->Tables.Intervals = PackIntervals(property.GetIntervals());
-  this->Tables.GradientIntervals = PackIntervals(property.GetGradientIntervals());
-  this->Tables.OtherIntervals.clear();
-  for (const std::vector<TransferFunctionInterval>& intervals : property.GetOtherIntervals())
-  {
-    this->Tables.OtherIntervals.push_back(PackIntervals(intervals));
-  }
-  this->Tables.Surfaces.clear();
-  for (const Isosurface& surface : property.GetIsosurfaces())
-  {
-    const glm::vec3& color = surface.Color;
-    this->Tables.Surfaces.push_back(
-      { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
-  }
+  PackProperty(property, this->Tables);
 }
 
 //------------------------------------------------------------------------------
@@ -65,26 +53,14 @@ TileCaster::Scene NativeScene::Make(
 {
   const RayCastOptics& optics = frame.Optics;
   TileCaster::Scene scene;
-  scene.Mesh = &tables.Input.GetMesh();
-  scene.Boundary = &scene.Mesh->GetBoundary();
+  SetMedium(tables, optics, scene);
   scene.Tables = &this->Tables;
   scene.Set = this->Set;
-  scene.CellScalars = optics.CellScalars ? tables.Input.GetCellScalars().data() : nullptr;
   scene.Lighting = optics.Shading ? &optics.Lighting : nullptr;
+  scene.VertexLight = optics.Illuminated ? tables.Illumination.GetValues().data() : nullptr;
   scene.Medium = optics.IsFaded() ? &optics.Medium : nullptr;
-  scene.VertexGradients =
-    optics.VertexGradients ? tables.VertexGradients.GetValues().data() : nullptr;
-  scene.CellGradients =
-    optics.UsesCellGradients() ? tables.CellGradients.GetValues().data() : nullptr;
-  scene.GradientToFrame = optics.GradientToFrame;
-  scene.GradientOpacity = optics.GradientOpacity;
-  scene.GradientMagnitude = optics.GradientMagnitude;
-  scene.Blending = optics.Blending;
-  scene.Mixture = optics.Components;
-  scene.Components = optics.HasComponents() ? tables.Components.GetValues().data() : nullptr;
   scene.DataRange = optics.DataRange;
   scene.PreIntegration = optics.PreIntegrated ? &tables.PreIntegration.GetTable() : nullptr;
-  scene.ClippingPlanes = optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(frame.TerminationTransmittance());
   if (frame.Refracting.Met)
   {

@@ -88,6 +88,8 @@ std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tabl
       return TableCounter::SizeOf(tables.CellGradients.GetValues());
     case RayCastTable::Components:
       return TableCounter::SizeOf(tables.Components.GetValues());
+    case RayCastTable::Illumination:
+      return TableCounter::SizeOf(tables.Illumination.GetValues());
     case RayCastTable::Functions:
       return this->Scene.GetPropertyBytes();
     case RayCastTable::PreIntegration:

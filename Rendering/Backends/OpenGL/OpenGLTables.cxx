@@ -111,6 +111,8 @@ bool OpenGLTables::IsFilled(RayCastTable table, const RayCastOptics& optics) con
       return this->CellScalars.IsFilled();
     case RayCastTable::VertexGradients:
       return this->VertexGradients.IsFilled();
+    case RayCastTable::Illumination:
+      return this->VertexLight.IsFilled();
     case RayCastTable::CellGradients:
       return this->CellGradients.IsFilled();
     case RayCastTable::Components:
@@ -143,6 +145,8 @@ std::string OpenGLTables::Upload(
       return this->UploadCellScalars(input.GetCellScalars());
     case RayCastTable::VertexGradients:
       return this->UploadVectors(this->VertexGradients, tables.VertexGradients.GetValues());
+    case RayCastTable::Illumination:
+      return this->UploadVectors(this->VertexLight, tables.Illumination.GetValues());
     case RayCastTable::CellGradients:
       return this->UploadVectors(this->CellGradients, tables.CellGradients.GetValues());
     case RayCastTable::Components:
@@ -214,7 +218,8 @@ std::vector<OpenGLTable*> OpenGLTables::List()
 {
   return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
     &this->TileBegins, &this->TileFaces, &this->NearestDepths, &this->VertexGradients,
-    &this->CellGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+    &this->VertexLight, &this->CellGradients, &this->VertexComponents, &this->Intervals,
+    &this->Isosurfaces };
 }
 
 //------------------------------------------------------------------------------
@@ -445,6 +450,10 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
+  }
+  if (optics.Illuminated)
+  {
+    activate(this->VertexLight, "vertexLight");
   }
   if (optics.UsesCellGradients())
   {

@@ -132,6 +132,7 @@ private:
   OpenGLTable NearestDepths;
   int TileColumns = 0;
   OpenGLTable VertexGradients;
+  OpenGLTable VertexLight;
   OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
   /**

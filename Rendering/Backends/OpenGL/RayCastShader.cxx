@@ -107,7 +107,10 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("WIDE_CELLS", optics.WideCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
-  define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
+  define("VERTEX_LIGHT", optics.Illuminated ? 1 : 0);
+  define("VERTEX_VALUES",
+    (optics.VertexGradients ? 1 : 0) + (optics.Illuminated ? 1 : 0) +
+      (optics.HasComponents() ? 1 : 0));
   define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
   define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
   const bool faded = optics.IsFaded() && optics.IsRefracting();
@@ -164,6 +167,12 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
   program->SetUniformf("diffuse", static_cast<float>(optics.Lighting.Diffuse));
   program->SetUniformf("specular", static_cast<float>(optics.Lighting.Specular));
   program->SetUniformf("specularPower", static_cast<float>(optics.Lighting.SpecularPower));
+  if (optics.Illuminated)
+  {
+    program->SetUniformi("brightestLight", optics.Lighting.BrightestLight);
+    program->SetUniformf("scattering", static_cast<float>(optics.Lighting.Scattering));
+    program->SetUniformf("anisotropy", static_cast<float>(optics.Lighting.Anisotropy));
+  }
   if (!optics.Lighting.Lights.empty())
   {
     set4("lightPosition", Collect(optics.Lighting.Lights, &RayCastLight::Position));

@@ -86,7 +86,7 @@ std::string MediumConstants()
     Define("LARGEST_GAUSS_DEPTH", LargestGaussDepth) + Define("GAUSS_PLACE", GaussPlace) +
     Define("OUTER_GAUSS_WEIGHT", GaussWeights[0]) + Define("MIDDLE_GAUSS_WEIGHT", GaussWeights[1]) +
     Define("LARGEST_FADED_DEPTH", LargestFadedDepth) + Define("INVISIBLE_DEPTH", InvisibleDepth) +
-    Define("LARGEST_CHANGE", LargestChange) +
+    Define("LARGEST_CHANGE", LargestChange) + Define("SMALLEST_TURN", SmallestTurn) +
     DefinePolynomial("ABSORBED_PER_DEPTH", AbsorptionFit::ThickAbsorbed);
   int power = 0;
   for (const auto& row : AbsorptionFit::ThickMean)

@@ -71,6 +71,11 @@ struct PacketJob
    */
   const float* VertexGradients;
   /**
+   * Three numbers per vertex (VertexLight), for a medium that is lit with global illumination; null
+   * for none.
+   */
+  const float* VertexLight;
+  /**
    * Three numbers per cell, where gradients of cells are needed. For RayMeasuring::CellBins, the
    * values of the bins.
    */

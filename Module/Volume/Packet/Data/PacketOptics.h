@@ -59,6 +59,21 @@ struct GradientShading
   float SpecularPower;
   const PacketLight* Lights;
   std::int32_t NumberOfLights;
+  /** With PacketJob::VertexLight, see SurfaceLighting. */
+  std::int32_t BrightestLight;
+  float Scattering;
+  float Anisotropy;
+};
+
+/** Indices of the numbers of PacketJob::VertexLight. */
+enum VertexLight
+{
+  /** Mean transmittance from all directions, a factor of the ambient light. */
+  AmbientTransmittance,
+  /** Transmittance from the brightest light, and the weighted mean of the other lights'. */
+  BrightestTransmittance,
+  OtherTransmittance,
+  NumberOfVertexLights
 };
 
 /** A RefractionMedium in single precision. */

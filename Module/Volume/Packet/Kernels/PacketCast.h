@@ -31,6 +31,16 @@ void CastMedium(const PacketJob& job)
   {
     PacketWalk<Simd, Model<Simd, Between<Simd, PacketNoGradientShading<Simd>>>>(job).Run();
   }
+  else if (job.VertexLight && job.VertexGradients)
+  {
+    PacketWalk<Simd, Model<Simd, Between<Simd, PacketGradientShading<Simd, true, true>>>>(job)
+      .Run();
+  }
+  else if (job.VertexLight)
+  {
+    PacketWalk<Simd, Model<Simd, Between<Simd, PacketGradientShading<Simd, false, true>>>>(job)
+      .Run();
+  }
   else if (job.VertexGradients)
   {
     PacketWalk<Simd, Model<Simd, Between<Simd, PacketGradientShading<Simd, true>>>>(job).Run();

@@ -41,9 +41,10 @@ public:
 /**
  * Effects of gradients on the segments of composite blending: light that multiplies the colour,
  * light that is added to it, and a factor of the attenuation; computed at the ends of a segment and
- * linear in between. Gradients are interpolated between vertices, or those of the cells.
+ * linear in between. Gradients are interpolated between vertices, or those of the cells. With
+ * Shadowed, the transmittances of PacketJob::VertexLight weaken the light.
  */
-template <class Simd, bool OfVertices>
+template <class Simd, bool OfVertices, bool Shadowed = false>
 class PacketGradientShading
 {
 public:
@@ -53,7 +54,7 @@ public:
   static constexpr bool UsesGradients = true;
   static constexpr bool Fades = false;
   static constexpr bool UsesCellGradients = !OfVertices;
-  static constexpr int NumberOfTriples = OfVertices ? 1 : 0;
+  static constexpr int NumberOfTriples = (OfVertices ? 1 : 0) + (Shadowed ? 1 : 0);
 
   explicit PacketGradientShading(const PacketJob& job)
     : Medium(*job.Medium)
@@ -125,8 +126,13 @@ private:
     }
   };
 
-  template <class Line>
-  End Evaluate(Mask lanes, const Vector& gradient, Float depth, const Line& ray);
+  /** @param values interpolated at the end; their last triple is the light. */
+  template <class Values, class Line>
+  End Evaluate(
+    Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray);
+  template <class Values, class Line>
+  PacketLit<Simd> Light(
+    const Vector& gradient, const Values& values, Float depth, const Line& ray) const;
   template <class Values>
   Vector ToFrame(const Values& values) const;
 
@@ -140,9 +146,10 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <class Simd, bool OfVertices>
+template <class Simd, bool OfVertices, bool Shadowed>
 template <class Values>
-inline auto PacketGradientShading<Simd, OfVertices>::ToFrame(const Values& values) const -> Vector
+inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ToFrame(const Values& values) const
+  -> Vector
 {
   Vector gradient;
   for (int row = 0; row < 3; ++row)
@@ -155,16 +162,35 @@ inline auto PacketGradientShading<Simd, OfVertices>::ToFrame(const Values& value
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, bool OfVertices>
-template <class Line>
-inline auto PacketGradientShading<Simd, OfVertices>::Evaluate(
-  Mask lanes, const Vector& gradient, Float depth, const Line& ray) -> End
+template <class Simd, bool OfVertices, bool Shadowed>
+template <class Values, class Line>
+inline PacketLit<Simd> PacketGradientShading<Simd, OfVertices, Shadowed>::Light(
+  const Vector& gradient, const Values& values, Float depth, const Line& ray) const
+{
+  if constexpr (Shadowed)
+  {
+    constexpr int first = OfVertices ? 3 : 0;
+    return this->Lights.LightShadowed(gradient, depth, ray,
+      { values.Of[first + AmbientTransmittance], values.Of[first + BrightestTransmittance],
+        values.Of[first + OtherTransmittance] });
+  }
+  else
+  {
+    return this->Lights.Light(gradient, depth, ray);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, bool OfVertices, bool Shadowed>
+template <class Values, class Line>
+inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::Evaluate(
+  Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray) -> End
 {
   End end;
   end.SetNeutral();
   if (this->Medium.Shading)
   {
-    end.Light = this->Lights.Light(gradient, depth, ray);
+    end.Light = this->Light(gradient, values, depth, ray);
   }
   if (this->Medium.NumberOfOpacityIntervals > 0)
   {
@@ -185,9 +211,9 @@ inline auto PacketGradientShading<Simd, OfVertices>::Evaluate(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, bool OfVertices>
+template <class Simd, bool OfVertices, bool Shadowed>
 template <class Place>
-inline void PacketGradientShading<Simd, OfVertices>::Begin(Mask lanes, const Place& place)
+inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Begin(Mask lanes, const Place& place)
 {
   if (Simd::Bits(lanes) == 0)
   {
@@ -200,23 +226,25 @@ inline void PacketGradientShading<Simd, OfVertices>::Begin(Mask lanes, const Pla
     const Mask elsewhere = lanes & (Simd::Not(this->Continues) | place.Late);
     if (Simd::Bits(elsewhere) != 0)
     {
-      const End front =
-        this->Evaluate(elsewhere, this->ToFrame(place.StartValues), place.StartDepth, place.Ray);
+      const End front = this->Evaluate(elsewhere, this->ToFrame(place.StartValues),
+        place.StartValues, place.StartDepth, place.Ray);
       this->Front.Replace(elsewhere, front);
     }
-    this->Back.Replace(
-      lanes, this->Evaluate(lanes, this->ToFrame(place.EndValues), place.EndDepth, place.Ray));
+    this->Back.Replace(lanes,
+      this->Evaluate(
+        lanes, this->ToFrame(place.EndValues), place.EndValues, place.EndDepth, place.Ray));
     this->Continues = Simd::AndNot(this->Continues, place.Stepped) | lanes;
   }
   else
   {
     const Vector gradient = this->ToFrame(place.CellGradient);
-    const End front = this->Evaluate(lanes, gradient, place.StartDepth, place.Ray);
+    const End front =
+      this->Evaluate(lanes, gradient, place.StartValues, place.StartDepth, place.Ray);
     this->Front.Replace(lanes, front);
     End back = front;
-    if (this->Medium.Shading && this->Lights.DependOnPlace())
+    if (this->Medium.Shading && (Shadowed || this->Lights.DependOnPlace()))
     {
-      back.Light = this->Lights.Light(gradient, place.EndDepth, place.Ray);
+      back.Light = this->Light(gradient, place.EndValues, place.EndDepth, place.Ray);
     }
     this->Back.Replace(lanes, back);
   }

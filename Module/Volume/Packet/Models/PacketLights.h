@@ -109,9 +109,36 @@ public:
   /**
    * Light on a surface with a normal of any length, in the frame; 0 leaves the ambient light only.
    */
-  PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
+  PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+  {
+    const Float one = Simd::Splat(1.0f);
+    return this->LightBy(PacketUnshadowed(), normal, depth, ray, { one, one, one });
+  }
+  /**
+   * The same with global illumination, see SurfaceLighting.
+   * @param shadow the numbers of VertexLight at the place.
+   */
+  PacketLit<Simd> LightShadowed(
+    const Vector& normal, Float depth, const PacketLine<Simd>& ray, const Vector& shadow) const
+  {
+    return this->LightBy(PacketShadowed(), normal, depth, ray, shadow);
+  }
 
 private:
+  struct PacketUnshadowed
+  {
+    static constexpr bool Scatters = false;
+  };
+  struct PacketShadowed
+  {
+    static constexpr bool Scatters = true;
+  };
+  template <class Kind>
+  PacketLit<Simd> LightBy(Kind, const Vector& normal, Float depth, const PacketLine<Simd>& ray,
+    const Vector& shadow) const;
+  /** Henyey and Greenstein's phase function, 1 in the mean; for the cosine of the turn of light. */
+  Float Phase(Float cosine) const;
+
   static Float Dot(const Vector& a, const Vector& b)
   {
     return Simd::Fma(a[0], b[0], Simd::Fma(a[1], b[1], a[2] * b[2]));
@@ -133,8 +160,13 @@ private:
   static Vector Normalized(const Vector& a, Mask any, Float largest);
   static Float Reciprocal(Float x) { return Simd::Splat(1.0f) / x; }
 
-  void Add(const PacketLight& light, const Vector& place, const Vector& normal, const Vector& toEye,
-    PacketLit<Simd>& sum) const;
+  /**
+   * Adds the light that a surface reflects, and the light that the medium scatters.
+   * @param shadow transmittance from the light.
+   */
+  template <class Kind>
+  void Add(Kind, const PacketLight& light, Float shadow, const Vector& place, const Vector& normal,
+    const Vector& toEye, PacketLit<Simd>& sum, Vector& scattered) const;
 
   const GradientShading& Medium;
   PacketPower<Simd> SpecularPower;
@@ -143,8 +175,21 @@ private:
 
 //------------------------------------------------------------------------------
 template <class Simd>
-inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& place,
-  const Vector& normal, const Vector& toEye, PacketLit<Simd>& sum) const
+inline auto PacketLights<Simd>::Phase(Float cosine) const -> Float
+{
+  const float g = this->Medium.Anisotropy;
+  const Float square =
+    Simd::Max(Simd::Fma(Simd::Splat(-2.0f * g), cosine, Simd::Splat(1.0f + g * g)),
+      Simd::Splat(SmallestTurn));
+  return Simd::Splat(1.0f - g * g) / (square * Simd::Sqrt(square));
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+template <class Kind>
+inline void PacketLights<Simd>::Add(Kind, const PacketLight& light, Float shadow,
+  const Vector& place, const Vector& normal, const Vector& toEye, PacketLit<Simd>& sum,
+  Vector& scattered) const
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
@@ -165,17 +210,27 @@ inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& plac
     strength = Simd::Min(strength, Simd::Splat(LargestLightStrength));
   }
   const Float facing = Cosine(normal, toLight);
-  Mask lit = facing > zero;
   if (light.Cone[3] >= -1.0f)
   {
     const Float inCone = zero - Dot(toLight, Splat(light.Cone));
-    lit = lit & Simd::Not(inCone < Simd::Splat(light.Cone[3]));
     if (light.Falloff[3] != 0.0f)
     {
       strength = strength * PacketPower<Simd>(light.Falloff[3])(Clamped(inCone));
     }
+    strength = Simd::Select(inCone < Simd::Splat(light.Cone[3]), zero, strength);
   }
-  strength = Simd::Select(lit, strength, zero);
+  if constexpr (Kind::Scatters)
+  {
+    strength = strength * shadow;
+    // Light goes against toLight and on towards the eye.
+    const Float turned =
+      strength * Simd::Splat(this->Medium.Diffuse) * this->Phase(zero - Dot(toLight, toEye));
+    for (int c = 0; c < 3; ++c)
+    {
+      scattered[c] = Simd::Fma(turned, Simd::Splat(light.Diffuse[c]), scattered[c]);
+    }
+  }
+  strength = Simd::Select(facing > zero, strength, zero);
   const Vector mirrored = Scaled(normal, facing + facing);
   const Float glance =
     Cosine({ mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
@@ -213,13 +268,15 @@ inline auto PacketLights<Simd>::Normalized(const Vector& a, Mask any, Float larg
 
 //------------------------------------------------------------------------------
 template <class Simd>
-PacketLit<Simd> PacketLights<Simd>::Light(
-  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+template <class Kind>
+PacketLit<Simd> PacketLights<Simd>::LightBy(Kind kind, const Vector& normal, Float depth,
+  const PacketLine<Simd>& ray, const Vector& shadow) const
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
   PacketLit<Simd> lit;
-  lit.Reflected.fill(Simd::Splat(this->Medium.Ambient));
+  const Float ambient = Simd::Splat(this->Medium.Ambient);
+  lit.Reflected.fill(Kind::Scatters ? ambient * shadow[AmbientTransmittance] : ambient);
   lit.Highlight.fill(zero);
 
   const Float largest =
@@ -232,14 +289,27 @@ PacketLit<Simd> PacketLights<Simd>::Light(
   const Vector place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
     Simd::Fma(fromPivot, ray.SlopeY, ray.Y), fromPivot + ray.Depth };
   PacketLit<Simd> sum = lit;
+  Vector scattered = lit.Reflected;
   for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
   {
-    this->Add(this->Medium.Lights[i], place, facing, ray.ToEye, sum);
+    const bool isBrightest = i == this->Medium.BrightestLight;
+    this->Add(kind, this->Medium.Lights[i],
+      shadow[isBrightest ? BrightestTransmittance : OtherTransmittance], place, facing, ray.ToEye,
+      sum, scattered);
   }
   for (int c = 0; c < 3; ++c)
   {
     lit.Reflected[c] = Simd::Select(any, sum.Reflected[c], lit.Reflected[c]);
     lit.Highlight[c] = Simd::Select(any, sum.Highlight[c], lit.Highlight[c]);
+  }
+  if constexpr (Kind::Scatters)
+  {
+    const Float share = Simd::Splat(this->Medium.Scattering);
+    for (int c = 0; c < 3; ++c)
+    {
+      lit.Reflected[c] = Simd::Fma(share, scattered[c] - lit.Reflected[c], lit.Reflected[c]);
+      lit.Highlight[c] = Simd::Fma(zero - share, lit.Highlight[c], lit.Highlight[c]);
+    }
   }
   return lit;
 }

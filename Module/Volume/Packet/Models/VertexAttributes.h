@@ -26,9 +26,9 @@ struct VertexAttributes
   void Clear() { this->Of.fill(Simd::Splat(0.0f)); }
 
   /** @param tables  three numbers per vertex each. */
-  void Gather(const float* const (&tables)[2], Int vertex)
+  void Gather(const float* const (&tables)[3], Int vertex)
   {
-    static_assert(Triples <= 2, "as many as there are tables");
+    static_assert(Triples <= 3, "as many as there are tables");
     for (int triple = 0; triple < Triples; ++triple)
     {
       Float* to = this->Of.data() + 3 * triple;

@@ -145,7 +145,7 @@ private:
 
   const PacketJob& Job;
   const float* VertexTable;
-  const float* ValueTables[2];
+  const float* ValueTables[3];
   std::int32_t NextRay = 0;
   std::int32_t StepLimit;
 
@@ -216,10 +216,19 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   this->Order = none;
   this->Face = FacePoint{ none, zero, zero, this->A.Others };
   this->Line = { zero, zero, zero, zero, zero, { zero, zero, zero } };
-  // Gradients come first.
-  const bool gradients = job.Medium && job.VertexGradients;
-  this->ValueTables[0] = gradients ? job.VertexGradients : job.Components;
-  this->ValueTables[1] = job.Components;
+  // Gradients come first, then light.
+  int tables = 0;
+  for (const float* table : { job.VertexGradients, job.VertexLight })
+  {
+    if (job.Medium && table)
+    {
+      this->ValueTables[tables++] = table;
+    }
+  }
+  for (; tables < 3; ++tables)
+  {
+    this->ValueTables[tables] = job.Components;
+  }
   this->Steps = none;
   this->Busy = this->Pending = Simd::FromBits(0);
   for (int lane = 0; lane < Width; ++lane)

@@ -35,7 +35,7 @@ inline auto PacketWalk<Simd, Model>::GradientsOf(Int cellFace) const -> CellValu
     cell >>= 2;
   }
   CellValues gradients;
-  gradients.Gather({ this->Job.CellGradients, nullptr }, Simd::Load(at));
+  gradients.Gather({ this->Job.CellGradients, nullptr, nullptr }, Simd::Load(at));
   return gradients;
 }
 

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Illumination_VertexStarts_h
+#define meniscus_Volume_Illumination_VertexStarts_h
+
+#include "Common/RangeLoop.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Places, next to the vertices of the active cells, where lines to a light begin. A line through a
+ * vertex on the border of the mesh might pass outside of it. A place is therefore moved from its
+ * vertex by a small share of the way to the centre of a cell, the largest active one at the vertex,
+ * which is the cell that a walk begins in.
+ */
+class VertexStarts
+{
+public:
+  /** Share of the way: light is attenuated too much by this share of a cell's optical depth. */
+  static constexpr double Share = 1.0 / 4096.0;
+
+  void Build(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
+
+  /** The vertices of active cells, in ascending order. */
+  const std::vector<std::int32_t>& GetVertices() const { return this->Vertices; }
+  /** Cell in which lines of one of these vertices begin. */
+  std::int32_t GetCell(std::int32_t vertex) const
+  {
+    return this->Cells[static_cast<std::size_t>(vertex)];
+  }
+  /** Place of one of these vertices, in normalised model coordinates. */
+  glm::dvec3 GetPlace(const TetrahedralMesh& mesh, std::int32_t vertex) const;
+  /** False if the mesh has inverted cells: lines have to be walked from the boundary. */
+  bool AreInside() const { return this->Inside; }
+  std::int64_t GetBytes() const { return BytesOf(this->Vertices) + BytesOf(this->Cells); }
+
+private:
+  std::vector<std::int32_t> Vertices;
+  /** One per vertex; negative without an active cell. */
+  std::vector<std::int32_t> Cells;
+  bool Inside = true;
+};
+
+}
+
+#endif
