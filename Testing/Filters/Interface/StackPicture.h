@@ -26,6 +26,7 @@ struct StackPicture
   double Tolerance = 0.005; ///< the filter's default
   /** Largest part of the covered pixels that may differ from traced rays. */
   double Differing = 1e-3;
+  bool HasNormals = true; ///< false: the filter computes the normals of the surfaces
 
   /** Connects the surfaces and the list to a filter; interfaces of one body share a data set. */
   template <typename Filter>
@@ -37,7 +38,7 @@ struct StackPicture
     {
       if (i == 0 || this->Meshes[i].Points != this->Meshes[i - 1].Points)
       {
-        surface = MakeMembrane(this->Meshes[i]);
+        surface = MakeMembrane(this->Meshes[i], this->HasNormals);
       }
       AddInterface(filter, surface, this->Media[i].Exterior, this->Media[i].Interior);
     }

@@ -243,7 +243,10 @@ TEST(TetrahedraRayCastMembrane, CellsFlatterThanRounding)
 
 TEST(TetrahedraRayCastMembrane, RaysOfSeveralFrames)
 {
-  // At the corners of this dome rays turn by more than 50 degrees, and come from all sides.
+  // At the corners of this dome rays turn by more than 50 degrees, and come from all sides. The
+  // border of its patches bulges along the normals: between two vertices, 0.066 apart next to a
+  // corner, it is up to 3e-4 outside of the square that the truth knows. With 100 x 100 pixels the
+  // ray of (7, 54) meets the sphere 1.3e-4 outside of it, at 5 degrees, and is refracted.
   const Grid grid = MakeBlock(6, WavyField(3.0));
   MembraneTest test(MakeDomeCase(2.3, 1.3, 0.9, 96), grid);
   test.SetIndices(1.0, 3.0);
