@@ -34,6 +34,8 @@ struct GradedCell
    * volume, which leaves the four normals, positive on the side that the mesh's orientation says.
    */
   std::array<glm::dvec3, 4> Gradients;
+  /** n^2 at the vertices. */
+  std::array<double, 4> SquaredIndices;
   /** grad(n^2) / 2; 0 in a flat cell. */
   glm::dvec3 Force{ 0.0 };
   /** Squared length of the longest of the edges at the first vertex. */
@@ -42,6 +44,13 @@ struct GradedCell
   bool IsFlat = false;
   /** The volume has another sign than the mesh's orientation: rays pass it backwards. */
   bool IsInverted = false;
+
+  /** n^2 at barycentric weights. */
+  double GetSquaredIndex(const std::array<double, 4>& weights) const
+  {
+    return (weights[0] * this->SquaredIndices[0] + weights[1] * this->SquaredIndices[1]) +
+      (weights[2] * this->SquaredIndices[2] + weights[3] * this->SquaredIndices[3]);
+  }
 };
 
 inline GradedCell MakeGradedCell(
@@ -54,25 +63,26 @@ inline GradedCell MakeGradedCell(
   const glm::dvec3 e3 = mesh.GetPosition(vertices[3]) - first;
   const glm::dvec3 normals[3] = { glm::cross(e2, e3), glm::cross(e3, e1), glm::cross(e1, e2) };
   const double volume = glm::dot(e1, normals[0]);
+  const double lengths[3] = { glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e3, e3) };
   // Positions are integers of at most 31 bits times a power of two: edges are exact. Each of the
-  // six terms of the determinant is rounded at most five times: twice in products, once in the
-  // difference, twice in sums. Eight times the unit of rounding covers the higher orders.
-  const glm::dvec3 a2 = glm::abs(e2);
-  const glm::dvec3 a3 = glm::abs(e3);
-  const glm::dvec3 terms(
-    a2.y * a3.z + a2.z * a3.y, a2.z * a3.x + a2.x * a3.z, a2.x * a3.y + a2.y * a3.x);
-  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  // six terms of the determinant is rounded at most five times, by 2^-53: twice in products, once
+  // in the difference, twice in sums. The sum of their sizes is at most 6 / sqrt(27) times the
+  // product of the lengths (Carlen, Lieb and Loss 2006). Eight roundings cover the higher orders.
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon() * 1.1548;
   GradedCell result;
-  result.SquaredSize = std::max(glm::dot(e1, e1), std::max(glm::dot(e2, e2), glm::dot(e3, e3)));
-  result.IsFlat = !(std::abs(volume) > rounding * glm::dot(glm::abs(e1), terms));
+  result.SquaredSize = std::max(lengths[0], std::max(lengths[1], lengths[2]));
+  result.IsFlat = !(volume * volume > rounding * rounding * (lengths[0] * lengths[1] * lengths[2]));
   const bool positive = mesh.IsPositivelyOriented(cell);
   const double scale = result.IsFlat ? (positive ? 1.0 : -1.0) : 1.0 / volume;
   result.IsInverted = !result.IsFlat && (volume > 0.0) != positive;
-  const double square = squaredIndices[static_cast<std::size_t>(vertices[0])];
+  for (int i = 0; i < 4; ++i)
+  {
+    result.SquaredIndices[i] = squaredIndices[static_cast<std::size_t>(vertices[i])];
+  }
   for (int i = 0; i < 3; ++i)
   {
     result.Gradients[i + 1] = scale * normals[i];
-    const double change = squaredIndices[static_cast<std::size_t>(vertices[i + 1])] - square;
+    const double change = result.SquaredIndices[i + 1] - result.SquaredIndices[0];
     result.Force += 0.5 * change * result.Gradients[i + 1];
   }
   result.Gradients[0] = -(result.Gradients[1] + result.Gradients[2] + result.Gradients[3]);

@@ -23,18 +23,25 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 /**
- * Largest share of the momentum, squared, that a glide may drop. A zigzag of steps of GlideLength
- * has 2 p = |Force| s with s n <= GlideLength times the cell's size, and |Force| times the size is
- * at most half of the change of n^2. For changes of up to 2^10 times n^2, p / n stays below 2^-31.
+ * Largest squared momentum that a glide may drop, in units of GlideHeight times the force. A zigzag
+ * of the height h has p^2 = 2 h |Force|; the force on the other side of the face may be 8 times as
+ * large.
  */
-constexpr double LargestDroppedShare = 0x1p-62;
+constexpr double LargestDrop = 16.0;
 
 /**
- * Largest weight of a vertex opposite a face that the ray is taken to be on. A zigzag changes
- * weights by about GlideLength in each step, and has returned to its cell after much less than 2^10
- * steps.
+ * Longest step of a zigzag in units of the cell. Longer ones are so few that no ray has to glide.
  */
-constexpr double LargestGlidingWeight = 0x1p-30;
+constexpr double LongestShare = 1.0 / 64.0;
+
+/** Time, in units of that through the cell, in which a ray that is at a vertex stays there. */
+constexpr double TimeAtVertex = 0x1p-40;
+
+/**
+ * Largest weight of a vertex opposite a face that the ray is taken to be on. A cell
+ * whose height is 2^-20 of the radius has such a weight at GlideHeight.
+ */
+constexpr double LargestGlidingWeight = 0x1p-11;
 
 /** Random number of a step, the same on every machine. */
 std::uint64_t Scatter(std::int64_t step)
@@ -96,6 +103,8 @@ struct GradedRayWalk::Path
   std::array<double, 4> Weights{};
   glm::dvec3 Momentum{ 0.0 };
   std::int64_t Steps = 0;
+  /** Integral of grad(n) / n along a straight ray. */
+  glm::dvec3 Deflection{ 0.0 };
   /** Length of a straight way to a place that is looked for; infinite for a ray of light. */
   double Limit = Infinity;
   bool HasEntered = false;
@@ -112,7 +121,7 @@ struct GradedRayWalk::Path
   std::int64_t Anchor = -1;
   /** Number of faces that the ray must glide along in its next step: 0 to 2. */
   int Constraints = 0;
-  /** Most constraints since the last step that was not short. */
+  /** Constraints that were tried last since the last step that was not short; 0 for none. */
   int LastConstraints = 0;
 
   bool IsSearching() const { return this->Limit < Infinity; }
@@ -122,12 +131,25 @@ struct GradedRayWalk::Path
     this->Anchor = -1;
     this->LastConstraints = 0;
   }
+  void AddStraight(double length, double first, double last, const glm::dvec3& force);
   void NoteConstraints()
   {
-    this->LastConstraints = std::max(this->LastConstraints, this->Constraints);
+    this->LastConstraints = this->Constraints > 0 ? this->Constraints : this->LastConstraints;
     this->Constraints = 0;
   }
 };
+
+//------------------------------------------------------------------------------
+/** Adds the integrals along a straight piece of a length, between two values of n^2. */
+void GradedRayWalk::Path::AddStraight(
+  double length, double first, double last, const glm::dvec3& force)
+{
+  const double roots[2] = { std::sqrt(first), std::sqrt(last) };
+  this->Result->OpticalPath +=
+    length * (2.0 / 3.0) * (first + roots[0] * roots[1] + last) / (roots[0] + roots[1]);
+  const double change = (last - first) / first;
+  this->Deflection += length / first * (change == 0.0 ? 1.0 : std::log1p(change) / change) * force;
+}
 
 /** Barycentric weights along the path in a cell. */
 struct GradedRayWalk::Quadratics
@@ -140,7 +162,7 @@ struct GradedRayWalk::Quadratics
   std::array<bool, 4> IsHeld{};
 
   void Set(const GradedCell& cell);
-  bool Hold(const GradedCell& cell, const Path& path, double squaredIndex);
+  bool Hold(const GradedCell& cell, const Path& path);
   int ChooseExit(
     const GradedCell& cell, const Path& path, bool atRandom, double shortTime, double& time) const;
   void MoveTo(double time, int face, std::array<double, 4>& weights) const;
@@ -158,16 +180,16 @@ void GradedRayWalk::Quadratics::Set(const GradedCell& cell)
 
 //------------------------------------------------------------------------------
 /**
- * Keeps the ray on the face by which it has come or, for two constraints, on the edge of the cell
- * that is nearest to its direction. Returns false if the ray does not zigzag there.
+ * Keeps the ray on the face or, for two constraints, on the edge of the cell at which it is and
+ * which is nearest to its direction. Returns false if the ray does not zigzag there.
  */
-bool GradedRayWalk::Quadratics::Hold(const GradedCell& cell, const Path& path, double squaredIndex)
+bool GradedRayWalk::Quadratics::Hold(const GradedCell& cell, const Path& path)
 {
   if (cell.IsFlat || path.Entry < 0)
   {
     return false;
   }
-  double least = LargestDroppedShare * squaredIndex;
+  double least = LargestDrop * GlideHeight * glm::length(cell.Force);
   int faces[2] = { -1, -1 };
   const glm::dvec3 momentum = this->Momentum;
   const glm::dvec3 force = this->Force;
@@ -186,15 +208,19 @@ bool GradedRayWalk::Quadratics::Hold(const GradedCell& cell, const Path& path, d
       faces[1] = second;
     }
   };
-  if (path.Constraints == 1)
+  for (int i = 0; i < 4; ++i)
   {
-    attempt(path.Entry, -1);
-  }
-  for (int i = 0; i < 4 && path.Constraints > 1; ++i)
-  {
-    for (int k = i + 1; k < 4; ++k)
+    if (path.Weights[i] > LargestGlidingWeight)
     {
-      if (std::max(path.Weights[i], path.Weights[k]) <= LargestGlidingWeight)
+      continue;
+    }
+    if (path.Constraints == 1)
+    {
+      attempt(i, -1);
+    }
+    for (int k = i + 1; k < 4 && path.Constraints == 2; ++k)
+    {
+      if (path.Weights[k] <= LargestGlidingWeight)
       {
         attempt(i, k);
       }
@@ -224,6 +250,14 @@ int GradedRayWalk::Quadratics::ChooseExit(
   std::uint64_t best = 0;
   for (int i = 0; i < 4; ++i)
   {
+    // A quadratic is above its tangent if it bends upwards, and has no zero before a place at which
+    // it is positive if it bends downwards.
+    const double bend = std::min(this->Curvatures[i], 0.0);
+    if (face >= 0 && !atRandom &&
+      path.Weights[i] + time * (this->Rates[i] + 0.5 * time * bend) > 0.0)
+    {
+      continue;
+    }
     const double reached = TimeToZero(path.Weights[i], this->Rates[i], this->Curvatures[i]);
     const bool random = atRandom && reached <= shortTime;
     const std::uint64_t rank = random ? Scatter(4 * path.Steps + i) | 1 : 0;
@@ -254,9 +288,10 @@ void GradedRayWalk::Quadratics::MoveTo(double time, int face, std::array<double,
     weights[i] = i == face ? 0.0 : std::max(moved, 0.0);
     sum += weights[i];
   }
+  const double scale = 1.0 / sum;
   for (double& weight : weights)
   {
-    weight /= sum;
+    weight *= scale;
   }
 }
 
@@ -278,7 +313,7 @@ GradedRayWalk::GradedRayWalk(const GradedMedium& medium)
   : Medium(medium)
   , Crossings(*medium.Mesh, *medium.Tree)
 {
-  constexpr std::int64_t fewest = 4096;
+  constexpr std::int64_t fewest = 65536;
   this->MaximumNumberOfSteps = medium.MaximumNumberOfSteps > 0
     ? medium.MaximumNumberOfSteps
     : std::max(fewest, 4 * medium.Mesh->GetNumberOfActiveCells());
@@ -300,6 +335,12 @@ GradedRayResult GradedRayWalk::Walk(
     {
       this->CrossCells(path);
     } while (result.State == GradedRayState::Left && this->EnterMesh(path));
+  }
+  if (this->Medium.IsStraight)
+  {
+    const glm::dvec3 along = result.Direction;
+    result.Direction =
+      glm::normalize(along + path.Deflection - glm::dot(path.Deflection, along) * along);
   }
   statistics.Rays += result.State != GradedRayState::Missed ? 1 : 0;
   statistics.Trapped += result.State == GradedRayState::Trapped ? 1 : 0;
@@ -349,7 +390,7 @@ bool GradedRayWalk::BeginInside(Path& path) const
   const bool isInside = path.Limit <= BoundaryCrossings::DistanceError;
   path.Limit = Infinity;
   path.Entry = -1;
-  path.Momentum = std::sqrt(this->SquaredIndexAt(path)) * forward;
+  path.Momentum = (this->Medium.IsStraight ? 1.0 : std::sqrt(this->SquaredIndexAt(path))) * forward;
   path.HasEntered = isInside;
   path.PassageBegin = path.Origin;
   path.Result->State = isInside ? GradedRayState::Left : GradedRayState::Missed;
@@ -387,9 +428,9 @@ bool GradedRayWalk::EnterMesh(Path& path) const
     path.HasEntered = true;
     const double inside = this->SquaredIndexAt(path);
     const double outside = this->Medium.OutsideIndex;
-    if (outside == 0.0)
+    if (outside == 0.0 || this->Medium.IsStraight)
     {
-      path.Momentum = std::sqrt(inside) * path.Direction;
+      path.Momentum = (this->Medium.IsStraight ? 1.0 : std::sqrt(inside)) * path.Direction;
       return true;
     }
     path.Momentum = outside * path.Direction;
@@ -482,7 +523,7 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
   GradedRayResult& result = *path.Result;
   const double outside = this->Medium.OutsideIndex;
   path.IndexBefore = outside > 0.0 ? outside : std::sqrt(this->SquaredIndexAt(path));
-  if (outside > 0.0 &&
+  if (outside > 0.0 && !this->Medium.IsStraight &&
     !Refract(this->OutwardNormal(path.Cell, face), outside * outside, 1.0, path.Momentum))
   {
     ++path.Statistics->Reflections;
@@ -511,21 +552,23 @@ int GradedRayWalk::CrossCell(Path& path) const
   path.Statistics->FlatSteps += cell.IsFlat ? 1 : 0;
   path.Statistics->InvertedSteps += cell.IsInverted ? 1 : 0;
   const double sign = cell.IsInverted ? -1.0 : 1.0;
-  const double square = this->SquaredIndexAt(path);
+  const double square = cell.GetSquaredIndex(path.Weights);
   Quadratics way;
   way.Momentum = sign * path.Momentum;
-  way.Force = path.IsSearching() ? glm::dvec3(0.0) : cell.Force;
-  const bool glides = path.Constraints > 0 && way.Hold(cell, path, square);
+  const bool isStraight = path.IsSearching() || this->Medium.IsStraight;
+  way.Force = isStraight ? glm::dvec3(0.0) : cell.Force;
+  const bool glides = path.Constraints > 0 && way.Hold(cell, path);
   way.Set(cell);
   if (path.Entry >= 0)
   {
     way.Rates[path.Entry] = std::max(way.Rates[path.Entry], 0.0);
   }
   double time = Infinity;
-  const double shortTime = GlideLength * std::sqrt(cell.SquaredSize / square);
+  const double shortTime = TimeAtVertex * std::sqrt(cell.SquaredSize / square);
   int face = way.ChooseExit(cell, path, path.Constraints > 0 && !glides, shortTime, time);
   const double passed = cell.IsFlat ? 0.0 : sign * time;
-  path.IsShort = std::abs(passed) <= shortTime;
+  path.IsShort = 0.125 * passed * passed * glm::length(cell.Force) <= GlideHeight &&
+    passed * passed * square <= LongestShare * LongestShare * cell.SquaredSize;
   path.NoteConstraints();
   path.Statistics->Glides += glides ? 1 : 0;
   if (path.IsSearching())
@@ -534,7 +577,7 @@ int GradedRayWalk::CrossCell(Path& path) const
     time = cell.IsFlat ? time : sign * std::min(passed, path.Limit);
     path.Limit = std::max(0.0, path.Limit - passed);
   }
-  else if (face >= 0)
+  else if (face >= 0 && !isStraight)
   {
     const double drift = glm::dot(way.Momentum, way.Force);
     const double bend = glm::dot(way.Force, way.Force);
@@ -545,11 +588,16 @@ int GradedRayWalk::CrossCell(Path& path) const
   {
     way.MoveTo(time, face, path.Weights);
   }
-  if (!path.IsSearching() && face >= 0)
+  if (this->Medium.IsStraight && !path.IsSearching())
+  {
+    path.AddStraight(passed, square, cell.GetSquaredIndex(path.Weights), cell.Force);
+  }
+  if (!isStraight && face >= 0)
   {
     const glm::dvec3 momentum = sign * (way.Momentum + (cell.IsFlat ? 0.0 : time) * way.Force);
     // |p| = n holds along the parabola but for rounding, which must not add up.
-    path.Momentum = std::sqrt(this->SquaredIndexAt(path) / glm::dot(momentum, momentum)) * momentum;
+    path.Momentum =
+      std::sqrt(cell.GetSquaredIndex(path.Weights) / glm::dot(momentum, momentum)) * momentum;
   }
   return face;
 }
@@ -566,7 +614,8 @@ void GradedRayWalk::WatchForZigzag(Path& path) const
   ++path.ShortSteps;
   if (path.Cell == path.Anchor)
   {
-    path.Constraints = std::min(path.LastConstraints + 1, 2);
+    // Along a face and along an edge in turn, until one leads on.
+    path.Constraints = path.LastConstraints % 2 + 1;
     path.ShortSteps = 0;
     path.Anchor = -1;
   }

@@ -16,7 +16,7 @@
  *
  * A ray can glide along a face to which n^2 rises from both sides, or along an edge. Its zigzag has
  * infinitely many crossings as its height tends to 0. A ray that returns to the same cell in steps
- * that are all shorter than GlideLength is taken along the face, or along the edge, to the next
+ * that all bend by less than GlideHeight is taken along the face, or along the edge, to the next
  * cell.
  *
  * A ray that enters from outside leaves again, but for a set of measure zero (Poincare's recurrence
@@ -52,8 +52,14 @@ struct GradedMedium
    */
   double OutsideIndex = 0.0;
   /**
-   * Largest number of steps of one ray; 0 for four times the number of active cells, at least 4096.
-   * A straight ray crosses each cell at most once.
+   * True for rays that go straight, for small angles: OpticalPath is the integral of n along them,
+   * and Direction is turned by the integral of grad(n) / n across them. OutsideIndex has no effect.
+   */
+  bool IsStraight = false;
+  /**
+   * Largest number of steps of one ray; 0 for four times the number of active cells, at least
+   * 65,536. A straight ray crosses each cell at most once. A zigzag of GlideHeight has about
+   * sqrt(|grad(n^2)| / (16 GlideHeight)) steps per unit of length, 12,000 for a gradient of 1.
    */
   std::int64_t MaximumNumberOfSteps = 0;
 };
@@ -106,10 +112,11 @@ class GradedRayWalk
 {
 public:
   /**
-   * Longest step, in units of the cell, that may be part of a zigzag. The zigzag's height is less
-   * than a quarter of it, which is below the goal of 1e-12 for a path in a cell.
+   * Largest height of a zigzag along which a ray glides, in units of the mesh's radius: the
+   * rounding of the mesh's positions, within which it is not known where a face is. A ray in a
+   * plane of symmetry has a zigzag of that height.
    */
-  static constexpr double GlideLength = 0x1p-40;
+  static constexpr double GlideHeight = 0.5 * TetrahedralMesh::PositionUnit;
 
   explicit GradedRayWalk(const GradedMedium& medium);
 

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Graded/SchlierenImages.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+/** Rows of the screen that are one piece of work. */
+constexpr int RowsPerBand = 16;
+
+/** A convex polygon: a triangle that up to four half planes have cut. */
+struct Polygon
+{
+  std::array<glm::dvec2, 8> Corners;
+  int Size = 0;
+
+  /** Keeps the part in which sign * coordinate <= sign * limit. */
+  Polygon Cut(int axis, double limit, double sign) const
+  {
+    Polygon result;
+    for (int i = 0; i < this->Size; ++i)
+    {
+      const glm::dvec2& a = this->Corners[i];
+      const glm::dvec2& b = this->Corners[(i + 1) % this->Size];
+      const double atA = sign * (a[axis] - limit);
+      const double atB = sign * (b[axis] - limit);
+      if (atA <= 0.0)
+      {
+        result.Corners[result.Size++] = a;
+      }
+      if ((atA < 0.0 && atB > 0.0) || (atA > 0.0 && atB < 0.0))
+      {
+        glm::dvec2 place = a + atA / (atA - atB) * (b - a);
+        place[axis] = limit;
+        result.Corners[result.Size++] = place;
+      }
+    }
+    return result;
+  }
+  double GetArea() const
+  {
+    double twice = 0.0;
+    for (int i = 2; i < this->Size; ++i)
+    {
+      const glm::dvec2 a = this->Corners[i - 1] - this->Corners[0];
+      const glm::dvec2 b = this->Corners[i] - this->Corners[0];
+      twice += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * std::abs(twice);
+  }
+  double GetLeast(int axis) const
+  {
+    double least = this->Corners[0][axis];
+    for (int i = 1; i < this->Size; ++i)
+    {
+      least = std::min(least, this->Corners[i][axis]);
+    }
+    return least;
+  }
+  double GetMost(int axis) const
+  {
+    double most = this->Corners[0][axis];
+    for (int i = 1; i < this->Size; ++i)
+    {
+      most = std::max(most, this->Corners[i][axis]);
+    }
+    return most;
+  }
+};
+
+/** Index of the pixel at a coordinate, in a range that one may be beyond on both sides. */
+int PixelAt(double coordinate, int first, int last)
+{
+  return static_cast<int>(
+    std::floor(std::min(std::max(coordinate + 0.5, first - 1.0), last + 1.0)));
+}
+
+/** Band of rows of a screen, and the light that falls on it. */
+class Band
+{
+public:
+  Band(std::vector<double>& image, int width, int first, int last)
+    : Image(image)
+    , Width(width)
+    , First(first)
+    , Last(last)
+  {
+  }
+
+  /** Spreads light evenly over a triangle. */
+  void Add(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double light)
+  {
+    Polygon triangle;
+    triangle.Corners = { a, b, c };
+    triangle.Size = 3;
+    const double area = triangle.GetArea();
+    if (!(area > 0.0))
+    {
+      this->AddPoint((a + b + c) / 3.0, light);
+      return;
+    }
+    const int top = std::min(PixelAt(triangle.GetMost(1), this->First, this->Last), this->Last - 1);
+    for (int row = std::max(PixelAt(triangle.GetLeast(1), this->First, this->Last), this->First);
+         row <= top; ++row)
+    {
+      const Polygon strip = triangle.Cut(1, row - 0.5, -1.0).Cut(1, row + 0.5, 1.0);
+      if (strip.Size > 2)
+      {
+        this->AddStrip(strip, row, light / area);
+      }
+    }
+  }
+
+private:
+  void AddStrip(const Polygon& strip, int row, double density)
+  {
+    const int right = std::min(PixelAt(strip.GetMost(0), 0, this->Width), this->Width - 1);
+    for (int column = std::max(PixelAt(strip.GetLeast(0), 0, this->Width), 0); column <= right;
+         ++column)
+    {
+      const Polygon part = strip.Cut(0, column - 0.5, -1.0).Cut(0, column + 0.5, 1.0);
+      this->At(column, row) += density * part.GetArea();
+    }
+  }
+  void AddPoint(const glm::dvec2& place, double light)
+  {
+    const int row = PixelAt(place.y, this->First, this->Last);
+    const int column = PixelAt(place.x, 0, this->Width);
+    if (row >= this->First && row < this->Last && column >= 0 && column < this->Width)
+    {
+      this->At(column, row) += light;
+    }
+  }
+  double& At(int column, int row)
+  {
+    return this->Image[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->Width) +
+      static_cast<std::size_t>(column)];
+  }
+
+  std::vector<double>& Image;
+  int Width;
+  int First;
+  int Last;
+};
+
+/** Landing points of the corners between pixels: (width + 1) * (height + 1). */
+std::vector<glm::dvec2> FindCorners(const std::vector<glm::dvec2>& landings, int width, int height)
+{
+  std::vector<glm::dvec2> corners;
+  corners.reserve(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height + 1));
+  for (int row = 0; row <= height; ++row)
+  {
+    for (int column = 0; column <= width; ++column)
+    {
+      glm::dvec2 sum(0.0);
+      int count = 0;
+      for (int k = 0; k < 4; ++k)
+      {
+        const int i = column - (k & 1);
+        const int j = row - (k >> 1);
+        if (i < 0 || j < 0 || i >= width || j >= height)
+        {
+          continue;
+        }
+        const glm::dvec2 landing =
+          landings[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(i)];
+        if (!std::isnan(landing.x))
+        {
+          sum += landing - glm::dvec2(i, j);
+          ++count;
+        }
+      }
+      corners.push_back(
+        glm::dvec2(column - 0.5, row - 0.5) + sum / static_cast<double>(std::max(count, 1)));
+    }
+  }
+  return corners;
+}
+
+}
+
+//------------------------------------------------------------------------------
+double KnifeEdge::Along(const glm::dvec2& deflection) const
+{
+  const double angle = this->Angle * Pi / 180.0;
+  return deflection.x * std::cos(angle) + deflection.y * std::sin(angle);
+}
+
+//------------------------------------------------------------------------------
+double KnifeEdge::Transmit(const glm::dvec2& deflection) const
+{
+  return std::min(1.0, std::max(0.0, 1.0 - this->CutOff + this->Along(deflection) / this->Range));
+}
+
+//------------------------------------------------------------------------------
+double Interferometer::Interfere(double pathDifference, const glm::dvec2& place) const
+{
+  const double waves = pathDifference / this->Wavelength + glm::dot(this->Fringes, place);
+  return 0.5 * (1.0 + std::cos(2.0 * Pi * (waves - std::floor(waves))));
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, int width,
+  int height, const RangeLoop& loop, double& offScreen)
+{
+  const std::vector<glm::dvec2> corners = FindCorners(landings, width, height);
+  const auto cornerAt = [&](int column, int row)
+  {
+    return corners[static_cast<std::size_t>(row) * static_cast<std::size_t>(width + 1) +
+      static_cast<std::size_t>(column)];
+  };
+  std::vector<double> image(landings.size(), 0.0);
+  // Each band looks at all quadrangles, in order: the result does not depend on the threads.
+  const int bands = (height + RowsPerBand - 1) / RowsPerBand;
+  const auto fillBand = [&](int number)
+  {
+    const int first = number * RowsPerBand;
+    const int last = std::min(height, first + RowsPerBand);
+    Band band(image, width, first, last);
+    for (std::size_t pixel = 0; pixel < landings.size(); ++pixel)
+    {
+      const int row = static_cast<int>(pixel / static_cast<std::size_t>(width));
+      const int column = static_cast<int>(pixel % static_cast<std::size_t>(width));
+      const glm::dvec2 a = cornerAt(column, row);
+      const glm::dvec2 b = cornerAt(column + 1, row);
+      const glm::dvec2 c = cornerAt(column + 1, row + 1);
+      const glm::dvec2 d = cornerAt(column, row + 1);
+      const double least = std::min(std::min(a.y, b.y), std::min(c.y, d.y));
+      const double most = std::max(std::max(a.y, b.y), std::max(c.y, d.y));
+      if (most < first - 0.5 || least > last - 0.5 || std::isnan(landings[pixel].x))
+      {
+        continue;
+      }
+      band.Add(a, b, c, 0.5);
+      band.Add(a, c, d, 0.5);
+    }
+  };
+  loop(static_cast<std::size_t>(bands),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t number = begin; number < end; ++number)
+      {
+        fillBand(static_cast<int>(number));
+      }
+    });
+  double landed = 0.0;
+  offScreen = 0.0;
+  for (std::size_t pixel = 0; pixel < landings.size(); ++pixel)
+  {
+    landed += image[pixel];
+    offScreen += std::isnan(landings[pixel].x) ? 0.0 : 1.0;
+  }
+  offScreen -= landed;
+  return image;
+}
+
+//------------------------------------------------------------------------------
+double SamplePicture(
+  const std::vector<float>& picture, int width, int height, const glm::dvec2& place)
+{
+  const double x = std::min(std::max(place.x, 0.0), width - 1.0);
+  const double y = std::min(std::max(place.y, 0.0), height - 1.0);
+  const int column = std::min(static_cast<int>(x), std::max(width - 2, 0));
+  const int row = std::min(static_cast<int>(y), std::max(height - 2, 0));
+  const auto at = [&](int i, int j)
+  {
+    return static_cast<double>(
+      picture[static_cast<std::size_t>(std::min(j, height - 1)) * static_cast<std::size_t>(width) +
+        static_cast<std::size_t>(std::min(i, width - 1))]);
+  };
+  const double u = x - column;
+  const double v = y - row;
+  return (1.0 - v) * ((1.0 - u) * at(column, row) + u * at(column + 1, row)) +
+    v * ((1.0 - u) * at(column, row + 1) + u * at(column + 1, row + 1));
+}
+
+}

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Images that optical instruments make of rays behind a medium. */
+#ifndef meniscus_Volume_Graded_SchlierenImages_h
+#define meniscus_Volume_Graded_SchlierenImages_h
+
+#include "Common/RangeLoop.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Knife edge of a schlieren instrument: the light source's image in its plane is moved by a
+ * deflection, so that the knife cuts off more or less of it.
+ */
+struct KnifeEdge
+{
+  /** Direction from the blade into the open, in degrees from the image's first axis. */
+  double Angle = 90.0;
+  /** Share of the source's image that the blade covers without a deflection, in [0, 1]. */
+  double CutOff = 0.5;
+  /** Deflection that moves the source's image by its width, in radians, > 0. */
+  double Range = 1.0;
+
+  /** Deflection towards the open. */
+  double Along(const glm::dvec2& deflection) const;
+  /** Share of the light that passes, in [0, 1]. */
+  double Transmit(const glm::dvec2& deflection) const;
+};
+
+/** Fringes between the light behind the medium and a plane reference wave. */
+struct Interferometer
+{
+  /** In the units of the optical path difference, > 0. */
+  double Wavelength = 1.0;
+  /** Tilt of the reference wave: fringes over the image's width and height; 0 for none. */
+  glm::dvec2 Fringes{ 0.0 };
+
+  /**
+   * Intensity in [0, 1].
+   * @param place in the image, from 0 to 1 along both axes.
+   */
+  double Interfere(double pathDifference, const glm::dvec2& place) const;
+};
+
+/**
+ * Irradiance on a screen, 1 without a medium. The light of each pixel goes to the quadrangle
+ * between the landing points at its corners, which are means of those of the pixels around. Where
+ * quadrangles overlap, behind a caustic, their light adds up. No light is lost but beyond the edges
+ * of the image.
+ * @param landings place of each pixel's ray on the screen in pixels, (0, 0) for the centre of the
+ *   first one; NaN for a ray that does not land, whose light is missing.
+ * @param offScreen replaced by the light that falls beyond the image, in pixels.
+ */
+std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, int width,
+  int height, const RangeLoop& loop, double& offScreen);
+
+/**
+ * A picture at a place in pixels, linearly interpolated; beyond its edges, that at the nearest
+ * place on them.
+ * @param picture one value per pixel, row by row.
+ * @param place (0, 0) for the centre of the first pixel.
+ */
+double SamplePicture(
+  const std::vector<float>& picture, int width, int height, const glm::dvec2& place);
+
+}
+
+#endif
