@@ -3,6 +3,7 @@
 #include "Rendering/RayIntegralInternals.h"
 
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Rendering/Integral/ImagePlace.h"
 
 #include "vtkAbstractMapper.h"
 #include "vtkCamera.h"
@@ -44,34 +45,6 @@ bool HasText(const char* name)
 glm::dvec3 VectorOf(const double (&values)[3])
 {
   return glm::dvec3(values[0], values[1], values[2]);
-}
-
-/** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts.
- */
-struct ImagePlace
-{
-  double Origin[3] = { 0.0, 0.0, 0.0 };
-  double Spacing[3] = { 1.0, 1.0, 1.0 };
-  double Direction[9] = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
-};
-
-ImagePlace PlaceOf(const meniscus::ParallelRectangle& rectangle, const int size[2])
-{
-  const glm::dvec3 steps[2] = { rectangle.Axis1 / static_cast<double>(size[0]),
-    rectangle.Axis2 / static_cast<double>(size[1]) };
-  const glm::dvec3 columns[3] = { glm::normalize(steps[0]), glm::normalize(steps[1]),
-    -rectangle.GetDirection() };
-  ImagePlace place;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    place.Origin[axis] = rectangle.Origin[axis] + 0.5 * (steps[0][axis] + steps[1][axis]);
-    place.Spacing[axis] = axis < 2 ? glm::length(steps[axis]) : 1.0;
-    for (int column = 0; column < 3; ++column)
-    {
-      place.Direction[3 * axis + column] = columns[column][axis];
-    }
-  }
-  return place;
 }
 
 /** Error for an image that exceeds the computer's memory; empty if it fits. */
@@ -232,12 +205,12 @@ int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(requ
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   const meniscus::ParallelRectangle rectangle{ VectorOf(this->FrameOrigin),
     VectorOf(this->FrameAxis1), VectorOf(this->FrameAxis2) };
-  ImagePlace place;
+  meniscus::ImagePlace place;
   // The rectangle of FITTED is known when the input is.
   if (this->FrameMode == PARALLEL && this->ImageSize[0] > 0 && this->ImageSize[1] > 0 &&
     meniscus::DescribeFault(rectangle).empty())
   {
-    place = PlaceOf(rectangle, this->ImageSize);
+    place = meniscus::PlaceOf(rectangle, this->ImageSize);
   }
   info->Set(vtkDataObject::ORIGIN(), place.Origin, 3);
   info->Set(vtkDataObject::SPACING(), place.Spacing, 3);
@@ -247,27 +220,10 @@ int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(requ
 }
 
 //------------------------------------------------------------------------------
-// Every part of the image needs the whole mesh and whole surfaces.
 int vtkTetrahedraRayIntegral::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < 2; ++port)
-  {
-    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkInformation* info = inputs[port]->GetInformationObject(i);
-      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      // The executive has copied the extent of the output.
-      info->Remove(Pipeline::UPDATE_EXTENT());
-      if (info->Has(Pipeline::WHOLE_EXTENT()))
-      {
-        info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
-      }
-    }
-  }
+  meniscus::RequestWholeInputs(inputs);
   return 1;
 }
 
@@ -563,8 +519,9 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
   }
   this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
   output->SetExtent(0, this->ImageSize[0] - 1, 0, this->ImageSize[1] - 1, 0, 0);
-  const ImagePlace place =
-    this->FrameMode == CAMERA ? ImagePlace() : PlaceOf(request.Rectangle, this->ImageSize);
+  const meniscus::ImagePlace place = this->FrameMode == CAMERA
+    ? meniscus::ImagePlace()
+    : meniscus::PlaceOf(request.Rectangle, this->ImageSize);
   output->SetOrigin(place.Origin);
   output->SetSpacing(place.Spacing);
   output->SetDirectionMatrix(place.Direction);

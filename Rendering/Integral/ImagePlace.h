@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Integral_ImagePlace_h
+#define meniscus_Rendering_Integral_ImagePlace_h
+
+#include "Rendering/Integral/IntegralView.h"
+
+class vtkInformationVector;
+
+namespace meniscus
+{
+
+/** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts.
+ */
+struct ImagePlace
+{
+  double Origin[3] = { 0.0, 0.0, 0.0 };
+  double Spacing[3] = { 1.0, 1.0, 1.0 };
+  double Direction[9] = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
+};
+
+/** @param size numbers of the rectangle's parts. */
+ImagePlace PlaceOf(const ParallelRectangle& rectangle, const int size[2]);
+
+/** Asks for whole inputs on the first two ports: every part of the image needs them. */
+void RequestWholeInputs(vtkInformationVector** inputs);
+
+}
+
+#endif

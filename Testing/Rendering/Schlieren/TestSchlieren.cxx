@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of a medium that bends light: closed forms, pipeline, input that cannot be used.
+#include "RayCastScene.h"
+#include "TestMeshes.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkExecutive.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
+#include <vtkTetrahedraSchlieren.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+using Filter = vtkSmartPointer<vtkTetrahedraSchlieren>;
+
+constexpr int Size = 40;
+constexpr double Base = 1.6;
+constexpr double Slope = 0.1;
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/** Index with a linear square along x. */
+double IndexAt(double x, double, double)
+{
+  return std::sqrt(Base + Slope * x);
+}
+
+Filter MakeFilter(vtkDataObject* input)
+{
+  auto filter = Filter::New();
+  filter->SetInputDataObject(input);
+  filter->SetQuantityToRefractiveIndex();
+  filter->SetImageSize(Size, Size);
+  return filter;
+}
+
+double ValueAt(vtkTetrahedraSchlieren* filter, const char* name, int column, int row, int part = 0)
+{
+  vtkImageData* image = filter->GetOutput();
+  return image->GetPointData()->GetArray(name)->GetComponent(
+    vtkIdType{ row } * image->GetDimensions()[0] + column, part);
+}
+
+std::vector<double> AllValues(vtkTetrahedraSchlieren* filter)
+{
+  std::vector<double> values;
+  vtkPointData* arrays = filter->GetOutput()->GetPointData();
+  for (int a = 0; a < arrays->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = arrays->GetArray(a);
+    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+    {
+      values.push_back(array->GetVariantValue(i).ToDouble());
+    }
+  }
+  return values;
+}
+
+/** Expects one error with a text in it, and nothing in the output. */
+void ExpectError(vtkTetrahedraSchlieren* filter, const std::string& text)
+{
+  vtkNew<ErrorObserver> observer;
+  vtkNew<ErrorObserver> executive; // "Algorithm returned failure"
+  observer->Observe(filter);
+  executive->Observe(filter->GetExecutive());
+  filter->Update();
+  filter->RemoveObserver(observer);
+  ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
+  EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << text;
+}
+
+vtkSmartPointer<vtkImageData> MakeRamp(int width, int height)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  for (int j = 0; j < height; ++j)
+  {
+    for (int i = 0; i < width; ++i)
+    {
+      image->SetScalarComponentFromDouble(i, j, 0, 0, i);
+    }
+  }
+  return image;
+}
+
+}
+
+// The block [-1, 1]^3 seen along -z: parabolas of the field's slope.
+TEST(Schlieren, LinearFieldHasClosedForms)
+{
+  Filter filter = MakeFilter(MakeBlock(5, IndexAt));
+  const double distance = 3.0;
+  filter->SetBackgroundDistance(distance);
+  filter->SetKnifeAngle(0.0);
+  filter->SetKnifeRange(0.2);
+  filter->SetWavelength(0.3);
+  filter->SetFringes(5.0, 0.0);
+  filter->SetInputDataObject(1, MakeRamp(Size, Size));
+  filter->Update();
+  const double pixel = 2.0 / Size;
+  for (int column = 2; column < Size - 4; ++column)
+  {
+    const double square = Base + Slope * (-1.0 + pixel * (column + 0.5));
+    const double turn = Slope / square;
+    const double shift = (turn + turn * distance) / pixel;
+    const double path =
+      2.0 * std::sqrt(square) + Slope * Slope / 12.0 * 8.0 / std::pow(square, 1.5) - 2.0;
+    const int row = 13;
+    EXPECT_NEAR(ValueAt(filter, "Deflection", column, row), turn, 1.0e-6);
+    EXPECT_NEAR(ValueAt(filter, "Deflection", column, row, 1), 0.0, 1.0e-6);
+    EXPECT_NEAR(ValueAt(filter, "OpticalPathDifference", column, row), path, 1.0e-6);
+    EXPECT_NEAR(ValueAt(filter, "Displacement", column, row), shift, 1.0e-4);
+    EXPECT_NEAR(ValueAt(filter, "Displacement", column, row, 1), 0.0, 1.0e-4);
+    EXPECT_NEAR(ValueAt(filter, "Schlieren", column, row), 0.5 + turn / 0.2, 1.0e-5);
+    EXPECT_NEAR(ValueAt(filter, "Interferogram", column, row),
+      0.5 + 0.5 * std::cos(2.0 * M_PI * (path / 0.3 + 5.0 * (column + 0.5) / Size)), 1.0e-4);
+    EXPECT_NEAR(
+      ValueAt(filter, "Background", column, row), std::min(column + shift, Size - 1.0), 1.0e-3);
+  }
+  EXPECT_EQ(filter->GetNumberOfRays(), Size * Size);
+  EXPECT_EQ(filter->GetNumberOfLostRays(), 0);
+  EXPECT_EQ(filter->GetNumberOfStoppedRays(), 0);
+}
+
+TEST(Schlieren, SmallAnglesAreNearlyStraight)
+{
+  Filter filter = MakeFilter(MakeBlock(5,
+    [](double x, double y, double z)
+    { return 1.0 + 1.0e-5 * std::exp(-2.0 * (x * x + y * y + z * z)); }));
+  // Not along rows of cells, in which a slight bend leads to cells with another gradient.
+  filter->SetDirection(0.3, -0.4, -1.0);
+  filter->Update();
+  std::vector<double> bent;
+  double largest = 0.0;
+  for (int column = 0; column < Size; ++column)
+  {
+    bent.push_back(ValueAt(filter, "Deflection", column, 15));
+    largest = std::max(largest, std::abs(bent.back()));
+  }
+  filter->BendRaysOff();
+  filter->Update();
+  for (int column = 0; column < Size; ++column)
+  {
+    EXPECT_NEAR(ValueAt(filter, "Deflection", column, 15), bent[static_cast<std::size_t>(column)],
+      0.01 * largest);
+  }
+  EXPECT_GT(largest, 1.0e-6);
+}
+
+TEST(Schlieren, DensityIsIndexByGladstoneDale)
+{
+  Filter ofIndex =
+    MakeFilter(MakeBlock(3, [](double x, double, double) { return 1.0 + 0.25 * (0.3 + 0.1 * x); }));
+  ofIndex->Update();
+  Filter ofDensity =
+    MakeFilter(MakeBlock(3, [](double x, double, double) { return 0.3 + 0.1 * x; }));
+  ofDensity->SetQuantityToDensity();
+  EXPECT_NEAR(ofDensity->GetGladstoneDale(), 2.26e-4, 1.0e-6);
+  ofDensity->SetGladstoneDale(0.25);
+  ofDensity->Update();
+  EXPECT_GT(ValueAt(ofIndex, "Deflection", 20, 20), 0.01);
+  EXPECT_NEAR(
+    ValueAt(ofIndex, "Deflection", 20, 20), ValueAt(ofDensity, "Deflection", 20, 20), 1.0e-6);
+}
+
+TEST(Schlieren, LightIsConserved)
+{
+  // A weak lens in the middle: all of the light lands on the screen, on the axis as in a focus.
+  Filter filter = MakeFilter(MakeBlock(7,
+    [](double x, double y, double z)
+    { return 1.0 + 0.05 * std::exp(-20.0 * (x * x + y * y + z * z)); }));
+  filter->SetScreenDistance(2.0);
+  filter->Update();
+  double sum = 0.0;
+  double most = 0.0;
+  for (int i = 0; i < Size * Size; ++i)
+  {
+    const double light = ValueAt(filter, "Shadowgraph", i % Size, i / Size);
+    sum += light;
+    most = std::max(most, light);
+  }
+  EXPECT_NEAR(sum / (Size * Size), 1.0, 1.0e-4);
+  EXPECT_GT(most, 1.5);
+}
+
+TEST(Schlieren, CameraHasItsOwnRays)
+{
+  Filter filter = MakeFilter(MakeBlock(5, IndexAt));
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(0.0, 0.0, 400.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewAngle(2.0 * std::atan(1.0 / 400.0) * 180.0 / M_PI);
+  filter->SetCamera(camera);
+  filter->Update();
+  // From afar, nearly parallel rays.
+  const double square = Base + Slope * (0.5 / Size * 2.0);
+  EXPECT_NEAR(ValueAt(filter, "Deflection", Size / 2, Size / 2), Slope / square, 1.0e-4);
+  EXPECT_NEAR(
+    ValueAt(filter, "Displacement", Size / 2, Size / 2), 2.0 * Slope / square * Size / 2.0, 0.02);
+  const double spacing = filter->GetOutput()->GetSpacing()[0];
+  EXPECT_EQ(spacing, 1.0);
+  // From inside of the mesh: the rays begin at the camera.
+  camera->SetPosition(0.1, 0.05, 0.0);
+  camera->SetFocalPoint(0.1, 0.05, -1.0);
+  camera->SetViewAngle(30.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRays(), Size * Size);
+  const double path = ValueAt(filter, "OpticalPathDifference", Size / 2, Size / 2);
+  EXPECT_NEAR(path, std::sqrt(Base + Slope * 0.1) - 1.0, 2.0e-3);
+}
+
+TEST(Schlieren, ThreadsDoNotMatter)
+{
+  Filter filter = MakeFilter(MakeBlock(6,
+    [](double x, double y, double z)
+    { return 1.3 + 0.2 * std::sin(3.0 * x + y) * std::cos(4.0 * z); }));
+  filter->SetDirection(0.3, -0.4, -1.0);
+  std::vector<double> first;
+  for (const int threads : { 5, 2, 1 })
+  {
+    vtkSMPTools::Initialize(threads);
+    filter->Modified();
+    filter->Update();
+    const std::vector<double> values = AllValues(filter);
+    first = first.empty() ? values : first;
+    EXPECT_TRUE(values == first) << threads;
+  }
+  vtkSMPTools::Initialize(0);
+  EXPECT_FALSE(first.empty());
+}
+
+TEST(Schlieren, CompositeInputIsOneMedium)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeBlock(3, IndexAt));
+  Filter whole = MakeFilter(MakeBlock(3, IndexAt));
+  Filter parts = MakeFilter(blocks);
+  whole->Update();
+  parts->Update();
+  EXPECT_TRUE(AllValues(whole) == AllValues(parts));
+}
+
+TEST(Schlieren, AbortEmptiesTheOutput)
+{
+  Filter filter = MakeFilter(MakeBlock(4, IndexAt));
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  filter->RemoveObserver(tag);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
+}
+
+TEST(Schlieren, UnusableValuesAreHolesWithAWarning)
+{
+  for (const double bad : { NaN, -1.0, 0.0, std::numeric_limits<double>::infinity() })
+  {
+    Filter filter = MakeFilter(
+      MakeBlock(4, [bad](double x, double y, double z) { return x + y + z > 2.5 ? bad : 1.3; }));
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(filter);
+    filter->Update();
+    EXPECT_EQ(observer->Errors.size(), 0u);
+    EXPECT_EQ(observer->Warnings.size(), 1u) << bad;
+    EXPECT_EQ(filter->GetNumberOfUnusablePoints(), 1) << bad;
+    EXPECT_EQ(filter->GetNumberOfLostRays(), 0);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
+  }
+}
+
+TEST(Schlieren, BadInputIsAnError)
+{
+  const Grid good = MakeBlock(2, IndexAt);
+  Filter filter = MakeFilter(good);
+  filter->SetImageSize(0, 5);
+  ExpectError(filter, "ImageSize");
+  filter = MakeFilter(good);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
+  ExpectError(filter, "Missing");
+  filter = MakeFilter(MakeBlock(2, ConstantField(-1.0)));
+  ExpectError(filter, "No cell has an index");
+  filter = MakeFilter(good);
+  filter->SetViewUp(filter->GetDirection());
+  ExpectError(filter, "parallel");
+  filter = MakeFilter(good);
+  filter->SetWavelength(0.0);
+  ExpectError(filter, "wavelength");
+  filter = MakeFilter(good);
+  filter->SetScreenDistance(NaN);
+  ExpectError(filter, "not finite");
+  filter = MakeFilter(good);
+  vtkNew<vtkImageData> empty;
+  filter->SetInputDataObject(1, empty);
+  ExpectError(filter, "no pixels");
+  vtkNew<vtkUnstructuredGrid> nothing;
+  filter = MakeFilter(nothing);
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(filter);
+  vtkNew<ErrorObserver> executive;
+  executive->Observe(filter->GetExecutive());
+  filter->Update();
+  EXPECT_EQ(observer->Errors.size(), 1u);
+}
