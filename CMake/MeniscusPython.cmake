@@ -37,7 +37,7 @@ configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
 set(_meniscus_sources
   __main__ data integrals names pyvista rivals threads
   api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
-  api/points api/rays api/refraction api/scalars api/surfaces api/types api/volumes
+  api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types api/volumes
   viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/contest
   viewer/curves viewer/files viewer/furniture viewer/levels viewer/movies viewer/options
   viewer/reading viewer/sample viewer/scene viewer/series viewer/watching viewer/web

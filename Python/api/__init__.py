@@ -11,6 +11,7 @@ MODULES = {
     "compare": "comparison",
     "radiograph": "rays",
     "integral": "rays",
+    "schlieren": "schlieren",
     "refracted": "refraction",
     "true_positions": "points",
     "triangulate": "points",

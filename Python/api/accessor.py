@@ -14,6 +14,7 @@ from .comparison import compare
 from .picking import pick
 from .rays import integral, radiograph
 from .refraction import refracted
+from .schlieren import schlieren
 from .volumes import add_to, plot
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class _OfMesh(Generic[P, R]):
 
 
 class MeniscusAccessor:
-    """Exact volume rendering, ray integrals and refraction of a PyVista mesh: `mesh.meniscus`.
+    """Exact volume rendering, ray integrals, schlieren images and refraction: `mesh.meniscus`.
 
     The methods are the functions of the package meniscus of the same names, without their first
     argument.
@@ -71,6 +72,7 @@ class MeniscusAccessor:
     pick = _OfMesh(pick)
     compare = _OfMesh(compare)
     refracted = _OfMesh(refracted)
+    schlieren = _OfMesh(schlieren)
 
 
 def register() -> None:

@@ -30,7 +30,8 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 CELLS = 8
 SIZE = (120, 90)
 VIEW = [(2.5, -1.8, 1.7), (0.5, 0.5, 0.5), (0.0, 0.0, 1.0)]
-METHODS = ("plot", "add_to", "radiograph", "integral", "pick", "compare", "refracted")
+METHODS = ("plot", "add_to", "radiograph", "integral", "pick", "compare", "refracted",
+           "schlieren")
 
 
 def make_cube():

@@ -195,6 +195,26 @@ class TestRays(unittest.TestCase):
         numpy.testing.assert_allclose(
             meniscus.integral(self.block, "density", size=(4, 2), surfaces=water), 7.5, rtol=1e-6)
 
+    def test_schlieren(self):
+        """Along z, the gradient does not deflect; across it, by (dn/dz) / n times the length."""
+        options = {"GladstoneDale": 1e-4, "size": (6, 4)}
+        along = meniscus.schlieren(self.block, "density", "deflection", **options)
+        self.assertEqual(along.shape, (4, 6, 2))
+        numpy.testing.assert_allclose(along, 0.0, atol=1e-7)
+        found = meniscus.schlieren(self.block, "density", ["deflection", "schlieren"],
+                                   direction=(0, -1, 0), up=(0, 0, 1), **options)
+        numpy.testing.assert_allclose(
+            found["deflection"][1, 3], [0, 1e-4], rtol=1e-3, atol=1e-7)
+        self.assertGreater(found["schlieren"][1, 3], 0.9)
+        background = numpy.arange(24.0).reshape(4, 6)
+        seen = meniscus.schlieren(self.block, "density", "background", background=background,
+                                  **options)
+        numpy.testing.assert_allclose(seen, background, atol=1e-3)
+        for wrong in ({"image": "photo"}, {"quantity": "mass"}, {"image": "background"},
+                      {"Wavelength": 0.0}):
+            with self.assertRaises(ValueError):
+                meniscus.schlieren(self.block, "density", **wrong)
+
     def test_radiograph(self):
         one = meniscus.radiograph(self.block, "density", 0.1, intensity=2.0, size=(4, 2))
         numpy.testing.assert_allclose(one, numpy.full((2, 4), 2 * numpy.exp(-0.75)), rtol=1e-6)
