@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/EdgeSubdivision.h"
 
+#include "Refraction/Images/ImageTurns.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstring>
@@ -216,7 +218,11 @@ EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth
   {
     return Shape::Bent;
   }
-  if (depth == DeepestLevel || this->AreNeighbours(*part.Image[0], *part.Image[1]))
+  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
+  const double angle =
+    glm::length(glm::normalize(part.Drawn[0] - eye) - glm::normalize(part.Drawn[1] - eye));
+  if (depth == DeepestLevel ||
+    (this->AreNeighbours(*part.Image[0], *part.Image[1]) && !MayTurnTwice(angle, this->Tolerance)))
   {
     return Shape::Straight;
   }

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Division of triangles that are seen through many facets.
+#include "ExactStack.h"
 #include "HeightField.h"
 
 #include "Refraction/Images/EdgeSubdivision.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace
@@ -74,5 +77,59 @@ TEST(EdgeSubdivision, LargeTrianglesBelowWavesAreDivided)
     ASSERT_EQ(found.size(), 1u);
     // Newton's error, 1e-9 of a facet of size 2, and the rounding of the weights.
     EXPECT_LT(glm::length(found.front().SightPoint - point.Vertex.SightPoint), 1e-8);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Lines over tens of degrees behind one facet of flat water, whose images are S-shaped: the middle
+// of the first one is drawn within the tolerance, and other places 23 tolerances away.
+TEST(EdgeSubdivision, LongLinesWithTheirMiddleOnTheChordAreDivided)
+{
+  CurvedMembraneSolver geometry;
+  const reference::MembraneMesh mesh = reference::MakePlane(0.0, 400.0, 1);
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  const double tolerance = 0.005 * std::acos(-1.0) / 180.0;
+  struct Line
+  {
+    double EyeHeight;
+    glm::dvec3 From;
+    glm::dvec3 To;
+  };
+  for (const Line& line :
+    { Line{ 3.51045, { 6.08263, -0.923688, 14.5194 }, { -5.79082, -1.5743, 6.90097 } },
+      Line{ 0.318739, { 1.53724, -0.500132, -0.423643 }, { 1.44683, -0.704454, 0.259526 } } })
+  {
+    const glm::dvec3 eye(0.0, line.EyeHeight, 0.0);
+    ASSERT_EQ(geometry.SetEye(eye, 1.0, 1.333), EyeStatus::Ready);
+    const ImagedTriangle ends(geometry, { line.From, line.To, line.From });
+    EdgeSubdivision division(geometry, tolerance);
+    ImageMesh images;
+    ASSERT_TRUE(division.AddLine(ends.Get()[0], ends.Get()[1], 0, images));
+    const auto placeOf = [&line](const ImagePoint& point)
+    {
+      glm::dvec3 place(0.0);
+      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
+      {
+        place += point.Weight[k] * (point.Source[k] == 1 ? line.To : line.From);
+      }
+      return place;
+    };
+    std::vector<VirtualVertex> found;
+    for (std::size_t i = 0; i + 1 < images.Connectivity.size(); i += 2)
+    {
+      const auto at = [&images](std::size_t k)
+      { return images.Points[static_cast<std::size_t>(images.Connectivity[k])]; };
+      for (int k = 1; k < 16; ++k)
+      {
+        const double s = k / 16.0;
+        ASSERT_EQ(geometry.FindImages(glm::mix(placeOf(at(i)), placeOf(at(i + 1)), s), found),
+          ImageState::Found);
+        const glm::dvec3 drawn =
+          glm::normalize(glm::mix(at(i).Vertex.Position, at(i + 1).Vertex.Position, s) - eye);
+        const glm::dvec3 seen = glm::normalize(found.front().Position - eye);
+        // Between the tested places the image deviates little more than at them.
+        EXPECT_LE(glm::length(drawn - seen), 1.2 * tolerance);
+      }
+    }
   }
 }
