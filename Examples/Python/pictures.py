@@ -11,7 +11,7 @@ import argparse
 import os
 import types
 
-from gallery import cells, common, opacity, pools, rivals, solids, steps, through, volumes
+from gallery import cells, common, opacity, pools, rivals, shadows, solids, steps, through, volumes
 
 PICTURES = {
     "readme-rivals": rivals.draw_rivals,
@@ -28,6 +28,7 @@ PICTURES = {
     "gallery-lens": through.draw_lens,
     "opacity-distances": opacity.draw_distances,
     "opacity-functions": opacity.draw_functions,
+    "volume-shadows": shadows.draw_shadows,
 }
 
 

@@ -41,13 +41,6 @@ def _count(text):
     return count
 
 
-def _share(text):
-    share = float(text)
-    if not 0.0 <= share <= 1.0:
-        raise argparse.ArgumentTypeError("a share is a number from 0 to 1")
-    return share
-
-
 def _port(text):
     port = int(text)
     if not 0 <= port <= 65535:
@@ -87,10 +80,8 @@ def _add_look(parser):
     parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
                         help="makes the volume denser (above 1) or thinner")
     parser.add_argument("--light", action="store_true", help="lights the volume")
-    parser.add_argument("--shadows", type=_share, nargs="?", const=1.0, default=0.0,
-                        metavar="REACH",
-                        help="lights the volume, which casts shadows into itself, over a share of "
-                        "its size from 0 to 1 (default 1)")
+    parser.add_argument("--shadows", action="store_true",
+                        help="lights the volume, which casts shadows into itself")
     parser.add_argument("--outline", action="store_true", help="shows the box around the mesh")
     parser.add_argument("--axes", action="store_true", help="shows axes with numbers")
     parser.add_argument("--edges", action="store_true", help="shows the edges of the surface")
@@ -162,8 +153,8 @@ def make_scene(options, report=lambda line: None):
     scene.set_blend(options.blend)
     if options.isovalues:
         scene.set_isovalues(options.isovalues)
-    scene.set_lit(options.light or options.shadows > 0.0)
-    scene.set_shadows(options.shadows)
+    scene.set_lit(options.light or options.shadows)
+    scene.set_shadows(1.0 if options.shadows else 0.0)
     scene.set_backend(options.backend)
     if options.clip:
         scene.set_clip(*_split_clip(options.clip))

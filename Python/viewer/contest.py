@@ -53,7 +53,7 @@ def compare_on(scene: Any, size: Sequence[int]) -> Iterator[tuple[Comparison, An
     """
     if scene.blend != "composite" or scene.is_lit() or scene.clip_axis or scene.has_surface():
         raise ReadingError("--compare draws what VTK's mappers can: the blend mode composite, "
-                           "without --light, --clip and --water")
+                           "without --light, --shadows, --clip and --water")
     association, _ = arrays_of(scene.data)[scene.array]
     renderer = vtkRenderer()
     renderer.AddVolume(scene.volume)

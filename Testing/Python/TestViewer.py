@@ -185,6 +185,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(abs(self.draw(self.mesh) - plain).max(), 0)
         for options in (["--array", "z"], ["--colors", "fire"], ["--blend", "maximum"],
                         ["--isovalues", "0.8"], ["--density", "4"], ["--light"],
+                        ["--shadows"],
                         ["--clip", "x"], ["--clip", "z:0.7"], ["--range", "0.5", "1"],
                         ["--cmap", "coolwarm"], ["--opacity", "0", "1", "0"],
                         ["--view", "0", "1", "3"], ["--up", "z"], ["--water", self.water]):

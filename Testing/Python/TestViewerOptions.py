@@ -197,6 +197,7 @@ class TestMessages(Case):
         for arguments, message in ((["--watch", "--output", "x.png"], "--watch goes with"),
                                    (["--compare", "--web"], "--compare makes a picture"),
                                    (["--compare", "--light"], "without --light"),
+                                   (["--compare", "--shadows"], "--shadows"),
                                    (["--compare", "--blend", "maximum"], "composite"),
                                    (["--units", "m", "K", "s"], "at most two")):
             status, _, errors = self.run_command(self.mesh, *arguments)

@@ -12,7 +12,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-    vtkVolume, vtkVolumeProperty, vtkWindowToImageFilter)
+    vtkTextActor, vtkVolume, vtkVolumeProperty, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
 # Perceptually uniform maps, sampled from matplotlib's.
@@ -179,6 +179,16 @@ def make_bar(colors, title):
     bar.SetWidth(0.1)
     bar.SetHeight(0.5)
     return bar
+
+
+def add_label(renderer, text, height, color):
+    """A line of text at the top of a panel of that height."""
+    label = vtkTextActor()
+    label.SetInput(text)
+    label.SetPosition(12, height - 30)
+    label.GetTextProperty().SetFontSize(18)
+    label.GetTextProperty().SetColor(*color)
+    renderer.AddActor2D(label)
 
 
 def take(renderer, size, bar=None):

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the opacity unit distance and the opacity function do to a volume."""
 from meniscus.viewer.sample import make_sample
-from vtkmodules.vtkRenderingCore import vtkTextActor
 
 from . import common
 
@@ -25,12 +24,7 @@ def _make_panel(mesh, points, distance, label, size):
     renderer.AddVolume(common.make_volume(mesh, look))
     common.look_from(renderer, (2.6, 1.6, 3.0), (0.0, 0.05, 0.0), (0, 1, 0), 34.0)
     renderer.ResetCameraClippingRange()
-    text = vtkTextActor()
-    text.SetInput(label)
-    text.SetPosition(12, size[1] - 30)
-    text.GetTextProperty().SetFontSize(18)
-    text.GetTextProperty().SetColor(0.12, 0.14, 0.18)
-    renderer.AddActor2D(text)
+    common.add_label(renderer, label, size[1], (0.12, 0.14, 0.18))
     return renderer
 
 

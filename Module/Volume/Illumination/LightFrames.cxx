@@ -52,8 +52,7 @@ void LightFrames::Place(const TetrahedralMesh& mesh, const std::vector<float>& s
         unsigned int bits = 0;
         for (std::size_t i = first; i < last; ++i)
         {
-          bits |=
-            1u << this->IndexOf(this->StepFrom(this->ToBase * starts.GetPlace(mesh, vertices[i])));
+          bits |= 1u << this->IndexOf(this->StepFrom(this->ToBase * starts.GetPlace(vertices[i])));
         }
         needed |= bits;
       });

@@ -126,8 +126,7 @@ ShadowCast::ShadowCast(
 ShadowLine ShadowCast::LineOf(std::int32_t vertex) const
 {
   ShadowLine line;
-  const glm::dvec3 place =
-    this->Frames.ToBaseFrame(this->Scene.Starts->GetPlace(*this->Scene.Medium.Mesh, vertex));
+  const glm::dvec3 place = this->Frames.ToBaseFrame(this->Scene.Starts->GetPlace(vertex));
   const glm::dvec3 step = this->Frames.StepFrom(place);
   const double distance = glm::length(step);
   double begin = 0.0;

@@ -55,19 +55,29 @@ void VertexStarts::Build(const TetrahedralMesh& mesh, const RangeLoop& loop)
       this->Vertices.push_back(static_cast<std::int32_t>(v));
     }
   }
+  this->FindPlaces(mesh, loop);
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 VertexStarts::GetPlace(const TetrahedralMesh& mesh, std::int32_t vertex) const
+void VertexStarts::FindPlaces(const TetrahedralMesh& mesh, const RangeLoop& loop)
 {
-  const auto cell = static_cast<std::size_t>(this->GetCell(vertex));
-  const glm::dvec3 place = mesh.GetPosition(vertex);
-  glm::dvec3 center(0.0);
-  for (const std::int32_t corner : mesh.GetCells()[cell].Vertices)
-  {
-    center += 0.25 * mesh.GetPosition(corner);
-  }
-  return place + Share * (center - place);
+  this->Places.resize(this->Cells.size());
+  ForEachBlock(this->Vertices.size(), loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const std::int32_t vertex = this->Vertices[i];
+        const glm::dvec3 place = mesh.GetPosition(vertex);
+        glm::dvec3 center(0.0);
+        for (const std::int32_t corner :
+          mesh.GetCells()[static_cast<std::size_t>(this->GetCell(vertex))].Vertices)
+        {
+          center += 0.25 * mesh.GetPosition(corner);
+        }
+        this->Places[static_cast<std::size_t>(vertex)] = place + Share * (center - place);
+      }
+    });
 }
 
 }

@@ -36,15 +36,24 @@ public:
     return this->Cells[static_cast<std::size_t>(vertex)];
   }
   /** Place of one of these vertices, in normalised model coordinates. */
-  glm::dvec3 GetPlace(const TetrahedralMesh& mesh, std::int32_t vertex) const;
+  const glm::dvec3& GetPlace(std::int32_t vertex) const
+  {
+    return this->Places[static_cast<std::size_t>(vertex)];
+  }
   /** False if the mesh has inverted cells: lines have to be walked from the boundary. */
   bool AreInside() const { return this->Inside; }
-  std::int64_t GetBytes() const { return BytesOf(this->Vertices) + BytesOf(this->Cells); }
+  std::int64_t GetBytes() const
+  {
+    return BytesOf(this->Vertices) + BytesOf(this->Cells) + BytesOf(this->Places);
+  }
 
 private:
+  void FindPlaces(const TetrahedralMesh& mesh, const RangeLoop& loop);
+
   std::vector<std::int32_t> Vertices;
   /** One per vertex; negative without an active cell. */
   std::vector<std::int32_t> Cells;
+  std::vector<glm::dvec3> Places;
   bool Inside = true;
 };
 
