@@ -283,7 +283,7 @@ bool vtkRefractionPass::SetShaderParameters(
   if (refraction && object)
   {
     internals.Lighting.SetUniforms(
-      program, object, refraction->ListRelativeIndices().back(), this->LightAttenuation);
+      program, object, refraction->ListRelativeIndices(), this->LightAttenuation);
     internals.ActivateTables(refraction->ReadsTables ? refraction->Waves.get() : nullptr, program,
       object->GetProperty()->GetRepresentation() == VTK_SURFACE);
   }

@@ -247,8 +247,9 @@ public:
    * The rays of lights in front of a flat membrane are refracted by Snell's law, and have the flux
    * that it transmits: Fresnel's loss and the change of a beam's width. Of a light at infinity at
    * the angle of incidence i, the share (1 - F) cos i / cos r arrives across the refracted rays,
-   * which have the angle r. Behind several flat interfaces, lights are refracted as if the media
-   * between were not there, which is exact for parallel planes and lights at infinity.
+   * which have the angle r. Behind several flat interfaces, F is that of all of them, and lights
+   * are refracted as if the media between were not there, which is exact for parallel planes and
+   * lights at infinity.
    *
    * Through a membrane that is not flat, or a list with such a surface, a vtkRefractedLightFilter
    * computes the light of scene lights in front of it on each object: the pattern of waves, with

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/MembraneComposer.h"
 
+#include "Rendering/Pass/PlateUniforms.h"
+
 #include "vtkRefractionMembraneFS.h"
 
 #include "vtkCamera.h"
@@ -35,8 +37,7 @@ std::string MembraneShaderSource(bool hasCubeMap)
     define("HAS_ENVIRONMENT", hasCubeMap ? 1 : 0) +
       define("NO_REFLECTANCE", static_cast<int>(Model::None)) +
       define("SCHLICK", static_cast<int>(Model::Schlick)) +
-      define("MIRROR", static_cast<int>(Model::Mirror)) +
-      define("MAXIMUM_OF_INTERFACES", MembraneLook::LargestNumber));
+      define("MIRROR", static_cast<int>(Model::Mirror)) + PlateShaderSource());
   return source;
 }
 
@@ -136,12 +137,7 @@ void MembraneComposer::SetOptics(
   program->SetUniform3f("backdrop", backdrop);
   program->SetUniformi("parallelView", camera->GetParallelProjection());
   program->SetUniformi("reflectanceModel", static_cast<int>(look.Reflectance));
-  const int interfaces =
-    std::min(static_cast<int>(look.RelativeIndices.size()), MembraneLook::LargestNumber);
-  float indices[MembraneLook::LargestNumber];
-  std::copy_n(look.RelativeIndices.begin(), interfaces, indices);
-  program->SetUniformi("interfaces", interfaces);
-  program->SetUniform1fv("relativeIndices", interfaces, indices);
+  SetPlateUniforms(program, look.RelativeIndices);
 }
 
 //------------------------------------------------------------------------------

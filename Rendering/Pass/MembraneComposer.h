@@ -42,8 +42,6 @@ struct MembraneLook
   /** Colour where nothing lies behind the membrane. */
   std::array<double, 3> Backdrop{ 0.0, 0.0, 0.0 };
   Reflectances Reflectance = Reflectances::None;
-  /** Largest number of interfaces whose reflections are drawn. */
-  static constexpr int LargestNumber = 16;
   /** Index of refraction behind each interface, relative to the medium in front of the first. */
   std::vector<double> RelativeIndices{ 1.0 };
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/ObjectShader.h"
 
+#include "Rendering/Pass/PlateUniforms.h"
+
 #include "vtkMediumTransmittance.h"
 #include "vtkTrueSpaceLighting.h"
 
@@ -84,7 +86,8 @@ void LightInTrueSpace(const ShaderSources& sources, bool readsTables)
   PassOn(sources, "vec3", "trueNormal");
   PassOn(sources, "vec3", "sightPoint");
   AppendToShader(sources.Fragment, Declarations,
-    std::string("#define HAS_LIT_TABLES ") + (readsTables ? "1\n" : "0\n") + vtkTrueSpaceLighting);
+    std::string("#define HAS_LIT_TABLES ") + (readsTables ? "1\n" : "0\n") + PlateShaderSource() +
+      vtkTrueSpaceLighting);
   AppendToShader(sources.Fragment, "  //VTK::Light::Impl",
     "  gl_FragData[0].rgb = lightInTrueSpace(ambientColor, diffuseColor, truePositionVSOutput,\n"
     "    trueNormalVSOutput, sightPointVSOutput, refractionDepthVSOutput > 0.0);");

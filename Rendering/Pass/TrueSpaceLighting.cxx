@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/TrueSpaceLighting.h"
 
+#include "Rendering/Pass/PlateUniforms.h"
+
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkLight.h"
@@ -271,8 +273,8 @@ std::string TrueSpaceLighting::Update(vtkRenderer* renderer, vtkActor* membrane)
 }
 
 //------------------------------------------------------------------------------
-void TrueSpaceLighting::SetUniforms(
-  vtkShaderProgram* program, vtkActor* object, double index, bool lightIsFaded) const
+void TrueSpaceLighting::SetUniforms(vtkShaderProgram* program, vtkActor* object,
+  const std::vector<double>& indices, bool lightIsFaded) const
 {
   if (!program->IsUniformUsed("surfacePlane"))
   {
@@ -311,7 +313,8 @@ void TrueSpaceLighting::SetUniforms(
   const double share = property->GetSpecular();
   const double specular[3] = { share * color[0], share * color[1], share * color[2] };
   program->SetUniform4f("surfacePlane", ToFloats<4>(this->Plane).data());
-  program->SetUniformf("surfaceIndex", static_cast<float>(index));
+  program->SetUniformf("surfaceIndex", static_cast<float>(indices.back()));
+  SetPlateUniforms(program, indices);
   program->SetUniform3f("trueEye", ToFloats<3>(this->Eye).data());
   program->SetUniform3f("trueSpecular", ToFloats<3>(specular).data());
   program->SetUniformf("trueSpecularPower", static_cast<float>(property->GetSpecularPower()));

@@ -53,10 +53,11 @@ public:
 
   /**
    * Sets the uniforms of vtkTrueSpaceLighting.glsl, if the program uses them.
-   * @param index index of refraction behind the membrane relative to that in front of it.
+   * @param indices index of refraction behind each interface, relative to the medium in front of
+   * the first.
    */
-  void SetUniforms(
-    vtkShaderProgram* program, vtkActor* object, double index, bool lightIsFaded) const;
+  void SetUniforms(vtkShaderProgram* program, vtkActor* object, const std::vector<double>& indices,
+    bool lightIsFaded) const;
 
 private:
   /** A light in world coordinates, as the shader has it. */

@@ -36,11 +36,11 @@ float heightOfLight(vec4 light)
 
 // Flux across a refracted beam as a share of the flux across the incident one, for the cosines of
 // both angles: Fresnel's transmittance of unpolarised light, and the ratio of the beams' widths.
+// Interfaces in between are parallel plates.
 float transmittedFlux(float incident, float refracted)
 {
-  float s = (incident - surfaceIndex * refracted) / (incident + surfaceIndex * refracted);
-  float p = (surfaceIndex * incident - refracted) / (surfaceIndex * incident + refracted);
-  return (1.0 - 0.5 * (s * s + p * p)) * incident / max(refracted, 1.0e-6);
+  vec2 passed = transmittanceOfPlates(incident, fresnelReflectance(incident));
+  return 0.5 * (passed.x + passed.y) * incident / max(refracted, 1.0e-6);
 }
 
 // Ray of a light at infinity in front of the membrane to a point behind it, by Snell's law.

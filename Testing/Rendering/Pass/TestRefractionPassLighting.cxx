@@ -13,6 +13,8 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRefractingInterface.h>
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -287,6 +289,33 @@ TEST(RefractionPassLighting, TheFloorHasTheFluxThatTheWaterTransmits)
     const LampRay ray = TraceLamp(sun, glm::dvec3(0.0, 0.0, -Depth));
     EXPECT_NEAR(ray.Flux * ray.ToLamp.z, share, 1.0e-4) << degrees;
     pool.ExpectLit("sun", { sun });
+  }
+}
+
+/** Behind a flat pane in air: no turn of the rays, and the loss at both sides. */
+TEST(RefractionPassLighting, APaneTransmitsTheLightOfBothSides)
+{
+  constexpr double glass = 1.5;
+  LitPool pool;
+  vtkNew<vtkRefractingInterface> back;
+  back->SetExteriorIndexOfRefraction(glass);
+  back->SetInteriorIndexOfRefraction(1.0);
+  pool.Filter->SetInteriorIndexOfRefraction(glass);
+  pool.Filter->GetInterfaces()->AddItem(back);
+  pool.Filter->AddMembraneConnection(MakePlane(5.0, -0.1, 4)->GetOutputPort());
+  pool.Filter->SetImagesToFirstImage();
+  const std::pair<double, double> expected[] = { { 0.0, 0.9231 }, { 75.0, 0.6182 } };
+  for (const auto& [degrees, share] : expected)
+  {
+    const double angle = vtkMath::RadiansFromDegrees(degrees);
+    pool.Floor->GetProperty()->SetSpecular(0.0);
+    pool.SetLamps({ Distant(std::sin(angle), 0.0, std::cos(angle)) });
+    const ByteImage image = pool.Render();
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(image.GetPixel(Size / 2, Size / 2)[c] / 255.0,
+        Albedo[c] * (Ambient + Diffuse * share * std::cos(angle)), Rounding);
+    }
   }
 }
 
