@@ -192,7 +192,7 @@ def take(renderer, size, bar=None):
         window.SetNumberOfLayers(2)
         overlay = vtkRenderer()
         overlay.SetLayer(1)
-        overlay.AddActor2D(bar)
+        overlay.AddViewProp(bar)
         window.AddRenderer(overlay)
     window.Render()
     picture = vtkWindowToImageFilter()

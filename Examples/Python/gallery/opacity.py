@@ -30,7 +30,7 @@ def _make_panel(mesh, points, distance, label, size):
     text.SetPosition(12, size[1] - 30)
     text.GetTextProperty().SetFontSize(18)
     text.GetTextProperty().SetColor(0.12, 0.14, 0.18)
-    renderer.AddActor2D(text)
+    renderer.AddViewProp(text)
     return renderer
 
 
