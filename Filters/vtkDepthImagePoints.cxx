@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthImagePoints.h"
 
+#include "Filters/Common/ClampedSetter.h"
+
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
@@ -105,6 +107,7 @@ private:
 }
 
 vtkStandardNewMacro(vtkDepthImagePoints);
+meniscusSetClampMacro(vtkDepthImagePoints, DepthType, int, DEPTH_BUFFER, RANGE);
 
 //------------------------------------------------------------------------------
 vtkDepthImagePoints::vtkDepthImagePoints()

@@ -40,7 +40,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Meanings of a depth. */
-  enum DepthTypes
+  enum
   {
     DEPTH_BUFFER = 0, ///< value of OpenGL's depth buffer, from 0 to 1
     VIEW_DEPTH = 1,   ///< distance from the eye along the direction of projection
@@ -55,7 +55,7 @@ public:
 
   /** @{ */
   /** Set/Get the meaning of the depths. Default is DEPTH_BUFFER. */
-  vtkSetClampMacro(DepthType, int, DEPTH_BUFFER, RANGE);
+  virtual void SetDepthType(int type);
   vtkGetMacro(DepthType, int);
   void SetDepthTypeToDepthBuffer() { this->SetDepthType(DEPTH_BUFFER); }
   void SetDepthTypeToViewDepth() { this->SetDepthType(VIEW_DEPTH); }

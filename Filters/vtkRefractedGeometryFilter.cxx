@@ -505,7 +505,7 @@ void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* ou
   vtkInternals& internals = *this->Internals;
   const bool hasStack = internals.HasStack;
   internals.FailedInRun = 0;
-  const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
+  const vtkTypeInt64 undecided = this->Internals->GetNumberOfUndecidedSearches();
   internals.UpdateView(this);
   meniscus::SolvedBlock& block = internals.GetBlock(input);
   internals.Select(input, block);
@@ -541,7 +541,7 @@ void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* ou
   block.Assembly.IsReady = isKept;
   internals.CulledVertices += block.Selection.CulledPoints;
   internals.CulledCells += block.Selection.CulledCells;
-  this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
+  this->ReportUndecided(this->Internals->GetNumberOfUndecidedSearches() - undecided);
   // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(
     internals.FailedInRun, block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);

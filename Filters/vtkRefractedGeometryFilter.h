@@ -107,6 +107,7 @@
 class vtkRefractingInterfaceCollection;
 class vtkCamera;
 class vtkImplicitFunction;
+class vtkTable;
 
 namespace meniscus
 {
@@ -121,21 +122,21 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Rays that the eye sees the geometry by. */
-  enum Modes
+  enum
   {
     REFRACTION = 0, ///< through the membrane
     REFLECTION = 1  ///< in the membrane, a mirror
   };
 
   /** Representation of the membrane's surface between its vertices. */
-  enum MembraneModels
+  enum
   {
     FLAT_FACETS = 0, ///< linear interpolation in each facet, the thesis's method
     CURVED = 1       ///< smooth patches from positions and normals
   };
 
   /** Images of a point that are computed where the membrane shows several. */
-  enum ImageModes
+  enum
   {
     FIRST_IMAGE = 0, ///< one: with FLAT_FACETS the image in the first facet, in the order of the
                      ///< membrane's cells; with CURVED the one that continues the previous point's
@@ -143,7 +144,7 @@ public:
   };
 
   /** Formula for the array Reflectance. */
-  enum ReflectanceModels
+  enum
   {
     FRESNEL = 0, ///< exact reflectance of unpolarised light, Eq. 2.6
     SCHLICK = 1  ///< Schlick's approximation, Eq. 2.7, which the thesis uses for drawing
@@ -167,7 +168,7 @@ public:
    * not blocked: the mirror does not occlude itself, and there are no second reflections. Cell
    * normals are passed unchanged.
    */
-  vtkSetClampMacro(Mode, int, REFRACTION, REFLECTION);
+  virtual void SetMode(int mode);
   vtkGetMacro(Mode, int);
   void SetModeToRefraction() { this->SetMode(REFRACTION); }
   void SetModeToReflection() { this->SetMode(REFLECTION); }
@@ -214,7 +215,7 @@ public:
    * in that case nothing is culled to the left and right of the view (above and below it, if the
    * view angle is horizontal). Default is 0. Range 0 to 1000.
    */
-  vtkSetClampMacro(ViewAspectRatio, double, 0.0, 1000.0);
+  virtual void SetViewAspectRatio(double ratio);
   vtkGetMacro(ViewAspectRatio, double);
   /** @} */
 
@@ -273,7 +274,7 @@ public:
   /**
    * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  virtual void SetMembraneModel(int model);
   vtkGetMacro(MembraneModel, int);
   void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
@@ -297,7 +298,7 @@ public:
    * Set/Get the images to compute, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES; with
    * FLAT_FACETS, the filter warns and computes FIRST_IMAGE.
    */
-  vtkSetClampMacro(Images, int, FIRST_IMAGE, ALL_IMAGES);
+  virtual void SetImages(int images);
   vtkGetMacro(Images, int);
   void SetImagesToFirstImage() { this->SetImages(FIRST_IMAGE); }
   void SetImagesToAllImages() { this->SetImages(ALL_IMAGES); }
@@ -310,7 +311,7 @@ public:
    * of 512 pixels and a view angle of 30 degrees. Default is 0.005. Range 1e-8, for eyes far away,
    * to 10.
    */
-  vtkSetClampMacro(AngularTolerance, double, 1e-8, 10.0);
+  virtual void SetAngularTolerance(double tolerance);
   vtkGetMacro(AngularTolerance, double);
   /** @} */
 
@@ -333,7 +334,7 @@ public:
    * point again. SCHLICK ignores the critical angle: from a denser exterior (n1 > n2) it is wrong
    * near this angle and beyond it. Default is FRESNEL.
    */
-  vtkSetClampMacro(ReflectanceModel, int, FRESNEL, SCHLICK);
+  virtual void SetReflectanceModel(int model);
   vtkGetMacro(ReflectanceModel, int);
   void SetReflectanceModelToFresnel() { this->SetReflectanceModel(FRESNEL); }
   void SetReflectanceModelToSchlick() { this->SetReflectanceModel(SCHLICK); }
@@ -388,7 +389,7 @@ public:
    * Set/Get the precision of the output points, one of vtkAlgorithm::DesiredOutputPrecision.
    * Default is DEFAULT_PRECISION, that of the input points. All computations use double precision.
    */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  virtual void SetOutputPointsPrecision(int precision);
   vtkGetMacro(OutputPointsPrecision, int);
   /** @} */
 
@@ -415,12 +416,8 @@ public:
   /** @{ */
   /**
    * Counters since construction: number of times that the membrane's shape was read, number of
-   * times that refracted rays were computed for it, number of points solved, number of these that
-   * had no answer because a coordinate was not finite or out of range, number of those that had no
-   * image, and number of cells left out because they need a point that has no image or does not
-   * exist. Undecided searches looked for all images of a point, or for its side, and may have
-   * missed some: at a focus, which shows a ring of images, or within rounding of a caustic or of
-   * the membrane. They are counted each time, with one warning per shape of the membrane.
+   * times that refracted rays were computed for it, number of points solved, and number of these
+   * that had no answer because a coordinate was not finite or out of range.
    *
    * Filters with the same membrane object, exact surface, eye, indices and mode share its shape and
    * its rays. The filter that runs first after a change computes and counts them.
@@ -429,37 +426,20 @@ public:
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
   vtkTypeInt64 GetNumberOfSolvedVertices() const;
   vtkTypeInt64 GetNumberOfFailedSolves() const;
-  vtkTypeInt64 GetNumberOfUndecidedSearches() const;
-  vtkTypeInt64 GetNumberOfVerticesWithoutImage() const;
-  vtkTypeInt64 GetNumberOfSkippedCells() const;
   /** @} */
 
   /** @{ */
   /**
-   * Counters since construction, summed over the runs: number of points not solved, and number of
-   * cells left out, because the camera cannot show them through the membrane (ViewCulling).
+   * Counters, sizes and errors by name: a table with one row each and the columns Name, Meaning and
+   * Value, which belongs to this object and is filled anew by each call; and the value of one name,
+   * such as "NumberOfSkippedCells". An unknown name is an error, and the value is not a number.
+   *
+   * The filter warns once per shape of the membrane of searches that may have missed an image, and
+   * once per change of an eye that is enclosed, or that sees the membrane through another piece of
+   * it: rays that meet both pieces are refracted at one of them only.
    */
-  vtkTypeInt64 GetNumberOfCulledVertices() const;
-  vtkTypeInt64 GetNumberOfCulledCells() const;
-  /** @} */
-
-  /**
-   * Number of triangles of the current membrane that were skipped: without area, with a coordinate
-   * that is not finite, with a point that does not exist, or with the same points as an earlier
-   * one.
-   */
-  vtkTypeInt64 GetNumberOfSkippedFacets() const;
-
-  /** @{ */
-  /**
-   * State of the last run with CURVED. IsEyeEnclosed() is true if the eye is inside a closed
-   * membrane whose normals point outwards, so that everything outside passes unchanged.
-   * GetNumberOfMembranePointsBehind() is the number of points of the membrane, of up to 256 that
-   * are examined, that the eye sees through another piece of it; rays that meet both pieces are
-   * refracted at one of them only. The filter warns of both once per change.
-   */
-  bool IsEyeEnclosed() const;
-  vtkTypeInt64 GetNumberOfMembranePointsBehind() const;
+  vtkTable* GetStatistics();
+  double GetStatistic(const char* name);
   /** @} */
 
   /** @{ */

@@ -6,6 +6,7 @@
 #include "vtkRefractedGeometryFilter.h"
 
 #include "Common/RangeLoop.h"
+#include "Filters/Common/Statistics.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Membrane/StackScene.h"
 #include "Filters/Object/ObjectSurface.h"
@@ -15,15 +16,22 @@
 
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 
 #include <list>
 #include <string>
 #include <utility>
+#include <vector>
 
 /** Scenes, solved blocks and counters of a filter. */
 class vtkRefractedGeometryFilter::vtkInternals
 {
 public:
+  static const std::vector<meniscus::Statistic<vtkRefractedGeometryFilter>>& List();
+
+  /** Filled when it is asked for. */
+  vtkNew<vtkTable> StatisticsTable;
+
   meniscus::SolvedBlock& GetBlock(vtkPolyData* input);
   void UpdateView(vtkRefractedGeometryFilter* self);
   void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
@@ -47,6 +55,11 @@ public:
   vtkTypeInt64 GetRays() const
   {
     return this->HasStack ? this->Stack.GetRays() : this->Scene.GetVersion().Rays;
+  }
+  vtkTypeInt64 GetNumberOfUndecidedSearches() const
+  {
+    return this->Scene.GetNumberOfUndecided() +
+      this->Stack.GetSolver().GetNumberOfUndecidedSearches();
   }
   /** Numbers of the current shapes, of one interface and of several ones. */
   using ShapeNumbers = std::pair<vtkTypeInt64, vtkTypeInt64>;

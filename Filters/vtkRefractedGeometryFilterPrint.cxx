@@ -3,8 +3,20 @@
 // Settings and counters of vtkRefractedGeometryFilter in words.
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
+#include "Filters/Common/ClampedSetter.h"
+
 #include "vtkCamera.h"
 #include "vtkImplicitFunction.h"
+
+meniscusStatisticsMacro(vtkRefractedGeometryFilter);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, Mode, int, REFRACTION, REFLECTION);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, ViewAspectRatio, double, 0.0, 1000.0);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, MembraneModel, int, FLAT_FACETS, CURVED);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, Images, int, FIRST_IMAGE, ALL_IMAGES);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, AngularTolerance, double, 1e-8, 10.0);
+meniscusSetClampMacro(vtkRefractedGeometryFilter, ReflectanceModel, int, FRESNEL, SCHLICK);
+meniscusSetClampMacro(
+  vtkRefractedGeometryFilter, OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
@@ -21,18 +33,6 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::IsEyeEnclosed() const
-{
-  return this->Internals->Scene.IsEyeEnclosed();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfMembranePointsBehind() const
-{
-  return this->Internals->Scene.GetNumberOfMembranePointsBehind();
-}
-
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
 {
   return this->Internals->SolvedVertices;
@@ -45,40 +45,47 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
+/** All numbers that the class reports. */
+const std::vector<meniscus::Statistic<vtkRefractedGeometryFilter>>&
+vtkRefractedGeometryFilter::vtkInternals::List()
 {
-  return this->Internals->Scene.GetNumberOfUndecided() +
-    this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
-{
-  return this->Internals->VerticesWithoutImage;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
-{
-  return this->Internals->SkippedCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledVertices() const
-{
-  return this->Internals->CulledVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
-{
-  return this->Internals->CulledCells;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
-{
-  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetNumberOfSkippedFacets());
+  using Self = vtkRefractedGeometryFilter;
+  static const std::vector<meniscus::Statistic<Self>> list{
+    { "NumberOfPatchBuilds", "times that a membrane's shape was read, since construction",
+      [](Self& self) { return double(self.GetNumberOfPatchBuilds()); } },
+    { "NumberOfEyeUpdates", "times that refracted rays were computed for it",
+      [](Self& self) { return double(self.GetNumberOfEyeUpdates()); } },
+    { "NumberOfSolvedVertices", "points solved, since construction",
+      [](Self& self) { return double(self.GetNumberOfSolvedVertices()); } },
+    { "NumberOfFailedSolves", "points without an answer: not finite or out of range",
+      [](Self& self) { return double(self.GetNumberOfFailedSolves()); } },
+    { "NumberOfUndecidedSearches",
+      "searches that may have missed an image: at a focus, or within rounding of a caustic "
+      "or of the membrane",
+      [](Self& self) { return double(self.Internals->GetNumberOfUndecidedSearches()); } },
+    { "NumberOfVerticesWithoutImage", "points that had no image, since construction",
+      [](Self& self) { return double(self.Internals->VerticesWithoutImage); } },
+    { "NumberOfSkippedCells",
+      "cells left out because they need a point that has no image or does not exist",
+      [](Self& self) { return double(self.Internals->SkippedCells); } },
+    { "NumberOfCulledVertices",
+      "points not solved because the camera cannot show them (ViewCulling)",
+      [](Self& self) { return double(self.Internals->CulledVertices); } },
+    { "NumberOfCulledCells", "cells left out because the camera cannot show them (ViewCulling)",
+      [](Self& self) { return double(self.Internals->CulledCells); } },
+    { "NumberOfSkippedFacets",
+      "triangles of the current membrane that were skipped: without area, not finite, with "
+      "a point that does not exist, or present twice",
+      [](Self& self) { return double(self.Internals->Scene.GetNumberOfSkippedFacets()); } },
+    { "NumberOfMembranePointsBehind",
+      "points of the membrane, of up to 256 that are examined, that the eye sees through "
+      "another piece of it",
+      [](Self& self) { return double(self.Internals->Scene.GetNumberOfMembranePointsBehind()); } },
+    { "IsEyeEnclosed",
+      "1 if the eye is inside a closed membrane whose normals point outwards, otherwise 0",
+      [](Self& self) { return double(self.Internals->Scene.IsEyeEnclosed()); } },
+  };
+  return list;
 }
 
 //------------------------------------------------------------------------------
@@ -106,18 +113,5 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
      << ", " << this->LightDirection[2] << ")\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
-  os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";
-  os << indent << "NumberOfSolvedVertices: " << this->GetNumberOfSolvedVertices() << "\n";
-  os << indent << "NumberOfFailedSolves: " << this->GetNumberOfFailedSolves() << "\n";
-  os << indent << "NumberOfUndecidedSearches: " << this->GetNumberOfUndecidedSearches() << "\n";
-  os << indent << "NumberOfVerticesWithoutImage: " << this->GetNumberOfVerticesWithoutImage()
-     << "\n";
-  os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
-  os << indent << "NumberOfCulledVertices: " << this->GetNumberOfCulledVertices() << "\n";
-  os << indent << "NumberOfCulledCells: " << this->GetNumberOfCulledCells() << "\n";
-  os << indent << "EyeEnclosed: " << (this->IsEyeEnclosed() ? "yes" : "no") << "\n";
-  os << indent << "NumberOfMembranePointsBehind: " << this->GetNumberOfMembranePointsBehind()
-     << "\n";
-  os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
+  meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
+#include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
@@ -166,6 +167,7 @@ public:
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
 meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
+meniscusSetClampMacro(vtkRefractionErrorVolume, MembraneModel, int, FLAT_FACETS, CURVED);
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()

@@ -75,7 +75,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** As in vtkRefractedGeometryFilter. */
-  enum MembraneModels
+  enum
   {
     FLAT_FACETS = 0,
     CURVED = 1
@@ -126,7 +126,7 @@ public:
 
   /** @{ */
   /** Set/Get the membrane model under test, FLAT_FACETS or CURVED. Default is CURVED. */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  virtual void SetMembraneModel(int model);
   vtkGetMacro(MembraneModel, int);
   void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedralizeSurface.h"
 
+#include "Filters/Common/ClampedSetter.h"
 #include "Filters/Mesher/DelaunayMesher.h"
 #include "Filters/Mesher/MesherProcess.h"
 #include "Filters/Mesher/SurfaceExtraction.h"
@@ -33,6 +34,7 @@ constexpr double CoplanarTolerance = 1e-8;
 }
 
 vtkStandardNewMacro(vtkTetrahedralizeSurface);
+meniscusSetClampMacro(vtkTetrahedralizeSurface, Mesher, int, AUTOMATIC, DELAUNAY);
 
 //------------------------------------------------------------------------------
 vtkTetrahedralizeSurface::vtkTetrahedralizeSurface() = default;

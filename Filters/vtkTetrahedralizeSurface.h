@@ -57,7 +57,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Programs and classes that make the tetrahedra. */
-  enum Meshers
+  enum
   {
     AUTOMATIC = 0, ///< TETGEN if its program is there, else DELAUNAY
     TETGEN = 1,    ///< TetGen in a process of its own
@@ -66,7 +66,7 @@ public:
 
   /** @{ */
   /** Set/Get the mesher. Default is AUTOMATIC. */
-  vtkSetClampMacro(Mesher, int, AUTOMATIC, DELAUNAY);
+  virtual void SetMesher(int mesher);
   vtkGetMacro(Mesher, int);
   void SetMesherToAutomatic() { this->SetMesher(AUTOMATIC); }
   void SetMesherToTetGen() { this->SetMesher(TETGEN); }

@@ -3,6 +3,7 @@
 #include "vtkTruePositionFilter.h"
 
 #include "Common/CoherentOrder.h"
+#include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/PointCoordinates.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Membrane/PointEyes.h"
@@ -96,6 +97,7 @@ public:
 };
 
 vtkStandardNewMacro(vtkTruePositionFilter);
+meniscusSetClampMacro(vtkTruePositionFilter, Depth, int, APPARENT, GEOMETRIC);
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::vtkTruePositionFilter()

@@ -60,7 +60,7 @@ public:
    * first surface, in a medium of the index n1, and a length b behind it, in a medium of the index
    * n2. In several media there is a term of b for each.
    */
-  enum Depths
+  enum
   {
     APPARENT = 0, ///< a + b n1 / n2: points of vtkRefractedGeometryFilter
     OPTICAL = 1,  ///< a + b n2 / n1: laser scans, which measure the time of light
@@ -69,7 +69,7 @@ public:
 
   /** @{ */
   /** Set/Get the meaning of the distance of the points from the eye. Default is APPARENT. */
-  vtkSetClampMacro(Depth, int, APPARENT, GEOMETRIC);
+  virtual void SetDepth(int depth);
   vtkGetMacro(Depth, int);
   void SetDepthToApparent() { this->SetDepth(APPARENT); }
   void SetDepthToOptical() { this->SetDepth(OPTICAL); }

@@ -24,6 +24,18 @@ def leaves_of(data):
     return leaves
 
 
+def with_array(leaf, name, in_points, values):
+    """Shallow copy of a data set with a further array of its points or cells; values: of numpy."""
+    import numpy
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    copy = leaf.NewInstance()
+    copy.ShallowCopy(leaf)
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    (copy.GetPointData() if in_points else copy.GetCellData()).AddArray(array)
+    return copy
+
+
 def check_component(name, count, component):
     """Raises a ValueError unless a component of an array is a number below count or "magnitude";
     None is allowed if there is only one."""

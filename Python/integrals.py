@@ -11,8 +11,6 @@ try:
 except ImportError:
     numpy = None
 
-# Arrays that a switch of another name makes.
-_SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
 ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
            "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
 # Arrays that do not depend on scalars, and properties that choose components or other arrays.
@@ -95,9 +93,9 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
         rays.SetInputConnection(mesh.GetOutputPort())
     else:
         rays.SetInputData(mesh)
-    rays.ComputeIntegralOff()
+    rays.GetArraySelection().DisableAllArrays()
     for name in names:
-        getattr(rays, "SetCompute" + _SWITCHES.get(name, name))(True)
+        rays.GetArraySelection().EnableArray(name)
     if scalars is not None:
         rays.SetInputArrayToProcess(
             0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)

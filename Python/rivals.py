@@ -9,13 +9,15 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkRenderingVolume import (
     vtkProjectedTetrahedraMapper, vtkUnstructuredGridVolumeRayCastMapper,
     vtkUnstructuredGridVolumeZSweepMapper)
+
+from .data import with_array
 
 OURS = "meniscus"
 MAPPERS = {
@@ -50,13 +52,8 @@ def join_tetrahedra(leaves: Sequence[Any], values: Sequence[Any], in_points: boo
     """
     joined = vtkAppendFilter()
     for leaf, numbers in zip(leaves, values):
-        copy = leaf.NewInstance()
-        copy.ShallowCopy(leaf)
-        array = numpy_to_vtk(numpy.ascontiguousarray(numbers), deep=True)
-        array.SetName(_ARRAY)
-        (copy.GetPointData() if in_points else copy.GetCellData()).AddArray(array)
         tetrahedra = vtkDataSetTriangleFilter()
-        tetrahedra.SetInputData(copy)
+        tetrahedra.SetInputData(with_array(leaf, _ARRAY, in_points, numbers))
         tetrahedra.TetrahedraOnlyOn()
         tetrahedra.Update()
         joined.AddInputData(tetrahedra.GetOutput())

@@ -3,10 +3,14 @@
 #ifndef meniscus_Rendering_RayCastMapperInternals_h
 #define meniscus_Rendering_RayCastMapperInternals_h
 
+#include "Filters/Common/Statistics.h"
 #include "Rendering/Input/DrawnBounds.h"
 #include "Rendering/Integral/RayPicker.h"
 #include "Rendering/Pipeline/RayCastPipeline.h"
 #include "vtkTetrahedraRayCastMapper.h"
+
+#include "vtkNew.h"
+#include "vtkTable.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -19,6 +23,9 @@
 class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
 {
 public:
+  static const std::vector<meniscus::Statistic<vtkTetrahedraRayCastMapper>>& List();
+  std::int64_t GetHostBytes() const;
+
   meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
   /** Component of the scalars to draw if they are not mixed, as in ScalarSelection. */
   int Component = meniscus::ScalarSelection::Only;
@@ -55,6 +62,10 @@ public:
   std::vector<float> Depths;
   /** Number of casts of which these are the depths. */
   std::int64_t DepthsOfCast = -1;
+  /** Part of the volume that is drawn. */
+  meniscus::MembranePart Part = meniscus::MembranePart::Whole;
+  /** Filled when it is asked for. */
+  vtkNew<vtkTable> StatisticsTable;
 };
 
 #endif

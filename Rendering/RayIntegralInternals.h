@@ -3,13 +3,16 @@
 #ifndef meniscus_Rendering_RayIntegralInternals_h
 #define meniscus_Rendering_RayIntegralInternals_h
 
+#include "Filters/Common/Statistics.h"
 #include "Rendering/Integral/EnergyBins.h"
 #include "Rendering/Integral/IntegralCaster.h"
 #include "vtkTetrahedraRayIntegral.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataArraySelection.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 #include "vtkVolumeProperty.h"
 
 #include <vector>
@@ -17,6 +20,12 @@
 class vtkTetrahedraRayIntegral::vtkInternals : public meniscus::IntegralCaster
 {
 public:
+  static const std::vector<meniscus::Statistic<vtkTetrahedraRayIntegral>>& List();
+
+  /** Arrays of the output by name. */
+  vtkNew<vtkDataArraySelection> Arrays;
+  /** Filled when it is asked for. */
+  vtkNew<vtkTable> StatisticsTable;
   std::vector<meniscus::EnergyBin> EnergyBins;
   /** Stand in for those of the volume property where nothing depends on it. */
   vtkNew<vtkVolumeProperty> NoProperty;

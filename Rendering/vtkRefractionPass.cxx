@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Filters/Common/ClampedSetter.h"
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
@@ -12,6 +13,7 @@
 #include "Rendering/Property/MediumUniforms.h"
 #include "Rendering/RefractionPassList.h"
 #include "Volume/Optics/RefractionMedium.h"
+#include "Volume/Refracted/RayLegs.h"
 
 #include "vtkRefractedGeometryFilter.h"
 
@@ -44,6 +46,9 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkRefractionPass);
+meniscusSetClampMacro(vtkRefractionPass, ReflectanceModel, int, FRESNEL, MIRROR);
+meniscusSetClampMacro(vtkRefractionPass, NumberOfLightCells, int, 0, 4000000);
+meniscusSetClampMacro(vtkRefractionPass, MediumModel, int, EXPONENTIAL, LINEAR);
 
 //------------------------------------------------------------------------------
 class vtkRefractionPass::vtkInternals
@@ -377,7 +382,7 @@ void vtkRefractionPass::DrawInFront(
   vtkOpenGLState* state = window->GetState();
   state->Push();
   picture.Set(state);
-  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::IN_FRONT);
+  this->DrawVolumes(drawn->GetRenderer(), membrane, meniscus::MembranePart::InFront);
   state->Pop();
 }
 
@@ -445,12 +450,13 @@ void vtkRefractionPass::DrawObjects(
     internals.ActivateTables(nullptr, nullptr, false);
     this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
   }
-  this->DrawVolumes(renderer, membrane, vtkTetrahedraRayCastMapper::BEHIND);
+  this->DrawVolumes(renderer, membrane, meniscus::MembranePart::Behind);
 }
 
 //------------------------------------------------------------------------------
 /** Draws a part of the membrane's volumes over the contents of the framebuffer. */
-void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part)
+void vtkRefractionPass::DrawVolumes(
+  vtkRenderer* renderer, vtkActor* membrane, meniscus::MembranePart part)
 {
   for (const auto& refraction : this->Internals->Refractions.All)
   {

@@ -77,6 +77,7 @@ class vtkVolume;
 namespace meniscus
 {
 struct Refraction;
+enum class MembranePart;
 }
 
 class VTKMENISCUS_EXPORT vtkRefractionPass : public vtkOpenGLRenderPass
@@ -87,11 +88,11 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Model of the light that a membrane reflects. */
-  enum ReflectanceModels
+  enum
   {
-    NONE = 0,    ///< no reflection: the membrane is clear
+    FRESNEL = 0, ///< exact reflectance of unpolarised light, Eq. 2.6
     SCHLICK = 1, ///< Schlick's approximation, Eq. 2.7
-    FRESNEL = 2, ///< exact reflectance of unpolarised light, Eq. 2.6
+    NONE = 2,    ///< no reflection: the membrane is clear
     MIRROR = 3   ///< all light is reflected
   };
 
@@ -146,8 +147,12 @@ public:
    * Set/Get the model of the light that membranes reflect: NONE, SCHLICK, FRESNEL or MIRROR.
    * Default is FRESNEL.
    */
-  vtkSetClampMacro(ReflectanceModel, int, NONE, MIRROR);
+  virtual void SetReflectanceModel(int model);
   vtkGetMacro(ReflectanceModel, int);
+  void SetReflectanceModelToFresnel() { this->SetReflectanceModel(FRESNEL); }
+  void SetReflectanceModelToSchlick() { this->SetReflectanceModel(SCHLICK); }
+  void SetReflectanceModelToNone() { this->SetReflectanceModel(NONE); }
+  void SetReflectanceModelToMirror() { this->SetReflectanceModel(MIRROR); }
   /** @} */
 
   /** @{ */
@@ -182,7 +187,7 @@ public:
   /** @} */
 
   /** Share of an object's light that the medium transmits over a distance d. */
-  enum MediumModels
+  enum
   {
     EXPONENTIAL = 0, ///< exp(-k d), with k of AttenuationCoefficients
     LINEAR = 1       ///< 1 up to MediumRange[0], 0 from MediumRange[1] on, linear in between
@@ -190,8 +195,10 @@ public:
 
   /** @{ */
   /** Set/Get the model of the medium behind the membranes. Default is EXPONENTIAL. */
-  vtkSetClampMacro(MediumModel, int, EXPONENTIAL, LINEAR);
+  virtual void SetMediumModel(int model);
   vtkGetMacro(MediumModel, int);
+  void SetMediumModelToExponential() { this->SetMediumModel(EXPONENTIAL); }
+  void SetMediumModelToLinear() { this->SetMediumModel(LINEAR); }
   /** @} */
 
   /** @{ */
@@ -223,7 +230,7 @@ public:
   /** @} */
 
   /** Space in which objects behind membranes are lit. */
-  enum LightingModels
+  enum
   {
     VIRTUAL_SPACE = 0, ///< by VTK: at the virtual position, with the normals of the filter's output
     TRUE_SPACE = 1     ///< at the true position, with the true normal and refracted directions
@@ -263,6 +270,8 @@ public:
    */
   void SetLighting(int lighting);
   vtkGetMacro(Lighting, int);
+  void SetLightingToVirtualSpace() { this->SetLighting(VIRTUAL_SPACE); }
+  void SetLightingToTrueSpace() { this->SetLighting(TRUE_SPACE); }
   /** @} */
 
   /** @{ */
@@ -283,7 +292,7 @@ public:
    * it: vtkRefractedLightFilter computes each cell. With 0, such membranes refract light at the
    * plane that fits their points best. Default is 100000. Range 0 to 4000000.
    */
-  vtkSetClampMacro(NumberOfLightCells, int, 0, 4000000);
+  virtual void SetNumberOfLightCells(int cells);
   vtkGetMacro(NumberOfLightCells, int);
   /** @} */
 
@@ -343,7 +352,7 @@ private:
   void DrawMembrane(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawInFront(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawObjects(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
-  void DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part);
+  void DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, meniscus::MembranePart part);
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void UpdateMedium();

@@ -341,7 +341,8 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane(meniscus::RayCastMembrane& membr
     this->GetInputAlgorithm(1, i)->Update();
     surfaces.push_back(this->GetMembrane(i));
   }
-  return this->Tell(membrane.Update(surfaces, this->Interfaces, this->MembranePart != WHOLE));
+  const bool isPart = this->Internals->Part != meniscus::MembranePart::Whole;
+  return this->Tell(membrane.Update(surfaces, this->Interfaces, isPart));
 }
 
 //------------------------------------------------------------------------------
@@ -349,8 +350,7 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
   const meniscus::ViewContext& place, meniscus::RayCastFrame& frame)
 {
   meniscus::RayCastRefraction& refracting = frame.Refracting;
-  refracting.Part =
-    static_cast<meniscus::MembranePart>(this->MembranePart); // both enums have the same values
+  refracting.Part = this->Internals->Part;
   refracting.Wanted = this->Internals->Membrane.GetNumberOfInterfaces() > 0;
   refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
@@ -526,7 +526,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
   frame.Optics.DataRange = internals.Input.GetNormalizedRange();
-  frame.Optics.CompactCells = this->CompactTables != 0;
+  frame.Optics.CompactCells = this->CompactCells;
   frame.Optics.CellScalars =
     internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
@@ -578,7 +578,8 @@ bool vtkTetrahedraRayCastMapper::Draw(
   {
     error = this->DrawFrame(frame, parts);
   }
-  if (error.empty() && this->DepthWriting != NO_DEPTH && this->MembranePart == WHOLE)
+  if (error.empty() && this->DepthWriting != NO_DEPTH &&
+    internals.Part == meniscus::MembranePart::Whole)
   {
     error = this->WriteDepths(frame);
   }
@@ -593,20 +594,14 @@ bool vtkTetrahedraRayCastMapper::Draw(
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part,
-  const meniscus::RefractionMedium& surroundings)
+void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* volume,
+  meniscus::MembranePart part, const meniscus::RefractionMedium& surroundings)
 {
+  this->Internals->Part = part;
   this->Internals->Surroundings = surroundings;
-  this->RenderPart(renderer, volume, part);
-  this->Internals->Surroundings = meniscus::RefractionMedium();
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part)
-{
-  this->MembranePart = std::clamp(part, static_cast<int>(WHOLE), static_cast<int>(BEHIND));
   this->Render(renderer, volume);
-  this->MembranePart = WHOLE;
+  this->Internals->Part = meniscus::MembranePart::Whole;
+  this->Internals->Surroundings = meniscus::RefractionMedium();
 }
 
 //------------------------------------------------------------------------------

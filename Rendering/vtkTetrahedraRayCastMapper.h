@@ -57,13 +57,10 @@
  * until the error of linear interpolation is less than 1/32768 of the full range of colour and of
  * alpha over the unit distance.
  *
- * Method (Documentation/volume-method.md): vertices and cells are ordered once per mesh, and cells
- * are linked across faces. The entries of a ray are found by a bounding volume hierarchy over the
- * boundary faces, and the ray walks from cell to cell. The exit of a cell follows from the signs of
- * its edges in the projection along the ray. They are exact, and ties have one rule: no ray is
- * lost, and none runs for ever. A segment is split at the transfer function's nodes, and each piece
- * is integrated in closed form up to an error of 3e-7; with several components, by Gauss' rule up
- * to 1e-6. SetIntegration() selects a table instead.
+ * Method (Documentation/volume-method.md): a ray enters the mesh at a boundary face and walks from
+ * cell to cell, by exact signs, so that no ray is lost. A segment is split at the transfer
+ * function's nodes, and each piece is integrated in closed form up to an error of 3e-7; with
+ * several components, by Gauss' rule up to 1e-6. SetIntegration() selects a table instead.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first is
  * used up to its exit. Cells that cannot be seen, because the transfer function has no opacity
@@ -80,7 +77,7 @@
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
  *   composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device,
- *   tables within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the
+ *   tables within GL_MAX_TEXTURE_BUFFER_SIZE. All backends draw the
  *   same image.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
@@ -100,12 +97,15 @@ class vtkCompositeDataSet;
 class vtkDataSet;
 class vtkPolyData;
 class vtkRenderWindow;
+class vtkTable;
 
 namespace meniscus
 {
 struct BlendModel;
+struct DeviceTableLimits;
 struct InputBlocks;
 struct InputReport;
+enum class MembranePart;
 struct PointBox;
 class RayCastMembrane;
 struct RayCastFrame;
@@ -157,7 +157,6 @@ public:
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
-  void SetMembrane(vtkPolyData* membrane) { this->SetMembraneData(membrane); }
   void AddMembraneConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(1, output); }
   void AddMembraneData(vtkPolyData* membrane);
   void RemoveAllMembranes() { this->RemoveAllInputConnections(1); }
@@ -196,7 +195,7 @@ public:
    *
    * A ray that is totally reflected at an interface ends there. One that misses an interface ends
    * at the last one that it met, and shows nothing behind it. Both are counted:
-   * GetNumberOfRaysMissingAnInterface(), GetNumberOfTotallyReflectedRays(). Rays that miss the
+   * see GetStatistics(). Rays that miss the
    * first interface are straight. Interfaces with equal indices are left out. Geometry in the
    * framebuffer behind the first interface is virtual geometry: a point in the medium of index n
    * is drawn n0 / n times its way behind the interface (n0: the eye's medium), and these lengths
@@ -222,7 +221,7 @@ public:
   /** @} */
 
   /** Part of an array of several components that is drawn. */
-  enum VectorModes
+  enum
   {
     DISABLED = -1,
     MAGNITUDE = 0,
@@ -244,14 +243,17 @@ public:
    * of every colour function, two to four components are mixed if the property has a colour or
    * opacity function for one beyond the first; otherwise the first component is drawn.
    */
-  vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
+  virtual void SetVectorMode(int mode);
   vtkGetMacro(VectorMode, int);
-  vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
+  void SetVectorModeToDisabled() { this->SetVectorMode(DISABLED); }
+  void SetVectorModeToMagnitude() { this->SetVectorMode(MAGNITUDE); }
+  void SetVectorModeToComponent() { this->SetVectorMode(COMPONENT); }
+  virtual void SetVectorComponent(int component);
   vtkGetMacro(VectorComponent, int);
   /** @} */
 
   /** Division of cells that are not linear tetrahedra. */
-  enum CellDivisions
+  enum
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
     ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
@@ -269,7 +271,7 @@ public:
    * there are any, cells above order 1 are divided adaptively in any case. See
    * Documentation/true-cells.md.
    */
-  vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+  virtual void SetCellDivision(int division);
   vtkGetMacro(CellDivision, int);
   void SetCellDivisionToFixed() { this->SetCellDivision(FIXED_DIVISION); }
   void SetCellDivisionToAdaptive() { this->SetCellDivision(ADAPTIVE_DIVISION); }
@@ -293,16 +295,16 @@ public:
   /**
    * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes. They
    * are spent where errors are largest. If the budget ends the division before the tolerance is
-   * reached, a warning reports the error; GetDivisionError() returns it. While cells are divided, a
-   * tetrahedron takes up to 250 bytes. Default is 0: twice as many tetrahedra as FIXED_DIVISION
-   * makes, but at least 100,000.
+   * reached, a warning reports the error, which is the statistic "DivisionError". While cells are
+   * divided, a tetrahedron takes up to 250 bytes. Default is 0: twice as many tetrahedra as
+   * FIXED_DIVISION makes, but at least 100,000.
    */
-  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  virtual void SetMaximumNumberOfPieces(vtkTypeInt64 pieces);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
   /** Meaning of an opacity of the transfer function over a length. */
-  enum OpacityModels
+  enum
   {
     ATTENUATION_COEFFICIENT = 0,
     OPACITY_PER_UNIT_DISTANCE = 1
@@ -316,12 +318,17 @@ public:
    * OPACITY_PER_UNIT_DISTANCE is the definition of its image data mappers: alpha = 1 - (1 -
    * opacity)^(L / unit); opacities above 1 - 2^-24 are reduced to that value.
    */
-  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  virtual void SetOpacityModel(int model);
   vtkGetMacro(OpacityModel, int);
+  void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
+  void SetOpacityModelToOpacityPerUnitDistance()
+  {
+    this->SetOpacityModel(OPACITY_PER_UNIT_DISTANCE);
+  }
   /** @} */
 
   /** Implementation that casts the rays. */
-  enum Backends
+  enum
   {
     AUTOMATIC = 0,
     OPENGL = 1,
@@ -340,8 +347,12 @@ public:
    * registered from outside first (see RayCastBackendRegistry.h). If a backend cannot draw a frame,
    * the next one does, after a warning with the reason.
    */
-  vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
+  virtual void SetBackend(int backend);
   vtkGetMacro(Backend, int);
+  void SetBackendToAutomatic() { this->SetBackend(AUTOMATIC); }
+  void SetBackendToOpenGL() { this->SetBackend(OPENGL); }
+  void SetBackendToNative() { this->SetBackend(NATIVE); }
+  void SetBackendToCompute() { this->SetBackend(COMPUTE); }
   /** @} */
 
   /** @{ */
@@ -364,7 +375,7 @@ public:
   /** @} */
 
   /** Integration of ray segments. */
-  enum Integrations
+  enum
   {
     EXACT = 0,
     PRE_INTEGRATED = 1
@@ -380,8 +391,10 @@ public:
    * medium behind a membrane; otherwise segments are integrated exactly, after a warning if
    * PRE_INTEGRATED would have made a difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
+  virtual void SetIntegration(int integration);
   vtkGetMacro(Integration, int);
+  void SetIntegrationToExact() { this->SetIntegration(EXACT); }
+  void SetIntegrationToPreIntegrated() { this->SetIntegration(PRE_INTEGRATED); }
   /** @} */
 
   /** @{ */
@@ -393,14 +406,14 @@ public:
    * scalars have one colour, or if no segment is deeper than 1/64. It takes 16 bytes times the
    * number of lengths times the square of the number of scalars.
    */
-  vtkSetClampMacro(PreIntegrationScalarSize, int, 2, 1024);
+  virtual void SetPreIntegrationScalarSize(int size);
   vtkGetMacro(PreIntegrationScalarSize, int);
-  vtkSetClampMacro(PreIntegrationLengthSize, int, 1, 128);
+  virtual void SetPreIntegrationLengthSize(int size);
   vtkGetMacro(PreIntegrationLengthSize, int);
   /** @} */
 
   /** Gradients that lighting and gradient opacity use. */
-  enum GradientLocations
+  enum
   {
     CELL_GRADIENTS = 0,
     VERTEX_GRADIENTS = 1
@@ -413,37 +426,13 @@ public:
    * They are computed when first needed and after a change of mesh or scalars. Lengths are measured
    * in world coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+  virtual void SetGradients(int gradients);
   vtkGetMacro(Gradients, int);
+  void SetGradientsToCellGradients() { this->SetGradients(CELL_GRADIENTS); }
+  void SetGradientsToVertexGradients() { this->SetGradients(VERTEX_GRADIENTS); }
   /** @} */
 
-  /** @{ */
-  /**
-   * Set/Get whether the table of cells on the graphics device takes 20 bytes per tetrahedron
-   * instead of 32. The image is the same. Default is off.
-   */
-  vtkSetMacro(CompactTables, vtkTypeBool);
-  vtkGetMacro(CompactTables, vtkTypeBool);
-  vtkBooleanMacro(CompactTables, vtkTypeBool);
-  /** @} */
-
-  /** @{ */
-  /**
-   * Set/Get the largest number of texels of a table on the graphics device, besides the limit that
-   * the device reports (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that report more than they
-   * support. A mesh with a larger table, at 2 texels per tetrahedron or 1.25 if compact, is drawn
-   * by the native backend, after a warning with the numbers; so is an image through a membrane,
-   * which takes 2 texels per pixel and interface. Up to 8 texels per tetrahedron (5 if compact) are
-   * used within the limit, which is faster. Default is no limit.
-   */
-  vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MaximumTableSize, vtkTypeInt64);
-  /** @} */
-
-  /**
-   * Whether pictures of parts of a volume in this blend mode can be put one over the other: those
-   * of several ranks, for example.
-   */
+  /** True if pictures of parts of a volume, such as those of several ranks, can be blended. */
   static bool CanRanksComposite(int blendMode);
 
   /** @{ */
@@ -456,16 +445,16 @@ public:
    * the framebuffer, so that sums do not exceed 255; brighter highlights of lit volumes are limited
    * to that. In [0, 0.5]; default is 0: the image is not changed.
    */
-  vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
+  virtual void SetColorBias(double bias);
   vtkGetMacro(ColorBias, double);
   /** @} */
 
-  /** Depths that frames write. */
-  enum DepthWritings
+  /** Depths that frames write; the places have the numbers of vtkTetrahedraVolumePicker. */
+  enum
   {
-    NO_DEPTH = 0,
-    FIRST_VISIBLE_DEPTH = 1,
-    OPACITY_DEPTH = 2
+    NO_DEPTH = -1,
+    FIRST_VISIBLE_DEPTH = 0,
+    OPACITY_DEPTH = 1
   };
 
   /** @{ */
@@ -480,9 +469,12 @@ public:
    * image. Volumes that are drawn after this one end at its depth. Default is NO_DEPTH, which costs
    * nothing; the default of DepthOpacity is 0.5.
    */
-  vtkSetClampMacro(DepthWriting, int, NO_DEPTH, OPACITY_DEPTH);
+  virtual void SetDepthWriting(int writing);
   vtkGetMacro(DepthWriting, int);
-  vtkSetClampMacro(DepthOpacity, double, 0.0, 1.0);
+  void SetDepthWritingToNoDepth() { this->SetDepthWriting(NO_DEPTH); }
+  void SetDepthWritingToFirstVisibleDepth() { this->SetDepthWriting(FIRST_VISIBLE_DEPTH); }
+  void SetDepthWritingToOpacityDepth() { this->SetDepthWriting(OPACITY_DEPTH); }
+  virtual void SetDepthOpacity(double opacity);
   vtkGetMacro(DepthOpacity, double);
   /** @} */
 
@@ -491,7 +483,7 @@ public:
    * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
    * this. Default is 1 - 2^-17; with 1, every ray is integrated to its end.
    */
-  vtkSetClampMacro(EarlyTerminationOpacity, double, 0.0, 1.0);
+  virtual void SetEarlyTerminationOpacity(double opacity);
   vtkGetMacro(EarlyTerminationOpacity, double);
   /** @} */
 
@@ -528,7 +520,7 @@ public:
    * Set/Get the number of pixels between neighbouring rays, along each axis, >= 1; the pixels
    * between are interpolated. Used only if AutoAdjustSampleDistances is off. Default is 1.
    */
-  vtkSetClampMacro(ImageSampleDistance, float, 1.0f, 100.0f);
+  virtual void SetImageSampleDistance(float distance);
   vtkGetMacro(ImageSampleDistance, float);
   /** @} */
 
@@ -542,47 +534,22 @@ public:
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
-  vtkSetClampMacro(MaximumImageSampleDistance, float, 1.0f, 100.0f);
+  virtual void SetMaximumImageSampleDistance(float distance);
   vtkGetMacro(MaximumImageSampleDistance, float);
   /** @} */
 
-  /** Number of pixels between neighbouring rays in the last frame. */
-  vtkGetMacro(UsedImageSampleDistance, double);
-
   /** @{ */
   /**
-   * Counters of work done since construction:
-   * - builds of the mesh tables, when values of the cells have changed: where a modification time
-   *   of any object of the input has moved, values are compared by a digest, so that equal cells
-   *   in new arrays, as readers make them in each time step, are the same mesh;
-   * - updates of the positions alone, when points have moved and the cells are the same;
-   * - updates of the scalars, when their values have changed;
-   * - reductions of the volume property to control points;
-   * - builds of the set of active cells, for a new mesh, for new scalars, or when other scalars
-   *   become visible;
-   * - computations of vertex gradients;
-   * - builds of the pre-integration table;
-   * - builds of the membranes' patches, each when its shape has changed;
-   * - intersections of the rays with all membranes, when a shape, the view or the indices have
-   *   changed;
-   * - lists, made on the graphics device, of the entries of refracted rays into the mesh (in the
-   *   same cases, and for other active cells);
-   * - lists, made on the CPU for shaders, of the entries of rays into a mesh of which they cross
-   *   many layers, such as cells that share no points (for other rays or other active cells).
+   * Counters of work done since construction: builds of the mesh tables, when values of the cells
+   * have changed (equal cells in new arrays, as readers make them in each time step, are the same
+   * mesh); updates of the scalars, when their values have changed; reductions of the volume
+   * property to control points; and builds of the set of active cells, for a new mesh, for new
+   * scalars, or when other scalars become visible.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
-  vtkTypeInt64 GetNumberOfPointUpdates();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
-  vtkTypeInt64 GetNumberOfGradientBuilds();
-  vtkTypeInt64 GetNumberOfPreIntegrationBuilds();
-  vtkTypeInt64 GetNumberOfMembraneBuilds();
-  vtkTypeInt64 GetNumberOfSightUpdates();
-  vtkTypeInt64 GetNumberOfRefractedEntryLists();
-  /** Deprecated name of GetNumberOfRefractedEntryLists(). */
-  vtkTypeInt64 GetNumberOfBentEntryLists();
-  vtkTypeInt64 GetNumberOfEntryListBuilds();
   /** @} */
 
   /**
@@ -598,92 +565,42 @@ public:
 
   /** @{ */
   /**
-   * Number of bytes of the tables that are currently kept: in main memory (mesh, scalars,
-   * gradients, those of the native backend; not the input itself) and on the graphics device.
-   * Images and temporary memory of a frame or a build are not counted.
-   */
-  vtkTypeInt64 GetHostBytes();
-  vtkTypeInt64 GetDeviceBytes();
-  /** @} */
-
-  /** @{ */
-  /**
-   * Numbers of tetrahedra of the current mesh: those that rays can visit, which are visible with
-   * the transfer function and have finite scalars; those with a scalar that is not finite; and
-   * those left out because of a point index out of range, a repeated point or a point that is not
-   * finite, or because they have the points of an earlier tetrahedron. Cells that cannot be divided
-   * into tetrahedra because their arrays do not describe a cell count once each.
+   * Numbers of tetrahedra of the current mesh: visible ones with finite scalars, which rays can
+   * visit; and those left out because of a point index out of range, a repeated point or a point
+   * that is not finite, or because they have the points of an earlier tetrahedron. Cells that
+   * cannot be divided into tetrahedra because their arrays do not describe a cell count once each.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
-  vtkTypeInt64 GetNumberOfTransparentCells();
   vtkTypeInt64 GetNumberOfRejectedCells();
   /** @} */
 
   /** @{ */
   /**
-   * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
-   * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
-   * that are folded inside out in parts, and edges that exceed the tolerance after 23 divisions. A
-   * warning reports the last two if they are not 0.
-   */
-  vtkTypeInt64 GetNumberOfTetrahedra();
-  vtkTypeInt64 GetNumberOfCellDivisions();
-  vtkTypeInt64 GetNumberOfFoldedCells();
-  vtkTypeInt64 GetNumberOfUnresolvedEdges();
-  /** @} */
-
-  /**
-   * Largest error in the edges of the tetrahedra that the last division made, in the unit of the
-   * tolerance; 0 without a division. Inside of a tetrahedron it is at most 1.5 times that where the
-   * scalar is quadratic.
-   */
-  double GetDivisionError();
-
-  /**
-   * Number of times that the input's cells were looked up for picks (vtkTetrahedraVolumePicker)
-   * since construction: once per mesh that is picked. The table takes 4 bytes per tetrahedron.
-   */
-  vtkTypeInt64 GetNumberOfCellSearches();
-
-  /** @{ */
-  /**
-   * Counters since construction: images whose rays were cast, and their pixels. A frame that
-   * differs from the last one neither in camera, mesh, scalars, property, lights, clipping planes,
-   * membrane, settings nor in the depths of opaque geometry shows the last image again. If only
-   * depths differ, the native backend casts the tiles of 32 x 32 pixels in which they do, the
-   * others the whole image. The OpenGL backends recognise the second repetition of a frame, because
-   * the first reads the depths. Modified() makes the next frame be cast.
-   */
-  vtkTypeInt64 GetNumberOfCastImages();
-  vtkTypeInt64 GetNumberOfCastPixels();
-  /** @} */
-
-  /** @{ */
-  /**
-   * Numbers of the image of the last frame, or of a part of one (RenderPart()): cells crossed, rays
-   * that entered the mesh, and rays whose walk did not end on the boundary (0 unless the graphics
-   * driver deviates from the shader's arithmetic). They are read back from the graphics device when
-   * first requested after a frame; 0 before the first frame.
+   * Numbers of the image of the last frame: cells crossed, rays that entered the mesh, and rays
+   * whose walk did not end on the boundary (0 unless the graphics driver deviates from the shader's
+   * arithmetic). They are read back from the graphics device when first requested after a frame; 0
+   * before the first frame.
    */
   vtkTypeInt64 GetNumberOfTraversalSteps();
   vtkTypeInt64 GetNumberOfRays();
   vtkTypeInt64 GetNumberOfLostRays();
   /** @} */
 
-  /**
-   * Number of pairs of a ray and a facet's patch that touch within rounding, for the membrane as it
-   * was last found in the view. Such a ray passes the patch. 0 without a membrane.
-   */
-  vtkTypeInt64 GetNumberOfUndecidedRays();
-
   /** @{ */
   /**
-   * Numbers of rays that end in a list of several interfaces, as it was last found in the view:
-   * those that were refracted at an interface and miss the next one, and those that are totally
-   * reflected at the second interface or a later one. 0 with one interface or none.
+   * Counters, sizes and errors by name: a table with one row each and the columns Name, Meaning and
+   * Value, which belongs to this object and is filled anew by each call; and the value of one name,
+   * such as "NumberOfCastImages". An unknown name is an error, and the value is not a number.
+   *
+   * A frame that differs from the last one neither in camera, mesh, scalars, property, lights,
+   * clipping planes, membrane, settings nor in the depths of opaque geometry casts no rays and
+   * shows the last image again. If only depths differ, the native backend casts the tiles of 32 x
+   * 32 pixels in which they do, the others the whole image. The OpenGL backends recognise the
+   * second repetition of a frame, because the first reads the depths. Modified() makes the next
+   * frame be cast.
    */
-  vtkTypeInt64 GetNumberOfRaysMissingAnInterface();
-  vtkTypeInt64 GetNumberOfTotallyReflectedRays();
+  vtkTable* GetStatistics();
+  double GetStatistic(const char* name);
   /** @} */
 
   /**
@@ -696,7 +613,7 @@ public:
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
   /** Share of the light that the medium behind the membrane transmits over a distance d. */
-  enum MediumModels
+  enum
   {
     EXPONENTIAL = 0, ///< exp(-k d), with k of MediumAttenuationCoefficients
     LINEAR = 1       ///< 1 up to MediumRange[0], 0 from MediumRange[1] on, linear in between
@@ -718,8 +635,10 @@ public:
    * default (0, 1). Numbers without a meaning are an error of Render(), which then draws a clear
    * medium. A clear medium, straight rays and other blend modes cost nothing.
    */
-  vtkSetClampMacro(MediumModel, int, EXPONENTIAL, LINEAR);
+  virtual void SetMediumModel(int model);
   vtkGetMacro(MediumModel, int);
+  void SetMediumModelToExponential() { this->SetMediumModel(EXPONENTIAL); }
+  void SetMediumModelToLinear() { this->SetMediumModel(LINEAR); }
   vtkSetVector3Macro(MediumAttenuationCoefficients, double);
   vtkGetVector3Macro(MediumAttenuationCoefficients, double);
   vtkSetVector2Macro(MediumRange, double);
@@ -727,24 +646,6 @@ public:
   vtkSetVector3Macro(MediumColor, double);
   vtkGetVector3Macro(MediumColor, double);
   /** @} */
-
-  /** Part of the volume that RenderPart() draws. */
-  enum MembraneParts
-  {
-    WHOLE = 0,    ///< the whole volume
-    IN_FRONT = 1, ///< the part of the rays in front of the membrane, and rays that miss it
-    BEHIND = 2    ///< the part of the rays behind the membrane; nothing without a membrane
-  };
-  /**
-   * As Render(), but draws one part only: for callers that draw the membrane in between, such as
-   * vtkRefractionPass.
-   */
-  void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part);
-#ifndef __VTK_WRAP__
-  /** The same behind a medium that is used if the mapper's own is clear. */
-  void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part,
-    const meniscus::RefractionMedium& surroundings);
-#endif
 
   /** Frees all graphics resources; the next Render() creates them again. */
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -783,6 +684,11 @@ private:
   bool UpdateIllumination(meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
   friend class vtkTetrahedraVolumePicker;
+  friend class vtkRefractionPass;
+  friend struct meniscus::DeviceTableLimits; // of the tests
+  /** As Render(), but only a part of the volume, behind a medium if the mapper's own is clear. */
+  void RenderPart(vtkRenderer* renderer, vtkVolume* volume, meniscus::MembranePart part,
+    const meniscus::RefractionMedium& surroundings);
   std::string WriteDepths(const meniscus::RayCastFrame& frame);
   bool UpdateForPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts);
   bool CastPick(vtkRenderer* renderer, vtkVolume* volume, meniscus::VolumePick& pick);
@@ -801,7 +707,6 @@ private:
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
   int Gradients = VERTEX_GRADIENTS;
-  int MembranePart = WHOLE;
   int MediumModel = EXPONENTIAL;
   double MediumAttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
   double MediumRange[2] = { 0.0, 1.0 };
@@ -812,11 +717,11 @@ private:
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;
   vtkTypeBool AutoAdjustSampleDistances = 1;
-  vtkTypeBool CompactTables = 0;
+  bool CompactCells = false;     // even if the table of full cells fits on the device
+  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double ColorBias = 0.0;
   int DepthWriting = NO_DEPTH;
   double DepthOpacity = 0.5;
-  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double UsedImageSampleDistance = 1.0;
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 

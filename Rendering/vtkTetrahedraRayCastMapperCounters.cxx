@@ -3,19 +3,37 @@
 // Counters and properties of vtkTetrahedraRayCastMapper as it reports them.
 #include "Rendering/RayCastMapperInternals.h"
 
+#include "Filters/Common/ClampedSetter.h"
+
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkTetrahedraRayCastMapper.h"
+
+meniscusStatisticsMacro(vtkTetrahedraRayCastMapper);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, VectorMode, int, DISABLED, COMPONENT);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, VectorComponent, int, 0, VTK_INT_MAX);
+meniscusSetClampMacro(
+  vtkTetrahedraRayCastMapper, CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+meniscusSetClampMacro(
+  vtkTetrahedraRayCastMapper, MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, OpacityModel, int, ATTENUATION_COEFFICIENT,
+  OPACITY_PER_UNIT_DISTANCE);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, Backend, int, AUTOMATIC, COMPUTE);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, Integration, int, EXACT, PRE_INTEGRATED);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, PreIntegrationScalarSize, int, 2, 1024);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, PreIntegrationLengthSize, int, 1, 128);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, ColorBias, double, 0.0, 0.5);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, DepthWriting, int, NO_DEPTH, OPACITY_DEPTH);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, DepthOpacity, double, 0.0, 1.0);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, EarlyTerminationOpacity, double, 0.0, 1.0);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, ImageSampleDistance, float, 1.0f, 100.0f);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MaximumImageSampleDistance, float, 1.0f, 100.0f);
+meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MediumModel, int, EXPONENTIAL, LINEAR);
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
 {
   return this->Internals->Input.GetBuildVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPointUpdates()
-{
-  return this->Internals->Input.GetNumberOfPointUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -31,48 +49,6 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
-{
-  return this->Internals->VertexGradients.GetVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPreIntegrationBuilds()
-{
-  return this->Internals->PreIntegration.GetVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMembraneBuilds()
-{
-  return this->Internals->Membrane.GetShapeVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
-{
-  return this->Internals->Membrane.GetSightVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRefractedEntryLists()
-{
-  return this->Internals->GetCounters().RefractedEntryLists;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
-{
-  return this->GetNumberOfRefractedEntryLists();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfEntryListBuilds()
-{
-  return this->Internals->GetCounters().EntryListBuilds;
-}
-
-//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -85,31 +61,17 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
+std::int64_t vtkTetrahedraRayCastMapper::vtkInternals::GetHostBytes() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.GetBytes() + internals.GetCounters().HostBytes +
-    (internals.Picker ? internals.Picker->GetBytes() : 0) +
-    (internals.DepthCaster ? internals.DepthCaster->GetBytes() : 0) +
-    meniscus::BytesOf(internals.Depths);
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetDeviceBytes()
-{
-  return this->Internals->GetCounters().DeviceBytes;
+  return this->GetBytes() + this->GetCounters().HostBytes +
+    (this->Picker ? this->Picker->GetBytes() : 0) +
+    (this->DepthCaster ? this->DepthCaster->GetBytes() : 0) + meniscus::BytesOf(this->Depths);
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 {
   return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
-{
-  return this->Internals->Input.GetMesh().GetNumberOfUnknownCells();
 }
 
 //------------------------------------------------------------------------------
@@ -137,63 +99,95 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCastImages()
+/** All numbers that the class reports. */
+const std::vector<meniscus::Statistic<vtkTetrahedraRayCastMapper>>&
+vtkTetrahedraRayCastMapper::vtkInternals::List()
 {
-  return this->Internals->GetNumberOfCasts();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCastPixels()
-{
-  return this->Internals->GetCounters().CastPixels;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUndecidedRays()
-{
-  return this->Internals->Membrane.GetCounts().Undecided;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRaysMissingAnInterface()
-{
-  return this->Internals->Membrane.GetCounts().Missing;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTotallyReflectedRays()
-{
-  return this->Internals->Membrane.GetCounts().Reflected;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTetrahedra()
-{
-  return this->Internals->Input.GetMesh().GetNumberOfCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCellDivisions()
-{
-  return this->Internals->Input.GetDivision().GetNumberOfDivisions();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfFoldedCells()
-{
-  return this->Internals->Input.GetNumberOfFoldedCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUnresolvedEdges()
-{
-  return this->Internals->Input.GetDivision().GetCounts().UnresolvedEdges;
-}
-
-//------------------------------------------------------------------------------
-double vtkTetrahedraRayCastMapper::GetDivisionError()
-{
-  return this->Internals->Input.GetDivision().GetCounts().Error;
+  using Self = vtkTetrahedraRayCastMapper;
+  static const std::vector<meniscus::Statistic<Self>> list{
+    { "NumberOfMeshBuilds", "builds of the mesh tables, since construction",
+      [](Self& self) { return double(self.GetNumberOfMeshBuilds()); } },
+    { "NumberOfPointUpdates",
+      "updates of the positions alone (points have moved, the cells are the same)",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfPointUpdates()); } },
+    { "NumberOfScalarUpdates", "updates of the scalars, when their values have changed",
+      [](Self& self) { return double(self.GetNumberOfScalarUpdates()); } },
+    { "NumberOfTransferFunctionBuilds", "reductions of the volume property to control points",
+      [](Self& self) { return double(self.GetNumberOfTransferFunctionBuilds()); } },
+    { "NumberOfActiveSetBuilds",
+      "builds of the set of active cells: new mesh, new scalars, other visible scalars",
+      [](Self& self) { return double(self.GetNumberOfActiveSetBuilds()); } },
+    { "NumberOfGradientBuilds", "computations of vertex gradients",
+      [](Self& self)
+      { return double(self.Internals->VertexGradients.GetVersion().GetChanges()); } },
+    { "NumberOfPreIntegrationBuilds", "builds of the pre-integration table",
+      [](Self& self) { return double(self.Internals->PreIntegration.GetVersion().GetChanges()); } },
+    { "NumberOfMembraneBuilds", "builds of the membranes' patches, each when its shape has changed",
+      [](Self& self) { return double(self.Internals->Membrane.GetShapeVersion().GetChanges()); } },
+    { "NumberOfSightUpdates",
+      "intersections of the rays with all membranes: new shape, view or index",
+      [](Self& self) { return double(self.Internals->Membrane.GetSightVersion().GetChanges()); } },
+    { "NumberOfRefractedEntryLists",
+      "lists, made on the graphics device, of the entries of refracted rays into the mesh",
+      [](Self& self) { return double(self.Internals->GetCounters().RefractedEntryLists); } },
+    { "NumberOfEntryListBuilds",
+      "lists, made on the CPU for shaders, of the entries of rays that cross many layers",
+      [](Self& self) { return double(self.Internals->GetCounters().EntryListBuilds); } },
+    { "NumberOfCellSearches",
+      "times that the input's cells were looked up for picks: once per picked mesh",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfInputCellSearches()); } },
+    { "NumberOfShadowCasts", "casts of the shadows of a light or of the ambient light",
+      [](Self& self) { return double(self.Internals->Illumination.GetNumberOfCasts()); } },
+    { "NumberOfCastImages", "images whose rays were cast, since construction",
+      [](Self& self) { return double(self.Internals->GetNumberOfCasts()); } },
+    { "NumberOfCastPixels", "pixels of these images",
+      [](Self& self) { return double(self.Internals->GetCounters().CastPixels); } },
+    { "UploadedBytes", "bytes of tables that backends have read because an input changed",
+      [](Self& self) { return double(self.GetUploadedBytes()); } },
+    { "HostBytes", "bytes of the tables that are kept in main memory, without the input",
+      [](Self& self) { return double(self.Internals->GetHostBytes()); } },
+    { "DeviceBytes", "bytes of the tables that are kept on the graphics device",
+      [](Self& self) { return double(self.Internals->GetCounters().DeviceBytes); } },
+    { "NumberOfTetrahedra", "tetrahedra of the mesh, in all cells",
+      [](Self& self) { return double(self.Internals->Input.GetMesh().GetNumberOfCells()); } },
+    { "NumberOfActiveCells", "tetrahedra that rays can visit",
+      [](Self& self) { return double(self.GetNumberOfActiveCells()); } },
+    { "NumberOfTransparentCells", "tetrahedra with a scalar that is not finite",
+      [](Self& self)
+      { return double(self.Internals->Input.GetMesh().GetNumberOfUnknownCells()); } },
+    { "NumberOfRejectedCells", "tetrahedra and cells that are left out because they are not valid",
+      [](Self& self) { return double(self.GetNumberOfRejectedCells()); } },
+    { "NumberOfCellDivisions", "adaptive divisions of the cells, since construction",
+      [](Self& self)
+      { return double(self.Internals->Input.GetDivision().GetNumberOfDivisions()); } },
+    { "NumberOfFoldedCells", "cells of the last division that are folded inside out in parts",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfFoldedCells()); } },
+    { "NumberOfUnresolvedEdges",
+      "edges of the last division that exceed the tolerance after 23 divisions",
+      [](Self& self)
+      { return double(self.Internals->Input.GetDivision().GetCounts().UnresolvedEdges); } },
+    { "DivisionError",
+      "largest error in the edges of the last division, in the unit of the tolerance",
+      [](Self& self) { return double(self.Internals->Input.GetDivision().GetCounts().Error); } },
+    { "NumberOfTraversalSteps", "cells that the rays of the last frame crossed",
+      [](Self& self) { return double(self.GetNumberOfTraversalSteps()); } },
+    { "NumberOfRays", "rays of the last frame that entered the mesh",
+      [](Self& self) { return double(self.GetNumberOfRays()); } },
+    { "NumberOfLostRays", "rays of the last frame whose walk did not end on the boundary",
+      [](Self& self) { return double(self.GetNumberOfLostRays()); } },
+    { "NumberOfUndecidedRays",
+      "pairs of a ray and a facet's patch that touch within rounding, in the last view",
+      [](Self& self) { return double(self.Internals->Membrane.GetCounts().Undecided); } },
+    { "NumberOfRaysMissingAnInterface",
+      "rays of the last view that were refracted and miss the next interface",
+      [](Self& self) { return double(self.Internals->Membrane.GetCounts().Missing); } },
+    { "NumberOfTotallyReflectedRays",
+      "rays of the last view that are totally reflected behind the first interface",
+      [](Self& self) { return double(self.Internals->Membrane.GetCounts().Reflected); } },
+    { "UsedImageSampleDistance", "pixels between neighbouring rays in the last frame",
+      [](Self& self) { return double(self.UsedImageSampleDistance); } },
+  };
+  return list;
 }
 
 //------------------------------------------------------------------------------
@@ -226,47 +220,12 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
      << this->MediumColor[2] << "\n";
   os << indent << "GlobalIlluminationReach: " << this->GlobalIlluminationReach << "\n";
   os << indent << "VolumetricScatteringBlending: " << this->VolumetricScatteringBlending << "\n";
-  os << indent << "NumberOfShadowCasts: " << this->Internals->Illumination.GetNumberOfCasts()
-     << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
   os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";
-  os << indent << "UsedImageSampleDistance: " << this->UsedImageSampleDistance << "\n";
   os << indent << "EarlyTerminationOpacity: " << this->EarlyTerminationOpacity << "\n";
-  os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
-  os << indent << "NumberOfPointUpdates: " << this->GetNumberOfPointUpdates() << "\n";
-  os << indent << "NumberOfScalarUpdates: " << this->GetNumberOfScalarUpdates() << "\n";
-  os << indent << "NumberOfTransferFunctionBuilds: " << this->GetNumberOfTransferFunctionBuilds()
-     << "\n";
-  os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
-  os << indent << "NumberOfPreIntegrationBuilds: " << this->GetNumberOfPreIntegrationBuilds()
-     << "\n";
-  os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
-  os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
-  os << indent << "NumberOfRefractedEntryLists: " << this->GetNumberOfRefractedEntryLists() << "\n";
-  os << indent << "NumberOfEntryListBuilds: " << this->GetNumberOfEntryListBuilds() << "\n";
-  os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
-  os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
-  os << indent << "CompactTables: " << this->CompactTables << "\n";
   os << indent << "ColorBias: " << this->ColorBias << "\n";
   os << indent << "DepthWriting: " << this->DepthWriting << "\n";
   os << indent << "DepthOpacity: " << this->DepthOpacity << "\n";
-  os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
-  os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
-  os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";
-  os << indent << "NumberOfTetrahedra: " << this->GetNumberOfTetrahedra() << "\n";
-  os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
-  os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
-  os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
-  os << indent << "DivisionError: " << this->GetDivisionError() << "\n";
-  os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
-  os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
-  os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
-  os << indent << "NumberOfCastImages: " << this->GetNumberOfCastImages() << "\n";
-  os << indent << "NumberOfCastPixels: " << this->GetNumberOfCastPixels() << "\n";
-  os << indent << "NumberOfUndecidedRays: " << this->GetNumberOfUndecidedRays() << "\n";
-  os << indent << "NumberOfRaysMissingAnInterface: " << this->GetNumberOfRaysMissingAnInterface()
-     << "\n";
-  os << indent << "NumberOfTotallyReflectedRays: " << this->GetNumberOfTotallyReflectedRays()
-     << "\n";
+  meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);
 }

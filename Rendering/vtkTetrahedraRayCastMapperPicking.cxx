@@ -13,12 +13,6 @@
 #include <string>
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCellSearches()
-{
-  return this->Internals->Input.GetNumberOfInputCellSearches();
-}
-
-//------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateForPick(
   vtkRenderer* renderer, vtkVolume* volume, meniscus::InputBlocks& parts)
 {

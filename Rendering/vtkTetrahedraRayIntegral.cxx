@@ -163,6 +163,10 @@ vtkTetrahedraRayIntegral::vtkTetrahedraRayIntegral()
   : Internals(new vtkInternals)
 {
   this->Interfaces = meniscus::MakeInterfaces();
+  for (const char* name : meniscus::ListArrayNames())
+  {
+    this->Internals->Arrays->AddArray(name, name == std::string("Integral"));
+  }
   this->SetNumberOfInputPorts(2);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
@@ -253,8 +257,6 @@ bool vtkTetrahedraRayIntegral::ChooseEvents(Request& request)
 {
   meniscus::IntegralChoice& choice = request.Choice;
   meniscus::EventChoice& events = choice.Events;
-  events.Wanted = { this->ComputeFirstVisible != 0, this->ComputeOpacityReached != 0,
-    this->ComputeLargestContribution != 0 };
   events.Opacity = this->EventOpacity;
   const meniscus::BlendModel* model = meniscus::FindBlendModel(this->EventBlendMode);
   if (events.IsAnyWanted() && !model)
@@ -274,21 +276,12 @@ bool vtkTetrahedraRayIntegral::ChooseEvents(Request& request)
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
 {
-  using Array = meniscus::IntegralArray;
   meniscus::IntegralChoice& choice = request.Choice;
-  const auto want = [&choice](Array array, vtkTypeBool wanted)
-  { choice.Wanted[static_cast<std::size_t>(array)] = wanted != 0; };
-  want(Array::Integral, this->ComputeIntegral);
-  want(Array::PathLength, this->ComputePathLength);
-  want(Array::OpticalDepth, this->ComputeOpticalDepth);
-  want(Array::FirstDepth, this->ComputeFirstDepth);
-  want(Array::LastDepth, this->ComputeLastDepth);
-  want(Array::Minimum, this->ComputeMinimum);
-  want(Array::MinimumDepth, this->ComputeMinimum);
-  want(Array::Maximum, this->ComputeMaximum);
-  want(Array::MaximumDepth, this->ComputeMaximum);
-  want(Array::RGBA, this->ComputeRGBA);
-  want(Array::EnergyBins, this->ComputeEnergyBins);
+  const std::string unknown = choice.Want(this->Internals->Arrays);
+  if (!unknown.empty())
+  {
+    return this->TellError("There is no array '" + unknown + "'");
+  }
   if (!this->ChooseEvents(request))
   {
     return false;
@@ -304,7 +297,7 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   }
   if (choice.GetNumbersPerPixel() == 0 && !choice.NeedsBinArrays())
   {
-    return this->TellError(this->ComputeEnergyBins
+    return this->TellError(choice.Has(meniscus::IntegralArray::EnergyBins)
         ? "There are no energy bins; set their number, or an attenuation array"
         : "No array is switched on");
   }

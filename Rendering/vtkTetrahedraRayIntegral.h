@@ -16,19 +16,18 @@
  * cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
- * floats with one tuple per pixel, are switched on separately. Here are their switches and, in
- * brackets, the value of rays that miss the mesh:
- * - `Integral` (ComputeIntegral): integral of the scalar, scalar times length [0];
- * - `PathLength` (ComputePathLength): length in cells [0];
- * - `OpticalDepth` (ComputeOpticalDepth): integral of the attenuation coefficient [0];
- * - `FirstDepth` (ComputeFirstDepth), `LastDepth` (ComputeLastDepth): distance along the ray at
- * which its first cell begins and its last one ends [NaN];
- * - `Minimum` and `MinimumDepth` (ComputeMinimum): smallest scalar, and the first distance at which
- *   it is reached [NaN];
- * - `Maximum` and `MaximumDepth` (ComputeMaximum): largest scalar, likewise [NaN];
- * - `RGBA` (ComputeRGBA), 4 components: premultiplied colour and opacity [0];
- * - `EnergyBins` (ComputeEnergyBins), one component per bin: transmitted intensity [the intensity
- * of the bin].
+ * floats with one tuple per pixel, are switched on by name (GetArraySelection()). In brackets, the
+ * value of rays that miss the mesh:
+ * - `Integral`: integral of the scalar, scalar times length [0];
+ * - `PathLength`: length in cells [0];
+ * - `OpticalDepth`: integral of the attenuation coefficient [0];
+ * - `FirstDepth`, `LastDepth`: distance along the ray at which its first cell begins and its last
+ *   one ends [NaN];
+ * - `Minimum` and `MinimumDepth`: smallest scalar, and the first distance at which it is reached
+ *   [NaN];
+ * - `Maximum` and `MaximumDepth`: largest scalar, likewise [NaN];
+ * - `RGBA`, 4 components: premultiplied colour and opacity [0];
+ * - `EnergyBins`, one component per bin: transmitted intensity [the intensity of the bin].
  *
  * Lengths are in world coordinates, the coordinates of the input. Distances count along the ray,
  * also where it is refracted: from the camera's position (with parallel projection, from the plane
@@ -37,8 +36,8 @@
  * range does not count.
  *
  * A cell with a scalar that is not finite does not count, as in the mapper
- * (GetNumberOfTransparentCells()). If only arrays of energy bins are wanted, attenuation takes the
- * place of the scalar.
+ * (the statistic "NumberOfTransparentCells"). If only arrays of energy bins are wanted, attenuation
+ * takes the place of the scalar.
  *
  * **Energy bins.** A bin has the intensity I0 behind the mesh. The image has I0 exp(-integral of
  * mu) plus the emission e of the mesh, attenuated on its way to the viewer. mu and e are
@@ -53,9 +52,9 @@
  * switched on.
  *
  * Tables of the mesh, of the scalar and of the surfaces are kept until their values change: another
- * frame costs the cast only (GetNumberOfMeshBuilds()). Rays are cast in parallel by vtkSMPTools;
- * results do not depend on the number of threads. Progress is reported; after an abort the output
- * is empty.
+ * frame costs the cast only (the statistic "NumberOfMeshBuilds"). Rays are cast in parallel by
+ * vtkSMPTools; results do not depend on the number of threads. Progress is reported; after an abort
+ * the output is empty.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -69,8 +68,10 @@
 #include <memory> // For std::unique_ptr
 
 class vtkCamera;
+class vtkDataArraySelection;
 class vtkPolyData;
 class vtkRefractingInterfaceCollection;
+class vtkTable;
 class vtkVolumeProperty;
 
 namespace meniscus
@@ -86,7 +87,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Rays of the image. */
-  enum FrameModes
+  enum
   {
     /** Parallel rays along Direction, through a rectangle around the box of the cells in use. */
     FITTED = 0,
@@ -98,7 +99,7 @@ public:
 
   /** @{ */
   /** Set/Get the rays of the image. Default is FITTED. */
-  vtkSetClampMacro(FrameMode, int, FITTED, CAMERA);
+  virtual void SetFrameMode(int mode);
   vtkGetMacro(FrameMode, int);
   void SetFrameModeToFitted() { this->SetFrameMode(FITTED); }
   void SetFrameModeToParallel() { this->SetFrameMode(PARALLEL); }
@@ -153,7 +154,7 @@ public:
   /** @} */
 
   /** Division of cells that are not linear tetrahedra. */
-  enum CellDivisions
+  enum
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
     ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
@@ -165,7 +166,7 @@ public:
    * VTK's shape functions of the cells within the tolerance below. See
    * vtkTetrahedraRayCastMapper::SetCellDivision() and Documentation/true-cells.md.
    */
-  vtkSetClampMacro(CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+  virtual void SetCellDivision(int division);
   vtkGetMacro(CellDivision, int);
   void SetCellDivisionToFixed() { this->SetCellDivision(FIXED_DIVISION); }
   void SetCellDivisionToAdaptive() { this->SetCellDivision(ADAPTIVE_DIVISION); }
@@ -188,7 +189,7 @@ public:
    * errors are largest. A warning reports if it ends the division before the tolerance is reached.
    * Default is 0: twice as many as FIXED_DIVISION makes, but at least 100,000.
    */
-  vtkSetClampMacro(MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  virtual void SetMaximumNumberOfPieces(vtkTypeInt64 pieces);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
@@ -197,71 +198,30 @@ public:
    * Set/Get the component of the scalar, from 0, or -1 for the length of its tuples. Arrays of one
    * component ignore it. Default is 0.
    */
-  vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
+  virtual void SetArrayComponent(int component);
   vtkGetMacro(ArrayComponent, int);
   /** @} */
 
-  /** @{ */
   /**
-   * Switch arrays of the output on or off. By default the integral is on and all others are off.
-   */
-  vtkSetMacro(ComputeIntegral, vtkTypeBool);
-  vtkGetMacro(ComputeIntegral, vtkTypeBool);
-  vtkBooleanMacro(ComputeIntegral, vtkTypeBool);
-  vtkSetMacro(ComputePathLength, vtkTypeBool);
-  vtkGetMacro(ComputePathLength, vtkTypeBool);
-  vtkBooleanMacro(ComputePathLength, vtkTypeBool);
-  vtkSetMacro(ComputeOpticalDepth, vtkTypeBool);
-  vtkGetMacro(ComputeOpticalDepth, vtkTypeBool);
-  vtkBooleanMacro(ComputeOpticalDepth, vtkTypeBool);
-  vtkSetMacro(ComputeFirstDepth, vtkTypeBool);
-  vtkGetMacro(ComputeFirstDepth, vtkTypeBool);
-  vtkBooleanMacro(ComputeFirstDepth, vtkTypeBool);
-  vtkSetMacro(ComputeLastDepth, vtkTypeBool);
-  vtkGetMacro(ComputeLastDepth, vtkTypeBool);
-  vtkBooleanMacro(ComputeLastDepth, vtkTypeBool);
-  vtkSetMacro(ComputeMinimum, vtkTypeBool);
-  vtkGetMacro(ComputeMinimum, vtkTypeBool);
-  vtkBooleanMacro(ComputeMinimum, vtkTypeBool);
-  vtkSetMacro(ComputeMaximum, vtkTypeBool);
-  vtkGetMacro(ComputeMaximum, vtkTypeBool);
-  vtkBooleanMacro(ComputeMaximum, vtkTypeBool);
-  vtkSetMacro(ComputeRGBA, vtkTypeBool);
-  vtkGetMacro(ComputeRGBA, vtkTypeBool);
-  vtkBooleanMacro(ComputeRGBA, vtkTypeBool);
-  vtkSetMacro(ComputeEnergyBins, vtkTypeBool);
-  vtkGetMacro(ComputeEnergyBins, vtkTypeBool);
-  vtkBooleanMacro(ComputeEnergyBins, vtkTypeBool);
-  /** @} */
-
-  /** @{ */
-  /**
-   * Switch the events of rays on or off: the first visible place, the place at which the
-   * accumulated opacity reaches EventOpacity, and the place of the largest contribution per length.
-   * By default they are off.
+   * Arrays of the output by name, as in VTK's readers: EnableArray("PathLength"),
+   * DisableAllArrays(). `Integral` is on by default, all others are off. A name that does not exist
+   * is an error when the filter runs.
    *
-   * Each adds arrays whose names begin with `FirstVisible`, `OpacityReached` or
-   * `LargestContribution`: `Depth` (distance along the ray), `Value` (the scalar there), `Position`
-   * (3 components, world coordinates; behind refracting surfaces the true place), all of 32-bit
-   * floats; `CellId` (vtkIdTypeArray: cell of the input's data set), `Block` (vtkIntArray: its flat
-   * index, for composite input) and `Surface` (vtkIntArray: index of the isosurface in the
-   * property, with isosurface blending). Rays without the event have NaN, and -1 in arrays of
-   * integers.
+   * Besides the arrays of the class comment there are the events of rays: `FirstVisible`, the first
+   * visible place; `OpacityReached`, the place at which the accumulated opacity reaches
+   * EventOpacity; and `LargestContribution`, the place of the largest contribution per length.
+   * Each adds arrays whose names begin with its own: `Depth` (distance along the ray), `Value` (the
+   * scalar there), `Position` (3 components, world coordinates; behind refracting surfaces the true
+   * place), all of 32-bit floats; `CellId` (vtkIdTypeArray: cell of the input's data set), `Block`
+   * (vtkIntArray: its flat index, for composite input) and `Surface` (vtkIntArray: index of the
+   * isosurface in the property, with isosurface blending). Rays without the event have NaN, and -1
+   * in arrays of integers.
    */
-  vtkSetMacro(ComputeFirstVisible, vtkTypeBool);
-  vtkGetMacro(ComputeFirstVisible, vtkTypeBool);
-  vtkBooleanMacro(ComputeFirstVisible, vtkTypeBool);
-  vtkSetMacro(ComputeOpacityReached, vtkTypeBool);
-  vtkGetMacro(ComputeOpacityReached, vtkTypeBool);
-  vtkBooleanMacro(ComputeOpacityReached, vtkTypeBool);
-  vtkSetMacro(ComputeLargestContribution, vtkTypeBool);
-  vtkGetMacro(ComputeLargestContribution, vtkTypeBool);
-  vtkBooleanMacro(ComputeLargestContribution, vtkTypeBool);
-  /** @} */
+  vtkDataArraySelection* GetArraySelection();
 
   /** @{ */
   /** Set/Get the accumulated opacity of `OpacityReached`, from 0 to 1. Default is 0.5. */
-  vtkSetClampMacro(EventOpacity, double, 0.0, 1.0);
+  virtual void SetEventOpacity(double opacity);
   vtkGetMacro(EventOpacity, double);
   /** @} */
 
@@ -287,7 +247,7 @@ public:
   /** @} */
 
   /** Meanings of opacity, as in vtkTetrahedraRayCastMapper. */
-  enum OpacityModels
+  enum
   {
     ATTENUATION_COEFFICIENT = 0,
     OPACITY_PER_UNIT_DISTANCE = 1
@@ -295,7 +255,7 @@ public:
 
   /** @{ */
   /** Set/Get the meaning of the property's opacity. Default is ATTENUATION_COEFFICIENT. */
-  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  virtual void SetOpacityModel(int model);
   vtkGetMacro(OpacityModel, int);
   void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
   void SetOpacityModelToOpacityPerUnitDistance()
@@ -385,58 +345,15 @@ public:
 
   /** @{ */
   /**
-   * Counters since construction: builds of the mesh, updates of the positions alone (points have
-   * moved, the cells are the same), updates of the scalars, determinations of the cells that count,
-   * reductions of the volume property, readings of arrays of energy bins, builds of the shape of a
-   * surface, and casts of an image's rays (one for all measurements of the scalar, one for RGBA,
-   * one for three energy bins with arrays or for one that emits).
+   * Counters, sizes and errors by name: a table with one row each and the columns Name, Meaning and
+   * Value, which belongs to this object and is filled anew by each call; and the value of one name,
+   * such as "NumberOfCasts". An unknown name is an error, and the value is not a number.
    */
-  vtkTypeInt64 GetNumberOfMeshBuilds();
-  vtkTypeInt64 GetNumberOfPointUpdates();
-  vtkTypeInt64 GetNumberOfScalarUpdates();
-  vtkTypeInt64 GetNumberOfActiveSetBuilds();
-  vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
-  vtkTypeInt64 GetNumberOfBinUpdates();
-  vtkTypeInt64 GetNumberOfMembraneBuilds();
-  vtkTypeInt64 GetNumberOfCasts();
+  vtkTable* GetStatistics();
+  double GetStatistic(const char* name);
   /** @} */
 
-  /** @{ */
-  /**
-   * Numbers of tetrahedra of the mesh, in all cells; of divisions of the cells since construction,
-   * which are 0 with FIXED_DIVISION and for meshes of tetrahedra; and of the last division: cells
-   * that are folded inside out in parts, and edges that exceed the tolerance after 23 divisions. A
-   * warning reports the last two if they are not 0.
-   */
-  vtkTypeInt64 GetNumberOfTetrahedra();
-  vtkTypeInt64 GetNumberOfCellDivisions();
-  vtkTypeInt64 GetNumberOfFoldedCells();
-  vtkTypeInt64 GetNumberOfUnresolvedEdges();
-  /** @} */
-
-  /** Error of the last division, as vtkTetrahedraRayCastMapper::GetDivisionError(). */
-  double GetDivisionError();
-
-  /**
-   * Number of times that the input's cells were looked up for events since construction: once per
-   * mesh.
-   */
-  vtkTypeInt64 GetNumberOfCellSearches();
-
-  /** @{ */
-  /**
-   * Numbers of the last image or mesh: rays that met the mesh, crossed cells, rays whose walk did
-   * not end on the boundary (which cannot happen with IEEE arithmetic), tetrahedra without a finite
-   * scalar, and cells that were left out as in vtkTetrahedraRayCastMapper.
-   */
-  vtkTypeInt64 GetNumberOfRays();
-  vtkTypeInt64 GetNumberOfTraversalSteps();
-  vtkTypeInt64 GetNumberOfLostRays();
-  vtkTypeInt64 GetNumberOfTransparentCells();
-  vtkTypeInt64 GetNumberOfRejectedCells();
-  /** @} */
-
-  /** Includes the times of camera, property and interfaces. */
+  /** Includes the times of camera, property, interfaces and array selection. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -480,18 +397,6 @@ private:
   double FrameAxis2[3] = { 0.0, 1.0, 0.0 };
   int ImageSize[2] = { 256, 256 };
   int ArrayComponent = 0;
-  vtkTypeBool ComputeIntegral = 1;
-  vtkTypeBool ComputePathLength = 0;
-  vtkTypeBool ComputeOpticalDepth = 0;
-  vtkTypeBool ComputeFirstDepth = 0;
-  vtkTypeBool ComputeLastDepth = 0;
-  vtkTypeBool ComputeMinimum = 0;
-  vtkTypeBool ComputeMaximum = 0;
-  vtkTypeBool ComputeRGBA = 0;
-  vtkTypeBool ComputeEnergyBins = 0;
-  vtkTypeBool ComputeFirstVisible = 0;
-  vtkTypeBool ComputeOpacityReached = 0;
-  vtkTypeBool ComputeLargestContribution = 0;
   double EventOpacity = 0.5;
   int EventBlendMode = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;

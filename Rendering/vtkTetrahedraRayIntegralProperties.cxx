@@ -3,12 +3,25 @@
 // Properties and counters of vtkTetrahedraRayIntegral.
 #include "Rendering/RayIntegralInternals.h"
 
+#include "Filters/Common/ClampedSetter.h"
+
 #include "vtkCamera.h"
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"
 
 #include <algorithm>
 #include <cstddef>
+
+meniscusStatisticsMacro(vtkTetrahedraRayIntegral);
+meniscusSetClampMacro(vtkTetrahedraRayIntegral, FrameMode, int, FITTED, CAMERA);
+meniscusSetClampMacro(
+  vtkTetrahedraRayIntegral, CellDivision, int, FIXED_DIVISION, ADAPTIVE_DIVISION);
+meniscusSetClampMacro(
+  vtkTetrahedraRayIntegral, MaximumNumberOfPieces, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+meniscusSetClampMacro(vtkTetrahedraRayIntegral, ArrayComponent, int, -1, VTK_INT_MAX);
+meniscusSetClampMacro(vtkTetrahedraRayIntegral, EventOpacity, double, 0.0, 1.0);
+meniscusSetClampMacro(
+  vtkTetrahedraRayIntegral, OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
 
 namespace
 {
@@ -73,6 +86,12 @@ void vtkTetrahedraRayIntegral::SetCamera(vtkCamera* camera)
 vtkCamera* vtkTetrahedraRayIntegral::GetCamera()
 {
   return this->Camera;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkTetrahedraRayIntegral::GetArraySelection()
+{
+  return this->Internals->Arrays;
 }
 
 //------------------------------------------------------------------------------
@@ -154,93 +173,10 @@ double vtkTetrahedraRayIntegral::GetBinIntensity(int bin)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfMeshBuilds()
-{
-  return this->Internals->Input.GetBuildVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfPointUpdates()
-{
-  return this->Internals->Input.GetNumberOfPointUpdates();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfScalarUpdates()
-{
-  return this->Internals->Input.GetScalarVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfActiveSetBuilds()
-{
-  return this->Internals->Input.GetActiveSetBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTransferFunctionBuilds()
-{
-  return this->Internals->Property.GetNumberOfBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfBinUpdates()
-{
-  return this->Internals->Bins.GetNumberOfBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfMembraneBuilds()
-{
-  return this->Internals->Membrane.GetShapeVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCasts()
-{
-  return this->Internals->GetNumberOfCasts();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCellSearches()
-{
-  return this->Internals->Input.GetNumberOfInputCellSearches();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfRays()
-{
-  return this->Internals->GetStatistics().Rays;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTraversalSteps()
-{
-  return this->Internals->GetStatistics().Steps;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfLostRays()
-{
-  return this->Internals->GetStatistics().Lost;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTransparentCells()
-{
-  return this->Internals->Input.GetMesh().GetNumberOfUnknownCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfRejectedCells()
-{
-  return this->Internals->Input.GetNumberOfRejectedCells();
-}
-
-//------------------------------------------------------------------------------
 vtkMTimeType vtkTetrahedraRayIntegral::GetMTime()
 {
-  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
+  vtkMTimeType time = std::max({ this->Superclass::GetMTime(), this->Interfaces->GetMTime(),
+    this->Internals->Arrays->GetMTime() });
   if (this->Camera)
   {
     time = std::max(time, this->Camera->GetMTime());
@@ -249,33 +185,61 @@ vtkMTimeType vtkTetrahedraRayIntegral::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfTetrahedra()
+/** All numbers that the class reports. */
+const std::vector<meniscus::Statistic<vtkTetrahedraRayIntegral>>&
+vtkTetrahedraRayIntegral::vtkInternals::List()
 {
-  return this->Internals->Input.GetMesh().GetNumberOfCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfCellDivisions()
-{
-  return this->Internals->Input.GetDivision().GetNumberOfDivisions();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfFoldedCells()
-{
-  return this->Internals->Input.GetNumberOfFoldedCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayIntegral::GetNumberOfUnresolvedEdges()
-{
-  return this->Internals->Input.GetDivision().GetCounts().UnresolvedEdges;
-}
-
-//------------------------------------------------------------------------------
-double vtkTetrahedraRayIntegral::GetDivisionError()
-{
-  return this->Internals->Input.GetDivision().GetCounts().Error;
+  using Self = vtkTetrahedraRayIntegral;
+  static const std::vector<meniscus::Statistic<Self>> list{
+    { "NumberOfMeshBuilds", "builds of the mesh, since construction",
+      [](Self& self) { return double(self.Internals->Input.GetBuildVersion().GetChanges()); } },
+    { "NumberOfPointUpdates",
+      "updates of the positions alone (points have moved, the cells are the same)",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfPointUpdates()); } },
+    { "NumberOfScalarUpdates", "updates of the scalars, when their values have changed",
+      [](Self& self) { return double(self.Internals->Input.GetScalarVersion().GetChanges()); } },
+    { "NumberOfActiveSetBuilds", "determinations of the cells that count",
+      [](Self& self) { return double(self.Internals->Input.GetActiveSetBuilds()); } },
+    { "NumberOfTransferFunctionBuilds", "reductions of the volume property to control points",
+      [](Self& self) { return double(self.Internals->Property.GetNumberOfBuilds()); } },
+    { "NumberOfBinUpdates", "readings of arrays of energy bins",
+      [](Self& self) { return double(self.Internals->Bins.GetNumberOfBuilds()); } },
+    { "NumberOfMembraneBuilds", "builds of the shape of a surface",
+      [](Self& self) { return double(self.Internals->Membrane.GetShapeVersion().GetChanges()); } },
+    { "NumberOfCellSearches",
+      "times that the input's cells were looked up for events: once per mesh",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfInputCellSearches()); } },
+    { "NumberOfCasts",
+      "casts of an image's rays: one for all measurements of the scalar, one for RGBA, one "
+      "for three energy bins with arrays or for one that emits",
+      [](Self& self) { return double(self.Internals->GetNumberOfCasts()); } },
+    { "NumberOfTetrahedra", "tetrahedra of the mesh, in all cells",
+      [](Self& self) { return double(self.Internals->Input.GetMesh().GetNumberOfCells()); } },
+    { "NumberOfTransparentCells", "tetrahedra without a finite scalar",
+      [](Self& self)
+      { return double(self.Internals->Input.GetMesh().GetNumberOfUnknownCells()); } },
+    { "NumberOfRejectedCells", "cells that are left out because they are not valid",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfRejectedCells()); } },
+    { "NumberOfCellDivisions", "adaptive divisions of the cells, since construction",
+      [](Self& self)
+      { return double(self.Internals->Input.GetDivision().GetNumberOfDivisions()); } },
+    { "NumberOfFoldedCells", "cells of the last division that are folded inside out in parts",
+      [](Self& self) { return double(self.Internals->Input.GetNumberOfFoldedCells()); } },
+    { "NumberOfUnresolvedEdges",
+      "edges of the last division that exceed the tolerance after 23 divisions",
+      [](Self& self)
+      { return double(self.Internals->Input.GetDivision().GetCounts().UnresolvedEdges); } },
+    { "DivisionError",
+      "largest error in the edges of the last division, in the unit of the tolerance",
+      [](Self& self) { return double(self.Internals->Input.GetDivision().GetCounts().Error); } },
+    { "NumberOfRays", "rays of the last image that met the mesh",
+      [](Self& self) { return double(self.Internals->GetStatistics().Rays); } },
+    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
+      [](Self& self) { return double(self.Internals->GetStatistics().Steps); } },
+    { "NumberOfLostRays", "rays of the last image whose walk did not end on the boundary",
+      [](Self& self) { return double(self.Internals->GetStatistics().Lost); } },
+  };
+  return list;
 }
 
 //------------------------------------------------------------------------------
@@ -285,11 +249,6 @@ void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CellDivision: " << this->CellDivision << "\n";
   os << indent << "DivisionTolerance: " << this->DivisionTolerance << "\n";
   os << indent << "MaximumNumberOfPieces: " << this->MaximumNumberOfPieces << "\n";
-  os << indent << "NumberOfTetrahedra: " << this->GetNumberOfTetrahedra() << "\n";
-  os << indent << "NumberOfCellDivisions: " << this->GetNumberOfCellDivisions() << "\n";
-  os << indent << "NumberOfFoldedCells: " << this->GetNumberOfFoldedCells() << "\n";
-  os << indent << "NumberOfUnresolvedEdges: " << this->GetNumberOfUnresolvedEdges() << "\n";
-  os << indent << "DivisionError: " << this->GetDivisionError() << "\n";
   const auto vector = [&os, indent](const char* name, const double(&values)[3]) {
     os << indent << name << ": (" << values[0] << ", " << values[1] << ", " << values[2] << ")\n";
   };
@@ -303,18 +262,8 @@ void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Camera: " << this->Camera << "\n";
   os << indent << "ImageSize: (" << this->ImageSize[0] << ", " << this->ImageSize[1] << ")\n";
   os << indent << "ArrayComponent: " << this->ArrayComponent << "\n";
-  os << indent << "ComputeIntegral: " << this->ComputeIntegral << "\n";
-  os << indent << "ComputePathLength: " << this->ComputePathLength << "\n";
-  os << indent << "ComputeOpticalDepth: " << this->ComputeOpticalDepth << "\n";
-  os << indent << "ComputeFirstDepth: " << this->ComputeFirstDepth << "\n";
-  os << indent << "ComputeLastDepth: " << this->ComputeLastDepth << "\n";
-  os << indent << "ComputeMinimum: " << this->ComputeMinimum << "\n";
-  os << indent << "ComputeMaximum: " << this->ComputeMaximum << "\n";
-  os << indent << "ComputeRGBA: " << this->ComputeRGBA << "\n";
-  os << indent << "ComputeEnergyBins: " << this->ComputeEnergyBins << "\n";
-  os << indent << "ComputeFirstVisible: " << this->ComputeFirstVisible << "\n";
-  os << indent << "ComputeOpacityReached: " << this->ComputeOpacityReached << "\n";
-  os << indent << "ComputeLargestContribution: " << this->ComputeLargestContribution << "\n";
+  os << indent << "ArraySelection:\n";
+  this->Internals->Arrays->PrintSelf(os, indent.GetNextIndent());
   os << indent << "EventOpacity: " << this->EventOpacity << "\n";
   os << indent << "EventBlendMode: " << this->EventBlendMode << "\n";
   os << indent << "VolumeProperty: " << this->VolumeProperty << "\n";
@@ -327,6 +276,5 @@ void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AttenuationArrayName: " << name(this->AttenuationArrayName) << "\n";
   os << indent << "EmissionArrayName: " << name(this->EmissionArrayName) << "\n";
   os << indent << "Interfaces: " << this->Interfaces << "\n";
-  os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
-  os << indent << "NumberOfCasts: " << this->GetNumberOfCasts() << "\n";
+  meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraVolumePicker.h"
 
+#include "Filters/Common/ClampedSetter.h"
 #include "Rendering/VolumePick.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -46,6 +47,8 @@ public:
 };
 
 vtkStandardNewMacro(vtkTetrahedraVolumePicker);
+meniscusSetClampMacro(vtkTetrahedraVolumePicker, Place, int, FIRST_VISIBLE, LARGEST_CONTRIBUTION);
+meniscusSetClampMacro(vtkTetrahedraVolumePicker, OpacityThreshold, double, 0.0, 1.0);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraVolumePicker::vtkTetrahedraVolumePicker()

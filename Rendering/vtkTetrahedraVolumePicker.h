@@ -55,7 +55,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Places on a ray. */
-  enum Places
+  enum
   {
     FIRST_VISIBLE = 0,
     OPACITY_REACHED = 1,
@@ -64,7 +64,7 @@ public:
 
   /** @{ */
   /** Set/Get the place that is picked. Default is LARGEST_CONTRIBUTION. */
-  vtkSetClampMacro(Place, int, FIRST_VISIBLE, LARGEST_CONTRIBUTION);
+  virtual void SetPlace(int place);
   vtkGetMacro(Place, int);
   void SetPlaceToFirstVisible() { this->SetPlace(FIRST_VISIBLE); }
   void SetPlaceToOpacityReached() { this->SetPlace(OPACITY_REACHED); }
@@ -76,7 +76,7 @@ public:
    * Set/Get the accumulated opacity of OPACITY_REACHED, from 0 to 1. A medium never reaches 1.
    * Default is 0.5.
    */
-  vtkSetClampMacro(OpacityThreshold, double, 0.0, 1.0);
+  virtual void SetOpacityThreshold(double threshold);
   vtkGetMacro(OpacityThreshold, double);
   /** @} */
 

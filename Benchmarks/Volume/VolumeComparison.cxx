@@ -220,11 +220,11 @@ void VolumeComparison::AddCounters(std::size_t contestant, double& steps)
   Figures& figures = this->Results[contestant];
   steps += static_cast<double>(mapper->GetNumberOfTraversalSteps());
   figures.LostRays += static_cast<double>(mapper->GetNumberOfLostRays());
-  figures.DeviceBytes = static_cast<double>(mapper->GetDeviceBytes());
-  figures.HostBytes = static_cast<double>(mapper->GetHostBytes());
+  figures.DeviceBytes = mapper->GetStatistic("DeviceBytes");
+  figures.HostBytes = mapper->GetStatistic("HostBytes");
   if (mapper->GetActiveBackend() != vtkTetrahedraRayCastMapper::NATIVE)
   {
-    figures.TableBytesPerStep = mapper->GetCompactTables() ? 20.0 + 16.0 : 32.0 + 16.0;
+    figures.TableBytesPerStep = 32.0 + 16.0;
   }
 }
 

@@ -154,20 +154,17 @@ std::vector<Contestant> MakeContestants(const VolumeOptions& options)
 {
   std::vector<Contestant> all =
     options.Mode == VolumeMode::Composite ? MakePeers(options) : std::vector<Contestant>();
-  vtkNew<vtkTetrahedraRayCastMapper> ours;
-  for (int backend = 1; backend <= ours->GetBackendMaxValue(); ++backend)
+  using Mapper = vtkTetrahedraRayCastMapper;
+  for (const int backend : { Mapper::OPENGL, Mapper::NATIVE, Mapper::COMPUTE })
   {
-    for (int integration = 0; integration <= ours->GetIntegrationMaxValue(); ++integration)
+    for (const int integration : { Mapper::EXACT, Mapper::PRE_INTEGRATED })
     {
       const OurSettings settings{ backend, integration, -1.0 };
       if (!IsAvailable(settings))
       {
         continue;
       }
-      const std::string integrationName = integration == vtkTetrahedraRayCastMapper::EXACT ? "exact"
-        : integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED
-        ? "pre-integrated"
-        : "integration-" + std::to_string(integration);
+      const std::string integrationName = integration == Mapper::EXACT ? "exact" : "pre-integrated";
       const std::string name = "meniscus/" + BackendName(backend) + "/" + integrationName;
       all.push_back({ name, [settings]() { return MakeOurMapper(settings); }, true });
       const OurSettings early{ backend, integration, 0.99 };

@@ -188,8 +188,10 @@ void PrintCounters(vtkRefractedGeometryFilter* filter)
     static_cast<long long>(filter->GetOutput()->GetNumberOfPoints()),
     static_cast<long long>(filter->GetOutput()->GetNumberOfCells()),
     filter->GetNumberOfPatchBuilds(), filter->GetNumberOfEyeUpdates(),
-    filter->GetNumberOfSolvedVertices(), filter->GetNumberOfVerticesWithoutImage(),
-    filter->GetNumberOfFailedSolves(), filter->GetNumberOfSkippedCells());
+    filter->GetNumberOfSolvedVertices(),
+    static_cast<long long>(filter->GetStatistic("NumberOfVerticesWithoutImage")),
+    filter->GetNumberOfFailedSolves(),
+    static_cast<long long>(filter->GetStatistic("NumberOfSkippedCells")));
 }
 
 }

@@ -98,7 +98,7 @@ def main():
         camera.Zoom(1.35)
         window.Render()
         print("%s: %d tetrahedra" % (("fixed", "adaptive")[side],
-                                     volume.GetMapper().GetNumberOfTetrahedra()))
+                                     volume.GetMapper().GetStatistic("NumberOfTetrahedra")))
     grabber = vtkWindowToImageFilter()
     grabber.SetInput(window)
     grabber.ReadFrontBufferOff()

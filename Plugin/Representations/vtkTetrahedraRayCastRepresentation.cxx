@@ -507,12 +507,6 @@ void vtkTetrahedraRayCastRepresentation::SetMaximumImageSampleDistance(double di
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetCompactTables(bool compact)
-{
-  this->Mapper->SetCompactTables(compact);
-}
-
-//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetMediumModel(int model)
 {
   this->Mapper->SetMediumModel(model);

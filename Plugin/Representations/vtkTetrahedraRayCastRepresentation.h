@@ -84,7 +84,6 @@ public:
   void SetAutoAdjustSampleDistances(bool adjust);
   void SetImageSampleDistance(double distance);
   void SetMaximumImageSampleDistance(double distance);
-  void SetCompactTables(bool compact);
   /** @} */
 
   /** @{ */

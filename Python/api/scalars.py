@@ -3,10 +3,10 @@
 """Arrays of a mesh that are drawn: one, colours, or one for colours and one for opacity."""
 import numpy
 import pyvista
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
-from ..data import check_component
+from ..data import check_component, with_array
 from ..viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of
 from ..viewer.files import ReadingError
 
@@ -17,14 +17,7 @@ _MIXED = "Meniscus"
 def copy_with(mesh, name, in_points, leaves, arrays):
     """Shallow copy of a mesh whose leaves have further arrays of a name, of points or cells; blocks
     that are not among the leaves are empty. arrays: numpy arrays, one per leaf."""
-    copies = []
-    for leaf, array in zip(leaves, arrays):
-        copy = leaf.NewInstance()
-        copy.ShallowCopy(leaf)
-        values = numpy_to_vtk(numpy.ascontiguousarray(array), deep=True)
-        values.SetName(name)
-        (copy.GetPointData() if in_points else copy.GetCellData()).AddArray(values)
-        copies.append(copy)
+    copies = [with_array(leaf, name, in_points, array) for leaf, array in zip(leaves, arrays)]
     if not isinstance(mesh, vtkCompositeDataSet):
         return pyvista.wrap(copies[0])
     blocks = mesh.NewInstance()

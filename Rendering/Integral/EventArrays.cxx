@@ -15,9 +15,6 @@ namespace meniscus
 namespace
 {
 
-constexpr const char* EventNames[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
-  "LargestContribution" };
-
 /** Makes an array whose tuples all have one value. */
 void Prepare(
   vtkDataArray* array, const std::string& name, int components, std::int64_t tuples, double value)

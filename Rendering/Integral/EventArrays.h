@@ -27,6 +27,10 @@ class vtkImageData;
 namespace meniscus
 {
 
+/** Names of the events, with which those of their arrays begin. */
+constexpr const char* EventNames[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
+  "LargestContribution" };
+
 /** Events of rays that are wanted, and the blend mode that defines them. */
 struct EventChoice
 {

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Integral/IntegralArrays.h"
 
+#include "vtkDataArraySelection.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace meniscus
@@ -32,6 +34,33 @@ int ComponentsOf(IntegralArray array, int bins)
 }
 
 //------------------------------------------------------------------------------
+std::vector<const char*> ListArrayNames()
+{
+  std::vector<const char*> names(std::begin(IntegralNames), std::end(IntegralNames));
+  names.insert(names.end(), std::begin(EventNames), std::end(EventNames));
+  return names;
+}
+
+//------------------------------------------------------------------------------
+std::string IntegralChoice::Want(vtkDataArraySelection* selection)
+{
+  const auto chosen = [selection](const char* name)
+  { return selection->ArrayIsEnabled(name) != 0; };
+  std::transform(std::begin(IntegralNames), std::end(IntegralNames), this->Wanted.begin(), chosen);
+  std::transform(std::begin(EventNames), std::end(EventNames), this->Events.Wanted.begin(), chosen);
+  const std::vector<const char*> known = ListArrayNames();
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = selection->GetArrayName(i);
+    if (chosen(name.c_str()) && std::find(known.begin(), known.end(), name) == known.end())
+    {
+      return name;
+    }
+  }
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
 bool IntegralChoice::NeedsScalars() const
 {
   bool needs = this->Has(IntegralArray::EnergyBins) && !this->HasBinArrays;
@@ -46,7 +75,8 @@ bool IntegralChoice::NeedsScalars() const
 bool IntegralChoice::NeedsScalarValues() const
 {
   return this->Has(IntegralArray::Integral) || this->Has(IntegralArray::Minimum) ||
-    this->Has(IntegralArray::Maximum) || this->Events.IsAnyWanted() ||
+    this->Has(IntegralArray::MinimumDepth) || this->Has(IntegralArray::Maximum) ||
+    this->Has(IntegralArray::MaximumDepth) || this->Events.IsAnyWanted() ||
     (this->Has(IntegralArray::EnergyBins) && !this->HasBinArrays);
 }
 

@@ -14,8 +14,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+class vtkDataArraySelection;
 class vtkImageData;
 
 namespace meniscus
@@ -40,6 +42,9 @@ enum class IntegralArray
 constexpr std::size_t NumberOfIntegralArrays =
   static_cast<std::size_t>(IntegralArray::NumberOfArrays);
 
+/** Names of all arrays and events. */
+std::vector<const char*> ListArrayNames();
+
 /** Arrays that are wanted. */
 struct IntegralChoice
 {
@@ -50,6 +55,11 @@ struct IntegralChoice
   /** True if the bins' attenuations are arrays, otherwise they are multiples of the scalar. */
   bool HasBinArrays = false;
 
+  /**
+   * Chooses the arrays that a selection has switched on. Returns a name that does not exist, or an
+   * empty one.
+   */
+  std::string Want(vtkDataArraySelection* selection);
   bool Has(IntegralArray array) const { return this->Wanted[static_cast<std::size_t>(array)]; }
   /** True if the scalar is to be measured, and if its values and not only its presence count. */
   bool NeedsScalars() const;

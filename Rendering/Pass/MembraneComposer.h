@@ -21,12 +21,12 @@ namespace meniscus
 /** Images and optics of one membrane. */
 struct MembraneLook
 {
-  /** The numbers of vtkRefractionPass::ReflectanceModels. */
+  /** Models of the reflectance, with vtkRefractionPass's numbers. */
   enum class Reflectances
   {
-    None,
-    Schlick,
     Fresnel,
+    Schlick,
+    None,
     Mirror
   };
 

@@ -20,7 +20,7 @@ namespace meniscus
 /** Makes a backend for one mapper. */
 using RayCastBackendFactory = std::function<std::unique_ptr<RayCastBackend>(RayCastSharing&)>;
 
-/** Numbers of backends; the same as in vtkTetrahedraRayCastMapper::Backends. */
+/** Numbers of backends; the same as in vtkTetrahedraRayCastMapper. */
 enum class RayCastBackendNumber
 {
   Automatic = 0,

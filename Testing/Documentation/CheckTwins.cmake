@@ -27,11 +27,13 @@ foreach (link IN LISTS links)
   endif ()
 endforeach ()
 
-# The algorithms that are known to be written twice.
-foreach (part RefractionMembraneFS TetrahedraRays TetrahedraWalk TetrahedraComposite
-    TetrahedraComponents TetrahedraMedium TetrahedraLights TetrahedraIsosurfaces
-    TetrahedraProjection TetrahedraPreIntegrated TetrahedraTransferFunction TetrahedraPlaceFS
-    TetrahedraEntryTilesFS MediumTransmittance TetrahedraFading)
+# The algorithms that are known to be written twice, and the parts of all blend modes.
+include("${ROOT}/Module/Volume/Optics/BlendModes.cmake")
+list(TRANSFORM meniscus_blend_mode_parts PREPEND Tetrahedra)
+foreach (part RefractionMembraneFS TetrahedraRays TetrahedraWalk TetrahedraComponents
+    TetrahedraMedium TetrahedraLights TetrahedraPreIntegrated TetrahedraTransferFunction
+    TetrahedraPlaceFS TetrahedraEntryTilesFS MediumTransmittance TetrahedraFading
+    ${meniscus_blend_mode_parts})
   if (NOT "${links}" MATCHES "Rendering/glsl/vtk${part}.glsl>Module/")
     message(SEND_ERROR "vtk${part}.glsl names no twin in Module/")
   endif ()

@@ -218,7 +218,7 @@ TEST_P(ReflectedGeometry, CullingKeepsThePicture)
   filter->SetCamera(view);
   filter->SetViewAspectRatio(1.0);
   filter->Update();
-  EXPECT_GT(filter->GetNumberOfCulledCells(), 0);
+  EXPECT_GT(filter->GetStatistic("NumberOfCulledCells"), 0);
   const PlaceComparison compared =
     ComparePlaces(whole, DrawPlaces(filter->GetOutput(), camera), camera);
   EXPECT_GT(compared.Covered, 1000);
@@ -426,8 +426,8 @@ TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 25);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 16);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 25);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 16);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_NE(messages->Text.find("None of the 25 points has an image"), std::string::npos);
 }
@@ -449,7 +449,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   const auto messages = Observe(open);
   open->Update();
   EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(open->GetNumberOfVerticesWithoutImage(), 25);
+  EXPECT_EQ(open->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_NE(messages->Text.find("No facet of the membrane faces the eye"), std::string::npos);
   EXPECT_NE(messages->Text.find("sees the back of the mirror only"), std::string::npos);
@@ -460,7 +460,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   const auto told = Observe(ball);
   ball->Update();
   EXPECT_EQ(ball->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(ball->IsEyeEnclosed());
+  EXPECT_TRUE(ball->GetStatistic("IsEyeEnclosed"));
   EXPECT_NE(told->Text.find("sees the back of the mirror only"), std::string::npos);
 }
 

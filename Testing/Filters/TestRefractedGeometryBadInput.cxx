@@ -86,7 +86,7 @@ TEST(RefractedGeometryBadInput, MembraneWithoutArea)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
-  EXPECT_EQ(filter->GetNumberOfSkippedFacets(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedFacets"), 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
 
@@ -121,8 +121,8 @@ TEST(RefractedGeometryBadInput, BadFacetsAreSkippedAndCounted)
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   // The quad without area yields one or two triangles, the strip two.
-  EXPECT_GE(filter->GetNumberOfSkippedFacets(), 9);
-  EXPECT_LE(filter->GetNumberOfSkippedFacets(), 10);
+  EXPECT_GE(filter->GetStatistic("NumberOfSkippedFacets"), 9);
+  EXPECT_LE(filter->GetStatistic("NumberOfSkippedFacets"), 10);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 25);
 }
 
@@ -136,10 +136,10 @@ TEST(RefractedGeometryBadInput, PointsThatAreNotFinite)
   filter->Update();
   vtkPolyData* output = filter->GetOutput();
   EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 0);
   EXPECT_EQ(output->GetNumberOfPoints(), 7);
   EXPECT_EQ(output->GetNumberOfPolys(), 2);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
   for (vtkIdType i = 0; i < 7; ++i)
   {
     double p[3];
@@ -164,7 +164,7 @@ TEST(RefractedGeometryBadInput, CellsThatNamePointsThatDoNotExist)
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 4);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
 }
 
 TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)

@@ -21,7 +21,6 @@ MAPPER = {
     "AutoAdjustSampleDistances": (1, 0, 0),
     "MaximumImageSampleDistance": (8, 4, 4),
     "ImageSampleDistance": (1, 2, 2),
-    "CompactTables": (0, 1, 1),
     "ExteriorIndexOfRefraction": (1, 1.25, 1.25),
     "InteriorIndexOfRefraction": (1.333, 1.5, 1.5),
 }

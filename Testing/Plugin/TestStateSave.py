@@ -9,9 +9,12 @@ import StateScene
 from paraview import simple, smstate, smtrace
 
 # Properties, at their defaults in the scene, that a version without them would not have written.
-MISSING = ["CompactTables", "PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling",
-           "FollowCamera"]
+MISSING = ["PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling", "FollowCamera"]
+# Properties of other versions: one of an older and one of a newer one.
 UNKNOWN = """
+      <Property name="CompactTables" id="%s.CompactTables" number_of_elements="1">
+        <Element index="0" value="1"/>
+      </Property>
       <Property name="NotYetInvented" id="%s.NotYetInvented" number_of_elements="1">
         <Element index="0" value="1"/>
       </Property>"""
@@ -28,7 +31,7 @@ def write_older_state():
     text, count = re.subn(
         r'(<Proxy group="(?:representations|filters)" '
         r'type="(?:UnstructuredGridRepresentation|RefractedGeometry)" id="(\d+)"[^>]*>)',
-        lambda match: match.group(1) + UNKNOWN % match.group(2), text)
+        lambda match: match.group(1) + UNKNOWN % (match.group(2), match.group(2)), text)
     assert count >= 2, "the state file has %d proxies of ours" % count
     with open(StateScene.OLDER_STATE, "w") as file:
         file.write(text)

@@ -39,7 +39,8 @@ class TestEdits(unittest.TestCase):
         self.window.Render()
 
     def work(self):
-        return (self.mapper.GetNumberOfMeshBuilds(), self.mapper.GetNumberOfPointUpdates(),
+        return (self.mapper.GetNumberOfMeshBuilds(),
+                self.mapper.GetStatistic("NumberOfPointUpdates"),
                 self.mapper.GetNumberOfScalarUpdates())
 
     def draw(self):

@@ -85,9 +85,9 @@ class TestPicker(unittest.TestCase):
                     self.assertLessEqual(bounds[2 * axis], position[axis] + 4e-6)
                     self.assertGreaterEqual(bounds[2 * axis + 1], position[axis] - 4e-6)
         self.assertGreater(picked, 20)
-        self.assertEqual(self.mapper.GetNumberOfCastImages(), 0)
+        self.assertEqual(self.mapper.GetStatistic("NumberOfCastImages"), 0)
         self.assertEqual(self.mapper.GetNumberOfMeshBuilds(), 1)
-        self.assertEqual(self.mapper.GetNumberOfCellSearches(), 1)
+        self.assertEqual(self.mapper.GetStatistic("NumberOfCellSearches"), 1)
 
     def test_image(self):
         rays = vtkTetrahedraRayIntegral()
@@ -95,8 +95,8 @@ class TestPicker(unittest.TestCase):
         rays.SetImageSize(SIZE, SIZE)
         rays.SetCamera(self.renderer.GetActiveCamera())
         rays.SetVolumeProperty(self.property)
-        rays.ComputeIntegralOff()
-        rays.ComputeLargestContributionOn()
+        rays.GetArraySelection().DisableArray("Integral")
+        rays.GetArraySelection().EnableArray("LargestContribution")
         rays.Update()
         data = rays.GetOutput().GetPointData()
         cells = data.GetArray("LargestContributionCellId")

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Every public name exists in Python, setters and getters agree, counters begin at 0."""
+import math
 import unittest
 
 from meniscus import (
     vtkMembraneCellFilter, vtkRefractedGeometryFilter, vtkRefractedLightFilter,
-    vtkRefractionErrorVolume, vtkTetrahedraRayCastMapper)
+    vtkRefractionErrorVolume, vtkRefractionPass, vtkTetrahedraRayCastMapper,
+    vtkTetrahedraRayIntegral)
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -25,6 +27,38 @@ class PropertyTest(unittest.TestCase):
     def check_counters(self, thing, names):
         for name in names:
             self.assertEqual(getattr(thing, "Get" + name)(), 0, name)
+
+    def check_statistics(self, thing, names):
+        """Each name is in the table once, with a meaning and the value that it has by name; getters
+        of the same name agree; unknown names are errors."""
+        table = thing.GetStatistics()
+        self.assertEqual([table.GetColumnName(i) for i in range(table.GetNumberOfColumns())],
+                         ["Name", "Meaning", "Value"])
+        listed = {}
+        for row in range(table.GetNumberOfRows()):
+            name, meaning, value = (table.GetValue(row, column) for column in range(3))
+            self.assertNotIn(name.ToString(), listed)
+            self.assertGreater(len(meaning.ToString()), 10)
+            listed[name.ToString()] = value.ToDouble()
+            self.assertEqual(thing.GetStatistic(name.ToString()), value.ToDouble())
+            if hasattr(thing, "Get" + name.ToString()):
+                self.assertEqual(getattr(thing, "Get" + name.ToString())(), value.ToDouble())
+            self.assertIn(name.ToString() + ": ", str(thing))
+        for name in names:
+            self.assertEqual(listed[name], 0, name)
+        told = []
+        thing.AddObserver("ErrorEvent", lambda *_: told.append(1))
+        self.assertTrue(math.isnan(thing.GetStatistic("NumberOfElephants")))
+        self.assertTrue(math.isnan(thing.GetStatistic(None)))
+        self.assertEqual(len(told), 2)
+
+    def check_choices(self, thing, choices):
+        """Every value of an enumeration has a method that sets it."""
+        for name, values in choices.items():
+            for setting, constant in values.items():
+                getattr(thing, "Set%sTo%s" % (name, setting))()
+                self.assertEqual(
+                    getattr(thing, "Get" + name)(), getattr(thing, constant), (name, setting))
 
 
 class TestMapper(PropertyTest):
@@ -48,12 +82,35 @@ class TestMapper(PropertyTest):
 
     def test_counters(self):
         self.check_counters(self.mapper, [
-            "NumberOfMeshBuilds", "NumberOfPointUpdates", "NumberOfScalarUpdates",
-            "NumberOfTransferFunctionBuilds",
+            "NumberOfMeshBuilds", "NumberOfScalarUpdates", "NumberOfTransferFunctionBuilds",
             "NumberOfActiveSetBuilds", "UploadedBytes", "NumberOfActiveCells",
-            "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays",
-            "NumberOfUndecidedRays",
-            "NumberOfRejectedCells", "NumberOfPreIntegrationBuilds"])
+            "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays", "NumberOfRejectedCells"])
+        self.check_statistics(self.mapper, [
+            "NumberOfPointUpdates", "NumberOfUndecidedRays", "NumberOfPreIntegrationBuilds"])
+
+    def test_choices(self):
+        self.check_choices(self.mapper, {
+            "VectorMode": {"Disabled": "DISABLED", "Magnitude": "MAGNITUDE",
+                           "Component": "COMPONENT"},
+            "CellDivision": {"Fixed": "FIXED_DIVISION", "Adaptive": "ADAPTIVE_DIVISION"},
+            "OpacityModel": {"AttenuationCoefficient": "ATTENUATION_COEFFICIENT",
+                             "OpacityPerUnitDistance": "OPACITY_PER_UNIT_DISTANCE"},
+            "Backend": {"Automatic": "AUTOMATIC", "OpenGL": "OPENGL", "Native": "NATIVE",
+                        "Compute": "COMPUTE"},
+            "Integration": {"Exact": "EXACT", "PreIntegrated": "PRE_INTEGRATED"},
+            "Gradients": {"CellGradients": "CELL_GRADIENTS",
+                          "VertexGradients": "VERTEX_GRADIENTS"},
+            "DepthWriting": {"NoDepth": "NO_DEPTH", "FirstVisibleDepth": "FIRST_VISIBLE_DEPTH",
+                             "OpacityDepth": "OPACITY_DEPTH"},
+            "MediumModel": {"Exponential": "EXPONENTIAL", "Linear": "LINEAR"}})
+
+    def test_limits(self):
+        """A number beyond its limits becomes the nearest limit."""
+        for name, low, high in (("ColorBias", 0, 0.5), ("Backend", 0, 3), ("DepthWriting", -1, 1),
+                                ("PreIntegrationScalarSize", 2, 1024)):
+            for value, kept in ((low - 1, low), (high + 1, high)):
+                getattr(self.mapper, "Set" + name)(value)
+                self.assertEqual(getattr(self.mapper, "Get" + name)(), kept, name)
 
     def test_prints_itself(self):
         self.assertIn("Integration", str(self.mapper))
@@ -102,8 +159,50 @@ class TestFilter(PropertyTest):
     def test_counters(self):
         self.check_counters(self.filter, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
-            "NumberOfFailedSolves", "NumberOfUndecidedSearches",
-            "NumberOfCulledVertices", "NumberOfCulledCells"])
+            "NumberOfFailedSolves"])
+        self.check_statistics(self.filter, [
+            "NumberOfUndecidedSearches", "NumberOfCulledVertices", "NumberOfCulledCells"])
+
+    def test_choices(self):
+        self.check_choices(self.filter, {
+            "Mode": {"Refraction": "REFRACTION", "Reflection": "REFLECTION"},
+            "MembraneModel": {"FlatFacets": "FLAT_FACETS", "Curved": "CURVED"},
+            "Images": {"FirstImage": "FIRST_IMAGE", "AllImages": "ALL_IMAGES"},
+            "ReflectanceModel": {"Fresnel": "FRESNEL", "Schlick": "SCHLICK"}})
+
+
+class TestRayIntegral(PropertyTest):
+    def setUp(self):
+        self.rays = vtkTetrahedraRayIntegral()
+
+    def test_statistics(self):
+        self.check_statistics(self.rays, ["NumberOfCasts", "NumberOfLostRays", "NumberOfRays"])
+
+    def test_choices(self):
+        self.check_choices(self.rays, {
+            "FrameMode": {"Fitted": "FITTED", "Parallel": "PARALLEL", "Camera": "CAMERA"},
+            "CellDivision": {"Fixed": "FIXED_DIVISION", "Adaptive": "ADAPTIVE_DIVISION"},
+            "OpacityModel": {"AttenuationCoefficient": "ATTENUATION_COEFFICIENT",
+                             "OpacityPerUnitDistance": "OPACITY_PER_UNIT_DISTANCE"}})
+
+    def test_arrays(self):
+        """The integral is on and the others are off; a change modifies the filter."""
+        arrays = self.rays.GetArraySelection()
+        enabled = [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())
+                   if arrays.GetArraySetting(i)]
+        self.assertEqual(enabled, ["Integral"])
+        before = self.rays.GetMTime()
+        arrays.EnableArray("MaximumDepth")
+        self.assertGreater(self.rays.GetMTime(), before)
+
+
+class TestPass(PropertyTest):
+    def test_choices(self):
+        self.check_choices(vtkRefractionPass(), {
+            "ReflectanceModel": {"Fresnel": "FRESNEL", "Schlick": "SCHLICK", "None": "NONE",
+                                 "Mirror": "MIRROR"},
+            "MediumModel": {"Exponential": "EXPONENTIAL", "Linear": "LINEAR"},
+            "Lighting": {"VirtualSpace": "VIRTUAL_SPACE", "TrueSpace": "TRUE_SPACE"}})
 
 
 class TestRefractedLight(PropertyTest):

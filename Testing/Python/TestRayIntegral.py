@@ -118,8 +118,8 @@ class TestRayIntegral(unittest.TestCase):
         rays.Update()
         rays.SetDirection(0.1, 0.2, -1)
         rays.Update()
-        self.assertEqual(rays.GetNumberOfMeshBuilds(), 1)
-        self.assertEqual(rays.GetNumberOfCasts(), 2)
+        self.assertEqual(rays.GetStatistic("NumberOfMeshBuilds"), 1)
+        self.assertEqual(rays.GetStatistic("NumberOfCasts"), 2)
 
 
 if __name__ == "__main__":

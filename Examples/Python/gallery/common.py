@@ -188,7 +188,7 @@ def add_label(renderer, text, height, color):
     label.SetPosition(12, height - 30)
     label.GetTextProperty().SetFontSize(18)
     label.GetTextProperty().SetColor(*color)
-    renderer.AddActor2D(label)
+    renderer.AddViewProp(label)
 
 
 def take(renderer, size, bar=None):
@@ -202,7 +202,7 @@ def take(renderer, size, bar=None):
         window.SetNumberOfLayers(2)
         overlay = vtkRenderer()
         overlay.SetLayer(1)
-        overlay.AddActor2D(bar)
+        overlay.AddViewProp(bar)
         window.AddRenderer(overlay)
     window.Render()
     picture = vtkWindowToImageFilter()

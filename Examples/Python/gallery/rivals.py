@@ -114,7 +114,7 @@ def add_image(renderer, image, x, y):
     actor = vtkActor2D()
     actor.SetMapper(mapper)
     actor.SetPosition(x, y)
-    renderer.AddActor2D(actor)
+    renderer.AddViewProp(actor)
 
 
 def make_panel(picture, size, lines):
@@ -130,7 +130,7 @@ def make_panel(picture, size, lines):
         text.GetTextProperty().SetFontSize(22 if index == 0 else 18)
         text.GetTextProperty().SetBold(index == 0)
         text.GetTextProperty().SetColor(*INK)
-        renderer.AddActor2D(text)
+        renderer.AddViewProp(text)
     return renderer
 
 

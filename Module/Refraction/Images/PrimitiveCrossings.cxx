@@ -321,7 +321,7 @@ void PrimitiveMapper::DropUnmetEnds(Polygon& polygon)
   {
     const Corner& corner = polygon[i];
     const unsigned sides = corner.Limits & AllSides;
-    const auto isInFront = [&corner, sides](const Corner& other)
+    const auto isInFront = [sides](const Corner& other)
     { return (other.Limits & sides) != 0 && other.Value[0] < 0.0; };
     const bool isUnmet = corner.Edges == 0 && (corner.Limits & OnMembrane) != 0 && sides != 0 &&
       (isInFront(polygon[(i + 1) % count]) || isInFront(polygon[(i + count - 1) % count]));

@@ -208,6 +208,12 @@ std::string OpenGLTables::DescribeExcess(
 }
 
 //------------------------------------------------------------------------------
+bool OpenGLTables::NeedsCompactCells(const TetrahedralMesh& mesh, std::int64_t limit)
+{
+  return SizeOfCells(mesh, false) > WideTexelSize * LimitOfDevice(limit);
+}
+
+//------------------------------------------------------------------------------
 bool OpenGLTables::NeedsWideCells(const TetrahedralMesh& mesh, bool compact, std::int64_t limit)
 {
   return !compact || SizeOfCells(mesh, true) > LimitOfDevice(limit);

@@ -61,6 +61,8 @@ public:
    */
   static std::string DescribeExcess(
     const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit);
+  /** True if full cells, of 32 bytes, exceed these limits: compact ones take 20 bytes. */
+  static bool NeedsCompactCells(const TetrahedralMesh& mesh, std::int64_t limit);
   /**
    * True if the table of cells has four numbers per texel: always for full cells, which are two
    * texels each, and for compact cells if the table exceeds these limits otherwise.

@@ -88,8 +88,10 @@ std::string RayCastOpenGL::DescribeExcess(const RayCastRequest& request)
   const RayCastFrame& frame = request.Frame;
   const bool refracts = frame.Refracting.Wanted;
   const int interfaces = request.Tables.Membrane.GetNumberOfInterfaces();
-  const std::string error = OpenGLTables::DescribeExcess(request.Tables.Input.GetMesh(),
-    frame.Optics.CompactCells, refracts ? 1 + RefractionFrames::Number : 1, frame.MaximumTableSize);
+  const TetrahedralMesh& mesh = request.Tables.Input.GetMesh();
+  const std::string error = OpenGLTables::DescribeExcess(mesh,
+    frame.Optics.CompactCells || OpenGLTables::NeedsCompactCells(mesh, frame.MaximumTableSize),
+    refracts ? 1 + RefractionFrames::Number : 1, frame.MaximumTableSize);
   if (!error.empty() || !refracts)
   {
     return error;
@@ -114,6 +116,10 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   this->Frame = request.Frame;
   this->Frame.Optics.NumberOfLegs =
     request.Frame.Refracting.Met ? 1 + tables.Membrane.GetNumberOfInterfaces() : 1;
+  if (OpenGLTables::NeedsCompactCells(tables.Input.GetMesh(), this->Frame.MaximumTableSize))
+  {
+    this->Frame.Optics.CompactCells = true;
+  }
   this->Frame.Optics.WideCells = OpenGLTables::NeedsWideCells(
     tables.Input.GetMesh(), this->Frame.Optics.CompactCells, this->Frame.MaximumTableSize);
   const std::string error = this->Tables.Update(tables, this->Frame);

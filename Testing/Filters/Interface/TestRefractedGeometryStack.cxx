@@ -170,7 +170,7 @@ TEST(RefractedGeometryStack, AllImagesBehindPlanesAreTheFirstImages)
   vtkPolyData* output = all->GetOutput();
   ASSERT_GT(output->GetNumberOfPoints(), 81);
   EXPECT_EQ(all->GetNumberOfSolvedVertices(), 81);
-  EXPECT_EQ(all->GetNumberOfSkippedCells(), 0);
+  EXPECT_EQ(all->GetStatistic("NumberOfSkippedCells"), 0);
   EXPECT_EQ(output->GetFieldData()->GetAbstractArray("PointsWithoutImage")->GetNumberOfTuples(), 0);
   for (vtkIdType i = 0; i < 81; ++i)
   {
@@ -489,7 +489,7 @@ TEST(RefractedGeometryStack, WrongOrderWarnsAndCountsPointsWithoutImage)
   filter->Update();
   EXPECT_NE(messages->Text.find("No ray from the eye passes"), std::string::npos) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 9);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 9);
 }
 
 TEST(RefractedGeometryStack, PointsBesideALaterSurfaceAreCounted)
@@ -498,7 +498,7 @@ TEST(RefractedGeometryStack, PointsBesideALaterSurfaceAreCounted)
     MakeAquarium(MakePoints({ { 0.0, -40.0, 0.0 }, { 500.0, -40.0, 0.0 }, { 0.0, -5.0, 0.0 } }));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 2);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 1);
   EXPECT_EQ(
     filter->GetOutput()->GetFieldData()->GetArray("PointsWithoutImage")->GetComponent(0, 0), 1.0);
 }

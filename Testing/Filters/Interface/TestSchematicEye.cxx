@@ -51,7 +51,7 @@ glm::dvec3 LookAtPoint(const glm::dvec3& eye, const glm::dvec3& point, int cells
   AddInterface(
     filter.Get(), MakeMembrane(MakeCornea(Posterior, cells)), Anterior.Behind, Posterior.Behind);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 0);
   glm::dvec3 seen(0.0);
   filter->GetOutput()->GetPoint(0, &seen.x);
   return glm::normalize(seen - eye);

@@ -148,7 +148,7 @@ TEST(StackPictures, VirtualPointsOfBallsAndLensesAreExact)
     filter->Update();
     vtkPolyData* seen = filter->GetOutput();
     ASSERT_EQ(seen->GetNumberOfPoints(), static_cast<vtkIdType>(points.size()));
-    EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
+    EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 0);
     double farthest = 0.0;
     double largest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i)

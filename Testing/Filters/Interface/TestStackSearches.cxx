@@ -190,7 +190,7 @@ TEST_P(RightScenes, HaveNoUndecidedSearches)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
-  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 0);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 100);
 }
 
@@ -209,7 +209,7 @@ TEST(StackSearches, ARingOfImagesIsUndecided)
     [](vtkRefractedGeometryFilter* stack) { AddGlassBall(stack, 6); } });
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 1);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 1);
 }

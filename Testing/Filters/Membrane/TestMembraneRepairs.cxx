@@ -76,7 +76,7 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
     const auto told = Observe(view);
     view->Update();
     EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
-    EXPECT_EQ(view->GetNumberOfVerticesWithoutImage(), 0);
+    EXPECT_EQ(view->GetStatistic("NumberOfVerticesWithoutImage"), 0);
     vtkPolyData* seen = view->GetOutput();
     ASSERT_EQ(seen->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
     double worst = 0.0;

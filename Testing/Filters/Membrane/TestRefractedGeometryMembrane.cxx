@@ -199,20 +199,20 @@ TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
   };
   look(300.0);
   EXPECT_EQ(messages->Warnings, 0) << messages->Text;
-  EXPECT_FALSE(filter->IsEyeEnclosed());
+  EXPECT_FALSE(filter->GetStatistic("IsEyeEnclosed"));
   look(30.0);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_NE(messages->Text.find("inside of a closed membrane"), std::string::npos);
-  EXPECT_TRUE(filter->IsEyeEnclosed());
+  EXPECT_TRUE(filter->GetStatistic("IsEyeEnclosed"));
   look(20.0);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   look(300.0);
-  EXPECT_FALSE(filter->IsEyeEnclosed());
+  EXPECT_FALSE(filter->GetStatistic("IsEyeEnclosed"));
   look(30.0);
   EXPECT_EQ(messages->Warnings, 2) << messages->Text;
   filter->SetMembraneData(MakeMembrane(MakeSphere(100.0, 24, -1.0))); // a bubble
   filter->Update();
-  EXPECT_FALSE(filter->IsEyeEnclosed());
+  EXPECT_FALSE(filter->GetStatistic("IsEyeEnclosed"));
   EXPECT_EQ(messages->Warnings, 2) << messages->Text;
 }
 
@@ -236,7 +236,7 @@ TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(messages->Warnings, isStacked ? 1 : 0) << messages->Text;
-    EXPECT_EQ(filter->GetNumberOfMembranePointsBehind() > 0, isStacked);
+    EXPECT_EQ(filter->GetStatistic("NumberOfMembranePointsBehind") > 0, isStacked);
     filter->SetEyePosition(25.0, 310.0, 12.0);
     filter->Update();
     EXPECT_EQ(messages->Warnings, isStacked ? 1 : 0) << messages->Text;
@@ -383,7 +383,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
     filter->Update();
     EXPECT_EQ(messages->Warnings, 1) << messages->Text;
     EXPECT_NE(messages->Text.find("None of the 81 points"), std::string::npos) << messages->Text;
-    EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 81);
+    EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 81);
     filter->SetEyePosition(0.0, 250.0, 0.0);
     filter->Update();
     EXPECT_EQ(messages->Warnings, 1); // once per membrane

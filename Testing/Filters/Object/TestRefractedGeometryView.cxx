@@ -114,11 +114,11 @@ TEST_P(RefractedGeometryView, NothingInViewIsLost)
   whole->Update();
   const auto part = this->Make(camera);
   part->Update();
-  EXPECT_EQ(whole->GetNumberOfCulledVertices(), 0);
+  EXPECT_EQ(whole->GetStatistic("NumberOfCulledVertices"), 0);
   EXPECT_EQ(whole->GetNumberOfSolvedVertices(), All);
-  EXPECT_EQ(part->GetNumberOfCulledVertices() + part->GetNumberOfSolvedVertices(), All);
-  EXPECT_GT(part->GetNumberOfCulledVertices(), All / 4);
-  EXPECT_GT(part->GetNumberOfCulledCells(), 1600 / 2);
+  EXPECT_EQ(part->GetStatistic("NumberOfCulledVertices") + part->GetNumberOfSolvedVertices(), All);
+  EXPECT_GT(part->GetStatistic("NumberOfCulledVertices"), All / 4);
+  EXPECT_GT(part->GetStatistic("NumberOfCulledCells"), 1600 / 2);
 
   const auto inView = GetCells(whole->GetOutput(), camera);
   const auto left = GetCells(part->GetOutput(), nullptr);
@@ -203,7 +203,9 @@ TEST_P(RefractedGeometryView, WideViewsCullNothing)
   const auto filter = this->Make(camera);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), All);
-  EXPECT_EQ(filter->GetNumberOfCulledVertices() + filter->GetNumberOfCulledCells(), 0);
+  EXPECT_EQ(
+    filter->GetStatistic("NumberOfCulledVertices") + filter->GetStatistic("NumberOfCulledCells"),
+    0);
 }
 
 TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
@@ -213,8 +215,8 @@ TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 0);
-  EXPECT_EQ(filter->GetNumberOfCulledVertices(), All);
-  EXPECT_EQ(filter->GetNumberOfCulledCells(), 1600);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCulledVertices"), All);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCulledCells"), 1600);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_EQ(messages->Warnings, 0) << messages->Text; // the scene is valid
   vtkDataArray* without = filter->GetOutput()->GetFieldData()->GetArray("PointsWithoutImage");
@@ -260,7 +262,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   filter->SetCamera(nullptr);
   filter->SetEyePosition(20.0, 150.0, 10.0);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfCulledVertices(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCulledVertices"), 0);
 }
 
 // Geometry on the eye's side is seen without refraction, outside the membrane's bounds as well.
@@ -271,7 +273,7 @@ TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
   filter->SetInputData(0, MakeGrid(9, 40.0, 30.0));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 64);
-  EXPECT_EQ(filter->GetNumberOfCulledVertices(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCulledVertices"), 0);
 }
 
 // Points that cannot be solved are counted and cause a warning, in view or not.

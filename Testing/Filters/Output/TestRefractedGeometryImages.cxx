@@ -134,7 +134,7 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
     EXPECT_LE(std::abs(images[i] - static_cast<int>(exact.size())), 2) << i;
   }
   EXPECT_GT(several, 10);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), without);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), without);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 200);
 }
 
@@ -337,12 +337,12 @@ TEST(RefractedGeometryImages, CountsSearchesAtAFocus)
   filter->SetEyePosition(0.0, 2000.0, 0.0);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 1);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_NE(messages->Text.find("undecided"), std::string::npos) << messages->Text;
   filter->SetEyePosition(0.0, 1990.0, 0.0);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 2);
   EXPECT_EQ(messages->Warnings, 1);
 }
 
@@ -353,8 +353,8 @@ TEST(RefractedGeometryImages, EyeFromBehindSeesNothingBehind)
   filter->SetEyePosition(0.0, -100.0, 0.0);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 25);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 16);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 25);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 16);
 }
 
 }

@@ -134,8 +134,8 @@ TEST(RefractedGeometryOutput, PointsWithoutImageTakeTheirCellsWithThem)
   EXPECT_EQ(output->GetNumberOfPoints(), 5);
   EXPECT_EQ(output->GetNumberOfLines(), 1);
   EXPECT_EQ(output->GetNumberOfPolys(), 2);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 1);
   EXPECT_EQ(filter->GetNumberOfFailedSolves(), 0);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 6);
   auto* without =
@@ -180,8 +180,8 @@ TEST(RefractedGeometryOutput, VerticesAreOneCellPerImage)
     EXPECT_EQ(CellPoints(output->GetVerts(), i), std::vector<vtkIdType>{ points[i] });
     EXPECT_EQ(CellArray(output, "SourceCellId")->GetTuple1(i), sources[i]);
   }
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
-  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
+  EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 2);
 }
 
 //------------------------------------------------------------------------------
@@ -200,7 +200,7 @@ TEST(RefractedGeometryOutput, StripsKeepTheirPoints)
   ASSERT_EQ(output->GetNumberOfStrips(), 1);
   EXPECT_EQ(CellPoints(output->GetStrips(), 0), (std::vector<vtkIdType>{ 0, 1, 2, 3 }));
   EXPECT_EQ(CellArray(output, "SourceCellId")->GetTuple1(0), 1);
-  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 1);
 }
 
 //------------------------------------------------------------------------------

@@ -92,7 +92,7 @@ TEST_F(SolvingOrder, ImagesDoNotDependOnTheOrderOfPoints)
   this->Rows->Update();
   this->Scattered->Update();
   EXPECT_EQ(this->Scattered->GetNumberOfSolvedVertices(), Count);
-  EXPECT_EQ(this->Scattered->GetNumberOfVerticesWithoutImage(), 0);
+  EXPECT_EQ(this->Scattered->GetStatistic("NumberOfVerticesWithoutImage"), 0);
   // One image per point at this depth, found by Newton's method to rounding.
   EXPECT_LT(this->GetLargestDifference(), 1e-9);
 }

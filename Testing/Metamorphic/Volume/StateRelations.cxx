@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DeviceTableLimits.h"
 #include "VolumeRelation.h"
 
 #include <vtkCellArray.h>
@@ -348,7 +349,7 @@ void CheckCompactTables(VolumeTrial& trial)
 {
   trial.MakePicture();
   trial.GetStage().GetPlace(trial.MakeScene());
-  trial.GetStage().GetMapper()->SetCompactTables(true);
+  DeviceTableLimits::SetCompact(trial.GetStage().GetMapper(), true);
   trial.ExpectSame(trial.GetStage().Render(), "compact tables");
 }
 

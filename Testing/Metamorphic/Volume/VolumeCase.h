@@ -57,7 +57,7 @@ struct VolumeLook
   double SpecularPower = 10.0;
   /** Gradient length (scalar per world length) to opacity; empty: no such function. */
   std::vector<LookFunction::OpacityPoint> GradientOpacity;
-  /** One of vtkTetrahedraRayCastMapper::GradientLocations. */
+  /** As in vtkTetrahedraRayCastMapper::SetGradients(). */
   int Gradients = 1;
 };
 
@@ -79,7 +79,7 @@ struct VolumeCase
   MembraneCase Membrane;
   /** Planes as origin and normal; the side to which the normal points is kept. */
   std::vector<std::array<glm::dvec3, 2>> Planes;
-  /** One of vtkTetrahedraRayCastMapper::Backends. */
+  /** As in vtkTetrahedraRayCastMapper::SetBackend(). */
   int Backend = 2;
 
   const MeshArrays& MakeMesh() const { return this->Blocks.front(); }

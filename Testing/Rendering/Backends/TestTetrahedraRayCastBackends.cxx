@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Compute and fragment shaders consist of the same functions and give the same image.
+#include "DeviceTableLimits.h"
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
@@ -191,9 +192,9 @@ TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
     scene.GetVolume()->SetProperty(MakeProperty(FunctionKind::Smooth, Range, 3.4));
     scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
     ExpectAgreement(scene, backends, "plain");
-    scene.GetRayCaster()->CompactTablesOn();
+    meniscus::DeviceTableLimits::SetCompact(scene.GetRayCaster(), true);
     ExpectAgreement(scene, backends, "compact tables");
-    scene.GetRayCaster()->CompactTablesOff();
+    meniscus::DeviceTableLimits::SetCompact(scene.GetRayCaster(), false);
     scene.GetVolume()->SetProperty(LitProperty());
     ExpectAgreementOfModes(scene, backends, { 0, 1, 2, 3, 4, 5 });
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Size of tables: their memory, the compact layout, and meshes beyond the device's limits.
+#include "DeviceTableLimits.h"
 #include "RayCastScene.h"
 
 #include <vtkCellData.h>
@@ -56,9 +57,9 @@ protected:
   /** Compares images with full and with compact tables. */
   void ExpectSamePicture(const std::string& what)
   {
-    this->Mapper->CompactTablesOff();
+    meniscus::DeviceTableLimits::SetCompact(this->Mapper, false);
     const FloatImage full = this->Scene.RenderFloat();
-    this->Mapper->CompactTablesOn();
+    meniscus::DeviceTableLimits::SetCompact(this->Mapper, true);
     const FloatImage compact = this->Scene.RenderFloat();
     EXPECT_EQ(this->Mapper->GetNumberOfLostRays(), 0);
     float opacity = 0.0f;
@@ -119,22 +120,22 @@ TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
   // Orientation and activity, in words of 64 bits.
   const vtkTypeInt64 bits = 2 * 8 * ((this->GetCells() + 63) / 64);
   this->Scene.GetWindow()->Render();
-  EXPECT_EQ(
-    this->Mapper->GetHostBytes(), 32 * this->GetCells() + bits + 20 * points + 16 * faces + tree);
-  const vtkTypeInt64 full = this->Mapper->GetDeviceBytes();
+  EXPECT_EQ(this->Mapper->GetStatistic("HostBytes"),
+    32 * this->GetCells() + bits + 20 * points + 16 * faces + tree);
+  const double full = this->Mapper->GetStatistic("DeviceBytes");
   const vtkTypeInt64 property = full - 32 * this->GetCells() - 32 * points - 80 * faces + 32;
   EXPECT_GT(property, 0);
   EXPECT_LT(property, 10000);
   const vtkTypeInt64 uploaded = this->Mapper->GetUploadedBytes();
-  this->Mapper->CompactTablesOn();
+  meniscus::DeviceTableLimits::SetCompact(this->Mapper, true);
   this->Scene.GetWindow()->Render();
-  EXPECT_EQ(full - this->Mapper->GetDeviceBytes(), 12 * this->GetCells());
+  EXPECT_EQ(full - this->Mapper->GetStatistic("DeviceBytes"), 12 * this->GetCells());
   EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->GetCells());
   this->Scene.GetWindow()->Render();
   EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->GetCells());
   EXPECT_EQ(this->Mapper->GetNumberOfMeshBuilds(), 1);
   this->Mapper->ReleaseGraphicsResources(this->Scene.GetWindow());
-  EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
+  EXPECT_EQ(this->Mapper->GetStatistic("DeviceBytes"), 0);
 }
 
 TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
@@ -143,13 +144,14 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
   const auto expectSentAndKept = [this](const std::string& what)
   {
     const vtkTypeInt64 sent = this->Mapper->GetUploadedBytes();
-    const vtkTypeInt64 kept = this->Mapper->GetDeviceBytes();
-    const vtkTypeInt64 host = this->Mapper->GetHostBytes();
+    const double kept = this->Mapper->GetStatistic("DeviceBytes");
+    const double host = this->Mapper->GetStatistic("HostBytes");
     this->Scene.GetWindow()->Render();
     EXPECT_GT(this->Mapper->GetUploadedBytes(), sent) << what;
-    EXPECT_EQ(this->Mapper->GetDeviceBytes() - kept, this->Mapper->GetUploadedBytes() - sent)
+    EXPECT_EQ(
+      this->Mapper->GetStatistic("DeviceBytes") - kept, this->Mapper->GetUploadedBytes() - sent)
       << what;
-    EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
+    EXPECT_GT(this->Mapper->GetStatistic("HostBytes"), host) << what;
   };
   this->Scene.GetWindow()->Render();
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
@@ -162,27 +164,34 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
   this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   expectSentAndKept("gradients");
   this->Mapper->ReleaseGraphicsResources(this->Scene.GetWindow());
-  EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
+  EXPECT_EQ(this->Mapper->GetStatistic("DeviceBytes"), 0);
 }
 
 TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend)
 {
   this->Mapper->SetScalarModeToUsePointData();
-  this->Mapper->SetMaximumTableSize(2 * this->GetCells());
+  meniscus::DeviceTableLimits::SetLargest(this->Mapper, 2 * this->GetCells());
   ExpectMatchesReference(this->Scene, "two texels per cell");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
-  this->Mapper->SetMaximumTableSize(2 * this->GetCells() - 1);
+  const double full = this->Mapper->GetStatistic("DeviceBytes");
+  meniscus::DeviceTableLimits::SetLargest(this->Mapper, 2 * this->GetCells() - 1);
+  ExpectMatchesReference(this->Scene, "compact, four numbers per texel");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+  EXPECT_EQ(full - this->Mapper->GetStatistic("DeviceBytes"), 12 * this->GetCells());
+  EXPECT_TRUE(this->Observer->Warnings.empty());
+  // Five numbers per compact cell, four per texel.
+  const vtkTypeInt64 least = (5 * this->GetCells() + 3) / 4;
+  meniscus::DeviceTableLimits::SetLargest(this->Mapper, least - 1);
   ExpectMatchesReference(this->Scene, "beyond the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(
-    this->Observer->Warnings[0].find(std::to_string(2 * this->GetCells())), std::string::npos);
-  EXPECT_NE(
-    this->Observer->Warnings[0].find(std::to_string(2 * this->GetCells() - 1)), std::string::npos);
-  this->Mapper->CompactTablesOn();
-  ExpectMatchesReference(this->Scene, "compact, four numbers per texel");
+  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(least)), std::string::npos);
+  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(least - 1)), std::string::npos);
+  meniscus::DeviceTableLimits::SetCompact(this->Mapper, true);
+  meniscus::DeviceTableLimits::SetLargest(this->Mapper, least);
+  ExpectMatchesReference(this->Scene, "compact, with just enough room");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
-  this->Mapper->SetMaximumTableSize(5 * this->GetCells());
+  meniscus::DeviceTableLimits::SetLargest(this->Mapper, 5 * this->GetCells());
   ExpectMatchesReference(this->Scene, "compact, one number per texel");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   EXPECT_TRUE(this->Observer->Errors.empty());
@@ -196,10 +205,10 @@ TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
     this->Property->SetShade(shade);
     this->Mapper->SetIntegration(
       shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-    this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
+    meniscus::DeviceTableLimits::SetLargest(this->Mapper, VTK_TYPE_INT64_MAX);
     const FloatImage expected = this->Scene.RenderFloat();
     EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
-    this->Mapper->SetMaximumTableSize(100);
+    meniscus::DeviceTableLimits::SetLargest(this->Mapper, 100);
     meniscus::test::ExpectSamePicture(
       this->Scene.RenderFloat(), expected, shade ? "light" : "pre-integrated");
     EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);

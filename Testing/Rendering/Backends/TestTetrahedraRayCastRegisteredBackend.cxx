@@ -364,13 +364,13 @@ TEST_F(TetrahedraRayCastRegisteredBackend, NamesTakePrecedenceAndFallBack)
 TEST_F(TetrahedraRayCastRegisteredBackend, TablesAreTakenOncePerVersion)
 {
   this->Mapper->SetBackendName("Path length");
-  const vtkTypeInt64 before = this->Mapper->GetHostBytes();
+  const double before = this->Mapper->GetStatistic("HostBytes");
   this->Scene.GetWindow()->Render();
   this->Scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
   this->Scene.GetWindow()->Render();
   EXPECT_EQ(this->Words.MeshCopies, 1);
   EXPECT_EQ(this->Words.ScalarCopies, 1);
-  EXPECT_GE(this->Mapper->GetHostBytes() - before, 96 * this->Mesh->GetNumberOfCells());
+  EXPECT_GE(this->Mapper->GetStatistic("HostBytes") - before, 96 * this->Mesh->GetNumberOfCells());
   vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
   scalars->SetComponent(0, 0, 0.5 * scalars->GetComponent(0, 0) + 0.1);
   scalars->Modified();

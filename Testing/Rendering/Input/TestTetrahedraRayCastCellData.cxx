@@ -442,7 +442,7 @@ TEST(TetrahedraRayCastCellData, CellsWithoutValueAreTransparentAndCounted)
   warnings->Observe(scene.GetRayCaster());
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   scene.ExpectComposite("with holes");
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTransparentCells(), 7);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfTransparentCells"), 7);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() - 7);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfRejectedCells(), 0);
   EXPECT_EQ(warnings->Warnings.size(), 1u);
@@ -576,7 +576,7 @@ TEST(TetrahedraRayCastCellData, LightChangesNothingInTheMedium)
   scene.GetVolume()->GetProperty()->GetGradientOpacity()->AddPoint(0.0, 0.0);
   scene.GetVolume()->GetProperty()->GetGradientOpacity()->AddPoint(1.0, 1.0);
   EXPECT_EQ(scene.RenderFloat().Rgba, unlit.Rgba);
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfGradientBuilds(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfGradientBuilds"), 0);
 }
 
 TEST(TetrahedraRayCastCellData, ComputeIsTheFragmentShadersTwin)

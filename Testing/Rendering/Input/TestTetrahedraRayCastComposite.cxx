@@ -350,7 +350,7 @@ TEST(TetrahedraRayCastComposite, ChangedImagesMoveOrAreOtherMeshes)
   image->SetSpacing(0.4, 0.5, 0.5);
   ExpectSamePicture(scene.MakePicture(), PictureOf(image), "other spacing");
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfPointUpdates(), 1);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfPointUpdates"), 1);
   image->SetExtent(3, 7, 0, 4, 0, 4);
   scene.GetWindow()->Render();
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 2);

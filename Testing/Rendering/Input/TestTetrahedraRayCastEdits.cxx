@@ -45,7 +45,7 @@ struct Work
 
   explicit Work(vtkTetrahedraRayCastMapper* mapper)
     : Mesh(mapper->GetNumberOfMeshBuilds())
-    , Points(mapper->GetNumberOfPointUpdates())
+    , Points(mapper->GetStatistic("NumberOfPointUpdates"))
     , Scalars(mapper->GetNumberOfScalarUpdates())
     , Bytes(mapper->GetUploadedBytes())
   {
@@ -243,14 +243,14 @@ TEST_F(TetrahedraRayCastEdits, Membrane)
     { "coordinates", membrane->GetPoints()->GetData() }, { "point data", membrane->GetPointData() },
     { "cells", polys }, { "connectivity", polys->GetConnectivityArray() },
     { "membrane", membrane } };
-  vtkTypeInt64 builds = scene->GetRayCaster()->GetNumberOfMembraneBuilds();
+  double builds = scene->GetRayCaster()->GetStatistic("NumberOfMembraneBuilds");
   for (std::size_t i = 0; i < told.size(); ++i)
   {
     SCOPED_TRACE(told[i].first);
     membrane->GetPoints()->SetPoint(12, 0.0, 0.0, 0.25 + 0.05 * static_cast<double>(i));
     told[i].second->Modified();
     const FloatImage picture = scene->RenderFloat();
-    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfMembraneBuilds(), ++builds);
+    EXPECT_EQ(scene->GetRayCaster()->GetStatistic("NumberOfMembraneBuilds"), ++builds);
     EXPECT_NE(picture.Rgba, last.Rgba);
     vtkNew<vtkPolyData> copy;
     copy->DeepCopy(membrane);
@@ -258,7 +258,7 @@ TEST_F(TetrahedraRayCastEdits, Membrane)
     last = picture;
     told[i].second->Modified();
     scene->GetWindow()->Render();
-    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfMembraneBuilds(), builds);
+    EXPECT_EQ(scene->GetRayCaster()->GetStatistic("NumberOfMembraneBuilds"), builds);
   }
 }
 

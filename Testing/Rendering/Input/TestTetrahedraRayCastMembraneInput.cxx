@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A mapper with a membrane: the work after each change, and membranes that cannot be used.
+#include "DeviceTableLimits.h"
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
@@ -56,9 +57,9 @@ struct Counters
     , Scalars(mapper->GetNumberOfScalarUpdates())
     , Functions(mapper->GetNumberOfTransferFunctionBuilds())
     , Active(mapper->GetNumberOfActiveSetBuilds())
-    , Membranes(mapper->GetNumberOfMembraneBuilds())
-    , Sights(mapper->GetNumberOfSightUpdates())
-    , Lists(mapper->GetNumberOfRefractedEntryLists())
+    , Membranes(mapper->GetStatistic("NumberOfMembraneBuilds"))
+    , Sights(mapper->GetStatistic("NumberOfSightUpdates"))
+    , Lists(mapper->GetStatistic("NumberOfRefractedEntryLists"))
     , Bytes(mapper->GetUploadedBytes())
   {
   }
@@ -151,8 +152,8 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
   mapper->SetMembraneData(waves.Mesh);
   LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   scene.RenderFloat();
-  EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 1);
-  EXPECT_EQ(mapper->GetNumberOfSightUpdates(), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfMembraneBuilds"), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfSightUpdates"), 1);
 
   // Mesh, scalars, functions, active cells, membranes, sights.
   ExpectWork(
@@ -204,7 +205,7 @@ TEST(TetrahedraRayCastMembraneInput, MoreOfTheMeshIsSeen)
   const auto picture = [&](bool lessFirst)
   {
     RayCastScene scene(grid, Smooth(), Size, Size);
-    scene.GetRayCaster()->SetMembrane(plane.Mesh);
+    scene.GetRayCaster()->SetMembraneData(plane.Mesh);
     LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
     if (lessFirst)
     {
@@ -227,14 +228,14 @@ TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   const FloatImage without = scene.RenderFloat();
-  mapper->SetMembrane(plane.Mesh);
+  mapper->SetMembraneData(plane.Mesh);
   EXPECT_EQ(mapper->GetMembrane(), plane.Mesh.Get());
   EXPECT_NE(scene.RenderFloat().Rgba, without.Rgba);
-  mapper->SetMembrane(nullptr);
+  mapper->SetMembraneData(nullptr);
   EXPECT_EQ(mapper->GetMembrane(), nullptr);
   EXPECT_EQ(scene.RenderFloat().Rgba, without.Rgba);
   // A membrane below the mesh is behind all visible geometry.
-  mapper->SetMembrane(MakePlaneCase(-1.2, 0.01, 1).Mesh);
+  mapper->SetMembraneData(MakePlaneCase(-1.2, 0.01, 1).Mesh);
   EXPECT_EQ(scene.RenderFloat().Rgba, without.Rgba);
 }
 
@@ -286,7 +287,7 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
     const auto prepare = [fits](vtkTetrahedraRayCastMapper* mapper)
     {
       mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-      mapper->SetMaximumTableSize(2 * Size * Size - (fits ? 0 : 1));
+      meniscus::DeviceTableLimits::SetLargest(mapper, 2 * Size * Size - (fits ? 0 : 1));
     };
     const Outcome straight = RenderWith(nullptr, prepare);
     EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));

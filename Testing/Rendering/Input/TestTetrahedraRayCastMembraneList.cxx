@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mapper with several refracting interfaces: the work after each change, and lists that cannot be
 // used.
+#include "DeviceTableLimits.h"
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
@@ -96,15 +97,15 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
   {
     const FloatImage before = scene.RenderFloat();
     const vtkTypeInt64 meshes = mapper->GetNumberOfMeshBuilds();
-    const vtkTypeInt64 shapes = mapper->GetNumberOfMembraneBuilds();
-    const vtkTypeInt64 rays = mapper->GetNumberOfSightUpdates();
-    const vtkTypeInt64 lists = mapper->GetNumberOfRefractedEntryLists();
+    const double shapes = mapper->GetStatistic("NumberOfMembraneBuilds");
+    const double rays = mapper->GetStatistic("NumberOfSightUpdates");
+    const double lists = mapper->GetStatistic("NumberOfRefractedEntryLists");
     const vtkTypeInt64 bytes = mapper->GetUploadedBytes();
     change();
     const FloatImage after = scene.RenderFloat();
     EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), meshes) << what;
-    EXPECT_EQ(mapper->GetNumberOfMembraneBuilds() - shapes, builds) << what;
-    EXPECT_EQ(mapper->GetNumberOfSightUpdates() - rays, sights) << what;
+    EXPECT_EQ(mapper->GetStatistic("NumberOfMembraneBuilds") - shapes, builds) << what;
+    EXPECT_EQ(mapper->GetStatistic("NumberOfSightUpdates") - rays, sights) << what;
     EXPECT_EQ(before.Rgba != after.Rgba, changesPicture) << what;
     if (onDevice)
     {
@@ -112,11 +113,12 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
       EXPECT_EQ(
         mapper->GetUploadedBytes() - bytes, vtkTypeInt64{ 32 } * Size * Size * interfaces * sights)
         << what;
-      EXPECT_EQ(mapper->GetNumberOfRefractedEntryLists() - lists, interfaces * sights) << what;
+      EXPECT_EQ(mapper->GetStatistic("NumberOfRefractedEntryLists") - lists, interfaces * sights)
+        << what;
     }
   };
-  EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 2);
-  EXPECT_EQ(mapper->GetNumberOfSightUpdates(), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfMembraneBuilds"), 2);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfSightUpdates"), 1);
   expectWork(
     "nothing", [] {}, 0, 0, false);
   expectWork(
@@ -158,8 +160,8 @@ TEST(TetrahedraRayCastMembraneList, OneSurfaceListedTwiceIsReadOnce)
   EXPECT_EQ(mapper->GetMembrane(0), mapper->GetMembrane(1));
   SetIndices(mapper, { { 1.0, 1.5 }, { 1.0, 1.5 } });
   scene.RenderFloat();
-  EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 1);
-  EXPECT_EQ(mapper->GetNumberOfRaysMissingAnInterface(), 0);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfMembraneBuilds"), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfRaysMissingAnInterface"), 0);
   mapper->RemoveAllMembranes();
   EXPECT_EQ(mapper->GetNumberOfMembranes(), 0);
   EXPECT_EQ(mapper->GetMembrane(), nullptr);
@@ -232,7 +234,7 @@ TEST(TetrahedraRayCastMembraneList, PaneSeenFromTheOtherSide)
     LookAt(scene.GetRenderer(), Block, 30.0, -60.0);
     const FloatImage picture = scene.RenderFloat();
     EXPECT_TRUE(told->Errors.empty()) << told->GetText();
-    EXPECT_GT(mapper->GetNumberOfRaysMissingAnInterface(), Size);
+    EXPECT_GT(mapper->GetStatistic("NumberOfRaysMissingAnInterface"), Size);
     // The mesh lies in front of the pane.
     mapper->RemoveAllMembranes();
     mapper->SetInterfaces(nullptr);
@@ -277,7 +279,7 @@ TEST(TetrahedraRayCastMembraneList, NativeWhereTheDeviceHasNoRoom)
     PaneScene scene;
     vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
     mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-    mapper->SetMaximumTableSize(4 * Size * Size - (fits ? 0 : 1));
+    meniscus::DeviceTableLimits::SetLargest(mapper, 4 * Size * Size - (fits ? 0 : 1));
     auto told = vtkSmartPointer<ErrorObserver>::New();
     told->Observe(mapper);
     scene.RenderFloat();

@@ -52,7 +52,7 @@ struct Work
 
   explicit Work(vtkTetrahedraRayCastMapper* mapper)
     : Builds(mapper->GetNumberOfMeshBuilds())
-    , Points(mapper->GetNumberOfPointUpdates())
+    , Points(mapper->GetStatistic("NumberOfPointUpdates"))
     , Scalars(mapper->GetNumberOfScalarUpdates())
     , Bytes(mapper->GetUploadedBytes())
   {
@@ -236,7 +236,7 @@ TEST_F(TetrahedraRayCastTimeSteps, FilesOfAReaderCostScalars)
     lastIds = cells->GetConnectivityArray();
     kept = cells;
     EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
-    EXPECT_EQ(mapper->GetNumberOfPointUpdates(), 0);
+    EXPECT_EQ(mapper->GetStatistic("NumberOfPointUpdates"), 0);
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), step + 1);
     if (step % 5 == 4)
     {
@@ -339,7 +339,7 @@ TEST_F(TetrahedraRayCastTimeSteps, LightFollowsMovedPoints)
     draw(*scene, grid);
     const Grid moved = Moved(grid, Wobble, 1.0);
     const FloatImage picture = draw(*scene, moved);
-    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfPointUpdates(), 1);
+    EXPECT_EQ(scene->GetRayCaster()->GetStatistic("NumberOfPointUpdates"), 1);
     // Sums over the cells of a vertex depend on the order of the cells.
     ExpectSamePicture(picture, draw(*this->MakeScene(moved), moved), "lit");
   }

@@ -334,20 +334,20 @@ TEST(TetrahedraRayCastTopology, ListsOfEntriesAreMadeWhereRaysOrBoundaryChange)
   mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   LookAt(scene.GetRenderer(), Bounds, 40.0, 20.0);
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfEntryListBuilds"), 1);
   scene.GetWindow()->Render();
   scene.GetVolume()->SetProperty(Smooth());
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 1) << "the same rays and cells";
+  EXPECT_EQ(mapper->GetStatistic("NumberOfEntryListBuilds"), 1) << "the same rays and cells";
   LookAt(scene.GetRenderer(), Bounds, 41.0, 20.0);
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 2);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfEntryListBuilds"), 2);
   // A connected mesh has few entries: the graphics device lists them.
   RayCastScene connected(MakeBlock(6, field), Smooth(), Size, Size);
   connected.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   LookAt(connected.GetRenderer(), Bounds, 40.0, 20.0);
   connected.GetWindow()->Render();
-  EXPECT_EQ(connected.GetRayCaster()->GetNumberOfEntryListBuilds(), 0);
+  EXPECT_EQ(connected.GetRayCaster()->GetStatistic("NumberOfEntryListBuilds"), 0);
 }
 
 /**

@@ -187,12 +187,12 @@ TEST(TetrahedraRayCastTrueCells, FramesShowTheTrilinearField)
 {
   VoxelScene scene;
   const double fixed = scene.WorstOpacity();
-  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 0);
+  EXPECT_EQ(scene.Mapper->GetStatistic("NumberOfCellDivisions"), 0);
   scene.Mapper->SetCellDivisionToAdaptive();
   const double adaptive = scene.WorstOpacity();
-  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 1);
+  EXPECT_EQ(scene.Mapper->GetStatistic("NumberOfCellDivisions"), 1);
   EXPECT_EQ(scene.Mapper->GetNumberOfLostRays(), 0);
-  EXPECT_EQ(scene.Mapper->GetNumberOfUnresolvedEdges(), 0);
+  EXPECT_EQ(scene.Mapper->GetStatistic("NumberOfUnresolvedEdges"), 0);
   EXPECT_LE(adaptive, OpacityBound);
   EXPECT_GT(fixed, 4.0 * OpacityBound);
 }
@@ -219,7 +219,7 @@ TEST(TetrahedraRayCastTrueCells, FramesAndScalarsCostNoDivision)
   EXPECT_LE(scene.WorstOpacity(), OpacityBound);
   EXPECT_EQ(scene.Mapper->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(scene.Mapper->GetNumberOfScalarUpdates(), 2);
-  EXPECT_EQ(scene.Mapper->GetNumberOfCellDivisions(), 1);
+  EXPECT_EQ(scene.Mapper->GetStatistic("NumberOfCellDivisions"), 1);
   // Without the division it is another mesh.
   scene.Mapper->SetCellDivisionToFixed();
   EXPECT_GT(scene.WorstOpacity(), OpacityBound);
@@ -323,15 +323,15 @@ TEST(TetrahedraRayCastTrueCells, ARoomEndsWithinItsBudgetAndReportsItsError)
   const double fixed = [&]()
   {
     scene.GetWindow()->Render();
-    return static_cast<double>(mapper->GetNumberOfTetrahedra());
+    return mapper->GetStatistic("NumberOfTetrahedra");
   }();
-  EXPECT_EQ(mapper->GetDivisionError(), 0.0);
+  EXPECT_EQ(mapper->GetStatistic("DivisionError"), 0.0);
   const FloatImage split = scene.RenderFloat();
   mapper->SetCellDivisionToAdaptive();
   mapper->SetDivisionTolerance(2e-3);
   mapper->SetMaximumNumberOfPieces(1 << 25);
   const FloatImage fine = scene.RenderFloat();
-  EXPECT_LE(mapper->GetDivisionError(), 2e-3);
+  EXPECT_LE(mapper->GetStatistic("DivisionError"), 2e-3);
   const double before = LargestDifference(split, fine);
   mapper->SetDivisionTolerance(1.0 / 256.0);
   double last = 1.0;
@@ -342,12 +342,13 @@ TEST(TetrahedraRayCastTrueCells, ARoomEndsWithinItsBudgetAndReportsItsError)
     mapper->SetMaximumNumberOfPieces(static_cast<vtkTypeInt64>(budget * fixed));
     const FloatImage image = scene.RenderFloat();
     const double limit = budget > 0.0 ? budget * fixed : 100000.0;
-    EXPECT_LE(static_cast<double>(mapper->GetNumberOfTetrahedra()), limit);
-    const double error = mapper->GetDivisionError();
+    EXPECT_LE(mapper->GetStatistic("NumberOfTetrahedra"), limit);
+    const double error = mapper->GetStatistic("DivisionError");
     EXPECT_EQ(told->Warnings.size(), error > mapper->GetDivisionTolerance() ? 1u : 0u) << budget;
     const double difference = LargestDifference(image, fine);
     std::printf("budget %.1f: %lld tetrahedra, error %.3g, picture %.3g of %.3g\n", budget,
-      static_cast<long long>(mapper->GetNumberOfTetrahedra()), error, difference, before);
+      static_cast<long long>(mapper->GetStatistic("NumberOfTetrahedra")), error, difference,
+      before);
     // The bounds of ErrorScale (2) and of a tetrahedron (1.5), and the fine division's own error.
     EXPECT_LE(difference, 3.0 * (error + 2e-3)) << budget;
     EXPECT_LT(error, last);

@@ -5,6 +5,7 @@
 #include <vtkCamera.h>
 #include <vtkCell.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkPointData.h>
@@ -157,7 +158,7 @@ Filter MakeFilter(vtkDataObject* input, int width, int height)
   auto filter = Filter::New();
   filter->SetInputData(input);
   filter->SetImageSize(width, height);
-  filter->ComputeIntegralOff();
+  filter->GetArraySelection()->DisableArray("Integral");
   return filter;
 }
 

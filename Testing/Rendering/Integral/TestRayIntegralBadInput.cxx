@@ -6,6 +6,7 @@
 
 #include <vtkCamera.h>
 #include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
@@ -37,7 +38,7 @@ Grid MakeMesh()
 Filter MakeGood()
 {
   Filter rays = MakeFilter(MakeMesh(), 16, 16);
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("Integral");
   return rays;
 }
 
@@ -140,9 +141,9 @@ TEST(RayIntegralBadInput, LengthsWithoutArrays)
     { static_cast<vtkDataObject*>(grid), static_cast<vtkDataObject*>(blocks.Get()) })
   {
     Filter rays = MakeFilter(input, 8, 8);
-    rays->ComputePathLengthOn();
-    rays->ComputeFirstDepthOn();
-    rays->ComputeLastDepthOn();
+    rays->GetArraySelection()->EnableArray("PathLength");
+    rays->GetArraySelection()->EnableArray("FirstDepth");
+    rays->GetArraySelection()->EnableArray("LastDepth");
     vtkNew<ErrorObserver> observer;
     observer->Observe(rays);
     rays->Update();
@@ -156,9 +157,9 @@ TEST(RayIntegralBadInput, LengthsWithoutArrays)
       EXPECT_NEAR(lengths[i], 2.0, 1.0e-6);
       EXPECT_NEAR(last[i] - first[i], 2.0, 1.0e-6);
     }
-    rays->ComputeIntegralOn();
+    rays->GetArraySelection()->EnableArray("Integral");
     ExpectError(rays, "no active scalars");
-    rays->ComputeIntegralOff();
+    rays->GetArraySelection()->DisableArray("Integral");
     rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "missing");
     ExpectError(rays, "no scalar array named 'missing'");
   }
@@ -223,12 +224,12 @@ TEST(RayIntegralBadInput, Size)
 TEST(RayIntegralBadInput, Choice)
 {
   Filter rays = MakeGood();
-  rays->ComputeIntegralOff();
+  rays->GetArraySelection()->DisableArray("Integral");
   ExpectError(rays, "No array is switched on");
-  rays->ComputeRGBAOn();
+  rays->GetArraySelection()->EnableArray("RGBA");
   ExpectError(rays, "need a volume property");
-  rays->ComputeRGBAOff();
-  rays->ComputeEnergyBinsOn();
+  rays->GetArraySelection()->DisableArray("RGBA");
+  rays->GetArraySelection()->EnableArray("EnergyBins");
   ExpectError(rays, "no energy bins");
   rays->SetBinEmission(0, NaN);
   ExpectError(rays, "not finite");
@@ -249,8 +250,8 @@ TEST(RayIntegralBadInput, EnergyBins)
   AddArray(grid->GetPointData(), "short", points - 2, 1, 0.5);
   Filter rays = MakeGood();
   rays->SetInputData(grid);
-  rays->ComputeIntegralOff();
-  rays->ComputeEnergyBinsOn();
+  rays->GetArraySelection()->DisableArray("Integral");
+  rays->GetArraySelection()->EnableArray("EnergyBins");
   rays->SetAttenuationArrayName("missing");
   ExpectError(rays, "no scalar array named 'missing'");
   rays->SetAttenuationArrayName("short");
@@ -304,8 +305,8 @@ TEST(RayIntegralBadInput, ScalarsBeyondThePropertysReach)
   Filter rays = MakeGood();
   rays->SetInputData(grid);
   rays->SetVolumeProperty(property);
-  rays->ComputeOpticalDepthOn();
+  rays->GetArraySelection()->EnableArray("OpticalDepth");
   ExpectError(rays, "reach too far");
-  rays->ComputeIntegralOff();
+  rays->GetArraySelection()->DisableArray("Integral");
   EXPECT_EQ(ValuesOf(rays, "OpticalDepth").size(), 256u);
 }

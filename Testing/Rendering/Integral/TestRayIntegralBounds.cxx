@@ -5,6 +5,7 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
@@ -186,7 +187,7 @@ TEST(DrawnBounds, OfFittedRays)
   for (const BoundsCase& bounds : MakeCases())
   {
     const Filter rays = MakeFilter(bounds.Input, 8, 8);
-    rays->ComputePathLengthOn();
+    rays->GetArraySelection()->EnableArray("PathLength");
     vtkNew<ErrorObserver> quiet;
     quiet->Observe(rays);
     rays->Update();

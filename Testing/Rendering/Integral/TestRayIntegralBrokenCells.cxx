@@ -7,6 +7,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
@@ -102,7 +103,7 @@ void ExpectCube(
   vtkDataObject* input, const std::string& text, vtkTypeInt64 rejected, bool isAdaptive = false)
 {
   const Filter rays = MakeFilter(input, 8, 8);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.0, 0.0, 2.0);
   rays->SetCellDivision(isAdaptive);
@@ -119,7 +120,7 @@ void ExpectCube(
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
   ASSERT_EQ(observer->Warnings.size(), 1u) << text << ": " << observer->GetText();
   EXPECT_NE(observer->Warnings[0].find(text), std::string::npos) << observer->GetText();
-  EXPECT_EQ(rays->GetNumberOfRejectedCells(), rejected) << observer->GetText();
+  EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), rejected) << observer->GetText();
 }
 
 }
@@ -216,10 +217,10 @@ TEST(BrokenCellArrays, TetrahedraWithUnequalNumbersOfPoints)
   cells->InsertNextCell(5, ids[1]);
   grid->SetCells(VTK_TETRA, cells);
   const Filter rays = MakeFilter(grid, 4, 4);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfRejectedCells(), 1);
-  EXPECT_EQ(rays->GetNumberOfTetrahedra(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfTetrahedra"), 1);
 }
 
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 4, 0)
@@ -267,7 +268,7 @@ TEST(BrokenCellArrays, ArraysThatContradictEachOther)
   const auto expectError = [](vtkDataObject* input, const std::string& text)
   {
     const Filter rays = MakeFilter(input, 4, 4);
-    rays->ComputePathLengthOn();
+    rays->GetArraySelection()->EnableArray("PathLength");
     vtkNew<ErrorObserver> observer;
     observer->Observe(rays);
     rays->Update();

@@ -7,6 +7,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -44,7 +45,7 @@ Grid WithTypes(vtkUnstructuredGrid* grid, const std::map<int, int>& types)
 Filter MakeIntegral(vtkDataObject* input, int size)
 {
   Filter rays = MakeFilter(input, size, size);
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("Integral");
   SetRectangle(rays, { 0.3, -0.5, -1.0 }, 1.2);
   return rays;
 }
@@ -99,7 +100,8 @@ TEST(CellTypes, OrderOneIsLinear)
         }
         EXPECT_EQ(ValuesOf(same, "Integral"), ValuesOf(linear, "Integral"));
         EXPECT_GT(ValuesOf(same, "Integral").size(), 0u);
-        EXPECT_EQ(same->GetNumberOfTetrahedra(), linear->GetNumberOfTetrahedra());
+        EXPECT_EQ(
+          same->GetStatistic("NumberOfTetrahedra"), linear->GetStatistic("NumberOfTetrahedra"));
         EXPECT_TRUE(observer->Warnings.empty()) << TextOf(observer);
       }
     }
@@ -128,8 +130,8 @@ TEST(CellTypes, HigherOrdersAreDrawnByDefault)
       rays->SetDivisionTolerance(0.01);
       rays->SetMaximumNumberOfPieces(500); // Bezier cells are slow in VTK
       rays->Update();
-      EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
-      EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
+      EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
+      EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6);
       // TrueCellTypes compares the values of the adaptive division with the truth.
       const std::vector<double> found = ValuesOf(rays, "Integral");
       adaptive = isFixed ? adaptive : found;
@@ -163,7 +165,7 @@ TEST(CellTypes, CellsThatVTKCannotEvaluateAreNamed)
       std::string::npos)
       << text;
     EXPECT_NE(text.find("1 vtkTriangle (without a volume)"), std::string::npos) << text;
-    EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+    EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
   }
 }
 
@@ -184,7 +186,7 @@ TEST(CellTypes, FoldedCellsOfSecondOrderAreCounted)
       vtkNew<ErrorObserver> observer;
       observer->Observe(rays);
       rays->Update();
-      EXPECT_EQ(rays->GetNumberOfFoldedCells(), right ? 0 : 1) << adaptive;
+      EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), right ? 0 : 1) << adaptive;
       const std::string text = TextOf(observer);
       EXPECT_EQ(text.find("1 cells are folded inside out") == std::string::npos, right) << text;
       EXPECT_EQ(observer->Warnings.size(), right ? 0u : 1u) << text;
@@ -198,7 +200,7 @@ TEST(CellTypes, FoldedCellsOfSecondOrderAreCounted)
       const Filter rays = MakeIntegral(MakeCell(shape, displacement, 4), 4);
       rays->SetCellDivisionToFixed();
       rays->Update();
-      EXPECT_EQ(rays->GetNumberOfFoldedCells(), 0) << shape.Name << " " << displacement;
+      EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), 0) << shape.Name << " " << displacement;
     }
   }
 }

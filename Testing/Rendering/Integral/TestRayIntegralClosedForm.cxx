@@ -7,6 +7,7 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkPiecewiseFunction.h>
@@ -95,12 +96,14 @@ double MeanOf(const glm::dvec3& from, const glm::dvec3& to)
 void ExpectScalars(const Measured& measured)
 {
   vtkTetrahedraRayIntegral* rays = measured.Rays;
-  rays->ComputeIntegralOn();
-  rays->ComputePathLengthOn();
-  rays->ComputeFirstDepthOn();
-  rays->ComputeLastDepthOn();
-  rays->ComputeMinimumOn();
-  rays->ComputeMaximumOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->GetArraySelection()->EnableArray("FirstDepth");
+  rays->GetArraySelection()->EnableArray("LastDepth");
+  rays->GetArraySelection()->EnableArray("Minimum");
+  rays->GetArraySelection()->EnableArray("MinimumDepth");
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
   using Point = glm::dvec3;
   const auto worst = [&measured](const char* name, double missed, const Measured::OnStretch& truth)
   { EXPECT_LT(measured.Worst(name, missed, truth), Tolerance) << name; };
@@ -119,7 +122,7 @@ void ExpectScalars(const Measured& measured)
   worst("MaximumDepth", NaN,
     [](const Point& a, const Point& b, Stretch in)
     { return Linear(a) >= Linear(b) ? in.Begin : in.End; });
-  EXPECT_EQ(rays->GetNumberOfLostRays(), 0);
+  EXPECT_EQ(rays->GetStatistic("NumberOfLostRays"), 0);
 }
 
 }
@@ -165,7 +168,7 @@ TEST(RayIntegralClosedForm, CameraInside)
   camera->SetFocalPoint(1.0, 0.4, -0.5);
   Filter rays = MakeFilter(block.Mesh, 60, 50);
   rays->SetCamera(camera);
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("Integral");
   EXPECT_LT(WorstError(rays, "Integral",
               [&block](const WorldRay& ray)
               {
@@ -184,7 +187,7 @@ TEST(RayIntegralClosedForm, EnergyBinsOfTheScalar)
   for (const SolidMesh& solid : MakeSolids(LinearAt))
   {
     const Measured measured(solid, Directions[1]);
-    measured.Rays->ComputeEnergyBinsOn();
+    measured.Rays->GetArraySelection()->EnableArray("EnergyBins");
     measured.Rays->SetNumberOfEnergyBins(3);
     for (int bin = 0; bin < 3; ++bin)
     {
@@ -266,7 +269,7 @@ void ExpectBins(const SolidMesh& solid, const std::vector<Field>& attenuations,
 {
   const auto bins = static_cast<int>(attenuations.size());
   const Measured measured(solid, Directions[0]);
-  measured.Rays->ComputeEnergyBinsOn();
+  measured.Rays->GetArraySelection()->EnableArray("EnergyBins");
   measured.Rays->SetAttenuationArrayName("mu");
   measured.Rays->SetEmissionArrayName(emissions.empty() ? nullptr : "light");
   measured.Rays->SetBinIntensity(bins - 1, intensity);
@@ -400,8 +403,9 @@ TEST(RayIntegralClosedForm, LayersOfCellDataInAStructuredGrid)
   Filter rays = MakeFilter(layers, 97, 83);
   SetRectangle(rays, Directions[0], 1.75);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "density");
-  rays->ComputeIntegralOn();
-  rays->ComputeMaximumOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
   EXPECT_LT(WorstError(rays, "Integral",
               [](const WorldRay& ray)
               {
@@ -476,8 +480,8 @@ TEST(RayIntegralClosedForm, OpticalDepthAndColour)
   {
     const Measured measured(solid, Directions[2]);
     measured.Rays->SetVolumeProperty(MakeTent());
-    measured.Rays->ComputeOpticalDepthOn();
-    measured.Rays->ComputeRGBAOn();
+    measured.Rays->GetArraySelection()->EnableArray("OpticalDepth");
+    measured.Rays->GetArraySelection()->EnableArray("RGBA");
     const auto depthOf = [](const glm::dvec3& a, const glm::dvec3& b, Stretch in)
     {
       const double change = Linear(b) - Linear(a);

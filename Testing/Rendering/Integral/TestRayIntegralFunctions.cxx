@@ -7,6 +7,7 @@
 
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDiscretizableColorTransferFunction.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
@@ -56,7 +57,7 @@ vtkSmartPointer<vtkImageData> MakeRow()
 std::vector<double> Render(vtkVolumeProperty* property, bool perUnitDistance = false)
 {
   const Filter rays = MakeFilter(MakeRow(), NumberOfCells, 1);
-  rays->ComputeRGBAOn();
+  rays->GetArraySelection()->EnableArray("RGBA");
   rays->SetVolumeProperty(property);
   rays->SetOpacityModel(perUnitDistance);
   rays->SetFrameModeToParallel();

@@ -6,6 +6,7 @@
 
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkRenderWindow.h>
@@ -49,8 +50,8 @@ void ExpectMapperPicture(bool parallel, vtkPolyData* membrane)
   filter->SetImageSize(Width, Height);
   filter->SetCamera(scene.GetRenderer()->GetActiveCamera());
   filter->SetVolumeProperty(scene.GetVolume()->GetProperty());
-  filter->ComputeIntegralOff();
-  filter->ComputeRGBAOn();
+  filter->GetArraySelection()->DisableArray("Integral");
+  filter->GetArraySelection()->EnableArray("RGBA");
   if (membrane)
   {
     scene.GetRayCaster()->SetMembraneData(membrane);

@@ -9,6 +9,7 @@
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -52,15 +53,17 @@ Filter MakeWithEverything(vtkUnstructuredGrid* grid)
 {
   Filter rays = MakeFilter(grid, 130, 110);
   rays->SetDirection(0.3, -0.4, -1.0);
-  rays->ComputeIntegralOn();
-  rays->ComputePathLengthOn();
-  rays->ComputeOpticalDepthOn();
-  rays->ComputeFirstDepthOn();
-  rays->ComputeLastDepthOn();
-  rays->ComputeMinimumOn();
-  rays->ComputeMaximumOn();
-  rays->ComputeRGBAOn();
-  rays->ComputeEnergyBinsOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->GetArraySelection()->EnableArray("OpticalDepth");
+  rays->GetArraySelection()->EnableArray("FirstDepth");
+  rays->GetArraySelection()->EnableArray("LastDepth");
+  rays->GetArraySelection()->EnableArray("Minimum");
+  rays->GetArraySelection()->EnableArray("MinimumDepth");
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  rays->GetArraySelection()->EnableArray("RGBA");
+  rays->GetArraySelection()->EnableArray("EnergyBins");
   rays->SetNumberOfEnergyBins(2);
   rays->SetVolumeProperty(MakeRamp());
   return rays;
@@ -85,7 +88,7 @@ bool HaveSameBits(const std::vector<double>& a, const std::vector<double>& b)
 TEST(RayIntegralPipeline, OnlyWhatIsAskedFor)
 {
   Filter rays = MakeFilter(MakeMesh(), 20, 10);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   rays->Update();
   vtkPointData* points = rays->GetOutput()->GetPointData();
   EXPECT_EQ(points->GetNumberOfArrays(), 1);
@@ -111,11 +114,11 @@ TEST(RayIntegralPipeline, AnotherFrameKeepsTheMesh)
   rays->Update();
   const auto expect = [&rays](int meshes, int scalars, int actives, int functions, int casts)
   {
-    EXPECT_EQ(rays->GetNumberOfMeshBuilds(), meshes);
-    EXPECT_EQ(rays->GetNumberOfScalarUpdates(), scalars);
-    EXPECT_EQ(rays->GetNumberOfActiveSetBuilds(), actives);
-    EXPECT_EQ(rays->GetNumberOfTransferFunctionBuilds(), functions);
-    EXPECT_EQ(rays->GetNumberOfCasts(), casts);
+    EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), meshes);
+    EXPECT_EQ(rays->GetStatistic("NumberOfScalarUpdates"), scalars);
+    EXPECT_EQ(rays->GetStatistic("NumberOfActiveSetBuilds"), actives);
+    EXPECT_EQ(rays->GetStatistic("NumberOfTransferFunctionBuilds"), functions);
+    EXPECT_EQ(rays->GetStatistic("NumberOfCasts"), casts);
   };
   expect(1, 1, 1, 1, 2);
   rays->Update();
@@ -132,7 +135,7 @@ TEST(RayIntegralPipeline, AnotherFrameKeepsTheMesh)
   camera->Azimuth(20.0);
   rays->Update();
   expect(1, 1, 1, 1, 8);
-  rays->ComputeRGBAOff();
+  rays->GetArraySelection()->DisableArray("RGBA");
   rays->Update();
   expect(1, 1, 1, 1, 9);
   rays->GetVolumeProperty()->GetScalarOpacity()->AddPoint(0.0, 0.9);
@@ -151,7 +154,7 @@ TEST(RayIntegralPipeline, AnotherFrameKeepsTheMesh)
   grid->Modified();
   rays->Update();
   expect(1, 2, 2, 2, 12);
-  EXPECT_EQ(rays->GetNumberOfPointUpdates(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfPointUpdates"), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -202,7 +205,7 @@ TEST(RayIntegralPipeline, ProgressAndAbort)
       }
     });
   Filter rays = MakeFilter(MakeMesh(), 900, 900);
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("Integral");
   rays->AddObserver(vtkCommand::ProgressEvent, command);
   // While the mesh is built, and while rays are cast.
   for (const double abortAt : { 0.1, 0.6 })
@@ -230,7 +233,7 @@ TEST(RayIntegralPipeline, OutputLiesInTheRectangle)
 {
   Filter rays = MakeFilter(MakeMesh(), 30, 20);
   SetRectangle(rays, { 0.3, 0.4, -0.7 }, 1.5);
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("Integral");
   rays->Update();
   vtkImageData* image = rays->GetOutput();
   for (const auto& pixel : { std::pair<int, int>{ 0, 0 }, { 29, 0 }, { 3, 19 } })
@@ -250,8 +253,8 @@ TEST(RayIntegralPipeline, FittedRectangle)
   Filter rays = MakeFilter(grid, 100, 50);
   rays->SetDirection(0.0, 0.0, -2.0);
   rays->SetViewUp(0.0, 3.0, 1.0);
-  rays->ComputePathLengthOn();
-  rays->ComputeFirstDepthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->GetArraySelection()->EnableArray("FirstDepth");
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   const std::vector<double> depths = ValuesOf(rays, "FirstDepth");
   const double* spacing = rays->GetOutput()->GetSpacing();
@@ -274,12 +277,12 @@ TEST(RayIntegralPipeline, ValuesThatAreNotFinite)
   grid->GetPointData()->GetScalars()->SetTuple1(1, std::numeric_limits<double>::quiet_NaN());
   Filter rays = MakeFilter(grid, 40, 40);
   rays->SetDirection(0.3, 0.2, -1.0);
-  rays->ComputePathLengthOn();
-  rays->ComputeIntegralOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->GetArraySelection()->EnableArray("Integral");
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   const std::vector<double> integrals = ValuesOf(rays, "Integral");
-  EXPECT_GT(rays->GetNumberOfTransparentCells(), 0);
-  EXPECT_LT(rays->GetNumberOfTransparentCells(), grid->GetNumberOfCells());
+  EXPECT_GT(rays->GetStatistic("NumberOfTransparentCells"), 0);
+  EXPECT_LT(rays->GetStatistic("NumberOfTransparentCells"), grid->GetNumberOfCells());
   double most = 0.0;
   for (std::size_t i = 0; i < lengths.size(); ++i)
   {
@@ -297,7 +300,7 @@ TEST(RayIntegralPipeline, ValuesThatAreNotFinite)
   {
     ASSERT_EQ(length, 0.0);
   }
-  EXPECT_EQ(rays->GetNumberOfTransparentCells(), grid->GetNumberOfCells());
+  EXPECT_EQ(rays->GetStatistic("NumberOfTransparentCells"), grid->GetNumberOfCells());
 }
 
 //------------------------------------------------------------------------------
@@ -320,7 +323,7 @@ TEST(RayIntegralPipeline, AttenuationThatIsNotFinite)
   }
   Filter rays = MakeFilter(grid, 40, 40);
   rays->SetDirection(0.3, 0.2, -1.0);
-  rays->ComputeEnergyBinsOn();
+  rays->GetArraySelection()->EnableArray("EnergyBins");
   rays->SetAttenuationArrayName("all");
   const std::vector<double> all = ValuesOf(rays, "EnergyBins");
   rays->SetAttenuationArrayName("some");
@@ -333,8 +336,8 @@ TEST(RayIntegralPipeline, AttenuationThatIsNotFinite)
     lighter += some[i] > all[i] + 0.01;
   }
   EXPECT_GT(lighter, 40);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(rays->GetNumberOfBinUpdates(), 2);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfBinUpdates"), 2);
 }
 
 //------------------------------------------------------------------------------
@@ -350,7 +353,8 @@ TEST(RayIntegralPipeline, Components)
   grid->GetPointData()->AddArray(vectors);
   Filter rays = MakeFilter(grid, 8, 8);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "velocity");
-  rays->ComputeMaximumOn();
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
   for (const auto& expected : { std::pair<int, double>{ 0, 3.0 }, { 1, -4.0 }, { -1, 5.0 } })
   {
     rays->SetArrayComponent(expected.first);

@@ -6,6 +6,7 @@
 #include "MembraneScene.h"
 
 #include <vtkCell.h>
+#include <vtkDataArraySelection.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -49,15 +50,15 @@ void ExpectVolume(vtkUnstructuredGrid* grid, double tolerance)
   Filter rays = MakeFilter(grid, 1024, 1024);
   rays->SetDirection(0.31, -0.47, -0.83);
   rays->SetViewUp(0.2, 1.0, 0.1);
-  rays->ComputeIntegralOn();
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("PathLength");
   const double volume = IntegrateCells(grid, false);
   const double integral = IntegrateCells(grid, true);
   const double volumeError = SumTimesArea(rays, "PathLength") / volume - 1.0;
   const double integralError = SumTimesArea(rays, "Integral") / integral - 1.0;
   std::cout << grid->GetNumberOfCells() << " cells: relative error of the volume " << volumeError
             << ", of the integral " << integralError << ", lost rays "
-            << rays->GetNumberOfLostRays() << "\n";
+            << rays->GetStatistic("NumberOfLostRays") << "\n";
   EXPECT_LT(std::abs(volumeError), tolerance);
   EXPECT_LT(std::abs(integralError), tolerance);
 }
@@ -176,7 +177,7 @@ TEST(RayIntegralRelations, PathLengthInAFoldedMesh)
     glm::dvec3(rays->GetFrameOrigin()[0], rays->GetFrameOrigin()[1], rays->GetFrameOrigin()[2]) +
     middle;
   rays->SetFrameOrigin(origin.x, origin.y, origin.z);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   int met = 0;
   EXPECT_LT(WorstError(rays, "PathLength",
               [&](const WorldRay& ray)
@@ -207,12 +208,14 @@ TEST(RayIntegralRelations, OppositeViews)
   back->SetFrameAxis2(axis2[0], axis2[1], axis2[2]);
   for (vtkTetrahedraRayIntegral* filter : { there.Get(), back.Get() })
   {
-    filter->ComputeIntegralOn();
-    filter->ComputePathLengthOn();
-    filter->ComputeFirstDepthOn();
-    filter->ComputeLastDepthOn();
-    filter->ComputeMinimumOn();
-    filter->ComputeMaximumOn();
+    filter->GetArraySelection()->EnableArray("Integral");
+    filter->GetArraySelection()->EnableArray("PathLength");
+    filter->GetArraySelection()->EnableArray("FirstDepth");
+    filter->GetArraySelection()->EnableArray("LastDepth");
+    filter->GetArraySelection()->EnableArray("Minimum");
+    filter->GetArraySelection()->EnableArray("MinimumDepth");
+    filter->GetArraySelection()->EnableArray("Maximum");
+    filter->GetArraySelection()->EnableArray("MaximumDepth");
   }
   const std::pair<const char*, const char*> same[] = { { "Integral", "Integral" },
     { "PathLength", "PathLength" }, { "Minimum", "Minimum" }, { "Maximum", "Maximum" } };
@@ -321,9 +324,9 @@ PathTruth TracePlanes(WorldRay ray, const std::vector<PlaneInterface>& planes)
 
 void ExpectPlanes(vtkTetrahedraRayIntegral* rays, const std::vector<PlaneInterface>& planes)
 {
-  rays->ComputeIntegralOn();
-  rays->ComputePathLengthOn();
-  rays->ComputeLastDepthOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->GetArraySelection()->EnableArray("LastDepth");
   EXPECT_LT(WorstError(rays, "PathLength",
               [&](const WorldRay& ray) { return TracePlanes(ray, planes).Length; }),
     Tolerance);
@@ -338,7 +341,7 @@ void ExpectPlanes(vtkTetrahedraRayIntegral* rays, const std::vector<PlaneInterfa
         return truth.Length > 1.0e-5 ? truth.Last : truth.Length > 0.0 ? HUGE_VAL : std::nan("");
       }),
     Tolerance);
-  EXPECT_EQ(rays->GetNumberOfLostRays(), 0);
+  EXPECT_EQ(rays->GetStatistic("NumberOfLostRays"), 0);
 }
 
 Filter MakeThroughWater(vtkDataObject* block)
@@ -362,7 +365,7 @@ TEST(RayIntegralRelations, ThroughAPlane)
   Filter rays = MakeThroughWater(block);
   rays->SetMembraneData(MakePlaneCase(0.25, 6.0, 3).Mesh);
   ExpectPlanes(rays, { { 0.25, 1.0 / 1.333 } });
-  EXPECT_EQ(rays->GetNumberOfMembraneBuilds(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMembraneBuilds"), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -399,7 +402,7 @@ TEST(RayIntegralRelations, EmissionThroughAPlane)
   }
   Filter rays = MakeThroughWater(block);
   rays->SetMembraneData(MakePlaneCase(0.25, 6.0, 3).Mesh);
-  rays->ComputeEnergyBinsOn();
+  rays->GetArraySelection()->EnableArray("EnergyBins");
   rays->SetAttenuationArrayName("mu");
   rays->SetEmissionArrayName("light");
   EXPECT_LT(WorstError(rays, "EnergyBins",
@@ -424,7 +427,7 @@ TEST(RayIntegralRelations, CompositeInput)
   }
   Filter rays = MakeFilter(blocks, 97, 83);
   SetRectangle(rays, { 0.2, -0.4, -1.0 }, 1.2);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   ConvexSolid solid = MakeBlockSolid();
   for (ConvexSolid::Plane& plane : solid.Planes)
   {
@@ -433,5 +436,5 @@ TEST(RayIntegralRelations, CompositeInput)
   EXPECT_LT(WorstError(rays, "PathLength",
               [&solid](const WorldRay& ray) { return solid.Clip(ray).GetLength(); }),
     Tolerance);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
 }

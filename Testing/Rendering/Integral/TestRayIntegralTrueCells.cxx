@@ -7,6 +7,7 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkImageData.h>
@@ -41,8 +42,8 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 Filter MakeAdaptive(vtkDataObject* input, int size)
 {
   Filter rays = MakeFilter(input, size, size);
-  rays->ComputeIntegralOn();
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("Integral");
+  rays->GetArraySelection()->EnableArray("PathLength");
   rays->SetCellDivisionToAdaptive();
   rays->SetDivisionTolerance(5e-5);
   rays->SetMaximumNumberOfPieces(1 << 25);
@@ -163,15 +164,15 @@ TEST_P(TrueCellTypes, IntegralsFollowTheShapeFunctions)
   const Grid grid = MakeCell(shape, shape.Displacement, 3);
   const Filter rays = MakeAdaptive(grid, 10);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
-  EXPECT_EQ(rays->GetNumberOfFoldedCells(), 0);
-  EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), 0);
+  EXPECT_EQ(rays->GetStatistic("NumberOfUnresolvedEdges"), 0);
   const std::vector<glm::dvec2> truth = TruthOf(rays, grid);
   const double adaptive = ErrorOf(rays, truth);
   // The error that is stated for this tolerance.
   EXPECT_LE(adaptive, 1.0e-4);
   std::printf("%-34s %8lld tetrahedra, error %.2g", shape.Name,
-    static_cast<long long>(rays->GetNumberOfTetrahedra()), adaptive);
+    static_cast<long long>(rays->GetStatistic("NumberOfTetrahedra")), adaptive);
   // Cells of higher order are divided whatever the setting (CellTypes.HigherOrders...).
   if (shape.Type < VTK_LAGRANGE_CURVE)
   {
@@ -206,10 +207,10 @@ TEST(TrueCells, TheErrorConvergesWithTheTolerances)
       error = ErrorOf(rays, truth);
       first = first == 0.0 ? error : first;
       std::printf("%-34s tolerance %.2g: %8lld tetrahedra, error %.2g\n", shape.Name, tolerance,
-        static_cast<long long>(rays->GetNumberOfTetrahedra()), error);
+        static_cast<long long>(rays->GetStatistic("NumberOfTetrahedra")), error);
       // The displaced ends of a ray's way, which meets sides at an angle, and the value.
       EXPECT_LE(error, 4.0 * tolerance);
-      EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
+      EXPECT_EQ(rays->GetStatistic("NumberOfUnresolvedEdges"), 0);
     }
     // First order in the tolerance, which is 64 times smaller in the end; that is second order in
     // the size of the pieces. Differences are between a quarter of the tolerance and all of it.
@@ -224,7 +225,7 @@ TEST(TrueCells, SmoothFieldsTakeFewPieces)
   const Filter rays = MakeAdaptive(image, 40);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "s");
   rays->Update();
-  const double pieces = static_cast<double>(rays->GetNumberOfTetrahedra()) / (6.0 * n * n * n);
+  const double pieces = rays->GetStatistic("NumberOfTetrahedra") / (6.0 * n * n * n);
   const auto truth = [&image](const WorldRay& ray) { return IntegrateImage(image, n, ray); };
   const double adaptive = WorstError(rays, "Integral", truth);
   rays->SetCellDivisionToFixed();
@@ -249,9 +250,9 @@ TEST(TrueCells, NeighboursOfAllTypesDoNotCrack)
       // So coarse that triangles of either side would lie far apart if they were not the same.
       rays->SetDivisionTolerance(0.05);
       rays->Update();
-      EXPECT_GT(rays->GetNumberOfTetrahedra(), 500);
-      EXPECT_EQ(rays->GetNumberOfLostRays(), 0);
-      EXPECT_EQ(rays->GetNumberOfFoldedCells(), 0);
+      EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 500);
+      EXPECT_EQ(rays->GetStatistic("NumberOfLostRays"), 0);
+      EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), 0);
       // The sides are plane, so each ray's way is that in the cube: a crack would shorten it.
       ConvexSolid cube;
       for (int axis = 0; axis < 3; ++axis)
@@ -275,25 +276,25 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   const Filter rays = MakeAdaptive(grid, 16);
   rays->SetDivisionTolerance(5e-3);
   rays->Update();
-  const vtkTypeInt64 pieces = rays->GetNumberOfTetrahedra();
-  EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
+  const double pieces = rays->GetStatistic("NumberOfTetrahedra");
+  EXPECT_EQ(rays->GetStatistic("NumberOfUnresolvedEdges"), 0);
   rays->SetImageSize(24, 24);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
   // New arrays of scalars, as a reader makes them.
   for (int step = 1; step <= 5; ++step)
   {
     SetScalars(grid, [step](const glm::dvec3& at) { return 1.0 + (1.0 + step) * SmoothField(at); });
     rays->Update();
-    EXPECT_EQ(rays->GetNumberOfScalarUpdates(), 1 + step);
+    EXPECT_EQ(rays->GetStatistic("NumberOfScalarUpdates"), 1 + step);
   }
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
   // The same scalars from the start lead to the same pieces.
   const Filter fresh = MakeAdaptive(grid, 24);
   fresh->SetDivisionTolerance(5e-3);
   fresh->Update();
-  EXPECT_EQ(fresh->GetNumberOfTetrahedra(), pieces);
+  EXPECT_EQ(fresh->GetStatistic("NumberOfTetrahedra"), pieces);
   EXPECT_EQ(ValuesOf(rays, "Integral"), ValuesOf(fresh, "Integral"));
   // Stretched points keep the division: the positions of all points are interpolated.
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
@@ -305,9 +306,9 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   grid->GetPoints()->Modified();
   rays->Update();
   fresh->Update();
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(rays->GetNumberOfPointUpdates(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfPointUpdates"), 1);
   const Filter moved = MakeAdaptive(grid, 24);
   moved->SetDivisionTolerance(5e-3);
   moved->Update();
@@ -322,13 +323,13 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   SetScalars(
     grid, [](const glm::dvec3& at) { return std::sin(9.0 * at.x) * std::cos(7.0 * at.z); });
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfUnresolvedEdges(), 0);
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 2);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 2);
+  EXPECT_EQ(rays->GetStatistic("NumberOfUnresolvedEdges"), 0);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 2);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 2);
   // So does another tolerance.
   rays->SetDivisionTolerance(1e-2);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 3);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 3);
 }
 
 TEST(TrueCells, CellsOfTheInputAreKnown)
@@ -343,10 +344,12 @@ TEST(TrueCells, CellsOfTheInputAreKnown)
   grid->GetCellData()->AddArray(numbers);
   const Filter rays = MakeCoarse(grid, 24);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "number");
-  rays->ComputeMinimumOn();
-  rays->ComputeMaximumOn();
+  rays->GetArraySelection()->EnableArray("Minimum");
+  rays->GetArraySelection()->EnableArray("MinimumDepth");
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
   rays->Update();
-  EXPECT_GT(rays->GetNumberOfTetrahedra(), 6 * 8);
+  EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6 * 8);
   const double mostNumber = static_cast<double>(grid->GetNumberOfCells());
   for (const char* name : { "Minimum", "Maximum" })
   {
@@ -391,8 +394,8 @@ TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
       }
       const Filter rays = MakeAdaptive(grid, 4);
       rays->Update();
-      EXPECT_LE(rays->GetNumberOfTetrahedra(), 6);
-      EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+      EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
+      EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
     }
   }
   // The same for places far from the origin: a cube, whose edges are straight.
@@ -407,8 +410,8 @@ TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
   const Filter rays = MakeAdaptive(cube, 4);
   rays->SetDivisionTolerance(1e-12);
   rays->Update();
-  EXPECT_LE(rays->GetNumberOfTetrahedra(), 6);
-  EXPECT_GT(rays->GetNumberOfTetrahedra(), 4);
+  EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
+  EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
 }
 
 TEST(TrueCells, TheBudgetEndsADivisionWithItsError)
@@ -420,7 +423,7 @@ TEST(TrueCells, TheBudgetEndsADivisionWithItsError)
   constexpr double finest = 5e-4;
   rays->SetDivisionTolerance(finest);
   rays->Update();
-  EXPECT_LE(rays->GetDivisionError(), finest);
+  EXPECT_LE(rays->GetStatistic("DivisionError"), finest);
   const std::vector<double> truth = ValuesOf(rays, "Integral");
   double range[2];
   grid->GetPointData()->GetScalars()->GetRange(range);
@@ -431,8 +434,8 @@ TEST(TrueCells, TheBudgetEndsADivisionWithItsError)
     observer->Observe(rays);
     rays->SetMaximumNumberOfPieces(budget);
     rays->Update();
-    EXPECT_LE(rays->GetNumberOfTetrahedra(), budget);
-    EXPECT_GE(rays->GetNumberOfTetrahedra(), 0.6 * static_cast<double>(budget));
+    EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), budget);
+    EXPECT_GE(rays->GetStatistic("NumberOfTetrahedra"), 0.6 * static_cast<double>(budget));
     ASSERT_EQ(observer->Warnings.size(), 1u);
     EXPECT_NE(observer->Warnings[0].find(
                 "budget of " + std::to_string(budget) + " tetrahedra at an error of "),
@@ -440,7 +443,7 @@ TEST(TrueCells, TheBudgetEndsADivisionWithItsError)
       << observer->Warnings[0];
     rays->RemoveObserver(observer);
     // The scalar is off by 1.5 times the error at most where it is quadratic, along a way of 1.4.
-    const double error = rays->GetDivisionError();
+    const double error = rays->GetStatistic("DivisionError");
     EXPECT_GT(error, rays->GetDivisionTolerance());
     EXPECT_LT(error, last);
     last = error;
@@ -467,21 +470,21 @@ TEST(TrueCells, SettingsThatChangeNothingCostNothing)
   rays->SetDivisionTolerance(1e-3);
   rays->SetMaximumNumberOfPieces(7);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
   rays = MakeCoarse(grid, 8);
   rays->SetMaximumNumberOfPieces(1000000);
   rays->Update();
   rays->SetMaximumNumberOfPieces(2000000);
   rays->Update();
-  rays->SetMaximumNumberOfPieces(rays->GetNumberOfTetrahedra());
+  rays->SetMaximumNumberOfPieces(rays->GetStatistic("NumberOfTetrahedra"));
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 1);
-  EXPECT_EQ(rays->GetNumberOfMeshBuilds(), 1);
-  rays->SetMaximumNumberOfPieces(rays->GetNumberOfTetrahedra() / 2);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
+  rays->SetMaximumNumberOfPieces(rays->GetStatistic("NumberOfTetrahedra") / 2);
   vtkNew<ErrorObserver> observer;
   observer->Observe(rays);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfCellDivisions(), 2);
+  EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 2);
   EXPECT_EQ(observer->Warnings.size(), 1u);
 }
 
@@ -499,7 +502,7 @@ TEST(TrueCells, OddCellsAreCounted)
   vtkNew<ErrorObserver> observer;
   observer->Observe(rays);
   rays->Update();
-  EXPECT_EQ(rays->GetNumberOfFoldedCells(), 1);
+  EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), 1);
   ASSERT_EQ(observer->Warnings.size(), 1u);
   EXPECT_NE(observer->Warnings[0].find("1 cells are folded inside out"), std::string::npos)
     << observer->Warnings[0];
@@ -521,9 +524,9 @@ TEST(TrueCells, OddCellsAreCounted)
     vtkNew<ErrorObserver> quiet;
     quiet->Observe(rays);
     rays->Update();
-    EXPECT_LE(rays->GetNumberOfTetrahedra(), 6);
-    EXPECT_GT(rays->GetNumberOfTetrahedra(), 0);
-    EXPECT_EQ(rays->GetNumberOfCellDivisions(), 0);
+    EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
+    EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 0);
+    EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 0);
   }
   // A point out of range is not read.
   grid = MakeCell(CellCases[0], 0.05, 2);
@@ -535,8 +538,8 @@ TEST(TrueCells, OddCellsAreCounted)
   vtkNew<ErrorObserver> third;
   third->Observe(rays);
   rays->Update();
-  EXPECT_GT(rays->GetNumberOfRejectedCells(), 0);
-  EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
+  EXPECT_GT(rays->GetStatistic("NumberOfRejectedCells"), 0);
+  EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6);
   // A type without a volume is left out, and the others are drawn.
   grid = MakeCell(CellCases[0], 0.05, 2);
   grid->InsertNextCell(VTK_QUAD, 4, good);
@@ -546,7 +549,7 @@ TEST(TrueCells, OddCellsAreCounted)
   rays->Update();
   ASSERT_EQ(fourth->Warnings.size(), 1u);
   EXPECT_NE(fourth->Warnings[0].find("1 vtkQuad"), std::string::npos) << fourth->Warnings[0];
-  EXPECT_GT(rays->GetNumberOfTetrahedra(), 6);
+  EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6);
 }
 
 TEST(TrueCells, LinearNeighboursDoNotMisplaceNewPoints)
@@ -596,7 +599,7 @@ TEST(TrueCells, LinearNeighboursDoNotMisplaceNewPoints)
       rays->Update();
       std::vector<double> found = ValuesOf(rays, "Integral");
       ASSERT_FALSE(found.empty());
-      found.push_back(static_cast<double>(rays->GetNumberOfTetrahedra()));
+      found.push_back(rays->GetStatistic("NumberOfTetrahedra"));
       first = first.empty() ? found : first;
       ASSERT_EQ(found.size(), first.size());
       for (std::size_t i = 0; i < found.size(); ++i)
@@ -635,8 +638,10 @@ TEST(TrueCells, BlocksMayDifferInComponents)
   SetRectangle(rays, { 0.0, 0.0, -1.0 }, 7.0);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "v");
   rays->SetArrayComponent(-1);
-  rays->ComputeMaximumOn();
-  rays->ComputeMinimumOn();
+  rays->GetArraySelection()->EnableArray("Maximum");
+  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  rays->GetArraySelection()->EnableArray("Minimum");
+  rays->GetArraySelection()->EnableArray("MinimumDepth");
   rays->Update();
   int seen = 0;
   for (const double value : ValuesOf(rays, "Maximum"))

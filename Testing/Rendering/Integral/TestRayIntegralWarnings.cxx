@@ -4,6 +4,7 @@
 #include "IntegralScene.h"
 
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
@@ -83,7 +84,7 @@ double ErrorOfLayer(int n, double thickness)
     grid->GetPointData()->GetScalars()->SetComponent(i, 0, std::nan(""));
   }
   const Filter rays = MakeFilter(grid, 64, 64);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.25, 0.25, 3.0);
   rays->SetFrameAxis1(0.5, 0.0, 0.0);
@@ -109,7 +110,7 @@ TEST(MeshWarnings, ThinLayers)
       const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
       const Grid grid = MakeLayers(n, thickness);
       const Filter rays = MakeFilter(grid, 4, 4);
-      rays->ComputePathLengthOn();
+      rays->GetArraySelection()->EnableArray("PathLength");
       const std::vector<std::string> warnings = UpdateAndListen(rays);
       const double error = ErrorOfLayer(n, thickness);
       std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
@@ -141,7 +142,7 @@ TEST(MeshWarnings, NoThinLayers)
   grid->InsertNextCell(VTK_TETRA, 4, ids[0]);
   grid->InsertNextCell(VTK_TETRA, 4, ids[1]);
   const Filter rays = MakeFilter(grid, 4, 4);
-  rays->ComputePathLengthOn();
+  rays->GetArraySelection()->EnableArray("PathLength");
   EXPECT_TRUE(UpdateAndListen(rays).empty());
 }
 
@@ -159,7 +160,7 @@ TEST(MeshWarnings, OverlappingBodies)
     blocks->SetBlock(0, outer);
     blocks->SetBlock(1, overlaps ? inner : beside);
     const Filter rays = MakeFilter(blocks, 64, 64);
-    rays->ComputeIntegralOn();
+    rays->GetArraySelection()->EnableArray("Integral");
     rays->SetDirection(0.11, 0.07, -1.0);
     const std::vector<std::string> warnings = UpdateAndListen(rays);
     if (!overlaps)
@@ -195,7 +196,7 @@ TEST(MeshWarnings, OverlappingBodiesAddUpOverTheSameRays)
     rays->SetFrameOrigin(bounds[0] + 0.1 * width, bounds[2] + 0.1 * width, bounds[5] + width);
     rays->SetFrameAxis1(0.8 * width, 0.0, 0.0);
     rays->SetFrameAxis2(0.0, 0.8 * width, 0.0);
-    rays->ComputeIntegralOn();
+    rays->GetArraySelection()->EnableArray("Integral");
     EXPECT_TRUE(UpdateAndListen(rays).empty());
     integrals.push_back(ValuesOf(rays, "Integral"));
   }

@@ -250,14 +250,14 @@ TEST(RefractionPassVolume, RaysAreTracedOnceForBothParts)
 {
   Basin basin(0.2);
   basin.RenderPass();
-  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
-  EXPECT_EQ(basin.Mapper->GetUsedImageSampleDistance(), 1.0);
+  EXPECT_EQ(basin.Mapper->GetStatistic("NumberOfSightUpdates"), 1);
+  EXPECT_EQ(basin.Mapper->GetStatistic("UsedImageSampleDistance"), 1.0);
   basin.Scene.GetWindow()->Render();
-  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
+  EXPECT_EQ(basin.Mapper->GetStatistic("NumberOfSightUpdates"), 1);
   EXPECT_EQ(basin.Mapper->GetNumberOfMeshBuilds(), 1);
   basin.GetCamera()->Azimuth(5.0);
   basin.Scene.GetWindow()->Render();
-  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 2);
+  EXPECT_EQ(basin.Mapper->GetStatistic("NumberOfSightUpdates"), 2);
 }
 
 TEST(RefractionPassVolume, WithinSSAA)

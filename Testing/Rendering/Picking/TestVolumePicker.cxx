@@ -14,6 +14,7 @@
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkContourValues.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkImageData.h>
@@ -408,8 +409,8 @@ TEST(VolumePicker, CompositeInput)
   filter->SetImageSize(Size, Size);
   filter->SetCamera(scene.Scene.GetRenderer()->GetActiveCamera());
   filter->SetVolumeProperty(scene.Scene.GetVolume()->GetProperty());
-  filter->ComputeIntegralOff();
-  filter->ComputeLargestContributionOn();
+  filter->GetArraySelection()->DisableArray("Integral");
+  filter->GetArraySelection()->EnableArray("LargestContribution");
   filter->Update();
   vtkPointData* data = filter->GetOutput()->GetPointData();
   ASSERT_NE(data->GetArray("LargestContributionBlock"), nullptr);
@@ -448,7 +449,7 @@ TEST(VolumePicker, VoxelsAndCellData)
   EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0, 1.0e-5);
   EXPECT_NEAR(scene.Chooser->GetValue(), ofCells->GetValue(cell), 1.0e-6);
   // The map of cells is that of the mesh for scalars of cells: nothing to look up.
-  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 0);
+  EXPECT_EQ(scene.Mapper()->GetStatistic("NumberOfCellSearches"), 0);
 }
 
 //------------------------------------------------------------------------------
@@ -530,18 +531,18 @@ TEST(VolumePicker, CountersAndThreads)
   vtkSMPTools::Initialize();
   EXPECT_EQ(scene.Chooser->GetDepth(), depth);
   EXPECT_EQ(scene.Chooser->GetCellId(), cell);
-  const double bytes = static_cast<double>(scene.Mapper()->GetHostBytes());
+  const double bytes = static_cast<double>(scene.Mapper()->GetStatistic("HostBytes"));
   scene.Scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
   scene.Pick();
   EXPECT_EQ(scene.Mapper()->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 1);
-  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
-  EXPECT_EQ(static_cast<double>(scene.Mapper()->GetHostBytes()), bytes);
+  EXPECT_EQ(scene.Mapper()->GetStatistic("NumberOfCellSearches"), 1);
+  EXPECT_EQ(static_cast<double>(scene.Mapper()->GetStatistic("HostBytes")), bytes);
   grid->GetPointData()->GetScalars()->SetTuple1(0, 0.3);
   grid->GetPointData()->GetScalars()->Modified();
   scene.Pick();
   EXPECT_EQ(scene.Mapper()->GetNumberOfScalarUpdates(), 2);
-  EXPECT_EQ(scene.Mapper()->GetNumberOfCellSearches(), 1);
+  EXPECT_EQ(scene.Mapper()->GetStatistic("NumberOfCellSearches"), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -556,10 +557,11 @@ TEST(VolumePicker, ImageOfOneEvent)
     filter->SetDirection(-1.0, -2.0, -0.7);
     filter->SetVolumeProperty(MakeRamp(3.0));
     filter->SetEventOpacity(0.2);
-    filter->ComputeIntegralOff();
-    filter->SetComputeFirstVisible(wanted & 1);
-    filter->SetComputeOpacityReached(wanted >> 1 & 1);
-    filter->SetComputeLargestContribution(wanted >> 2 & 1);
+    filter->GetArraySelection()->DisableArray("Integral");
+    vtkDataArraySelection* arrays = filter->GetArraySelection();
+    arrays->SetArraySetting("FirstVisible", wanted & 1);
+    arrays->SetArraySetting("OpacityReached", wanted >> 1 & 1);
+    arrays->SetArraySetting("LargestContribution", wanted >> 2 & 1);
     filter->Update();
     return filter;
   };
@@ -586,9 +588,11 @@ TEST(VolumePicker, ImageOfOneEvent)
       }
     }
     EXPECT_GT(found, Size * Size / 2) << names[kind];
-    EXPECT_LE(one->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
+    EXPECT_LE(
+      one->GetStatistic("NumberOfTraversalSteps"), all->GetStatistic("NumberOfTraversalSteps"));
   }
-  EXPECT_LT(2 * makeImage(1)->GetNumberOfTraversalSteps(), all->GetNumberOfTraversalSteps());
+  EXPECT_LT(2 * makeImage(1)->GetStatistic("NumberOfTraversalSteps"),
+    all->GetStatistic("NumberOfTraversalSteps"));
 }
 
 //------------------------------------------------------------------------------
@@ -597,8 +601,8 @@ TEST(VolumePicker, ImageBadInput)
   vtkNew<vtkTetrahedraRayIntegral> filter;
   filter->SetInputData(MakeBlock(2, ConstantField(0.5)));
   filter->SetImageSize(4, 4);
-  filter->ComputeIntegralOff();
-  filter->ComputeFirstVisibleOn();
+  filter->GetArraySelection()->DisableArray("Integral");
+  filter->GetArraySelection()->EnableArray("FirstVisible");
   vtkNew<ErrorObserver> observer;
   observer->Observe(filter);
   const auto expectError = [&](const char* text)
@@ -614,12 +618,12 @@ TEST(VolumePicker, ImageBadInput)
   filter->SetEventBlendMode(17);
   expectError("no blend mode of number 17");
   filter->SetEventBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  filter->ComputeRGBAOn();
+  filter->GetArraySelection()->EnableArray("RGBA");
   expectError("Events of isosurfaces cannot be");
   filter->SetEventOpacity(2.0);
   EXPECT_EQ(filter->GetEventOpacity(), 1.0);
   filter->SetEventBlendMode(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND);
-  filter->ComputeRGBAOff();
+  filter->GetArraySelection()->DisableArray("RGBA");
   filter->SetVolumeProperty(nullptr);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 16);

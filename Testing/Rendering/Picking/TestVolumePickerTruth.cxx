@@ -12,6 +12,7 @@
 #include <vtkCamera.h>
 #include <vtkContourValues.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkPiecewiseFunction.h>
@@ -215,8 +216,8 @@ void ExpectPicks(RayCastScene& scene, const FindEvents& find, double opacity, in
   }
   ExpectGood(truth, tallies, what, cells, compared);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfCellSearches(), 1);
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfCastImages(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfCellSearches"), 1);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfCastImages"), 0);
 }
 
 double ValueOf(vtkImageData* image, const std::string& name, int pixel, int component = 0)
@@ -238,10 +239,10 @@ void ExpectImage(RayCastScene& scene, vtkTetrahedraRayIntegral* filter, const Fi
   filter->SetImageSize(Width, Height);
   filter->SetCamera(scene.GetRenderer()->GetActiveCamera());
   filter->SetVolumeProperty(scene.GetVolume()->GetProperty());
-  filter->ComputeIntegralOff();
-  filter->ComputeFirstVisibleOn();
-  filter->ComputeOpacityReachedOn();
-  filter->ComputeLargestContributionOn();
+  filter->GetArraySelection()->DisableArray("Integral");
+  filter->GetArraySelection()->EnableArray("FirstVisible");
+  filter->GetArraySelection()->EnableArray("OpacityReached");
+  filter->GetArraySelection()->EnableArray("LargestContribution");
   filter->Update();
   vtkImageData* image = filter->GetOutput();
   std::array<Tally, 3> tallies;
@@ -270,7 +271,7 @@ void ExpectImage(RayCastScene& scene, vtkTetrahedraRayIntegral* filter, const Fi
     tally.Worst = std::max(0.0, tally.Worst - 2.4e-7 * truth.Diagonal());
   }
   ExpectGood(truth, tallies, what, 0.9, compared);
-  EXPECT_EQ(filter->GetNumberOfCellSearches(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCellSearches"), 1);
 }
 
 FindEvents MediumOf(RayCastScene& scene, double opacity)
@@ -410,7 +411,7 @@ TEST(VolumePickerTruth, ImageOfEvents)
   vtkNew<vtkTetrahedraRayIntegral> filter;
   filter->SetEventOpacity(0.3);
   ExpectImage(block.Scene, filter, MediumOf(block.Scene, 0.3), "image");
-  EXPECT_EQ(filter->GetNumberOfCasts(), 1);
+  EXPECT_EQ(filter->GetStatistic("NumberOfCasts"), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -469,7 +470,7 @@ TEST(VolumePickerTruth, ThroughAMembrane)
   EXPECT_GT(behind, 100);
   RecordProperty("Worst", std::to_string(1.0e6 * tally.Worst / truth.Diagonal()));
   EXPECT_LE(tally.Worst, DepthTolerance * truth.Diagonal());
-  EXPECT_EQ(block.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 0);
+  EXPECT_EQ(block.Scene.GetRayCaster()->GetStatistic("NumberOfSightUpdates"), 0);
 }
 
 //------------------------------------------------------------------------------

@@ -162,12 +162,13 @@ TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
     LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
     const FloatImage still = scene.RenderFloat();
     const vtkTypeInt64 rays = mapper->GetNumberOfRays();
-    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
+    EXPECT_EQ(mapper->GetStatistic("UsedImageSampleDistance"), 1.0);
 
     // A higher frame rate than can be reached.
     scene.GetWindow()->SetDesiredUpdateRate(1e6);
     const FloatImage moving = scene.RenderFloat();
-    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), mapper->GetMaximumImageSampleDistance());
+    EXPECT_EQ(
+      mapper->GetStatistic("UsedImageSampleDistance"), mapper->GetMaximumImageSampleDistance());
     EXPECT_NEAR(static_cast<double>(mapper->GetNumberOfRays()), static_cast<double>(rays) / 64.0,
       0.15 * static_cast<double>(rays) / 64.0);
     EXPECT_NE(moving.Rgba, still.Rgba);
@@ -180,7 +181,7 @@ TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
 
     scene.GetWindow()->SetDesiredUpdateRate(1e-4);
     EXPECT_EQ(scene.RenderFloat().Rgba, still.Rgba);
-    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
+    EXPECT_EQ(mapper->GetStatistic("UsedImageSampleDistance"), 1.0);
 
     scene.GetWindow()->SetDesiredUpdateRate(1e6);
     mapper->AutoAdjustSampleDistancesOff();

@@ -471,12 +471,12 @@ TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
     test.Scene.GetRayCaster()->SetMembraneData(test.Membrane.Mesh);
     test.SetIndices(1.333, 1.333);
     EXPECT_EQ(test.Scene.RenderFloat().Rgba, straight.Rgba);
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 0);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfSightUpdates"), 0);
 
     // Nearly equal indices: the code for refraction runs, but rays keep their direction.
     test.SetIndices(1.333, 1.333 * (1.0 + 1e-15));
     ExpectSamePicture(test.Scene.RenderFloat(), straight, "nearly equal indices");
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 1);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfSightUpdates"), 1);
   }
 }
 

@@ -516,14 +516,14 @@ TEST(TetrahedraRayCastMembraneMedium, OnlyTheImageIsMadeAgain)
   LookAt(scene.GetRenderer(), Block, 20.0, 40.0);
   const auto render = [&]() { scene.GetWindow()->Render(); };
   render();
-  const vtkTypeInt64 casts = mapper->GetNumberOfCastImages();
+  const double casts = mapper->GetStatistic("NumberOfCastImages");
   const vtkTypeInt64 bytes = mapper->GetUploadedBytes();
-  const vtkTypeInt64 sights = mapper->GetNumberOfSightUpdates();
+  const double sights = mapper->GetStatistic("NumberOfSightUpdates");
   Media().front().Set(mapper);
   render();
-  EXPECT_EQ(mapper->GetNumberOfCastImages(), casts + 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfCastImages"), casts + 1);
   EXPECT_EQ(mapper->GetUploadedBytes(), bytes);
-  EXPECT_EQ(mapper->GetNumberOfSightUpdates(), sights);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfSightUpdates"), sights);
 }
 
 TEST(TetrahedraRayCastMembraneMedium, NumbersWithoutMeaningAreAnError)

@@ -175,8 +175,8 @@ TEST(TetrahedraRayCastMembraneStack, LayersAreTheClosedForm)
         std::to_string(layers.size()) + " planes from " + std::to_string(layers[0].Level),
         Tolerance());
       EXPECT_EQ(test.Scene.GetRayCaster()->GetActiveBackend(), BackendUnderTest());
-      EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfRaysMissingAnInterface(), 0);
-      EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfTotallyReflectedRays(), 0);
+      EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfRaysMissingAnInterface"), 0);
+      EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfTotallyReflectedRays"), 0);
     }
   }
 }
@@ -191,9 +191,9 @@ TEST(TetrahedraRayCastMembraneStack, GlassBallIsEnteredAndLeft)
     StackTest test({ ball, ball }, grid);
     LookAt(test.Scene.GetRenderer(), Block, 30.0, 50.0);
     test.ExpectComposite("ball at " + std::to_string(level));
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfMembraneBuilds(), 1);
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfRaysMissingAnInterface(), 0);
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfTotallyReflectedRays(), 0);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfMembraneBuilds"), 1);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfRaysMissingAnInterface"), 0);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfTotallyReflectedRays"), 0);
   }
 }
 
@@ -207,7 +207,7 @@ TEST(TetrahedraRayCastMembraneStack, BallBehindAPane)
   LookAt(test.Scene.GetRenderer(), Block, 30.0, 60.0);
   test.ExpectComposite("ball behind a pane");
   // Most rays pass the ball and end at the pane.
-  EXPECT_GT(test.Scene.GetRayCaster()->GetNumberOfRaysMissingAnInterface(), Size);
+  EXPECT_GT(test.Scene.GetRayCaster()->GetStatistic("NumberOfRaysMissingAnInterface"), Size);
 }
 
 TEST(TetrahedraRayCastMembraneStack, WavesOnGlass)
@@ -234,8 +234,9 @@ TEST(TetrahedraRayCastMembraneStack, SmallPaneAndTotalReflection)
       grid);
     LookAt(test.Scene.GetRenderer(), Block, 30.0, 35.0);
     test.ExpectComposite("small pane, " + std::to_string(behind));
-    EXPECT_GT(test.Scene.GetRayCaster()->GetNumberOfRaysMissingAnInterface(), 100);
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfTotallyReflectedRays() > 100, behind == 1.0);
+    EXPECT_GT(test.Scene.GetRayCaster()->GetStatistic("NumberOfRaysMissingAnInterface"), 100);
+    EXPECT_EQ(
+      test.Scene.GetRayCaster()->GetStatistic("NumberOfTotallyReflectedRays") > 100, behind == 1.0);
   }
 }
 
@@ -254,7 +255,7 @@ TEST(TetrahedraRayCastMembraneStack, ConcentricDomeIsNotSeen)
     { Between(MakeBallCase(eye, 0.4, 64), 1.5, 1.0),
       Between(MakeBallCase(eye, 0.5, 48), 1.333, 1.5) });
   ExpectSamePicture(scene.RenderFloat(), straight, "dome");
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfRaysMissingAnInterface(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfRaysMissingAnInterface"), 0);
   // Off the centre it is seen.
   SetStack(scene.GetRayCaster(),
     { Between(MakeBallCase({ eye[0] + 0.1, eye[1], eye[2] }, 0.4, 64), 1.5, 1.0),
@@ -275,8 +276,8 @@ TEST(TetrahedraRayCastMembraneStack, EqualIndicesChangeNothing)
   SetStack(mapper,
     { Between(upper, 1.333, 1.333), Between(middle, 1.333, 1.333), Between(lower, 1.333, 1.333) });
   EXPECT_EQ(scene.RenderFloat().Rgba, straight.Rgba);
-  EXPECT_EQ(mapper->GetNumberOfSightUpdates(), 0);
-  EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 0);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfSightUpdates"), 0);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfMembraneBuilds"), 0);
 
   SetStack(mapper, { Between(middle, 1.0, 1.333) });
   const FloatImage refracted = scene.RenderFloat();

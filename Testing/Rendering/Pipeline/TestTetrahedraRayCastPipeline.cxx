@@ -177,7 +177,7 @@ TEST_F(TetrahedraRayCastPipeline, PointChangeMovesTheMesh)
   const Counters before(this->Scene->GetRayCaster());
   this->Scene->GetWindow()->Render();
   EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfMeshBuilds(), before.MeshBuilds);
-  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfPointUpdates(), 1);
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetStatistic("NumberOfPointUpdates"), 1);
   ExpectMatchesReference(*this->Scene, "points moved");
 }
 

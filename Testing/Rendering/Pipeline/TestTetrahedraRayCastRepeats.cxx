@@ -106,8 +106,8 @@ void ExpectEqualBits(const FloatImage& a, const FloatImage& b, const std::string
 TEST_F(TetrahedraRayCastRepeats, NothingChangedNothingCast)
 {
   const FloatImage expected = this->Settle();
-  const vtkTypeInt64 images = this->Mapper()->GetNumberOfCastImages();
-  const vtkTypeInt64 pixels = this->Mapper()->GetNumberOfCastPixels();
+  const double images = this->Mapper()->GetStatistic("NumberOfCastImages");
+  const double pixels = this->Mapper()->GetStatistic("NumberOfCastPixels");
   const vtkTypeInt64 steps = this->Mapper()->GetNumberOfTraversalSteps();
   EXPECT_GT(images, 0);
   EXPECT_EQ(pixels, images * Size * Size);
@@ -115,8 +115,8 @@ TEST_F(TetrahedraRayCastRepeats, NothingChangedNothingCast)
   {
     ExpectEqualBits(this->Scene->RenderFloat(), expected, "repetition");
   }
-  EXPECT_EQ(this->Mapper()->GetNumberOfCastImages(), images);
-  EXPECT_EQ(this->Mapper()->GetNumberOfCastPixels(), pixels);
+  EXPECT_EQ(this->Mapper()->GetStatistic("NumberOfCastImages"), images);
+  EXPECT_EQ(this->Mapper()->GetStatistic("NumberOfCastPixels"), pixels);
   EXPECT_EQ(this->Mapper()->GetNumberOfTraversalSteps(), steps);
 }
 
@@ -168,9 +168,9 @@ TEST_F(TetrahedraRayCastRepeats, EveryChangeIsCast)
   {
     const FloatImage before = this->Settle();
     change.second();
-    const vtkTypeInt64 images = this->Mapper()->GetNumberOfCastImages();
+    const double images = this->Mapper()->GetStatistic("NumberOfCastImages");
     const FloatImage after = this->Scene->RenderFloat();
-    EXPECT_GT(this->Mapper()->GetNumberOfCastImages(), images) << change.first;
+    EXPECT_GT(this->Mapper()->GetStatistic("NumberOfCastImages"), images) << change.first;
     EXPECT_FALSE(before.Rgba == after.Rgba) << change.first << " does not show";
     ExpectEqualBits(after, this->RenderAnew(), change.first);
   }
@@ -207,15 +207,15 @@ TEST_F(TetrahedraRayCastRepeats, TerminationKeepsItsErrorAndSavesSteps)
 TEST_F(TetrahedraRayCastRepeats, MovedBallIsCastWhereItWasAndIs)
 {
   this->Settle();
-  const vtkTypeInt64 pixels = this->Mapper()->GetNumberOfCastPixels();
+  const double pixels = this->Mapper()->GetStatistic("NumberOfCastPixels");
   this->Ball->SetScale(0.3);
   this->Ball->SetPosition(0.2, 0.1, 1.1);
   this->Settle();
-  const vtkTypeInt64 first = this->Mapper()->GetNumberOfCastPixels();
+  const double first = this->Mapper()->GetStatistic("NumberOfCastPixels");
   EXPECT_GT(first, pixels);
   this->Ball->SetPosition(0.25, 0.1, 1.1);
   const FloatImage moved = this->Scene->RenderFloat();
-  const vtkTypeInt64 cast = this->Mapper()->GetNumberOfCastPixels() - first;
+  const double cast = this->Mapper()->GetStatistic("NumberOfCastPixels") - first;
   EXPECT_GT(cast, 0);
   if (this->IsNative())
   {
@@ -230,10 +230,10 @@ TEST_F(TetrahedraRayCastRepeats, BackgroundAndSelectionShowTheSameImage)
 {
   this->Scene->GetWindow()->Render();
   this->Scene->GetWindow()->Render();
-  const vtkTypeInt64 images = this->Mapper()->GetNumberOfCastImages();
+  const double images = this->Mapper()->GetStatistic("NumberOfCastImages");
   this->Scene->GetRenderer()->SetBackground(0.3, 0.5, 0.1);
   this->Scene->GetWindow()->Render();
-  EXPECT_EQ(this->Mapper()->GetNumberOfCastImages(), images);
+  EXPECT_EQ(this->Mapper()->GetStatistic("NumberOfCastImages"), images);
   vtkNew<vtkHardwareSelector> selector;
   selector->SetRenderer(this->Scene->GetRenderer());
   selector->SetArea(0, 0, Size - 1, Size - 1);
@@ -242,16 +242,17 @@ TEST_F(TetrahedraRayCastRepeats, BackgroundAndSelectionShowTheSameImage)
   EXPECT_GT(selection->GetNumberOfNodes(), 0u);
   // Selections are made in another framebuffer, which may round depths differently: its passes may
   // need one image of their own.
-  EXPECT_LE(this->Mapper()->GetNumberOfCastImages(), images + (this->IsNative() ? 1 : 2));
+  EXPECT_LE(
+    this->Mapper()->GetStatistic("NumberOfCastImages"), images + (this->IsNative() ? 1 : 2));
 }
 
 TEST_F(TetrahedraRayCastRepeats, ModifiedMapperIsCast)
 {
   const FloatImage expected = this->Settle();
-  const vtkTypeInt64 images = this->Mapper()->GetNumberOfCastImages();
+  const double images = this->Mapper()->GetStatistic("NumberOfCastImages");
   this->Mapper()->Modified();
   ExpectEqualBits(this->Scene->RenderFloat(), expected, "modified");
-  EXPECT_EQ(this->Mapper()->GetNumberOfCastImages(), images + 1);
+  EXPECT_EQ(this->Mapper()->GetStatistic("NumberOfCastImages"), images + 1);
 }
 
 TEST_F(TetrahedraRayCastRepeats, MembraneThatChanges)
@@ -266,17 +267,17 @@ TEST_F(TetrahedraRayCastRepeats, MembraneThatChanges)
   this->Mapper()->SetInteriorIndexOfRefraction(1.333);
   LookAt(this->Scene->GetRenderer(), this->Mesh->GetBounds(), 10.0, 80.0);
   this->Settle();
-  const vtkTypeInt64 images = this->Mapper()->GetNumberOfCastImages();
+  const double images = this->Mapper()->GetStatistic("NumberOfCastImages");
   const FloatImage before = this->Scene->RenderFloat();
-  EXPECT_EQ(this->Mapper()->GetNumberOfCastImages(), images);
+  EXPECT_EQ(this->Mapper()->GetStatistic("NumberOfCastImages"), images);
   for (const std::function<void()>& change :
     std::vector<std::function<void()>>{ [&] { this->Mapper()->SetInteriorIndexOfRefraction(1.5); },
       [&] { water->SetNormal(0.1, 1.0, 0.0); } })
   {
-    const vtkTypeInt64 settled = this->Mapper()->GetNumberOfCastImages();
+    const double settled = this->Mapper()->GetStatistic("NumberOfCastImages");
     change();
     const FloatImage after = this->Scene->RenderFloat();
-    EXPECT_GT(this->Mapper()->GetNumberOfCastImages(), settled);
+    EXPECT_GT(this->Mapper()->GetStatistic("NumberOfCastImages"), settled);
     EXPECT_FALSE(after.Rgba == before.Rgba);
     ExpectEqualBits(after, this->RenderAnew(), "membrane");
     this->Settle();

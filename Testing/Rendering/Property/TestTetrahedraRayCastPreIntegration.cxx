@@ -157,12 +157,12 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
   {
     scene.GetWindow()->Render();
     builds += newBuilds;
-    EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), builds) << what;
+    EXPECT_EQ(mapper->GetStatistic("NumberOfPreIntegrationBuilds"), builds) << what;
     EXPECT_TRUE(newBuilds > 0 || mapper->GetUploadedBytes() == bytes) << what;
     bytes = mapper->GetUploadedBytes();
   };
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), 0) << "exact";
+  EXPECT_EQ(mapper->GetStatistic("NumberOfPreIntegrationBuilds"), 0) << "exact";
   bytes = mapper->GetUploadedBytes();
   UsePreIntegration(scene, 64, 8);
   renderAndExpect(1, "first use");
@@ -190,7 +190,8 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
   block.Mesh->GetPointData()->GetScalars()->SetComponent(5, 0, 2.0 * block.Range[1]);
   block.Mesh->GetPointData()->GetScalars()->Modified();
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), ++builds) << "range of the scalars";
+  EXPECT_EQ(mapper->GetStatistic("NumberOfPreIntegrationBuilds"), ++builds)
+    << "range of the scalars";
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 }
 
@@ -216,7 +217,7 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
   scene.GetVolume()->GetProperty()->ShadeOn();
   expectSame("light", 1);
   expectSame("light again", 1);
-  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfPreIntegrationBuilds(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfPreIntegrationBuilds"), 0);
 }
 
 TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)

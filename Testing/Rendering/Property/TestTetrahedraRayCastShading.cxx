@@ -422,19 +422,19 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
     mapper->SetBlendMode(mode);
     scene.GetWindow()->Render();
   }
-  EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfGradientBuilds"), 0);
   mapper->SetBlendModeToComposite();
   scene.GetVolume()->GetProperty()->ShadeOn();
   mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfGradientBuilds"), 0);
   mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   scene.GetWindow()->Render();
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 1);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfGradientBuilds"), 1);
   grid->GetPointData()->GetScalars()->SetComponent(0, 0, 0.5);
   grid->GetPointData()->GetScalars()->Modified();
   scene.GetWindow()->Render();
-  EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 2);
+  EXPECT_EQ(mapper->GetStatistic("NumberOfGradientBuilds"), 2);
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 }

@@ -44,11 +44,7 @@ vtkSmartPointer<vtkLight> AddParallelLight(vtkRenderer* renderer, double x, doub
 /** Number of shadow casts of a mapper so far. */
 int CastsOf(vtkTetrahedraRayCastMapper* mapper)
 {
-  std::ostringstream text;
-  mapper->Print(text);
-  const std::string name = "NumberOfShadowCasts: ";
-  const std::string all = text.str();
-  return std::stoi(all.substr(all.find(name) + name.size()));
+  return static_cast<int>(mapper->GetStatistic("NumberOfShadowCasts"));
 }
 
 /** A medium that only scatters light: its colour times the light that reaches a place. */

@@ -395,9 +395,11 @@ bool AddToEvents(const PacketJob& job, const RayEventSegment& segment, RayEventS
         SetAllEvents(state, segment, 0.0, segment.From);
       }
       return false;
-    default:
+    case BlendMode::Composite:
+    case BlendMode::Additive:
       return AddMedium(job, segment, state);
   }
+  return false; // the cases above are all modes
 }
 
 }
