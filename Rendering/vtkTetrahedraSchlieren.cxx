@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraSchlieren.h"
 
+#include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Input/ConcatenatedArray.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -167,6 +168,10 @@ public:
 };
 
 vtkStandardNewMacro(vtkTetrahedraSchlieren);
+meniscusSetClampMacro(vtkTetrahedraSchlieren, Quantity, int, DENSITY, REFRACTIVE_INDEX);
+meniscusSetClampMacro(vtkTetrahedraSchlieren, OutsideIndex, double, 0.0, VTK_DOUBLE_MAX);
+meniscusSetClampMacro(vtkTetrahedraSchlieren, KnifeCutOff, double, 0.0, 1.0);
+meniscusSetClampMacro(vtkTetrahedraSchlieren, KnifeRange, double, 0.0, VTK_DOUBLE_MAX);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraSchlieren::vtkTetrahedraSchlieren()

@@ -63,7 +63,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Meanings of the input's values. */
-  enum Quantities
+  enum
   {
     DENSITY = 0,         ///< density of a gas
     REFRACTIVE_INDEX = 1 ///< index of refraction
@@ -71,7 +71,7 @@ public:
 
   /** @{ */
   /** Set/Get the meaning of the input's values. Default is DENSITY. */
-  vtkSetClampMacro(Quantity, int, DENSITY, REFRACTIVE_INDEX);
+  virtual void SetQuantity(int quantity);
   vtkGetMacro(Quantity, int);
   void SetQuantityToDensity() { this->SetQuantity(DENSITY); }
   void SetQuantityToRefractiveIndex() { this->SetQuantity(REFRACTIVE_INDEX); }
@@ -103,7 +103,7 @@ public:
    * for lenses and solids. With 0, the default, nothing is refracted there: the boundary is the end
    * of the data, not of the medium. Has no effect on straight rays.
    */
-  vtkSetClampMacro(OutsideIndex, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetOutsideIndex(double index);
   vtkGetMacro(OutsideIndex, double);
   /** @} */
 
@@ -159,7 +159,7 @@ public:
    * Set/Get the share of the light that the knife cuts off without a medium, in [0, 1]. Default is
    * 0.5.
    */
-  vtkSetClampMacro(KnifeCutOff, double, 0.0, 1.0);
+  virtual void SetKnifeCutOff(double part);
   vtkGetMacro(KnifeCutOff, double);
   /** @} */
 
@@ -169,7 +169,7 @@ public:
    * source's image over the focal length of the schlieren head, >= 0. With 0, the default, it is
    * twice the largest deflection towards or away from the knife in the image.
    */
-  vtkSetClampMacro(KnifeRange, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetKnifeRange(double range);
   vtkGetMacro(KnifeRange, double);
   /** @} */
 
