@@ -12,7 +12,7 @@ LIMITS = {
     "vtkTetrahedraRayIntegral": 70,
     "vtkRefractedGeometryFilter": 70,
 }
-LIMIT_OF_OTHERS = 50
+LIMIT_OF_OTHERS = 55
 
 
 def classes():
