@@ -23,6 +23,7 @@
 #include <vtksys/SystemInformation.hxx>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -40,11 +41,6 @@ constexpr double ShareOfMesh = 0.5;
 bool HasText(const char* name)
 {
   return name && *name;
-}
-
-glm::dvec3 VectorOf(const double (&values)[3])
-{
-  return glm::dvec3(values[0], values[1], values[2]);
 }
 
 /** Error for an image that exceeds the computer's memory; empty if it fits. */
@@ -207,8 +203,8 @@ int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(requ
     std::max(this->ImageSize[1], 1) - 1, 0, 0 };
   vtkInformation* info = outputs->GetInformationObject(0);
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-  const meniscus::ParallelRectangle rectangle{ VectorOf(this->FrameOrigin),
-    VectorOf(this->FrameAxis1), VectorOf(this->FrameAxis2) };
+  const meniscus::ParallelRectangle rectangle{ glm::make_vec3(this->FrameOrigin),
+    glm::make_vec3(this->FrameAxis1), glm::make_vec3(this->FrameAxis2) };
   meniscus::ImagePlace place;
   // The rectangle of FITTED is known when the input is.
   if (this->FrameMode == PARALLEL && this->ImageSize[0] > 0 && this->ImageSize[1] > 0 &&
@@ -458,11 +454,12 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
                             this->Camera, this->ImageSize, mesh, request.View))
                         : this->TellError("There is no camera");
   }
-  request.Rectangle = { VectorOf(this->FrameOrigin), VectorOf(this->FrameAxis1),
-    VectorOf(this->FrameAxis2) };
+  request.Rectangle = { glm::make_vec3(this->FrameOrigin), glm::make_vec3(this->FrameAxis1),
+    glm::make_vec3(this->FrameAxis2) };
   if (this->FrameMode == FITTED &&
-    !this->TellError(meniscus::FitRectangle(mesh.GetCenter(), mesh.GetHalfSize(),
-      VectorOf(this->Direction), VectorOf(this->ViewUp), this->ImageSize, request.Rectangle)))
+    !this->TellError(
+      meniscus::FitRectangle(mesh.GetCenter(), mesh.GetHalfSize(), glm::make_vec3(this->Direction),
+        glm::make_vec3(this->ViewUp), this->ImageSize, request.Rectangle)))
   {
     return false;
   }

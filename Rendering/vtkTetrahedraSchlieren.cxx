@@ -25,6 +25,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -39,18 +40,13 @@
 namespace
 {
 
-/** Shares of the progress that the mesh and the rays take; the rest is that of the images. */
-constexpr double ShareOfMesh = 0.3;
+/** Shares of the progress that the medium and the rays take; the rest is that of the images. */
+constexpr double ShareOfMedium = 0.3;
 constexpr double ShareOfRays = 0.6;
 /** Rows of the image that are cast between two reports of the progress. */
 constexpr int RowsPerReport = 32;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
-glm::dvec3 VectorOf(const double (&values)[3])
-{
-  return glm::dvec3(values[0], values[1], values[2]);
-}
 
 /** Rays of an image's pixels in the mesh's units, and places in the image that they reach. */
 class PixelRays
@@ -335,7 +331,7 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
   }
   const auto goOn = [this](double fraction)
   {
-    this->UpdateProgress(ShareOfMesh * fraction);
+    this->UpdateProgress(ShareOfMedium * fraction);
     return !this->GetAbortExecute();
   };
   if (report.Error.empty())
@@ -393,8 +389,9 @@ bool vtkTetrahedraSchlieren::CastRays()
   }
   else
   {
-    error = meniscus::FitRectangle(mesh.GetCenter(), mesh.GetHalfSize(), VectorOf(this->Direction),
-      VectorOf(this->ViewUp), this->ImageSize, internals.Rectangle);
+    error =
+      meniscus::FitRectangle(mesh.GetCenter(), mesh.GetHalfSize(), glm::make_vec3(this->Direction),
+        glm::make_vec3(this->ViewUp), this->ImageSize, internals.Rectangle);
     error = error.empty() ? meniscus::DescribeFault(internals.Rectangle) : error;
     error = error.empty() ? meniscus::ComputeParallelView(
                               internals.Rectangle, this->ImageSize, mesh, {}, internals.View)
@@ -434,7 +431,7 @@ bool vtkTetrahedraSchlieren::CastRays()
           }
         }
       });
-    this->UpdateProgress(ShareOfMesh + ShareOfRays * (first + rows) / height);
+    this->UpdateProgress(ShareOfMedium + ShareOfRays * (first + rows) / height);
     if (this->GetAbortExecute())
     {
       return false;
