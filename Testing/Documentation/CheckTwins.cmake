@@ -30,7 +30,7 @@ endforeach ()
 # The algorithms that are known to be written twice, and the parts of all blend modes.
 include("${ROOT}/Module/Volume/Optics/BlendModes.cmake")
 list(TRANSFORM meniscus_blend_mode_parts PREPEND Tetrahedra)
-foreach (part RefractionMembraneFS TetrahedraRays TetrahedraWalk TetrahedraComponents
+foreach (part PlateTransmittance TetrahedraRays TetrahedraWalk TetrahedraComponents
     TetrahedraMedium TetrahedraLights TetrahedraPreIntegrated TetrahedraTransferFunction
     TetrahedraPlaceFS TetrahedraEntryTilesFS MediumTransmittance TetrahedraFading
     ${meniscus_blend_mode_parts})

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Twin: Rendering/glsl/vtkRefractionMembraneFS.glsl (reflectance)
+// Twin: Rendering/glsl/vtkPlateTransmittance.glsl (reflectance)
 /**
  * Refraction and reflection of one ray at one point of a surface. Directions and normals are unit
  * vectors; a normal points to the side that the ray comes from. Equation numbers are those of the
