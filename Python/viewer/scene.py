@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkVolume)
+    vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkVolume)
 
 from .. import vtkTetrahedraRayCastMapper
 from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL
@@ -29,6 +29,12 @@ _VOLUME = "volume"
 _CURVES = {"projection": [(0.0, 0.0), (1.0, 1.0)],
            "isosurface": [(0.0, ISOSURFACE_OPACITY), (1.0, ISOSURFACE_OPACITY)]}
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
+# Pixels from the left border of the bar to the right border of the window.
+BAR_ROOM = 100.0
+# With shadows: ambient coefficient; place, as that of a camera light, and intensity of the lamp.
+SHADOW_AMBIENT = 0.5
+SHADOW_LAMP = (-1.2, 1.6, 1.0)
+SHADOW_INTENSITY = 2.2
 
 
 class MeshScene:
@@ -85,7 +91,7 @@ class MeshScene:
         self.bar = vtkScalarBarActor()
         self.bar.SetNumberOfLabels(5)
         self.bar.SetMaximumWidthInPixels(90)
-        self.bar.SetPosition(0.88, 0.08)
+        self.renderer.AddObserver("StartEvent", lambda *_: self._place_bar())
         self.bar.SetHeight(0.8)
         self.bar.UnconstrainedFontSizeOn()
         self.bar.SetVerticalTitleSeparation(8)
@@ -96,6 +102,11 @@ class MeshScene:
             text.ItalicOff()
             text.BoldOff()
         self.renderer.AddViewProp(self.bar)
+
+    def _place_bar(self):
+        """At the right border, with room for its labels in windows of any width."""
+        width = max(self.renderer.GetSize()[0], 1)
+        self.bar.SetPosition(max(1.0 - BAR_ROOM / width, 0.0), 0.08)
 
     def get_arrays(self):
         """Names of the arrays that can be shown: those of points, then those of cells."""
@@ -243,8 +254,21 @@ class MeshScene:
         return bool(self.volume.GetProperty().GetShade())
 
     def set_shadows(self, reach):
-        """reach: share of the volume's size over which it casts shadows into itself; 0: none."""
+        """reach: share of the volume's size over which it casts shadows into itself; 0: none.
+
+        Shadows need a lamp beside the camera, and one that is brighter, as they darken.
+        """
         self.mapper.SetGlobalIlluminationReach(reach)
+        look = self.volume.GetProperty()
+        look.SetAmbient(SHADOW_AMBIENT if reach > 0.0 else MATERIAL["ambient"])
+        self.renderer.RemoveAllLights()
+        self.renderer.SetAutomaticLightCreation(reach <= 0.0)
+        if reach > 0.0:
+            lamp = vtkLight()
+            lamp.SetLightTypeToCameraLight()
+            lamp.SetPosition(*SHADOW_LAMP)
+            lamp.SetIntensity(SHADOW_INTENSITY)
+            self.renderer.AddLight(lamp)
 
     def set_backend(self, name):
         if name not in BACKENDS:
