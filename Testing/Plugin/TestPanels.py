@@ -7,7 +7,7 @@ from PluginTesting import value_of
 from paraview import simple
 
 EXACT, OLDER = "Volume (Exact)", "Tetrahedra Ray Cast"
-SHOWN = ["BlendMode", "IsosurfaceValues", "Shade", "CellDivision"]
+SHOWN = ["BlendMode", "IsosurfaceValues", "Shade", "GlobalIlluminationReach", "CellDivision"]
 REFRACTING = {
     "Membrane": "Refracting Surface",
     "ExteriorIndexOfRefraction": "Index of Refraction, Side of Normals",

@@ -26,12 +26,12 @@ def sine(a, b):
     return math.hypot(dx, dy) / math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
-def transmittance(cosine, before, behind):
+def reflectances(cosine, before, behind):
     ratio = before / behind
     refracted = math.sqrt(1 - ratio * ratio * (1 - cosine * cosine))
     s = (before * cosine - behind * refracted) / (before * cosine + behind * refracted)
     p = (behind * cosine - before * refracted) / (behind * cosine + before * refracted)
-    return 1 - (s * s + p * p) / 2
+    return s * s, p * p
 
 
 def largest_shift(first, second):
@@ -131,8 +131,11 @@ def check_light(surfaces):
     for angle in 0, 0.8:
         light.LightPosition = [math.sin(angle), 0, math.cos(angle)]
         inside = math.sqrt(1 - (math.sin(angle) / MEDIA[1]) ** 2)
-        expected = (math.cos(angle) * transmittance(math.cos(angle), *MEDIA[:2])
-                    * transmittance(inside, *MEDIA[1:]))
+        # Of each polarisation, with all reflections between the sides of the pane (Stokes 1862).
+        expected = math.cos(angle) / 2 * sum(
+            (1 - first) * (1 - last) / (1 - first * last)
+            for first, last in zip(reflectances(math.cos(angle), *MEDIA[:2]),
+                                   reflectances(inside, *MEDIA[1:])))
         data = servermanager.Fetch(light).GetPointData()
         low, high = data.GetArray("RefractionIrradiance").GetRange()
         # The light is ten thousand sizes of the scene away.
