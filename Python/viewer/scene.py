@@ -104,9 +104,9 @@ class MeshScene:
         self.renderer.AddViewProp(self.bar)
 
     def _place_bar(self):
-        """At the right border, with room for its labels in windows of any width."""
+        """At the right border, with room for its labels, but in the last quarter of the window."""
         width = max(self.renderer.GetSize()[0], 1)
-        self.bar.SetPosition(max(1.0 - BAR_ROOM / width, 0.0), 0.08)
+        self.bar.SetPosition(max(1.0 - BAR_ROOM / width, 0.75), 0.08)
 
     def get_arrays(self):
         """Names of the arrays that can be shown: those of points, then those of cells."""

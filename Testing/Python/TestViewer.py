@@ -169,12 +169,12 @@ class TestCommand(unittest.TestCase):
             status = main(list(arguments))
         return status, errors.getvalue()
 
-    def draw(self, *arguments):
+    def draw(self, *arguments, size="160x120"):
         """The picture of a command."""
         picture = self.name("picture.png")
         if os.path.exists(picture):
             os.remove(picture)
-        status, errors = self.run_command(*arguments, "--output", picture, "--size", "160x120")
+        status, errors = self.run_command(*arguments, "--output", picture, "--size", size)
         self.assertEqual((status, errors), (0, ""))
         return read_picture(picture)
 
@@ -216,6 +216,14 @@ class TestCommand(unittest.TestCase):
     def test_the_mesh_of_the_package(self):
         picture = self.draw("demo")
         self.assertGreater((abs(picture - picture[0]).max(axis=1) > 20).mean(), 0.1)
+
+    def test_labels_of_the_legend_are_not_cut_off(self):
+        for width in 400, 600, 1000:
+            with self.subTest(width=width):
+                rows = self.draw("demo", size=f"{width}x300").reshape(300, width, 3)
+                # The background is a gradient along the height only.
+                self.assertGreater(abs(rows[:, -60:] - rows[:, :1]).max(), 100)
+                self.assertLess(abs(rows[:, -2:] - rows[:, :1]).max(), 4)
 
     def test_transparent_background(self):
         picture = self.draw(self.mesh, "--transparent")
