@@ -19,13 +19,13 @@ class PointsView
 public:
   /** No points. */
   PointsView() = default;
-  /** @param triples x, y and z of each point in turn. */
+  /** @param triples x, y and z of each point in turn; may be null if there are none. */
   PointsView(const double* triples)
-    : PointsView(triples, triples + 1, triples + 2, 3, false)
+    : PointsView(triples, After(triples, 1), After(triples, 2), 3, false)
   {
   }
   PointsView(const float* triples)
-    : PointsView(triples, triples + 1, triples + 2, 3, true)
+    : PointsView(triples, After(triples, 1), After(triples, 2), 3, true)
   {
   }
   /** @param x, y, z one value per point each. */
@@ -44,6 +44,13 @@ public:
   }
 
 private:
+  // Offsets to null are undefined.
+  template <typename T>
+  static const T* After(const T* first, int count)
+  {
+    return first ? first + count : nullptr;
+  }
+
   PointsView(const void* x, const void* y, const void* z, std::size_t stride, bool isFloat)
     : Axes{ x, y, z }
     , Stride(stride)
