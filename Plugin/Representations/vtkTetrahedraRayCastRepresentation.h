@@ -26,8 +26,8 @@
  * of straight rays, which is also that of rays refracted at planes across an axis; any other
  * membrane causes a warning, once for each change of it. See Documentation/parallel.md.
  *
- * A view resets its camera to the bounds of what is drawn: of cells with a volume and of the
- * membranes. ParaView's own volumes use the bounds of all points.
+ * When a view resets its camera, it shows all cells that have a volume, and the membranes. Points
+ * without such a cell do not count, in contrast to ParaView's own volumes.
  *
  * While this representation is visible, the view does not peel volumes: translucent geometry is
  * drawn first and the volume over it. ParaView peels volumes by default, which mappers of

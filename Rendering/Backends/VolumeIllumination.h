@@ -46,8 +46,8 @@ public:
   };
 
   /**
-   * Updates the values. Returns false if it was aborted; what has been computed is kept then, and
-   * the next call goes on.
+   * Updates the values. Returns false if it was aborted. The values that it has computed by then
+   * are kept, and the next call computes the others.
    * @param progress called with the fraction done before each cast; returns false to abort.
    */
   bool Update(

@@ -71,7 +71,8 @@ public:
   }
 
 private:
-  // The number of loops of a step is not known: each takes half of what is left of its share.
+  // Nobody knows how many loops a step has. Each loop gets half of the progress that is left to the
+  // step.
   void Begin() { this->Next = Portion; }
   void End()
   {
@@ -89,7 +90,8 @@ private:
     return !this->Aborted;
   }
 
-  // The first rounds take little time. Most divisions end within thirty.
+  // Progress grows ever more slowly: the first rounds are short, and most divisions end within
+  // thirty.
   bool Report(double part)
   {
     const double rounds = this->Done + 0.5 * part * this->Share;
