@@ -7,10 +7,28 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace meniscus
 {
+namespace
+{
+
+/** The start of a log of the driver, by the functions for shaders or programs. */
+template <typename GetValue, typename GetLog>
+std::string ReadLog(GLuint object, GetValue&& getValue, GetLog&& getLog)
+{
+  constexpr GLint longest = 2000; // characters of a message that people read
+  GLint length = 0;
+  getValue(object, GL_INFO_LOG_LENGTH, &length);
+  std::vector<GLchar> text(static_cast<std::size_t>(std::min(std::max(length, 1), longest)), '\0');
+  getLog(object, static_cast<GLsizei>(text.size()), nullptr, text.data());
+  text.back() = '\0';
+  return text.data();
+}
+
+}
 
 vtkStandardNewMacro(OpenGLComputeProgram);
 
@@ -24,7 +42,7 @@ bool OpenGLComputeProgram::IsSupported()
 }
 
 //------------------------------------------------------------------------------
-bool OpenGLComputeProgram::Build(const std::string& source)
+std::string OpenGLComputeProgram::Build(const std::string& source)
 {
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
   const char* text = source.c_str();
@@ -33,18 +51,25 @@ bool OpenGLComputeProgram::Build(const std::string& source)
   const GLuint program = glCreateProgram();
   glAttachShader(program, shader);
   glLinkProgram(program);
-  glDetachShader(program, shader);
-  glDeleteShader(shader);
   GLint linked = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  std::string error;
   if (linked != GL_TRUE)
   {
+    error = ReadLog(shader, glGetShaderiv, glGetShaderInfoLog) +
+      ReadLog(program, glGetProgramiv, glGetProgramInfoLog);
+    error = error.empty() ? "the driver gives no reason" : error;
+  }
+  glDetachShader(program, shader);
+  glDeleteShader(shader);
+  if (!error.empty())
+  {
     glDeleteProgram(program);
-    return false;
+    return error;
   }
   this->Handle = static_cast<int>(program);
   this->Linked = true;
-  return true;
+  return std::string();
 }
 
 //------------------------------------------------------------------------------

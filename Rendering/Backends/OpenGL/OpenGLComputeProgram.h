@@ -26,8 +26,8 @@ public:
   /** True if the current context has compute shaders. */
   static bool IsSupported();
 
-  /** Compiles and links; returns false on failure. */
-  bool Build(const std::string& source);
+  /** Compiles and links; returns the driver's messages on failure, and nothing on success. */
+  std::string Build(const std::string& source);
 
   /** Makes it the current program, regardless of VTK's record of the current one. */
   void Use(vtkOpenGLRenderWindow* window);

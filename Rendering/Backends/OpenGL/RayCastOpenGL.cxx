@@ -344,9 +344,11 @@ std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
   if (!caster)
   {
     const auto program = vtkSmartPointer<OpenGLComputeProgram>::New();
-    if (!program->Build(RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics)))
+    const std::string error =
+      program->Build(RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics));
+    if (!error.empty())
     {
-      return "a compute shader does not compile on this graphics device";
+      return "a compute shader does not compile on this graphics device: " + error;
     }
     caster = program;
   }
