@@ -342,7 +342,8 @@ public:
    * Set/Get the implementation of the ray caster: OPENGL, a fragment shader; COMPUTE, a compute
    * shader with the same functions (OpenGL 4.3; on a window without it, OPENGL after a warning);
    * NATIVE, the CPU, in SIMD packets of the best instruction set available on all threads of
-   * vtkSMPTools; AUTOMATIC, the default: OPENGL, or NATIVE where OpenGL is a software rasteriser.
+   * vtkSMPTools; AUTOMATIC, the default: NATIVE where OpenGL is a software rasteriser, else COMPUTE
+   * where the window has OpenGL 4.3, else OPENGL.
    * Every backend of the library has every optical model. AUTOMATIC asks backends that were
    * registered from outside first (see RayCastBackendRegistry.h). If a backend cannot draw a frame,
    * the next one does, after a warning with the reason.
