@@ -34,7 +34,7 @@ public:
 
   bool IsAutomatic(const RayCastRequest&) override
   {
-    // Devices for data centres have few units for fragments: an NVIDIA H200 casts the same rays 12
+    // Devices for data centres have few units for fragments: an NVIDIA H200 casts the same rays 10
     // times faster by compute shaders.
     return !RayCastPresenter::IsSoftware() &&
       (this->Program == RayProgram::Fragment || OpenGLComputeProgram::IsSupported());
