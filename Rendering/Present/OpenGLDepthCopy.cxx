@@ -58,8 +58,8 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   }
   else
   {
-    // A blit would fail between different formats. CopyFromFrameBuffer() is not used: it checks the window's samples instead of the framebuffer's (VTK 9.1; test
-    // MultisampledWindow).
+    // A blit would fail between different formats. CopyFromFrameBuffer() is not used: it checks the
+    // window's samples instead of the framebuffer's (VTK 9.1; test MultisampledWindow).
     this->Texture->Activate();
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2], viewport[3]);
     this->Texture->Deactivate();
