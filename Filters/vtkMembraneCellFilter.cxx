@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMembraneCellFilter.h"
 
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
-#include "Filters/Membrane/StackInput.h"
+#include "Filters/Membrane/RefractionScene.h"
 #include "Refraction/Stack/RefractionStack.h"
 
 #include "vtkCellData.h"
@@ -178,7 +179,8 @@ meniscusMembranePortMacro(vtkMembraneCellFilter, 0);
 class vtkMembraneCellFilter::vtkInternals
 {
 public:
-  meniscus::StackScene Stack;
+  meniscus::RefractionScene Scene{ meniscus::RefractionScene::Fitting::Exact,
+    meniscus::RefractionScene::Use::Rays };
 };
 
 //------------------------------------------------------------------------------
@@ -224,16 +226,16 @@ bool vtkMembraneCellFilter::UpdateScene(vtkInformationVector* membranes)
   }
   const std::array<double, 3> eye = { this->EyePosition[0], this->EyePosition[1],
     this->EyePosition[2] };
-  bool ready = messages.Error.empty() &&
-    meniscus::UpdateStack(this->Internals->Stack, membranes, 0, this->Interfaces, eye, messages);
-  if (ready && this->Internals->Stack.GetSolver().GetStack().GetLinks().empty())
+  meniscus::RefractionScene& scene = this->Internals->Scene;
+  bool ready = scene.Update({ membranes, 0, this->Interfaces }, eye, messages);
+  if (ready && scene.GetStack().GetLinks().empty())
   {
     messages.Error = "No interface in front of the eye refracts";
     ready = false;
   }
   if (ready && messages.Warning.empty())
   {
-    this->Internals->Stack.ReportEyes({ glm::dvec3(eye[0], eye[1], eye[2]) }, messages);
+    scene.ReportEyes({ scene.GetEye() }, messages);
   }
   meniscus::Report(this, messages);
   return ready;
@@ -251,7 +253,7 @@ int vtkMembraneCellFilter::RequestData(
     return 0;
   }
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputs);
-  const meniscus::RefractionStack& stack = this->Internals->Stack.GetSolver().GetStack();
+  const meniscus::RefractionStack& stack = this->Internals->Scene.GetStack();
   const meniscus::Membrane& membrane = stack.GetLinks().front().Surface->GetMembrane();
   std::vector<VertexRay> rays = TraceVertices(stack, this->CellLength);
   Cells cells(stack, rays);

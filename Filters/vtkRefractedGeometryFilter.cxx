@@ -4,8 +4,8 @@
 
 #include "Common/CoherentOrder.h"
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
-#include "Filters/Membrane/StackInput.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
 
@@ -126,20 +126,12 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
   {
     options.Light = glm::dvec3(light[0], light[1], light[2]) / length;
   }
-  if (!this->HasStack)
+  options.Eye = this->Scene.GetEye();
+  const std::vector<meniscus::RefractionStack::Link> links = this->Scene.ListLinks();
+  if (!links.empty())
   {
-    const meniscus::RefractionScene::Eye& eye = this->Scene.GetEye();
-    options.Eye = glm::dvec3(eye[0], eye[1], eye[2]);
-    options.Exterior = eye[3];
-    options.Interior = eye[4];
-    return options;
-  }
-  const meniscus::RefractionStack& stack = this->Stack.GetSolver().GetStack();
-  options.Eye = stack.GetEye() + stack.GetOrigin();
-  if (!stack.GetLinks().empty())
-  {
-    options.Exterior = stack.GetLinks().front().Passage.Before;
-    options.Interior = stack.GetLinks().front().Passage.Behind;
+    options.Exterior = links.front().Passage.Before;
+    options.Interior = links.front().Passage.Behind;
   }
   return options;
 }
@@ -148,9 +140,9 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
 void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFilter* self)
 {
   vtkCamera* camera = self->Camera;
-  if (this->HasStack || !self->ViewCulling || !camera || camera->GetParallelProjection())
+  if (!self->ViewCulling || !camera || camera->GetParallelProjection())
   {
-    this->IsViewActive = false; // an eye at infinity has no frustum; lists are not culled
+    this->IsViewActive = false; // an eye at infinity has no frustum
     this->ViewTime = 0;
     return;
   }
@@ -195,7 +187,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::vtkInternals::Solve(
+bool vtkRefractedGeometryFilter::vtkInternals::SolveFirst(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
 {
   constexpr std::size_t chunkSize = meniscus::CellImages::Chunk;
@@ -207,8 +199,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     block.Rays = this->GetRays();
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
+    block.PrepareFirst(this->Scene);
   }
-  block.UpdateOrder(meniscus::ThreadedLoop);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < block.SolvedChunks.size(); ++i)
   {
@@ -217,9 +209,12 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
       open.push_back(i);
     }
   }
-  const auto solve = [this](const double* points, std::size_t begin, std::size_t end,
+  const auto solve = [this, &block](const double* points, std::size_t begin, std::size_t end,
                        meniscus::VirtualVertex* vertices)
-  { this->Scene.Solve(points, begin, end, vertices); };
+  {
+    this->Scene.Solve(
+      points, begin, end, vertices, block.Stack.Points.data(), block.Stack.Legs.data());
+  };
   const auto openChunks = static_cast<vtkIdType>(open.size());
   const bool done = this->Run(self, 0.0, 1.0, openChunks, GetGrainOfChunks(openChunks),
     [&solve, &block, &open, count](std::size_t begin, std::size_t end)
@@ -302,14 +297,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const std::size_t count = block.Points.size() / 3;
   if (!isReady)
   {
-    if (this->HasStack)
-    {
-      block.MakeImages(this->Stack.GetSolver());
-    }
-    else
-    {
-      block.MakeImages(this->Scene.GetCurved());
-    }
+    block.MakeImages(this->Scene);
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -465,36 +453,12 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   const meniscus::ObjectSurface surface = this->Internals->Surfaces.Get(geometry);
-  this->Internals->HasStack = meniscus::HasStack(this->Interfaces, inputs[1]);
-  const int result = this->Internals->HasStack
-    ? this->RequestStack(surface.Data, inputs[1], output)
-    : this->RequestOne(surface.Data, vtkPolyData::GetData(inputs[1]), output);
-  surface.RestoreIds(output);
-  return result;
-}
-
-//------------------------------------------------------------------------------
-// One membrane.
-int vtkRefractedGeometryFilter::RequestOne(
-  vtkPolyData* input, vtkPolyData* membrane, vtkPolyData* output)
-{
-  if (this->Mode == REFLECTION && this->MembraneModel == FLAT_FACETS)
+  const meniscus::RefractionScene::Loan loan(this->Internals->Scene);
+  if (this->UpdateScene(inputs[1]))
   {
-    vtkErrorMacro("Mode REFLECTION needs the membrane model CURVED; the output is empty.");
-    return 0;
+    this->WriteImages(surface.Data, output);
+    surface.RestoreIds(output);
   }
-  this->WarnOfModes();
-  const meniscus::RefractionScene::Loan loan(this->Internals->Scene, membrane,
-    this->MembraneModel == CURVED, this->GetExactMembrane(), this->Internals->GetView(this));
-  if (!this->UpdateMembrane(membrane))
-  {
-    return 1;
-  }
-  if (!this->UpdateEye() || !this->HasValidLight())
-  {
-    return 0;
-  }
-  this->WriteImages(input, output);
   return 1;
 }
 
@@ -503,37 +467,35 @@ int vtkRefractedGeometryFilter::RequestOne(
 void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* output)
 {
   vtkInternals& internals = *this->Internals;
-  const bool hasStack = internals.HasStack;
+  const meniscus::StackSolver* list = internals.Scene.GetPathSolver();
   internals.FailedInRun = 0;
-  const vtkTypeInt64 undecided = this->Internals->GetNumberOfUndecidedSearches();
+  const vtkTypeInt64 undecided = internals.Scene.GetNumberOfUndecided();
   internals.UpdateView(this);
   meniscus::SolvedBlock& block = internals.GetBlock(input);
   internals.Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   // While images change in every frame, their assembly is not kept for the next one.
-  const bool isKept = all && !hasStack && internals.AreCellsReady(this, block);
+  const bool isKept = all && !list && internals.AreCellsReady(this, block);
   if (!(all ? internals.SolveAll(this, input, block) : internals.SolveFirst(this, block)))
   {
     return;
   }
 
-  const meniscus::Membrane& surface =
-    hasStack ? internals.Stack.GetFirstMembrane() : internals.Scene.GetMembrane();
+  const meniscus::Membrane& surface = internals.Scene.GetFirstMembrane();
   const meniscus::OutputOptions options = internals.GetOptions(this);
   meniscus::OutputOptions ofFirst = options;
-  ofFirst.VirtualNormals = options.VirtualNormals && !hasStack;
+  ofFirst.VirtualNormals = options.VirtualNormals && !list;
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input,
         block.Selection.IsActive ? block.Selected : block.Topology, *block.Images, block.Cells,
         surface, ofFirst, block.Assembly, output)
     : meniscus::BuildVirtualPolyData(
         input, block.Vertices, block.Selection, surface, ofFirst, output);
-  if (hasStack && all)
+  if (list && all)
   {
-    meniscus::AddStackImageArrays(
-      input, *block.Images, block.Cells, internals.Stack.GetSolver(), options, output);
+    meniscus::AddStackImageArrays(input, *block.Images, block.Cells, *list, options, output);
   }
-  else if (hasStack)
+  else if (list)
   {
     meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
   }
@@ -541,25 +503,11 @@ void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* ou
   block.Assembly.IsReady = isKept;
   internals.CulledVertices += block.Selection.CulledPoints;
   internals.CulledCells += block.Selection.CulledCells;
-  this->ReportUndecided(this->Internals->GetNumberOfUndecidedSearches() - undecided);
+  this->ReportUndecided(internals.Scene.GetNumberOfUndecided() - undecided);
   // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(
     internals.FailedInRun, block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
   this->ReportCells(report, input);
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::HasValidLight()
-{
-  const double* light = this->LightDirection;
-  // std::hypot is not used: with three arguments, the library of gcc 12 takes a NaN for a zero.
-  if (this->VirtualNormals && !std::isfinite(light[0] + light[1] + light[2]))
-  {
-    vtkErrorMacro("The light's direction (" << light[0] << ", " << light[1] << ", " << light[2]
-                                            << ") is not finite; the output is empty.");
-    return false;
-  }
-  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -632,21 +580,4 @@ void vtkRefractedGeometryFilter::WarnOfModes()
                     "extrapolated cells show images that do not exist. The result is that of "
                     "FIRST_IMAGE.");
   }
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
-{
-  meniscus::SceneMessages messages;
-  const bool ready = this->Internals->Scene.SetMembrane(
-    membrane, this->MembraneModel == CURVED, messages, this->GetExactMembrane());
-  if (!messages.Error.empty())
-  {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
-  }
-  if (!messages.Warning.empty())
-  {
-    vtkWarningMacro(<< messages.Warning);
-  }
-  return ready;
 }

@@ -471,16 +471,11 @@ private:
   void WarnOfModes();
   void ReportPoints(vtkTypeInt64 failed, bool hasImage, vtkPolyData* input);
   void ReportUndecided(vtkTypeInt64 searches);
-  bool HasValidLight();
-  bool UpdateMembrane(vtkPolyData* membrane);
-  bool UpdateEye();
+  bool UpdateScene(vtkInformationVector* membranes);
   std::array<double, 3> GetEye();
   double GetTolerance();
   void ReportCells(const meniscus::VirtualPolyDataReport& report, vtkPolyData* input);
   std::string FindUnsupported();
-  bool UpdateStack(vtkInformationVector* membranes);
-  int RequestOne(vtkPolyData* input, vtkPolyData* membrane, vtkPolyData* output);
-  int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
   void WriteImages(vtkPolyData* input, vtkPolyData* output);
 
   int Mode = REFRACTION;

@@ -12,8 +12,12 @@
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
 #include <string>
+#include <vector>
 
 //------------------------------------------------------------------------------
 std::array<double, 3> vtkRefractedGeometryFilter::GetEye()
@@ -54,47 +58,82 @@ meniscus::CameraEye vtkRefractedGeometryFilter::vtkInternals::FindEye(
 std::string vtkRefractedGeometryFilter::vtkInternals::DescribeNoImage(
   vtkRefractedGeometryFilter* self) const
 {
-  const std::array<double, 3> place = self->GetEye();
-  const glm::dvec3 eye(place[0], place[1], place[2]);
-  const auto& links = this->Stack.GetSolver().GetStack().GetLinks();
-  if (self->Interfaces->GetNumberOfItems() > 1 && !links.empty())
+  const std::vector<meniscus::RefractionStack::Link> links = this->Scene.ListLinks();
+  if (!this->Scene.SeesSurface() || links.empty())
   {
-    const meniscus::Membrane& first = links.front().Surface->GetMembrane();
-    const meniscus::InterfacePassage& passage = links.front().Passage;
-    return this->Stack.GetSolver().GetStack().HasPassage()
-      ? meniscus::DescribeNoImage(first, eye - first.GetOrigin(), passage.FromFront ? 1.0 : -1.0,
-          passage.Before, passage.Behind)
-      : std::string();
+    return std::string();
   }
-  const meniscus::Membrane& membrane = this->Scene.GetMembrane();
-  return this->Scene.IsEyeBehind()
-    ? std::string()
-    : meniscus::DescribeNoImage(membrane, eye - membrane.GetOrigin(), 1.0,
-        self->GetExteriorIndexOfRefraction(), self->GetInteriorIndexOfRefraction());
-}
-
-//------------------------------------------------------------------------------
-meniscus::MembraneView vtkRefractedGeometryFilter::vtkInternals::GetView(
-  vtkRefractedGeometryFilter* self) const
-{
+  const meniscus::Membrane& first = this->Scene.GetFirstMembrane();
+  const meniscus::InterfacePassage& passage = links.front().Passage;
   const std::array<double, 3> eye = self->GetEye();
-  return { { eye[0], eye[1], eye[2], self->GetExteriorIndexOfRefraction(),
-             self->GetInteriorIndexOfRefraction() },
-    self->Mode == REFLECTION, self->Interfaces->GetFirstInterface()->GetTurnTowardsEye() };
+  return meniscus::DescribeNoImage(first, glm::dvec3(eye[0], eye[1], eye[2]) - first.GetOrigin(),
+    passage.FromFront ? 1.0 : -1.0, passage.Before, passage.Behind);
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateEye()
+// Text of the error for properties that do not fit each other; empty if they do.
+std::string vtkRefractedGeometryFilter::FindUnsupported()
 {
+  const bool isOne = this->Interfaces->GetNumberOfItems() < 2;
+  const double* light = this->LightDirection;
+  if (this->Mode == REFLECTION && !isOne)
+  {
+    return "Mode REFLECTION mirrors at one interface, and the list has more";
+  }
+  if (this->MembraneModel != CURVED && (this->Mode == REFLECTION || !isOne))
+  {
+    return std::string(isOne ? "Mode REFLECTION needs" : "Several refracting interfaces need") +
+      " the membrane model CURVED";
+  }
+  if (this->VirtualNormals && !isOne &&
+    std::any_of(light, light + 3, [](double c) { return c != 0.0; }))
+  {
+    return "With several refracting interfaces, VirtualNormals need a light at the eye, "
+           "LightDirection (0, 0, 0)";
+  }
+  // std::hypot is not used: with three arguments, the library of gcc 12 takes a NaN for a zero.
+  if (this->VirtualNormals && !std::isfinite(light[0] + light[1] + light[2]))
+  {
+    std::ostringstream text;
+    text << "The light's direction (" << light[0] << ", " << light[1] << ", " << light[2]
+         << ") is not finite";
+    return text.str();
+  }
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateScene(vtkInformationVector* membranes)
+{
+  vtkInternals& internals = *this->Internals;
   meniscus::SceneMessages messages;
-  const bool ready = this->Internals->Scene.SetEye(this->Internals->GetView(this), messages);
-  if (!messages.Error.empty())
+  messages.Error = this->FindUnsupported();
+  if (messages.Error.empty())
   {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
+    this->WarnOfModes();
   }
-  if (!messages.Warning.empty())
+  const bool isReady = internals.Scene.Update(
+    { membranes, 1, this->Interfaces, this->MembraneModel == CURVED, this->Mode == REFLECTION },
+    this->GetEye(), messages);
+  internals.RelativeIndices.clear();
+  if (isReady && internals.Scene.GetPathSolver())
   {
-    vtkWarningMacro(<< messages.Warning);
+    const auto& links = internals.Scene.GetStack().GetLinks();
+    for (const meniscus::RefractionStack::Link& link : links)
+    {
+      internals.RelativeIndices.push_back(link.Passage.Behind / links.front().Passage.Before);
+    }
   }
-  return ready;
+  meniscus::Report(this, messages);
+  return isReady;
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> vtkRefractedGeometryFilter::GetRelativeIndicesOfRefraction()
+{
+  if (this->Interfaces->GetNumberOfItems() < 2 || this->Internals->RelativeIndices.empty())
+  {
+    return { this->GetInteriorIndexOfRefraction() / this->GetExteriorIndexOfRefraction() };
+  }
+  return this->Internals->RelativeIndices;
 }

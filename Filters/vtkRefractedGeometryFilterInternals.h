@@ -8,7 +8,6 @@
 #include "Common/RangeLoop.h"
 #include "Filters/Common/Statistics.h"
 #include "Filters/Membrane/RefractionScene.h"
-#include "Filters/Membrane/StackScene.h"
 #include "Filters/Object/ObjectSurface.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/OutputArrays.h"
@@ -20,7 +19,6 @@
 
 #include <list>
 #include <string>
-#include <utility>
 #include <vector>
 
 /** Scenes, solved blocks and counters of a filter. */
@@ -35,7 +33,7 @@ public:
   meniscus::SolvedBlock& GetBlock(vtkPolyData* input);
   void UpdateView(vtkRefractedGeometryFilter* self);
   void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
-  bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool SolveFirst(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
   bool AreCellsReady(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block) const;
   bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
   bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
@@ -43,35 +41,17 @@ public:
     vtkIdType grain, const meniscus::RangeBody& body);
   void Count(meniscus::ImageState state);
   meniscus::CameraEye FindEye(vtkRefractedGeometryFilter* self) const;
-  meniscus::MembraneView GetView(vtkRefractedGeometryFilter* self) const;
   std::string DescribeNoImage(vtkRefractedGeometryFilter* self) const;
   meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
-  bool SolveStack(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
-  bool SolveFirst(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
-  {
-    return this->HasStack ? this->SolveStack(self, block) : this->Solve(self, block);
-  }
   /** Number of the rays of the current run. */
-  vtkTypeInt64 GetRays() const
-  {
-    return this->HasStack ? this->Stack.GetRays() : this->Scene.GetVersion().Rays;
-  }
-  vtkTypeInt64 GetNumberOfUndecidedSearches() const
-  {
-    return this->Scene.GetNumberOfUndecided() +
-      this->Stack.GetSolver().GetNumberOfUndecidedSearches();
-  }
-  /** Numbers of the current shapes, of one interface and of several ones. */
-  using ShapeNumbers = std::pair<vtkTypeInt64, vtkTypeInt64>;
-  ShapeNumbers GetShapes() const
-  {
-    return { this->Scene.GetVersion().Shape, this->Stack.GetNumberOfPatchBuilds() };
-  }
+  vtkTypeInt64 GetRays() const { return this->Scene.GetVersion().Rays; }
+  /** Number of the current shapes. */
+  vtkTypeInt64 GetShapes() const { return this->Scene.GetVersion().Shape; }
 
   meniscus::ObjectSurfaces Surfaces;
-  meniscus::RefractionScene Scene; ///< of one interface
-  meniscus::StackScene Stack;      ///< of several ones
-  bool HasStack = false;           ///< the current run has several interfaces
+  meniscus::RefractionScene Scene;
+  /** Index behind each interface that the last run refracted at, by the index in front of all. */
+  std::vector<double> RelativeIndices;
   std::list<meniscus::SolvedBlock> Blocks;
   vtkNew<vtkPolyData> Joined; ///< blocks of a composite output together, and the output's time
   vtkMTimeType JoinedTime = 0;
@@ -87,8 +67,8 @@ public:
   vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
   // Shapes of the last warning of each kind.
-  ShapeNumbers WarnedOfNoImage{ -1, -1 };
-  ShapeNumbers WarnedOfUndecided{ -1, -1 };
+  vtkTypeInt64 WarnedOfNoImage = -1;
+  vtkTypeInt64 WarnedOfUndecided = -1;
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
 };

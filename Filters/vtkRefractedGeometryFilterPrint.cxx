@@ -21,15 +21,13 @@ meniscusSetClampMacro(
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
+  return this->Internals->Scene.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
+  return this->Internals->Scene.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -62,7 +60,7 @@ vtkRefractedGeometryFilter::vtkInternals::List()
     { "NumberOfUndecidedSearches",
       "searches that may have missed an image: at a focus, or within rounding of a caustic "
       "or of the membrane",
-      [](Self& self) { return double(self.Internals->GetNumberOfUndecidedSearches()); } },
+      [](Self& self) { return double(self.Internals->Scene.GetNumberOfUndecided()); } },
     { "NumberOfVerticesWithoutImage", "points that had no image, since construction",
       [](Self& self) { return double(self.Internals->VerticesWithoutImage); } },
     { "NumberOfSkippedCells",

@@ -3,8 +3,9 @@
 #include "vtkRefractedLightFilter.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
-#include "Filters/Membrane/StackInput.h"
+#include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ObjectSurface.h"
 #include "Refraction/Stack/StackLight.h"
 
@@ -309,7 +310,9 @@ class vtkRefractedLightFilter::vtkInternals
 {
 public:
   meniscus::ObjectSurfaces Surfaces;
-  meniscus::StackScene Stack; ///< several interfaces
+  /** Several interfaces, with the light in place of the eye. */
+  meniscus::RefractionScene Scene{ meniscus::RefractionScene::Fitting::Exact,
+    meniscus::RefractionScene::Use::Rays };
 };
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
@@ -400,15 +403,16 @@ int vtkRefractedLightFilter::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 /** Returns false after an error. */
-bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkInformationVector* membranes)
+bool vtkRefractedLightFilter::PlaceLight(
+  vtkPolyData* input, const std::vector<vtkPolyData*>& membranes)
 {
   glm::dvec3 light(this->LightPosition[0], this->LightPosition[1], this->LightPosition[2]);
   if (!this->Positional)
   {
     vtkBoundingBox box(input->GetBounds());
-    for (int i = 0; i < membranes->GetNumberOfInformationObjects(); ++i)
+    for (vtkPolyData* membrane : membranes)
     {
-      box.AddBounds(vtkPolyData::GetData(membranes, i)->GetBounds());
+      box.AddBounds(membrane->GetBounds());
     }
     box.AddBox(this->OtherGeometry);
     double center[3];
@@ -471,56 +475,51 @@ int vtkRefractedLightFilter::RequestData(
     return 1;
   }
   meniscus::SceneMessages messages;
-  meniscus::ListSurfaces(inputs[1], messages);
+  const std::vector<vtkPolyData*> surfaces =
+    meniscus::ListSurfaces(inputs[1], 1, this->Interfaces, messages.Error);
+  meniscus::Report(this, messages);
   if (!messages.Error.empty())
-  {
-    meniscus::Report(this, messages);
-    return 0;
-  }
-  if (!this->PlaceLight(input, inputs[1]))
-  {
-    return 0;
-  }
-  const bool hasStack = meniscus::HasStack(this->Interfaces, inputs[1]);
-  if (hasStack && !this->UpdateStack(inputs[1]))
   {
     output->Initialize();
     return 0;
   }
-  const std::vector<glm::dvec3> areas = ListAreas(input);
-  const meniscus::RefractionStack& stack = this->Internals->Stack.GetSolver().GetStack();
-  if (hasStack && !stack.GetLinks().empty())
+  if (!this->PlaceLight(input, surfaces))
   {
-    const meniscus::LitTriangles lit = CollectTriangles(input);
-    meniscus::StackLight gathering(stack, lit);
-    gathering.SetOneSided(this->OneSided);
-    AddIrradiance(output, gathering.Gather(areas.size(), meniscus::ThreadedLoop), areas, nullptr,
-      this->LightVectors);
-    return 1;
+    return 0;
+  }
+  const std::vector<glm::dvec3> areas = ListAreas(input);
+  double place[3];
+  this->View->GetEyePosition(place);
+  if (surfaces.size() > 1)
+  {
+    meniscus::RefractionScene& scene = this->Internals->Scene;
+    const bool isReady =
+      scene.Update({ inputs[1], 1, this->Interfaces }, { place[0], place[1], place[2] }, messages);
+    meniscus::Report(this, messages);
+    if (!isReady)
+    {
+      output->Initialize();
+      return 0;
+    }
+    if (!scene.GetStack().GetLinks().empty())
+    {
+      const meniscus::LitTriangles lit = CollectTriangles(input);
+      meniscus::StackLight gathering(scene.GetStack(), lit);
+      gathering.SetOneSided(this->OneSided);
+      AddIrradiance(output, gathering.Gather(areas.size(), meniscus::ThreadedLoop), areas, nullptr,
+        this->LightVectors);
+      return 1;
+    }
   }
   // Without a refracting interface, the first surface bounds the light.
   if (!this->Look(input, membrane))
   {
     return 1;
   }
-  glm::dvec3 light;
-  this->View->GetEyePosition(&light.x);
+  const glm::dvec3 light(place[0], place[1], place[2]);
   AddIrradiance(output, GatherLight(this->View->GetOutput(), light, areas), areas,
     this->OneSided ? &light : nullptr, this->LightVectors);
   return 1;
-}
-
-//------------------------------------------------------------------------------
-/** Sets several interfaces, with the light in place of the eye. Returns false after an error. */
-bool vtkRefractedLightFilter::UpdateStack(vtkInformationVector* membranes)
-{
-  double light[3];
-  this->View->GetEyePosition(light);
-  meniscus::SceneMessages messages;
-  const bool isReady = meniscus::UpdateStack(this->Internals->Stack, membranes, 1, this->Interfaces,
-    { light[0], light[1], light[2] }, messages);
-  meniscus::Report(this, messages);
-  return isReady;
 }
 
 //------------------------------------------------------------------------------

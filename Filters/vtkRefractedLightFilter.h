@@ -175,9 +175,8 @@ private:
   vtkRefractedLightFilter(const vtkRefractedLightFilter&) = delete;
   void operator=(const vtkRefractedLightFilter&) = delete;
 
-  bool PlaceLight(vtkPolyData* input, vtkInformationVector* membranes);
+  bool PlaceLight(vtkPolyData* input, const std::vector<vtkPolyData*>& membranes);
   bool Look(vtkPolyData* input, vtkPolyData* membrane);
-  bool UpdateStack(vtkInformationVector* membranes);
 
   double LightPosition[3] = { 0.0, 0.0, 1.0 };
   bool Positional = false;

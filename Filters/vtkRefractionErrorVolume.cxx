@@ -4,10 +4,10 @@
 
 #include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
 #include "Filters/Membrane/RefractionScene.h"
-#include "Filters/Membrane/StackInput.h"
 #include "Refraction/Stack/ErrorSamples.h"
 
 #include "vtkDoubleArray.h"
@@ -53,18 +53,10 @@ struct PassedLinks
   glm::dvec3 Origin{ 0.0 };
 
   PassedLinks() = default;
-  explicit PassedLinks(const meniscus::RefractionStack& stack)
-    : List(stack.GetLinks())
-    , Origin(stack.GetOrigin())
+  explicit PassedLinks(const meniscus::RefractionScene& scene)
+    : List(scene.ListLinks())
+    , Origin(scene.GetOrigin())
   {
-  }
-  /** One interface, which is passed from the front. */
-  PassedLinks(
-    const std::shared_ptr<meniscus::RefractingSurface>& surface, double exterior, double interior)
-    : List{ { surface, { exterior, interior, true }, glm::dvec3(0.0), 0, exterior / interior } }
-    , Origin(surface->GetMembrane().GetOrigin())
-  {
-    surface->Prepare(meniscus::SurfaceParts::Crossings, meniscus::FacetLoop);
   }
 };
 
@@ -148,14 +140,12 @@ std::array<unsigned char, 3> ColorOf(double error, const double limits[3])
 class vtkRefractionErrorVolume::vtkInternals
 {
 public:
-  using Fitting = meniscus::StackScene::Fitting;
+  using Scene = meniscus::RefractionScene;
 
-  meniscus::RefractionScene Scene; ///< of one interface
-  /** The finer mesh, or the same mesh if the scene has flat facets. */
-  meniscus::RefractionScene Reference;
-  // Several interfaces, whose exact surfaces are compared with the meshes as they are given.
-  meniscus::StackScene Stack{ Fitting::AsGiven };
-  meniscus::StackScene StackReference{ Fitting::AsGiven, meniscus::StackScene::Use::Rays };
+  // Exact surfaces are compared with the meshes as they are given.
+  Scene Measured{ Scene::Fitting::AsGiven };
+  /** The finer meshes, or the same mesh if the scene has flat facets. */
+  Scene Reference{ Scene::Fitting::AsGiven, Scene::Use::Rays };
   /** Interfaces of the solvers, and of the meshes that are exact surfaces. */
   PassedLinks Passed;
   PassedLinks Finer;
@@ -237,15 +227,13 @@ vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfMeasuredSamples() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfPatchBuilds() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
+  return this->Internals->Measured.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
 {
-  const vtkInternals& internals = *this->Internals;
-  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
+  return this->Internals->Measured.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -353,10 +341,7 @@ int vtkRefractionErrorVolume::RequestData(
     vtkErrorMacro("The membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
-  const bool hasStack = meniscus::HasStack(this->Interfaces, inputs[0]);
-  if (!this->HasValidBox() || !this->HasValidLimits() ||
-    !(hasStack ? this->UpdateStacks(inputs[0], inputs[1])
-               : this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1]))))
+  if (!this->HasValidBox() || !this->HasValidLimits() || !this->UpdateScenes(inputs[0], inputs[1]))
   {
     return 0;
   }
@@ -366,7 +351,7 @@ int vtkRefractionErrorVolume::RequestData(
   output->SetSpacing(info->Get(vtkDataObject::SPACING()));
   this->Internals->Samples.assign(
     static_cast<std::size_t>(output->GetNumberOfPoints()), meniscus::ErrorSample());
-  if (this->MeasureSamples(hasStack, output))
+  if (this->MeasureSamples(output))
   {
     this->FillOutput(output);
   }
@@ -379,100 +364,71 @@ int vtkRefractionErrorVolume::RequestData(
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference)
-{
-  vtkInternals& internals = *this->Internals;
-  const bool curved = this->MembraneModel == CURVED;
-  const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
-    this->EyePosition[2], this->GetExteriorIndexOfRefraction(),
-    this->GetInteriorIndexOfRefraction() };
-  const meniscus::MembraneView view{ eye, false,
-    this->Interfaces->GetFirstInterface()->GetTurnTowardsEye() };
-  meniscus::SceneMessages messages;
-  bool ready = internals.Scene.SetMembrane(membrane, curved, messages) &&
-    internals.Scene.SetEye(view, messages);
-  const bool needsReference = !this->GetExactMembrane() && (reference || !curved);
-  if (ready && needsReference)
-  {
-    ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
-      internals.Reference.SetEye(view, messages);
-  }
-  if (ready)
-  {
-    internals.Passed = PassedLinks(internals.Scene.GetSurface(), eye[3], eye[4]);
-    internals.Finer = needsReference ? PassedLinks(internals.Reference.GetSurface(), eye[3], eye[4])
-                                     : internals.Passed;
-  }
-  meniscus::Report(this, messages);
-  if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)
-  {
-    internals.WarnedOfNoReference = true;
-    vtkWarningMacro("CURVED is compared with itself: set the exact membrane, or a finer one on "
-                    "port 1, to measure the error of the mesh.");
-  }
-  return ready;
-}
-
-//------------------------------------------------------------------------------
-bool vtkRefractionErrorVolume::UpdateStacks(
+bool vtkRefractionErrorVolume::UpdateScenes(
   vtkInformationVector* membranes, vtkInformationVector* references)
 {
   vtkInternals& internals = *this->Internals;
+  const bool isCurved = this->MembraneModel == CURVED;
   const std::array<double, 3> eye = { this->EyePosition[0], this->EyePosition[1],
     this->EyePosition[2] };
   meniscus::SceneMessages messages;
-  messages.Error = meniscus::FindModelFault(this->MembraneModel == CURVED);
-  bool ready =
-    meniscus::UpdateStack(internals.Stack, membranes, 0, this->Interfaces, eye, messages);
-  const bool hasFunctions = HasAllFunctions(this->Interfaces);
-  const bool hasReference = !hasFunctions && references->GetNumberOfInformationObjects() > 0;
-  if (ready)
+  if (!isCurved && this->Interfaces->GetNumberOfItems() > 1)
   {
-    internals.Passed = PassedLinks(internals.Stack.GetSolver().GetStack());
+    messages.Error = "Several refracting interfaces need the membrane model CURVED";
+  }
+  bool isReady =
+    internals.Measured.Update({ membranes, 0, this->Interfaces, isCurved }, eye, messages);
+  const bool hasFunctions = HasAllFunctions(this->Interfaces);
+  const bool hasFiner = references->GetNumberOfInformationObjects() > 0;
+  const bool hasReference = !hasFunctions && (hasFiner || !isCurved);
+  if (isReady)
+  {
+    internals.Measured.PrepareCrossings();
+    internals.Passed = PassedLinks(internals.Measured);
     internals.Finer = internals.Passed;
   }
-  if (ready && hasReference)
+  if (isReady && hasReference)
   {
-    ready = meniscus::UpdateStack(
-      internals.StackReference, references, 1, this->Interfaces, eye, messages);
-    internals.Finer = PassedLinks(internals.StackReference.GetSolver().GetStack());
-    if (ready && !PassAlike(internals.Passed.List, internals.Finer.List))
+    isReady = internals.Reference.Update(
+      { hasFiner ? references : membranes, hasFiner ? 1 : 0, this->Interfaces }, eye, messages);
+  }
+  if (isReady && hasReference)
+  {
+    internals.Finer = PassedLinks(internals.Reference);
+    if (!PassAlike(internals.Passed.List, internals.Finer.List))
     {
       messages.Error = "The eye lies between a membrane and the finer one";
-      ready = false;
+      isReady = false;
     }
   }
   meniscus::Report(this, messages);
-  if (ready && !hasFunctions && !hasReference && !internals.WarnedOfNoReference)
+  if (isReady && !hasFunctions && !hasReference && !internals.WarnedOfNoReference)
   {
     internals.WarnedOfNoReference = true;
     vtkWarningMacro("Interfaces without an exact surface are compared with themselves: set exact "
                     "surfaces, or finer membranes on port 1, to measure the error of the meshes.");
   }
-  return ready;
+  return isReady;
 }
 
 //------------------------------------------------------------------------------
 // Returns false after an abort.
-bool vtkRefractionErrorVolume::MeasureSamples(bool hasStack, vtkImageData* output)
+bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
 {
   vtkInternals& internals = *this->Internals;
   const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
   const Links& links = internals.Passed.List;
   const ExactSurfaces exact(this->Interfaces, links, internals.Finer);
   const meniscus::ErrorSampler sampler(eye, links, exact, this->AngularErrors);
-  const meniscus::RefractionScene& scene = internals.Scene;
   return this->RunOverSamples(output->GetNumberOfPoints(),
-    [&internals, &sampler, &scene, hasStack, output](vtkIdType begin, vtkIdType end)
+    [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
         glm::dvec3 point;
         output->GetPoint(i, &point.x);
-        internals.Samples[static_cast<std::size_t>(i)] = hasStack
-          ? sampler.Measure(internals.Stack.GetSolver(), point)
-          : (scene.IsCurved() ? sampler.Measure(scene.GetCurved(), point)
-                              : sampler.Measure(scene.GetFlat(), point));
+        internals.Samples[static_cast<std::size_t>(i)] = internals.Measured.Visit(
+          [&](const auto& solver) { return sampler.Measure(solver, point); });
       }
     });
 }

@@ -256,9 +256,8 @@ private:
 
   bool HasValidBox();
   bool HasValidLimits();
-  bool UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference);
-  bool UpdateStacks(vtkInformationVector* membranes, vtkInformationVector* references);
-  bool MeasureSamples(bool hasStack, vtkImageData* output);
+  bool UpdateScenes(vtkInformationVector* membranes, vtkInformationVector* references);
+  bool MeasureSamples(vtkImageData* output);
   bool RunOverSamples(
     vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body);
   void FillOutput(vtkImageData* output);

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSightRayAlgorithm.h"
 
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
-#include "Filters/Membrane/StackInput.h"
+#include "Filters/Membrane/RefractionScene.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -26,8 +27,8 @@ constexpr vtkIdType PointProgressSteps = 20;
 class vtkSightRayAlgorithm::vtkInternals
 {
 public:
-  meniscus::StackScene Stack{ meniscus::StackScene::Fitting::Exact,
-    meniscus::StackScene::Use::Rays };
+  meniscus::RefractionScene Scene{ meniscus::RefractionScene::Fitting::Exact,
+    meniscus::RefractionScene::Use::Rays };
 };
 
 meniscusInterfacePropertiesMacro(vtkSightRayAlgorithm);
@@ -69,7 +70,7 @@ void vtkSightRayAlgorithm::SetMembraneData(vtkPolyData* membrane)
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkSightRayAlgorithm::GetNumberOfPatchBuilds() const
 {
-  return this->Internals->Stack.GetNumberOfPatchBuilds();
+  return this->Internals->Scene.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
@@ -125,15 +126,15 @@ bool vtkSightRayAlgorithm::UpdateScene(
     eyes = meniscus::PointEyes(this->EyePosition);
     messages.Error = eyes.UseArray(points, this->EyeArrayName);
     ready = messages.Error.empty() &&
-      meniscus::UpdateSurfaces(this->Internals->Stack, membranes, 1, this->Interfaces, messages);
+      this->Internals->Scene.SetSurfaces({ membranes, 1, this->Interfaces }, messages);
     const double* place = this->EyePosition;
     if (ready && !eyes.IsPerPoint())
     {
-      ready = this->Internals->Stack.SetEye({ place[0], place[1], place[2] }, messages);
+      ready = this->Internals->Scene.SetEye({ place[0], place[1], place[2] }, messages);
     }
     if (ready)
     {
-      this->Internals->Stack.ReportEyes(eyes.GetSample(points->GetNumberOfPoints()), messages);
+      this->Internals->Scene.ReportEyes(eyes.GetSample(points->GetNumberOfPoints()), messages);
     }
   }
   else
@@ -165,13 +166,13 @@ bool vtkSightRayAlgorithm::RunInSteps(
 //------------------------------------------------------------------------------
 const meniscus::RefractionStack& vtkSightRayAlgorithm::GetStack() const
 {
-  return this->Internals->Stack.GetSolver().GetStack();
+  return this->Internals->Scene.GetStack();
 }
 
 //------------------------------------------------------------------------------
-meniscus::StackScene& vtkSightRayAlgorithm::GetStackScene() const
+const meniscus::RefractionScene& vtkSightRayAlgorithm::GetScene() const
 {
-  return this->Internals->Stack;
+  return this->Internals->Scene;
 }
 
 //------------------------------------------------------------------------------

@@ -30,7 +30,7 @@ namespace meniscus
 {
 class PointEyes;
 class RefractionStack;
-class StackScene;
+class RefractionScene;
 }
 
 class VTKMENISCUS_EXPORT vtkSightRayAlgorithm : public vtkPointSetAlgorithm
@@ -127,7 +127,7 @@ protected:
   /** The stack of the last UpdateScene(). */
   const meniscus::RefractionStack& GetStack() const;
   /** The surfaces, their interfaces and the stack made of them. */
-  meniscus::StackScene& GetStackScene() const;
+  const meniscus::RefractionScene& GetScene() const;
 
 private:
   vtkSightRayAlgorithm(const vtkSightRayAlgorithm&) = delete;

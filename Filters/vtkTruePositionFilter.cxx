@@ -7,7 +7,7 @@
 #include "Filters/Common/PointCoordinates.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Membrane/PointEyes.h"
-#include "Filters/Membrane/StackScene.h"
+#include "Filters/Membrane/RefractionScene.h"
 #include "Refraction/Stack/StackInverse.h"
 
 #include "vtkDoubleArray.h"
@@ -123,7 +123,7 @@ vtkTypeInt64 vtkTruePositionFilter::GetNumberOfMissedPoints() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
 {
-  return this->GetStackScene().GetNumberOfEyeUpdates();
+  return this->GetScene().GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------

@@ -67,18 +67,16 @@
  * anywhere in their range of scalars, are not visited and occlude nothing.
  *
  * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
- * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
- * edge signs instead of plane equations (Eq. 1); closed-form integration (K. Moreland, E. Angel, "A
- * Fast High Accuracy Volume Renderer for Unstructured Data", 2004) instead of pre-integrated tables
- * (Eqs. 3, 4) unless PRE_INTEGRATED is selected; boundary entries instead of imaginary cells.
+ * Meshes", IEEE Visualization 2003, but in one pass, with edge signs (Eq. 1), boundary entries and
+ * integration in closed form (K. Moreland, E. Angel, "A Fast High Accuracy Volume Renderer for
+ * Unstructured Data", 2004; Eqs. 3 and 4 with PRE_INTEGRATED).
  *
  * Requires OpenGL 3.2; the native backend casts rays on the CPU and uses OpenGL only to show the
  * image. Tables are built only when their input changes: see the counters.
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
  *   composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device,
- *   tables within GL_MAX_TEXTURE_BUFFER_SIZE. All backends draw the
- *   same image.
+ *   tables within GL_MAX_TEXTURE_BUFFER_SIZE. All backends draw the same image.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -126,8 +124,7 @@ public:
   using vtkUnstructuredGridVolumeMapper::SetInputData;
   /** @{ */
   /**
-   * Set the input without a pipeline: a data set with three-dimensional cells, or a composite data
-   * set of such, all of whose leaves are drawn as one mesh.
+   * Set the input without a pipeline: a data set with three-dimensional cells, or a composite one.
    */
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
@@ -145,15 +142,11 @@ public:
    * mesh in front of it is drawn as without a membrane. There it is refracted by Snell's law and
    * continues through the mesh. Where it is totally reflected, nothing behind the membrane is
    * drawn; rays that miss the membrane are straight. Geometry in the framebuffer behind the
-   * membrane is taken as virtual geometry, such as the output of vtkRefractedGeometryFilter: at a
-   * distance l behind the sight point it occludes the refracted ray from the distance n2 / n1 * l
-   * on (the thesis's Eq. 2.4). A membrane that is itself drawn opaque occludes everything behind
-   * it.
+   * membrane is taken as virtual geometry, see SetInterfaces(). A membrane that is itself drawn
+   * opaque occludes everything behind it.
    *
    * The bounds of the mapper include those of the membrane, where the volume is seen. A membrane
    * that cannot be used is an error, and nothing is rendered.
-   *
-   * @sa SetExteriorIndexOfRefraction
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
@@ -168,10 +161,9 @@ public:
   /** @{ */
   /**
    * Set/Get the indices of refraction: exterior, on the side to which the membrane's normals point,
-   * default 1.0; and interior, on the other side, default 1.333. Must be positive and finite; other
-   * values are an error if there is a membrane. A ray that meets the membrane from behind passes
-   * from the interior to the exterior. If the indices are equal, the membrane changes nothing and
-   * costs nothing. With several interfaces these are the indices of the first.
+   * default 1.0; and interior, on the other side, default 1.333; with several interfaces, those of
+   * the first. Must be positive and finite; other values are an error if there is a membrane. If
+   * the indices are equal, the membrane changes nothing and costs nothing.
    */
   virtual void SetExteriorIndexOfRefraction(double index);
   virtual double GetExteriorIndexOfRefraction();
@@ -182,32 +174,21 @@ public:
   /** @{ */
   /**
    * Set/Get the refracting interfaces, such as the two faces of a pane, in the order in which rays
-   * meet them. The interface of number i has the surface of connection i of port 1, and the list
-   * must be as long as there are connections. It may be shared with other filters and mappers.
-   * Null, the default, stands for a list of one with default values.
+   * meet them; vtkRefractingInterfaceCollection describes how rays pass the list. The interface of
+   * number i has the surface of connection i of port 1, and the list must be as long as there are
+   * connections. Null, the default, stands for a list of one with default values.
    *
-   * A ray meets the first interface from either side. It meets a further one at the first
-   * intersection behind the last point of refraction at which it arrives in the medium of that
-   * side; intersections from the other side do not count. So a closed surface, such as a glass
-   * ball, is connected and listed twice, with the same indices: it is entered and left. The medium
-   * behind each interface must be one of those of the next one, otherwise the list is an error.
-   * Rays may come from the interior of the first interface if the media match in that order.
-   *
-   * A ray that is totally reflected at an interface ends there. One that misses an interface ends
-   * at the last one that it met, and shows nothing behind it. Both are counted:
-   * see GetStatistics(). Rays that miss the
-   * first interface are straight. Interfaces with equal indices are left out. Geometry in the
-   * framebuffer behind the first interface is virtual geometry: a point in the medium of index n
-   * is drawn n0 / n times its way behind the interface (n0: the eye's medium), and these lengths
-   * add up.
+   * Rays that miss the first interface are straight. Those that are totally reflected at an
+   * interface, or miss a further one, are counted: see GetStatistics(). Geometry in the framebuffer
+   * behind the first interface is virtual geometry, such as vtkRefractedGeometryFilter's: a point
+   * in the medium of index n is drawn n0 / n times its way behind the interface (n0: the eye's
+   * medium; the thesis's Eq. 2.4), and these lengths add up.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
-  /**
-   * Modification time, which includes that of the interfaces.
-   */
+  /** Modification time, which includes that of the interfaces. */
   vtkMTimeType GetMTime() override;
 
   /** @{ */
@@ -296,8 +277,8 @@ public:
    * Set/Get the budget of ADAPTIVE_DIVISION: the largest number of tetrahedra that it makes. They
    * are spent where errors are largest. If the budget ends the division before the tolerance is
    * reached, a warning reports the error, which is the statistic "DivisionError". While cells are
-   * divided, a tetrahedron takes up to 250 bytes. Default is 0: twice as many tetrahedra as
-   * FIXED_DIVISION makes, but at least 100,000.
+   * divided, each takes up to 250 bytes. Default is 0: twice as many as FIXED_DIVISION makes, but
+   * at least 100,000.
    */
   virtual void SetMaximumNumberOfPieces(vtkTypeInt64 pieces);
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
@@ -313,10 +294,9 @@ public:
   /** @{ */
   /**
    * Set/Get the meaning of an opacity of the transfer function over a length L, with the property's
-   * ScalarOpacityUnitDistance as unit. ATTENUATION_COEFFICIENT, the default, is the definition of
-   * VTK's unstructured grid mappers: alpha = 1 - exp(-L * opacity / unit).
-   * OPACITY_PER_UNIT_DISTANCE is the definition of its image data mappers: alpha = 1 - (1 -
-   * opacity)^(L / unit); opacities above 1 - 2^-24 are reduced to that value.
+   * ScalarOpacityUnitDistance as unit: ATTENUATION_COEFFICIENT, the default and VTK's definition
+   * for unstructured grids, alpha = 1 - exp(-L * opacity / unit); OPACITY_PER_UNIT_DISTANCE, that
+   * for image data, alpha = 1 - (1 - opacity)^(L / unit), for opacities up to 1 - 2^-24.
    */
   virtual void SetOpacityModel(int model);
   vtkGetMacro(OpacityModel, int);
@@ -340,13 +320,11 @@ public:
   /** @{ */
   /**
    * Set/Get the implementation of the ray caster: OPENGL, a fragment shader; COMPUTE, a compute
-   * shader with the same functions (OpenGL 4.3; on a window without it, OPENGL after a warning);
-   * NATIVE, the CPU, in SIMD packets of the best instruction set available on all threads of
-   * vtkSMPTools; AUTOMATIC, the default: NATIVE where OpenGL is a software rasteriser, else COMPUTE
-   * where the window has OpenGL 4.3, else OPENGL.
-   * Every backend of the library has every optical model. AUTOMATIC asks backends that were
-   * registered from outside first (see RayCastBackendRegistry.h). If a backend cannot draw a frame,
-   * the next one does, after a warning with the reason.
+   * shader with the same functions (OpenGL 4.3); NATIVE, the CPU, in SIMD packets on all threads of
+   * vtkSMPTools; AUTOMATIC, the default: backends that were registered from outside (see
+   * RayCastBackendRegistry.h), then NATIVE where OpenGL is a software rasteriser, else COMPUTE where
+   * the window has OpenGL 4.3, else OPENGL. If a backend cannot draw a frame, the next one does,
+   * after a warning with the reason.
    */
   virtual void SetBackend(int backend);
   vtkGetMacro(Backend, int);
@@ -358,9 +336,8 @@ public:
 
   /** @{ */
   /**
-   * Name of the backend to use in place of the number set by SetBackend(): "OpenGL", "Compute",
-   * "Native", or one registered from outside. Empty, the default, or null: the number counts. Under
-   * a name that is not registered, AUTOMATIC draws after a warning.
+   * Name of the backend to use in place of SetBackend(): "OpenGL", "Compute", "Native", or one
+   * registered from outside, otherwise AUTOMATIC draws after a warning. Empty, the default: none.
    */
   vtkSetStdStringFromCharMacro(BackendName);
   vtkGetCharFromStdStringMacro(BackendName);
@@ -368,8 +345,7 @@ public:
 
   /** @{ */
   /**
-   * The backend of the last Render(), REGISTERED for one from outside, and its name; AUTOMATIC and
-   * empty if nothing has been rendered.
+   * The backend of the last Render() and its name; AUTOMATIC and empty before the first.
    */
   vtkGetMacro(ActiveBackend, int);
   vtkGetCharFromStdStringMacro(ActiveBackendName);
@@ -492,13 +468,10 @@ public:
   /**
    * Set/Get how far shadows reach in a medium whose property shades, as a fraction of the diameter
    * of a sphere about the volume, in [0, 1]; VTK's name and range. Each light is attenuated by the
-   * medium on this part of its way, exactly, as seen from the vertices of the mesh and linear in
-   * between. The ambient light is attenuated by the mean over 32 directions (ambient occlusion). If
-   * there are several lights, the one that is brightest in the volume's middle has shadows of its
-   * own, the others share a mean of theirs by brightness. Shadows are cast again if the mesh, the
-   * opacity, the clipping planes or the place of a light in relation to the volume have changed,
-   * for that light alone, and not for another camera (a headlight moves with it). Default is 0:
-   * light is not attenuated; NaN counts as 0. Composite blending only, for scalars of points.
+   * medium on this part of its way to the vertices of the mesh, and the ambient light by the mean
+   * over 32 directions (ambient occlusion); Documentation/volume.md has the rules for several
+   * lights and for changes. Default is 0: light is not attenuated; NaN counts as 0. Composite
+   * blending only, for scalars of points.
    */
   void SetGlobalIlluminationReach(float reach);
   vtkGetMacro(GlobalIlluminationReach, float);
@@ -510,7 +483,7 @@ public:
    * default: light is reflected at the gradient, as without shadows; 2: it is scattered, once, by
    * Henyey and Greenstein's phase function of the property's ScatteringAnisotropy (0 in VTK before
    * 9.2); 1: half of each; linear in between. Used with GlobalIlluminationReach only. NaN counts as
-   * 0. In contrast to VTK's mapper for images, there are shadows with 0, too.
+   * 0.
    */
   void SetVolumetricScatteringBlending(float blending);
   vtkGetMacro(VolumetricScatteringBlending, float);
@@ -541,11 +514,8 @@ public:
 
   /** @{ */
   /**
-   * Counters of work done since construction: builds of the mesh tables, when values of the cells
-   * have changed (equal cells in new arrays, as readers make them in each time step, are the same
-   * mesh); updates of the scalars, when their values have changed; reductions of the volume
-   * property to control points; and builds of the set of active cells, for a new mesh, for new
-   * scalars, or when other scalars become visible.
+   * Counters of work done since construction, see GetStatistics(). Equal cells in new arrays, as
+   * readers make them in each time step, are the same mesh.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -555,21 +525,18 @@ public:
 
   /**
    * Number of bytes of tables that backends have read because an input changed, since construction:
-   * mesh, scalars, gradients, components, transfer function, pre-integration table. OPENGL and
-   * COMPUTE count them when they are sent to the graphics device. NATIVE reads the same tables in
-   * main memory and counts each once when it first draws with it. A camera move adds nothing,
-   * except for the refracted rays if a membrane is in view, for each interface: 32 bytes per pixel
-   * of the image on the graphics device, per pixel that the membrane covers (by tiles) natively.
-   * Images, and the vertices that NATIVE transforms for a view, are not counted.
+   * mesh, scalars, gradients, components, transfer function, pre-integration table. NATIVE counts
+   * each when it first draws with it. A camera move adds nothing, except for the refracted rays if
+   * a membrane is in view, for each interface: 32 bytes per pixel of the image on the graphics
+   * device, per pixel that the membrane covers (by tiles) natively. Images are not counted.
    */
   vtkTypeInt64 GetUploadedBytes();
 
   /** @{ */
   /**
    * Numbers of tetrahedra of the current mesh: visible ones with finite scalars, which rays can
-   * visit; and those left out because of a point index out of range, a repeated point or a point
-   * that is not finite, or because they have the points of an earlier tetrahedron. Cells that
-   * cannot be divided into tetrahedra because their arrays do not describe a cell count once each.
+   * visit; and those left out because they are not valid (see the class) or have the points of an
+   * earlier tetrahedron. Cells that cannot be divided into tetrahedra count once each.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfRejectedCells();

@@ -190,55 +190,24 @@ const std::vector<meniscus::Statistic<vtkTetrahedraRayIntegral>>&
 vtkTetrahedraRayIntegral::vtkInternals::List()
 {
   using Self = vtkTetrahedraRayIntegral;
-  static const std::vector<meniscus::Statistic<Self>> list{
-    { "NumberOfMeshBuilds", "builds of the mesh, since construction",
-      [](Self& self) { return double(self.Internals->Input.GetBuildVersion().GetChanges()); } },
-    { "NumberOfPointUpdates",
-      "updates of the positions alone (points have moved, the cells are the same)",
-      [](Self& self) { return double(self.Internals->Input.GetNumberOfPointUpdates()); } },
-    { "NumberOfScalarUpdates", "updates of the scalars, when their values have changed",
-      [](Self& self) { return double(self.Internals->Input.GetScalarVersion().GetChanges()); } },
-    { "NumberOfActiveSetBuilds", "determinations of the cells that count",
-      [](Self& self) { return double(self.Internals->Input.GetActiveSetBuilds()); } },
-    { "NumberOfTransferFunctionBuilds", "reductions of the volume property to control points",
-      [](Self& self) { return double(self.Internals->Property.GetNumberOfBuilds()); } },
-    { "NumberOfBinUpdates", "readings of arrays of energy bins",
-      [](Self& self) { return double(self.Internals->Bins.GetNumberOfBuilds()); } },
-    { "NumberOfMembraneBuilds", "builds of the shape of a surface",
-      [](Self& self) { return double(self.Internals->Membrane.GetShapeVersion().GetChanges()); } },
-    { "NumberOfCellSearches",
-      "times that the input's cells were looked up for events: once per mesh",
-      [](Self& self) { return double(self.Internals->Input.GetNumberOfInputCellSearches()); } },
-    { "NumberOfCasts",
-      "casts of an image's rays: one for all measurements of the scalar, one for RGBA, one "
-      "for three energy bins with arrays or for one that emits",
-      [](Self& self) { return double(self.Internals->GetNumberOfCasts()); } },
-    { "NumberOfTetrahedra", "tetrahedra of the mesh, in all cells",
-      [](Self& self) { return double(self.Internals->Input.GetMesh().GetNumberOfCells()); } },
-    { "NumberOfTransparentCells", "tetrahedra without a finite scalar",
-      [](Self& self)
-      { return double(self.Internals->Input.GetMesh().GetNumberOfUnknownCells()); } },
-    { "NumberOfRejectedCells", "cells that are left out because they are not valid",
-      [](Self& self) { return double(self.Internals->Input.GetNumberOfRejectedCells()); } },
-    { "NumberOfCellDivisions", "adaptive divisions of the cells, since construction",
-      [](Self& self)
-      { return double(self.Internals->Input.GetDivision().GetNumberOfDivisions()); } },
-    { "NumberOfFoldedCells", "cells of the last division that are folded inside out in parts",
-      [](Self& self) { return double(self.Internals->Input.GetNumberOfFoldedCells()); } },
-    { "NumberOfUnresolvedEdges",
-      "edges of the last division that exceed the tolerance after 23 divisions",
-      [](Self& self)
-      { return double(self.Internals->Input.GetDivision().GetCounts().UnresolvedEdges); } },
-    { "DivisionError",
-      "largest error in the edges of the last division, in the unit of the tolerance",
-      [](Self& self) { return double(self.Internals->Input.GetDivision().GetCounts().Error); } },
-    { "NumberOfRays", "rays of the last image that met the mesh",
-      [](Self& self) { return double(self.Internals->GetStatistics().Rays); } },
-    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
-      [](Self& self) { return double(self.Internals->GetStatistics().Steps); } },
-    { "NumberOfLostRays", "rays of the last image whose walk did not end on the boundary",
-      [](Self& self) { return double(self.Internals->GetStatistics().Lost); } },
-  };
+  static const std::vector<meniscus::Statistic<Self>> list =
+    meniscus::JoinStatistics<Self, meniscus::RayCastTables>(
+      meniscus::RayCastTables::ListStatistics(),
+      [](Self& self) -> meniscus::RayCastTables& { return *self.Internals; },
+      {
+        { "NumberOfBinUpdates", "readings of arrays of energy bins",
+          [](Self& self) { return double(self.Internals->Bins.GetNumberOfBuilds()); } },
+        { "NumberOfCasts",
+          "casts of an image's rays: one for all measurements of the scalar, one for RGBA, one "
+          "for three energy bins with arrays or for one that emits",
+          [](Self& self) { return double(self.Internals->GetNumberOfCasts()); } },
+        { "NumberOfRays", "rays of the last image that met the mesh",
+          [](Self& self) { return double(self.Internals->GetStatistics().Rays); } },
+        { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
+          [](Self& self) { return double(self.Internals->GetStatistics().Steps); } },
+        { "NumberOfLostRays", "rays of the last image whose walk did not end on the boundary",
+          [](Self& self) { return double(self.Internals->GetStatistics().Lost); } },
+      });
   return list;
 }
 

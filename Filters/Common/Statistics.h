@@ -8,6 +8,7 @@
 #include "vtkIndent.h"
 #include "vtkMath.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct Statistic
   /** As in the getter's name, without Get. */
   const char* Name;
   const char* Meaning;
-  double (*Measure)(Owner& owner);
+  std::function<double(Owner& owner)> Measure;
 };
 
 /** A statistic and its present value. */
@@ -33,6 +34,21 @@ struct MeasuredStatistic
   const char* Meaning;
   double Value;
 };
+
+/** Statistics of a part of an owner, which `get` returns, before those of the owner itself. */
+template <typename Owner, typename Part>
+std::vector<Statistic<Owner>> JoinStatistics(const std::vector<Statistic<Part>>& ofPart,
+  Part& (*get)(Owner& owner), const std::vector<Statistic<Owner>>& own)
+{
+  std::vector<Statistic<Owner>> joined;
+  for (const Statistic<Part>& statistic : ofPart)
+  {
+    joined.push_back({ statistic.Name, statistic.Meaning,
+      [measure = statistic.Measure, get](Owner& owner) { return measure(get(owner)); } });
+  }
+  joined.insert(joined.end(), own.begin(), own.end());
+  return joined;
+}
 
 /** All statistics of an owner, measured. */
 template <typename Owner>

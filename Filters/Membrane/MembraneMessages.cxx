@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Membrane/MembraneMessages.h"
 
+#include "vtkObject.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -11,6 +13,20 @@
 
 namespace meniscus
 {
+
+//------------------------------------------------------------------------------
+void Report(vtkObject* owner, const SceneMessages& messages)
+{
+  if (!messages.Error.empty())
+  {
+    vtkErrorWithObjectMacro(owner, << messages.Error << "; the output is empty.");
+  }
+  if (!messages.Warning.empty())
+  {
+    vtkWarningWithObjectMacro(owner, << messages.Warning);
+  }
+}
+
 //------------------------------------------------------------------------------
 std::string DescribeNoImage(
   const Membrane& surface, const glm::dvec3& eye, double side, double before, double behind)

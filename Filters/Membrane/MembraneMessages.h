@@ -9,6 +9,8 @@
 
 #include <string>
 
+class vtkObject;
+
 namespace meniscus
 {
 
@@ -18,6 +20,9 @@ struct SceneMessages
   std::string Error;
   std::string Warning;
 };
+
+/** Reports error and warning by an object whose output is empty after an error. */
+void Report(vtkObject* owner, const SceneMessages& messages);
 
 /**
  * Text of the warning for an eye that sees no point at all through a surface: it is totally

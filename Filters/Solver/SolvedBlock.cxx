@@ -44,17 +44,26 @@ void SolvedBlock::UpdatePoints()
 }
 
 //------------------------------------------------------------------------------
-void SolvedBlock::UpdateOrder(const RangeLoop& loop)
+void SolvedBlock::PrepareFirst(const RefractionScene& scene)
 {
-  if (!this->OrderReady)
+  const std::size_t count = this->Points.size() / 3;
+  if (const StackSolver* list = scene.GetPathSolver())
   {
-    this->Order = FindCoherentOrder(this->Points.data(), this->Points.size() / 3, loop);
+    this->Order.clear();
+    this->OrderReady = false;
+    this->Stack.Points.assign(count, StackDetail());
+    this->Stack.Interfaces = list->GetStack().GetNumberOfInterfaces();
+    this->Stack.Legs.assign(count * this->Stack.Interfaces, 0.0);
+  }
+  else if (!this->OrderReady)
+  {
+    this->Order = FindCoherentOrder(this->Points.data(), count, ThreadedLoop);
     this->OrderReady = true;
   }
 }
 
 //------------------------------------------------------------------------------
-void SolvedBlock::MakeImages(CurvedMembraneSolver& solver)
+std::unique_ptr<CellImages> SolvedBlock::MakeImages(CurvedMembraneSolver& solver) const
 {
   const std::size_t count = this->Points.size() / 3;
   const bool mayCross = !solver.AreAllOnRaySide(this->Points.data(), count);
@@ -67,23 +76,24 @@ void SolvedBlock::MakeImages(CurvedMembraneSolver& solver)
   solver.PrepareField();
   images->PrepareUnique(
     count, this->Topology.Lines.GetCount() + this->Topology.Polygons.GetCount(), FacetLoop);
-  this->SetImages(std::move(images));
+  return images;
 }
 
 //------------------------------------------------------------------------------
-void SolvedBlock::MakeImages(const StackSolver& solver)
-{
-  auto images = std::make_unique<StackImages>(solver);
-  images->SetPoints(this->Points.data(), this->Points.size() / 3);
-  this->SetImages(std::move(images));
-}
-
-//------------------------------------------------------------------------------
-void SolvedBlock::SetImages(std::unique_ptr<CellImages> images)
+void SolvedBlock::MakeImages(RefractionScene& scene)
 {
   this->All = true;
   this->Vertices.clear();
-  this->Images = std::move(images);
+  if (const StackSolver* list = scene.GetPathSolver())
+  {
+    auto images = std::make_unique<StackImages>(*list);
+    images->SetPoints(this->Points.data(), this->Points.size() / 3);
+    this->Images = std::move(images);
+  }
+  else
+  {
+    this->Images = this->MakeImages(scene.GetCurved());
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #ifndef meniscus_Filters_Solver_SolvedBlock_h
 #define meniscus_Filters_Solver_SolvedBlock_h
 
+#include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/KeptOutput.h"
@@ -22,9 +23,6 @@
 namespace meniscus
 {
 
-class CurvedMembraneSolver;
-class StackSolver;
-
 /** Virtual vertices of one block of geometry, with the values from which they were computed. */
 struct SolvedBlock
 {
@@ -35,11 +33,11 @@ struct SolvedBlock
   /** Reads the cells again if the source has been modified. */
   void UpdateTopology();
 
-  /** Determines `Order`, if the points are new. */
-  void UpdateOrder(const RangeLoop& loop);
-  /** Replaces `Images` by all images of the points, which have to be solved. */
-  void MakeImages(CurvedMembraneSolver& solver);
-  void MakeImages(const StackSolver& solver);
+  /** Prepares one image of each point: `Order` for one interface, `Stack` for several. */
+  void PrepareFirst(const RefractionScene& scene);
+  /** Replaces `Images` by all images of the points, which have to be solved; without flat facets.
+   */
+  void MakeImages(RefractionScene& scene);
   /** True if a chunk of CellImages::Chunk points in the order of solving has selected points. */
   bool IsSelected(std::size_t chunk) const;
 
@@ -51,7 +49,10 @@ struct SolvedBlock
   std::vector<VirtualVertex> Vertices;
   std::vector<bool> SolvedChunks; ///< chunks of points in the order of solving
 
-  /** FindCoherentOrder() of the points, determined when the first images are solved. */
+  /**
+   * FindCoherentOrder() of the points, determined when the first images are solved. The images of
+   * several interfaces are solved in the given order.
+   */
   std::vector<std::uint32_t> Order;
   bool OrderReady = false;
 
@@ -77,7 +78,7 @@ struct SolvedBlock
   KeptOutput Kept;
 
 private:
-  void SetImages(std::unique_ptr<CellImages> images);
+  std::unique_ptr<CellImages> MakeImages(CurvedMembraneSolver& solver) const;
 };
 
 }

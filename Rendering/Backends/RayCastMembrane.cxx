@@ -3,7 +3,7 @@
 #include "Rendering/Backends/RayCastMembrane.h"
 
 #include "Filters/Common/ThreadedLoop.h"
-#include "Filters/Interface/StackValidation.h"
+#include "Filters/Interface/InterfaceInput.h"
 
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"

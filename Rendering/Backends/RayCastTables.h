@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Backends_RayCastTables_h
 
 #include "Common/TableVersion.h"
+#include "Filters/Common/Statistics.h"
 #include "Rendering/Backends/RayCastMembrane.h"
 #include "Rendering/Backends/VolumeIllumination.h"
 #include "Rendering/Input/VolumeComponents.h"
@@ -65,6 +66,8 @@ struct RayCastTables
   std::vector<RayCastTableState> ListWanted(const RayCastFrame& frame) const;
   /** Bytes of all tables. */
   std::int64_t GetBytes() const;
+  /** Statistics of the tables that every owner has. */
+  static const std::vector<Statistic<RayCastTables>>& ListStatistics();
 };
 
 }

@@ -78,23 +78,33 @@ bool IntegralCaster::Cast(
 }
 
 //------------------------------------------------------------------------------
+/** As Cast(), with a call `set(pixel, its number in the tile, measured rays)` for each pixel. */
+template <typename Set>
+bool IntegralCaster::CastPixels(
+  const TileCaster::Scene& scene, const Progress& progress, const Set& set)
+{
+  return this->Cast(
+    scene,
+    [&set](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+    {
+      const RayStatistics sums = caster.Measure(tile, workspace);
+      ForEachPixel(caster, tile,
+        [&](std::int64_t pixel, std::size_t inTile) { set(pixel, inTile, workspace.Measured); });
+      return sums;
+    },
+    progress);
+}
+
+//------------------------------------------------------------------------------
 bool IntegralCaster::MeasureScalars(TileCaster::Scene scene, const IntegralChoice& choice,
   IntegralArrays& arrays, const Progress& progress)
 {
   scene.Measuring = choice.Has(IntegralArray::OpticalDepth) ? RayMeasuring::ScalarsAndOpticalDepth
                                                             : RayMeasuring::Scalars;
   const ScalarNormalization& normalization = this->Input.GetNormalization();
-  return this->Cast(
-    scene,
-    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
-    {
-      const RayStatistics sums = caster.Measure(tile, workspace);
-      ForEachPixel(caster, tile,
-        [&](std::int64_t pixel, std::size_t inTile)
-        { arrays.SetScalar(pixel, workspace.Measured.Scalars[inTile], normalization); });
-      return sums;
-    },
-    progress);
+  return this->CastPixels(scene, progress,
+    [&](std::int64_t pixel, std::size_t inTile, const auto& measured)
+    { arrays.SetScalar(pixel, measured.Scalars[inTile], normalization); });
 }
 
 //------------------------------------------------------------------------------
@@ -109,17 +119,9 @@ bool IntegralCaster::MeasureEvents(TileCaster::Scene scene, const EventChoice& c
   {
     scene.WantedEvents |= static_cast<std::uint32_t>(choice.Wanted[kind]) << kind;
   }
-  return this->Cast(
-    scene,
-    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
-    {
-      const RayStatistics sums = caster.Measure(tile, workspace);
-      ForEachPixel(caster, tile,
-        [&](std::int64_t pixel, std::size_t inTile)
-        { arrays.Events.Set(pixel, workspace.Measured.Events[inTile], context); });
-      return sums;
-    },
-    progress);
+  return this->CastPixels(scene, progress,
+    [&](std::int64_t pixel, std::size_t inTile, const auto& measured)
+    { arrays.Events.Set(pixel, measured.Events[inTile], context); });
 }
 
 //------------------------------------------------------------------------------
@@ -131,17 +133,9 @@ bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables:
   scene.Emitting = this->Bins.IsEmitting();
   scene.CellScalars = nullptr;
   (ofCells ? scene.CellGradients : scene.Components) = table.Values.data();
-  return this->Cast(
-    scene,
-    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
-    {
-      const RayStatistics sums = caster.Measure(tile, workspace);
-      ForEachPixel(caster, tile,
-        [&](std::int64_t pixel, std::size_t inTile)
-        { arrays.SetBins(pixel, workspace.Measured.Bins[inTile], table, scene.Emitting); });
-      return sums;
-    },
-    progress);
+  return this->CastPixels(scene, progress,
+    [&](std::int64_t pixel, std::size_t inTile, const auto& measured)
+    { arrays.SetBins(pixel, measured.Bins[inTile], table, scene.Emitting); });
 }
 
 //------------------------------------------------------------------------------

@@ -48,6 +48,8 @@ private:
     std::function<RayStatistics(const TileCaster&, int tile, TileCaster::Workspace&)>;
 
   bool Cast(const TileCaster::Scene& scene, const TileBody& body, const Progress& progress);
+  template <typename Set>
+  bool CastPixels(const TileCaster::Scene& scene, const Progress& progress, const Set& set);
   bool MeasureScalars(TileCaster::Scene scene, const IntegralChoice& choice, IntegralArrays& arrays,
     const Progress& progress);
   bool MeasureEvents(TileCaster::Scene scene, const EventChoice& choice,

@@ -11,6 +11,8 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
 
 #include <gtest/gtest.h>
 
@@ -118,6 +120,41 @@ protected:
 };
 
 //------------------------------------------------------------------------------
+TEST_F(SharedMembrane, ListsOfInterfacesAreShared)
+{
+  const auto below = MakeFlatMembrane();
+  for (vtkIdType i = 0; i < below->GetNumberOfPoints(); ++i)
+  {
+    const double* p = below->GetPoint(i);
+    below->GetPoints()->SetPoint(i, p[0], p[1] - 10.0, p[2]);
+  }
+  const auto alone = this->Make(-50.0);
+  alone->SetMembraneData(Copy(this->Water));
+  for (vtkRefractedGeometryFilter* filter : { this->First.Get(), this->Second.Get(), alone.Get() })
+  {
+    filter->AddMembraneData(filter == alone ? Copy(below) : below);
+    filter->GetInterfaces()->GetFirstInterface()->SetInteriorIndexOfRefraction(1.5);
+    filter->GetInterfaces()->AddInterface(1.5, 1.333);
+    filter->SetInputData(0, this->First->GetInputDataObject(0, 0));
+    filter->SetImagesToFirstImage();
+    filter->Update();
+  }
+  EXPECT_EQ(GetWork(this->First), Work(2, 1));
+  EXPECT_EQ(GetWork(this->Second), Work(0, 0));
+  EXPECT_EQ(GetWork(alone), Work(2, 1));
+  vtkPolyData* found = this->Second->GetOutput();
+  ASSERT_EQ(found->GetNumberOfPoints(), 25);
+  for (vtkIdType i = 0; i < 25; ++i)
+  {
+    double expected[3];
+    alone->GetOutput()->GetPoint(i, expected);
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(found->GetPoint(i)[k], expected[k]);
+    }
+  }
+}
+
 TEST_F(SharedMembrane, IsPreparedOnce)
 {
   this->Update();

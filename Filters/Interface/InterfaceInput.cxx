@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Interface/StackValidation.h"
+#include "Filters/Interface/InterfaceInput.h"
 
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <sstream>
 
@@ -39,15 +43,6 @@ std::string DescribeCounts(int interfaces, int surfaces, int port)
 }
 
 //------------------------------------------------------------------------------
-std::string DescribeBadIndices(double exterior, double interior)
-{
-  std::ostringstream text;
-  text << "Indices of refraction must be positive and finite, not " << exterior << " and "
-       << interior;
-  return text.str();
-}
-
-//------------------------------------------------------------------------------
 std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media)
 {
   const MediaChain chain(media);
@@ -56,12 +51,14 @@ std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media)
     return std::string();
   }
   const InterfaceMedia& fault = media[chain.FaultAt];
+  std::ostringstream text;
   if (chain.Fault == MediaFault::BadIndex)
   {
-    return NameInterface(chain.FaultAt, media.size()) +
-      DescribeBadIndices(fault.Exterior, fault.Interior);
+    text << NameInterface(chain.FaultAt, media.size())
+         << "Indices of refraction must be positive and finite, not " << fault.Exterior << " and "
+         << fault.Interior;
+    return text.str();
   }
-  std::ostringstream text;
   text << MismatchText << "interface " << chain.FaultAt << " has " << fault.Exterior << " and "
        << fault.Interior << ", and neither is that of the medium behind interface "
        << chain.FaultAt - 1;
@@ -69,14 +66,40 @@ std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media)
 }
 
 //------------------------------------------------------------------------------
-std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces, int port)
+std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
+  vtkRefractingInterfaceCollection* interfaces, std::string& error)
 {
-  const int count = interfaces->GetNumberOfItems();
-  if (count != surfaces)
+  const int count = surfaces->GetNumberOfInformationObjects();
+  const int items = interfaces->GetNumberOfItems();
+  const std::string fault =
+    count == items ? DescribeMediaFault(ListMedia(interfaces)) : DescribeCounts(items, count, port);
+  error = fault.empty() ? error : fault;
+  std::vector<vtkPolyData*> list;
+  for (int i = 0; i < count; ++i)
   {
-    return DescribeCounts(count, surfaces, port);
+    list.push_back(vtkPolyData::GetData(surfaces, i));
+    if (!list.back() && error.empty())
+    {
+      error = "A surface at the membrane port is missing or is not a vtkPolyData";
+    }
   }
-  return DescribeMediaFault(ListMedia(interfaces));
+  return list;
+}
+
+//------------------------------------------------------------------------------
+void RequestWhole(vtkInformationVector* port)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* surface = port->GetInformationObject(i);
+    surface->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    surface->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    surface->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    // The executive copies the extent of other data, which a surface has only if it comes from an
+    // image.
+    surface->Remove(Pipeline::UPDATE_EXTENT());
+  }
 }
 
 }

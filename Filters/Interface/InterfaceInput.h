@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Errors in lists of refracting interfaces. Filters and mapper report the same texts. */
-#ifndef meniscus_Filters_Interface_StackValidation_h
-#define meniscus_Filters_Interface_StackValidation_h
+/** Lists of refracting interfaces and the surfaces at a port. Owners report errors alike. */
+#ifndef meniscus_Filters_Interface_InterfaceInput_h
+#define meniscus_Filters_Interface_InterfaceInput_h
 
 #include "Refraction/Surface/MediaChain.h"
 
@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+class vtkInformationVector;
+class vtkPolyData;
 class vtkRefractingInterfaceCollection;
 
 namespace meniscus
@@ -24,9 +26,6 @@ std::string NameInterface(std::size_t number, std::size_t count);
 /** Text of the error for another number of surfaces at a port than of interfaces. */
 std::string DescribeCounts(int interfaces, int surfaces, int port);
 
-/** Text of the error for indices of refraction of which one is not positive and finite. */
-std::string DescribeBadIndices(double exterior, double interior);
-
 /** Beginning of the text of the error for media that do not match. */
 constexpr char MismatchText[] =
   "The indices of refraction do not match along the list of interfaces: ";
@@ -35,11 +34,16 @@ constexpr char MismatchText[] =
 std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media);
 
 /**
- * Text of the error for a list that rays cannot pass, one interface after the other: its length is
- * not the number of surfaces at the port, an index is not positive and finite, or the medium behind
- * an interface is not a medium of the next one. Empty if rays can.
+ * Surfaces at the port with this number. Sets `error` if rays cannot pass the list: it has another
+ * length than there are surfaces, an index is not positive and finite, or the medium behind an
+ * interface is not a medium of the next one. Without any error, also sets it if a surface is
+ * missing.
  */
-std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces, int port);
+std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
+  vtkRefractingInterfaceCollection* interfaces, std::string& error);
+
+/** Requests all data of a port whole: every piece of the output needs the whole surfaces. */
+void RequestWhole(vtkInformationVector* port);
 
 }
 
