@@ -62,7 +62,7 @@ def _add_look(parser):
                         "comes with the package")
     parser.add_argument("--config", metavar="FILE.toml",
                         help="file with options by the names of this list, and mesh; the command "
-                        "line goes before")
+                        "line goes before, and --no-NAME leaves out the file's option NAME")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
