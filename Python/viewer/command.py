@@ -69,7 +69,7 @@ def _add_look(parser):
     parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
                         offers=COLOR_MAPS,
                         help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
-                        "cmocean or colorcet where they are installed")
+                        "cmocean, colorcet or trame-colormaps where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
                         "tenth of the mesh's diagonal; default: chosen by volume")
