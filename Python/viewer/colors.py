@@ -36,6 +36,8 @@ COLOR_MAPS = (*_SAMPLED, *_SCHEMES)
 # Packages whose maps matplotlib knows by name once they are imported, and the beginnings of these
 # names.
 _PACKAGES = {"cmocean": "cmo.", "colorcet": "cet_"}
+# Presets of ParaView and of Crameri (2018).
+_PRESETS = "trame_colormaps.core.presets"
 _ENTRIES = 256
 
 
@@ -59,14 +61,33 @@ def _read_matplotlib(name):
     return maps[name](numpy.linspace(0.0, 1.0, _ENTRIES))[:, :3] if name in maps else None
 
 
+def _read_preset(name):
+    """Colours of a preset of trame-colormaps; None if it is not found."""
+    presets = import_quietly(_PRESETS)
+    function = presets.get_preset_ctf(name) if presets else None
+    if function is None:
+        return None
+    colors = numpy.empty((_ENTRIES, 3))
+    function.GetTable(*function.GetRange(), _ENTRIES, colors.ravel())
+    return colors
+
+
 def find_colors(name):
     """Colours from 0 to 1 of a map at equal distances, as rows; None if there is no such map."""
     if name in _SCHEMES:
         return _read_series(name)
     found = _read_matplotlib(name)
-    if found is not None or name not in _SAMPLED:
+    if found is not None:
         return found
+    if name not in _SAMPLED:
+        return _read_preset(name)
     return [[value / 255.0 for value in bytes.fromhex(color)] for color in _SAMPLED[name].split()]
+
+
+def list_colors():
+    """Names for a menu: COLOR_MAPS and the presets of trame-colormaps, if it is installed."""
+    presets = import_quietly(_PRESETS)
+    return [*COLOR_MAPS, *dict.fromkeys(presets.get_active_presets() if presets else ())]
 
 
 def fill_colors(function, name, low, high):

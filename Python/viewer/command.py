@@ -62,14 +62,14 @@ def _add_look(parser):
                         "comes with the package")
     parser.add_argument("--config", metavar="FILE.toml",
                         help="file with options by the names of this list, and mesh; the command "
-                        "line goes before")
+                        "line goes before, and --no-NAME leaves out the file's option NAME")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
                         help="range of the colour map")
     parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
                         offers=COLOR_MAPS,
                         help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
-                        "cmocean or colorcet where they are installed")
+                        "cmocean, colorcet or trame-colormaps where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
                         "tenth of the mesh's diagonal; default: chosen by volume")

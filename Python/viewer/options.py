@@ -19,7 +19,8 @@ _LINE_ONLY = ("help", "config")
 
 
 class OptionParser(argparse.ArgumentParser):
-    """A parser whose options may also stand in a file, as keys of the same names.
+    """A parser whose options may also stand in a file, as keys of the same names. --no-NAME on the
+    command line leaves out the file's option NAME.
 
     An option needs the name --config for the file's name, and a positional argument "mesh" with
     nargs="*".
@@ -39,6 +40,9 @@ class OptionParser(argparse.ArgumentParser):
         for name in names:
             if name.startswith("--"):
                 self._names[name[2:]] = action
+                if name[2:] not in _LINE_ONLY:
+                    super().add_argument("--no-" + name[2:], dest="left_out", const=action.dest,
+                                         action="append_const", help=argparse.SUPPRESS)
         return action
 
     def error(self, message: str) -> NoReturn:
@@ -59,7 +63,7 @@ class OptionParser(argparse.ArgumentParser):
         with an error is a ReadingError."""
         options = self.parse_args(arguments)
         if options.config:
-            self._take_defaults(options.config)
+            self._take_defaults(options.config, options.left_out or ())
             options = self.parse_args(arguments)
         if not options.mesh:
             options.mesh = self.get_default("mesh")
@@ -67,7 +71,8 @@ class OptionParser(argparse.ArgumentParser):
             self.error("the following arguments are required: MESH")
         return options
 
-    def _take_defaults(self, name: str) -> None:
+    def _take_defaults(self, name: str, left_out: Sequence[str]) -> None:
+        """left_out: destinations of options that do not count."""
         values = read_toml(name)
         mesh = values.pop("mesh", None)
         if isinstance(mesh, str):
@@ -80,7 +85,8 @@ class OptionParser(argparse.ArgumentParser):
             if key not in known:
                 raise ReadingError(f"{name}: there is no option '{key}'; known are "
                                    + ", ".join(["mesh", *known]))
-            self._take_default(name, key, value)
+            if self._names[key].dest not in left_out:
+                self._take_default(name, key, value)
         self.set_defaults(mesh=mesh)
 
     def _take_default(self, name: str, key: str, value: Any) -> None:

@@ -204,7 +204,8 @@ class MeshScene:
         if find_colors(name) is None:
             raise ReadingError(f"There is no colour map '{name}'; known are "
                                + ", ".join(COLOR_MAPS) + ", and the names of the packages "
-                               "matplotlib, cmocean and colorcet that are installed (pip install)")
+                               "matplotlib, cmocean, colorcet and trame-colormaps that are "
+                               "installed (pip install)")
         self.colors = name
         self._update_functions()
 

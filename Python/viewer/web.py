@@ -13,7 +13,7 @@ from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkRenderingCore import vtkRenderWindowInteractor, vtkWindowToImageFilter
 
 from ..names import BLEND_MODES
-from .colors import COLOR_MAPS
+from .colors import find_colors, list_colors
 from .reading import ReadingError
 from .scene import AXES
 from .watching import PERIOD
@@ -101,6 +101,15 @@ def _make_gradient(scene, count=33):
             for index in range(count)]
 
 
+def _describe_colors(name, count=9):
+    """An entry of the menu of colour maps, with its strip of colours for a style sheet."""
+    colors = find_colors(name)
+    picked = [colors[index * (len(colors) - 1) // (count - 1)] for index in range(count)]
+    stops = ", ".join("rgb(%d, %d, %d)" % tuple(round(255.0 * value) for value in color)
+                      for color in picked)
+    return {"title": name, "value": name, "strip": f"linear-gradient(to right, {stops})"}
+
+
 class _Page:
     """The settings of a MeshScene as the state of a trame server."""
 
@@ -169,14 +178,29 @@ class _Page:
         self.state.labels = [f"{low:.4g}", self.scene.get_title(), f"{high:.4g}"]
 
 
-def _add_settings(page, vuetify3):
+def _add_colors(scene, html, vuetify3):
+    """The menu of colour maps, which can be searched by name."""
+    names = dict.fromkeys([*list_colors(), scene.colors])
+    items = [_describe_colors(name) for name in names]
+    with vuetify3.VAutocomplete(v_model=("colors",), label="Colours", classes="colors",
+                                items=("colors_items", items), density="compact"):
+        with vuetify3.Template(v_slot_item="{ item, props }"):
+            with vuetify3.VListItem(v_bind="props"):
+                html.Div(style=("{ background: item.raw.strip, height: '8px' }",))
+
+
+def _add_settings(page, html, vuetify3):
     """The drawer of the page."""
     scene, steps = page.scene, len(page.scene.series.get_times())
-    for name, label, items in (
-            ("array", "Array", scene.get_arrays()), ("colors", "Colours", list(COLOR_MAPS)),
-            ("blend", "Mode", list(BLEND_MODES)), ("clip", "Cut along", ["none", *AXES])):
+
+    def add_menu(name, label, items):
         vuetify3.VSelect(v_model=(name,), label=label, items=(name + "_items", items),
                          density="compact")
+
+    add_menu("array", "Array", scene.get_arrays())
+    _add_colors(scene, html, vuetify3)
+    add_menu("blend", "Mode", list(BLEND_MODES))
+    add_menu("clip", "Cut along", ["none", *AXES])
     vuetify3.VSlider(v_model=("share",), label="Cut", min=0, max=1, step=0.01, classes="cut",
                      density="compact")
     vuetify3.VSlider(v_model=("density",), label="Density", min=-2, max=2, step=0.05,
@@ -259,7 +283,7 @@ def make_server(scene, is_local=True):
         client.Style("html { overflow-y: auto !important; }")  # no empty scroll bar
         with layout.drawer:
             with vuetify3.VContainer():
-                _add_settings(page, vuetify3)
+                _add_settings(page, html, vuetify3)
                 if editor is None:
                     html.Div(f"For a curve of opacity: pip install {CURVE_PACKAGE}",
                              classes="text-caption")

@@ -1,15 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Functions of the package that need no PyVista: true positions, ray integrals, threads, errors."""
+import importlib.util
 import os
 import subprocess
 import sys
 import unittest
 import warnings
+from unittest import mock
 
 import meniscus
 import numpy
-from meniscus.viewer.colors import COLOR_MAPS, fill_colors, make_table
+from meniscus.viewer.colors import COLOR_MAPS, fill_colors, find_colors, list_colors, make_table
 from TestRayIntegral import make_block
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
@@ -239,6 +241,26 @@ class TestTables(unittest.TestCase):
                 numpy.testing.assert_allclose(
                     table.GetTableValue(entry), [*function.GetColor(-2.0 + entry / 2), 1.0],
                     atol=0.5 / 255 + 1e-9)
+
+    def test_without_presets(self):
+        with mock.patch.dict(sys.modules, {"trame_colormaps.core.presets": None}):
+            self.assertEqual(list_colors(), list(COLOR_MAPS))
+            self.assertIsNone(find_colors("Cool to Warm"))
+
+    @unittest.skipUnless(importlib.util.find_spec("trame_colormaps"), "needs trame-colormaps")
+    def test_presets(self):
+        from trame_colormaps.core.presets import get_preset_ctf
+        for name in ("Cool to Warm", "batlow"):
+            preset, colors = get_preset_ctf(name), find_colors(name)
+            places = numpy.linspace(*preset.GetRange(), len(colors))
+            for index in (0, 100, len(colors) - 1):
+                numpy.testing.assert_allclose(colors[index], preset.GetColor(places[index]),
+                                              atol=1e-12)
+        names = list_colors()
+        self.assertEqual(names[:len(COLOR_MAPS)], list(COLOR_MAPS))
+        self.assertEqual(len(names), len(set(names)))
+        self.assertIn("Cool to Warm", names)
+        self.assertIsNone(find_colors("cold to lukewarm"))
 
     def test_slow_functions(self):
         """In CIEDE2000 space a single colour costs as much as all of a table: about 0.1 s."""

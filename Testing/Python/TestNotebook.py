@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""mesh.meniscus.plot() in a notebook without a browser: an interactive view by PyVista's and
-trame's server, and a picture. Skipped without pyvista[jupyter], nbclient and ipykernel, and without
-the accessor.
+"""mesh.meniscus.plot() in a notebook: an interactive view by PyVista's and trame's server, also in
+a headless Chromium where selenium and chromedriver are installed, and a picture. Skipped without
+pyvista[jupyter], nbclient and ipykernel, and without the accessor.
 
 The exit status is then 125, which CTest counts as skipped.
 """
 import base64
+import html
 import importlib.util
 import io
+import re
+import shutil
 import sys
+import time
 import unittest
 
 NEEDED = ("pyvista", "trame", "trame_vtk", "trame_vuetify", "ipywidgets", "nbclient", "ipykernel")
@@ -56,7 +60,44 @@ def outputs_of(*cells):
         each.text for each in outputs if each.output_type == "stream" and each.name == "stdout")
 
 
+def open_browser():
+    from selenium import webdriver
+    options = webdriver.ChromeOptions()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
+                     "--window-size=600,500"):
+        options.add_argument(argument)
+    options.binary_location = shutil.which("chromium")
+    return webdriver.Chrome(
+        options=options, service=webdriver.ChromeService(shutil.which("chromedriver")))
+
+
+def has_browser():
+    return bool(importlib.util.find_spec("selenium") and shutil.which("chromium")
+                and shutil.which("chromedriver"))
+
+
 class TestNotebook(unittest.TestCase):
+    @unittest.skipUnless(has_browser(), "needs selenium, chromium and chromedriver")
+    def test_view_in_chromium(self):
+        """The view of a running notebook shows the volume, orange or blue, in a browser."""
+        cell = nbformat.v4.new_code_cell(PLOT % "cmap='coolwarm', jupyter_backend='server'")
+        client = nbclient.NotebookClient(nbformat.v4.new_notebook(cells=[cell]), timeout=100,
+                                         kernel_name="python3")
+        browser = open_browser()
+        self.addCleanup(browser.quit)
+        with client.setup_kernel():
+            client.execute_cell(cell, 0)
+            shown = next(each.data["text/plain"] for each in cell.outputs if "data" in each
+                         and "<iframe" in each.data.get("text/plain", ""))
+            address = re.search(r'src=\\?"([^"\\]+)', html.unescape(shown)).group(1)
+            browser.get(address)
+            end, share = time.monotonic() + 60.0, 0.0
+            while share < 0.05 and time.monotonic() < end:
+                time.sleep(0.5)
+                page = Image.open(io.BytesIO(browser.get_screenshot_as_png())).convert("HSV")
+                share = float((numpy.asarray(page)[:, :, 1] > 60).mean())
+        self.assertGreater(share, 0.05)
+
     def test_interactive_view(self):
         """The default."""
         shown, _ = outputs_of(PLOT % "")

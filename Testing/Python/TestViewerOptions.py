@@ -98,6 +98,20 @@ class TestConfig(Case):
         self.assertEqual((options.mesh, options.density, options.light, options.range),
                          (["b.vtu"], 3.0, True, [-1e-7, 1.0]))
 
+    def test_options_of_the_file_are_left_out(self):
+        text = ('mesh = "a.vtu"\ncmap = "inferno"\nlight = true\noutline = true\nclip = "x"\n'
+                'opacity = [0, 1]\nunits = ["m"]\nstep = 2\nview = [0, 0, 1]')
+        line = make_parser().parse(["a.vtu", "--outline"])
+        options = self.parse(text, "--no-light", "--no-clip", "--no-opacity", "--no-units",
+                             "--no-step", "--no-view", "--no-colors")
+        line.config, line.left_out = options.config, options.left_out
+        self.assertEqual(vars(options), vars(line))
+        self.assertEqual(self.parse(text, "--no-clip", "--clip", "y").clip, "y")
+        self.assertFalse(make_parser().parse(["a.vtu", "--no-light"]).light)
+        for option in ("--no-config", "--no-help", "--no-contrast"):
+            with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
+                make_parser().parse(["a.vtu", option])
+
     def test_messages(self):
         for text, message in (
                 ("contrast = 1", "there is no option 'contrast'; known are mesh, array, range"),

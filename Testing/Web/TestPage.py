@@ -185,6 +185,7 @@ class TestPage(PageCase):
             self.browser.save_screenshot(OPTIONS.screenshot)
         self.browser.find_element(By.CSS_SELECTOR, ".curve button").click()
         default = self.get_changed(curved, "default curve")
+        default = self.choose_colors("Cool to Warm", default)
         self.browser.find_element(By.CSS_SELECTOR, ".outline input").click()
         outlined = self.get_changed(default, "outline")
         if not OPTIONS.mesh:
@@ -192,6 +193,18 @@ class TestPage(PageCase):
             self.get_changed(outlined, "file")
         self.assertEqual(
             [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"], [])
+
+    def choose_colors(self, name, picture):
+        """Chooses a preset in the menu, by a part of its name."""
+        field = self.browser.find_element(By.CSS_SELECTOR, ".colors input")
+        field.click()
+        field.send_keys(Keys.CONTROL, "a")
+        field.send_keys(name)
+        entry = wait_for(lambda: next(iter(self.browser.find_elements(
+            By.XPATH, "//*[contains(@class, 'v-list-item-title') and .='%s']" % name)), None),
+            "menu of colour maps")
+        entry.click()
+        return self.get_changed(picture, "colours")
 
     def drop(self, drag, picture, words):
         drag.release().perform()
