@@ -33,7 +33,7 @@ def main():
     frames = [Image.open(name) for name in names]
     frames[0].save(os.path.join(options.output, "moving-water.webp"), save_all=True,
                    append_images=frames[1:], duration=1000 * SECONDS // len(frames), loop=0,
-                   quality=72, method=4)
+                   quality=85, method=4)
 
 
 if __name__ == "__main__":

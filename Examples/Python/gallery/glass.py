@@ -45,7 +45,7 @@ def get_wood(x, y):
     gap = numpy.abs(numpy.modf(numpy.abs(y) / 1.4 + (y < 0) * 0.0)[0] - 0.5) > 0.493
     shade = numpy.where(gap, 0.6 * shade, shade)
     tint = numpy.stack(
-        [numpy.full_like(x, 0.86), 0.69 + 0.02 * rings, 0.49 + 0.03 * rings], axis=-1)
+        [numpy.full_like(x, 0.84), 0.58 + 0.02 * rings, 0.33 + 0.03 * rings], axis=-1)
     return tint * shade[..., None]
 
 

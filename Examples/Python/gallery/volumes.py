@@ -10,11 +10,16 @@ from . import common
 
 
 def draw_flames(data, size):
-    """The combustor as a dense lit medium."""
+    """The combustor as a dense medium that scatters light."""
     colors, look = common.make_flames(data.combustor, 0.35)
+    look.SetAmbient(0.6)
+    volume = common.make_volume(data.combustor, look)
+    volume.GetMapper().SetGlobalIlluminationReach(0.5)
+    volume.GetMapper().SetVolumetricScatteringBlending(2.0)
     renderer = common.make_renderer()
-    renderer.AddVolume(common.make_volume(data.combustor, look))
+    renderer.AddVolume(volume)
     common.light_flames(renderer)
+    renderer.GetActiveCamera().Zoom(0.95)
     return common.take(renderer, size, common.make_bar(colors, "Density"))
 
 
@@ -44,8 +49,8 @@ def draw_radiograph(data, size):
     page.GetProperty().LightingOff()
     renderer = common.make_renderer((common.BONE[0], common.BONE[0]))
     renderer.AddActor(page)
-    common.look_from(renderer, (2.15, 1.5, 5), (2.15, 1.5, 0), (0, 1, 0))
+    common.look_from(renderer, (2.0, 1.5, 5), (2.0, 1.5, 0), (0, 1, 0))
     renderer.GetActiveCamera().ParallelProjectionOn()
-    renderer.GetActiveCamera().SetParallelScale(1.75)
+    renderer.GetActiveCamera().SetParallelScale(1.8)
     renderer.ResetCameraClippingRange()
     return common.take(renderer, size, common.make_bar(colors, "Length"))
