@@ -31,8 +31,6 @@ PICTURES = {
     "gallery-blow": steps.draw_blow,
     "gallery-walls": solids.draw_walls,
     "gallery-rings": pools.draw_rings,
-    "gallery-waves": through.draw_waves,
-    "gallery-pane": through.draw_pane,
     "gallery-lens": through.draw_lens,
     "opacity-distances": opacity.draw_distances,
     "opacity-functions": opacity.draw_functions,
