@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A knot of few curved cells of two types."""
+"""Few cells with curved fields: a knot of two types, hexahedra cut and whole."""
 import math
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_WEDGE, vtkUnstructuredGrid)
+    VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_WEDGE, vtkCellArray, vtkPolyData,
+    vtkUnstructuredGrid)
+from vtkmodules.vtkFiltersCore import vtkTubeFilter
+from vtkmodules.vtkFiltersExtraction import vtkExtractEdges
 
 from . import common
 
@@ -97,10 +100,92 @@ def draw_cells(_data, size):
     volume.GetMapper().SetCellDivisionToAdaptive()
     volume.GetMapper().SetDivisionTolerance(1e-3)
     volume.GetMapper().SetMaximumNumberOfPieces(10000000)
-    renderer = common.make_renderer()
+    renderer = common.make_renderer(common.PAPER)
     renderer.AddVolume(volume)
     common.add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
                       ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
     common.look_from(renderer, (1.0, -7.5, 10.5), (0.0, -0.1, 0.0), (0, 1, 0), 32.0)
     renderer.ResetCameraClippingRange()
     return common.take(renderer, size)
+
+
+CUBE = 6  # hexahedra along an axis
+LEVEL = 0.12
+
+
+def get_wave(x, y, z):
+    """A standing wave with four cells of the cube per wavelength: extrema like balls."""
+    return math.prod(math.cos(1.5 * math.pi * coordinate) for coordinate in (x, y, z))
+
+
+def make_cube():
+    """Hexahedra in [-1, 1]^3, twisted about the z axis, with a field at their corners."""
+    mesh = vtkUnstructuredGrid()
+    points, scalars = vtkPoints(), vtkDoubleArray()
+    scalars.SetName("Field")
+    side = CUBE + 1
+    for i in range(side ** 3):
+        x, y, z = (2.0 * k / CUBE - 1.0 for k in (i % side, i // side % side, i // side ** 2))
+        scalars.InsertNextValue(get_wave(x, y, z))
+        angle = 0.3 * z
+        points.InsertNextPoint(x * math.cos(angle) - y * math.sin(angle),
+                               x * math.sin(angle) + y * math.cos(angle), z)
+    mesh.SetPoints(points)
+    for cell in range(CUBE ** 3):
+        i, j, k = cell % CUBE, cell // CUBE % CUBE, cell // CUBE ** 2
+        low = (k * side + j) * side + i
+        face = [low, low + 1, low + side + 1, low + side]
+        mesh.InsertNextCell(VTK_HEXAHEDRON, 8, face + [p + side * side for p in face])
+    mesh.GetPointData().SetScalars(scalars)
+    return mesh
+
+
+def make_edges(mesh):
+    """The edges of cells on the three sides of the cube that turn away from the eye."""
+    side = CUBE + 1
+    walls = vtkPolyData()
+    walls.SetPoints(mesh.GetPoints())
+    faces = vtkCellArray()
+    for u in range(CUBE):
+        for v in range(CUBE):
+            for place in (lambda a, b: (0, a, b), lambda a, b: (a, CUBE, b),
+                          lambda a, b: (a, b, 0)):
+                corners = (place(u + a, v + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                faces.InsertNextCell(4, [(k * side + j) * side + i for i, j, k in corners])
+    walls.SetPolys(faces)
+    edges = vtkExtractEdges()
+    edges.SetInputData(walls)
+    tubes = vtkTubeFilter()
+    tubes.SetInputConnection(edges.GetOutputPort())
+    tubes.SetRadius(0.006)
+    tubes.SetNumberOfSides(8)
+    tubes.Update()
+    actor = common.make_actor(tubes.GetOutput(), (0.5, 0.54, 0.6))
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def draw_hexahedra(_data, size):
+    """An isosurface in 216 hexahedra: cut into tetrahedra, and by their own shape functions."""
+    mesh = make_cube()
+    panel = (size[0] // 2, 2 * size[1] // 3)
+    renderers = []
+    for adaptive in (False, True):
+        colors = common.make_colors(((0.93, 0.62, 0.30),) * 2, -1.0, 1.0)
+        look = common.make_look(colors, common.make_opacity(((-2.0, 1.0), (2.0, 1.0))), 1.0)
+        volume = common.make_volume(mesh, look, (LEVEL,))
+        if adaptive:
+            volume.GetMapper().SetCellDivisionToAdaptive()
+            volume.GetMapper().SetDivisionTolerance(3e-4)
+            volume.GetMapper().SetMaximumNumberOfPieces(10000000)
+        renderer = common.make_renderer(common.PAPER)
+        renderer.AddVolume(volume)
+        renderer.AddActor(make_edges(mesh))
+        common.add_lights(renderer, ((-0.7, 0.9, 0.9), (1.0, 0.98, 0.94), 1.0),
+                          ((1.0, 0.1, 0.4), (0.6, 0.75, 1.0), 0.35))
+        common.look_from(renderer, (3.6, -4.6, 3.2), (0.0, 0.0, -0.06), (0, 0, 1), 28.0)
+        renderer.ResetCameraClippingRange()
+        label = "own shape functions" if adaptive else "cut into tetrahedra"
+        common.add_label(renderer, label, 2 * panel[1], common.INK)
+        renderers.append(renderer)
+    return common.take_beside(renderers, panel, 2)

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkImagingCore import vtkImageResize
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLStructuredGridReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkColorTransferFunction, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
@@ -26,11 +26,15 @@ BONE = ((0.00, 0.00, 0.01), (0.12, 0.12, 0.17), (0.25, 0.25, 0.35), (0.37, 0.40,
 SIGNED = ((0.10, 0.25, 0.70), (0.35, 0.60, 0.95), (0.85, 0.85, 0.85), (0.97, 0.60, 0.35),
           (0.75, 0.10, 0.15))
 NIGHT = ((0.015, 0.02, 0.04), (0.07, 0.09, 0.14))
+PAPER = ((1.0, 1.0, 1.0), (0.93, 0.94, 0.96))
+INK = (0.12, 0.14, 0.18)
+MARGIN = 0.13  # of a picture's width, for its scalar bar
 
 
 def read(name):
-    """The mesh of a .vtu file, with its first point array as scalars."""
-    reader = vtkXMLUnstructuredGridReader()
+    """The mesh of a .vtu or .vts file, with its first point array as scalars."""
+    structured = name.endswith(".vts")
+    reader = vtkXMLStructuredGridReader() if structured else vtkXMLUnstructuredGridReader()
     reader.SetFileName(name)
     reader.Update()
     mesh = reader.GetOutput()
@@ -160,33 +164,48 @@ def look_from(renderer, position, focus, up=(0, 0, 1), angle=30.0):
     camera.SetViewAngle(angle)
 
 
-def make_bar(colors, title):
-    """A scalar bar for a picture of twice its final size."""
+def make_bar(colors, title, color=(0.92, 0.92, 0.92)):
+    """A scalar bar for the margin that take() leaves for it."""
     bar = vtkScalarBarActor()
     bar.SetLookupTable(colors)
     bar.SetTitle(title)
     bar.SetNumberOfLabels(4)
     bar.SetLabelFormat("%.3g")
     bar.SetUnconstrainedFontSize(True)
-    for text, size in ((bar.GetTitleTextProperty(), 30), (bar.GetLabelTextProperty(), 26)):
-        text.SetFontSize(size)
-        text.SetColor(0.92, 0.92, 0.92)
+    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        text.SetColor(*color)
         text.BoldOff()
         text.ItalicOff()
         text.ShadowOff()
-    bar.SetVerticalTitleSeparation(14)
-    bar.SetPosition(0.87, 0.08)
-    bar.SetWidth(0.1)
-    bar.SetHeight(0.5)
+    bar.SetPosition(0.14, 0.26)
+    bar.SetWidth(0.6)
+    bar.SetHeight(0.48)
+    bar.SetBarRatio(0.3)
     return bar
+
+
+def make_margin(renderer, bar, height):
+    """A renderer for a scalar bar at the right of a scene, in a picture of that height."""
+    margin = vtkRenderer()
+    margin.SetBackground(renderer.GetBackground())
+    margin.SetBackground2(renderer.GetBackground2())
+    margin.GradientBackgroundOn()
+    bar.GetTitleTextProperty().SetFontSize(height // 50)
+    bar.GetLabelTextProperty().SetFontSize(height // 52)
+    bar.SetVerticalTitleSeparation(height // 80)
+    margin.AddViewProp(bar)
+    renderer.SetViewport(0.0, 0.0, 1.0 - MARGIN, 1.0)
+    margin.SetViewport(1.0 - MARGIN, 0.0, 1.0, 1.0)
+    return margin
 
 
 def add_label(renderer, text, height, color):
     """A line of text at the top of a panel of that height."""
     label = vtkTextActor()
     label.SetInput(text)
-    label.SetPosition(12, height - 30)
-    label.GetTextProperty().SetFontSize(18)
+    size = max(height // 26, 12)
+    label.SetPosition(0.7 * size, height - 1.8 * size)
+    label.GetTextProperty().SetFontSize(size)
     label.GetTextProperty().SetColor(*color)
     renderer.AddViewProp(label)
 
@@ -198,40 +217,37 @@ def take(renderer, size, bar=None):
     window.SetMultiSamples(0)
     window.SetSize(2 * size[0], 2 * size[1])
     window.AddRenderer(renderer)
-    if bar:  # in a layer of its own, since a render pass may not draw it
-        window.SetNumberOfLayers(2)
-        overlay = vtkRenderer()
-        overlay.SetLayer(1)
-        overlay.AddViewProp(bar)
-        window.AddRenderer(overlay)
+    if bar:
+        window.AddRenderer(make_margin(renderer, bar, 2 * size[1]))
+    return _grab(window, size)
+
+
+def take_beside(renderers, size, finer=1):
+    """The picture of several renderers of one size, side by side, drawn at `finer` times the size
+    in each direction."""
+    window = vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetMultiSamples(0)
+    whole = (len(renderers) * size[0], size[1])
+    window.SetSize(*(finer * side for side in whole))
+    for index, renderer in enumerate(renderers):
+        renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
+        window.AddRenderer(renderer)
+    return _grab(window, whole)
+
+
+def _grab(window, size):
+    """The window's picture in this size, and the end of the window."""
     window.Render()
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
     picture.ReadFrontBufferOff()
     smaller = vtkImageResize()
     smaller.SetInputConnection(picture.GetOutputPort())
-    smaller.SetOutputDimensions(size[0], size[1], 1)
+    smaller.SetOutputDimensions(*size, 1)
     smaller.Update()
     window.Finalize()
     return smaller.GetOutput()
-
-
-def take_beside(renderers, size):
-    """The picture of several renderers of one size, side by side."""
-    window = vtkRenderWindow()
-    window.OffScreenRenderingOn()
-    window.SetMultiSamples(0)
-    window.SetSize(len(renderers) * size[0], size[1])
-    for index, renderer in enumerate(renderers):
-        renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
-        window.AddRenderer(renderer)
-    window.Render()
-    picture = vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
-    picture.Update()
-    window.Finalize()
-    return picture.GetOutput()
 
 
 def write(image, name):

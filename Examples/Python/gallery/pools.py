@@ -221,7 +221,7 @@ def draw_pool(data, size):
     can.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[2:], low, high))
     pool.add_colored(make_ball((0.55, 0.55, -0.55), 0.2), (0.95, 0.35, 0.15))
     pool.add_colored(make_ball((-0.62, 0.5, -0.02), 0.17), (0.98, 0.80, 0.12))
-    common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.04, -0.22), (0, 0, 1), 37.0)
+    common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.0, -0.25), (0, 0, 1), 32.0)
     pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
     return common.take(pool.renderer, size)
 
@@ -240,11 +240,35 @@ def draw_rings(_data, size):
     tiles = make_tiles()
     strip = vtkImageAppend()
     strip.SetAppendAxis(0)
+    panel = (size[0] // 3, size[1] // 3)
     for time in (0.2, 0.5, 0.85):
         pool = Pool(rings(time), (0.60, 0.10, 0.05), 72)
         pool.add_sides(tiles)
-        common.look_from(pool.renderer, (0.0, -1.9, 2.9), (0.0, 0.0, -0.3), (0, 0, 1), 34.0)
+        common.look_from(pool.renderer, (0.0, -1.9, 2.9), (0.0, -0.04, -0.25), (0, 0, 1), 31.0)
         pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
-        strip.AddInputData(common.take(pool.renderer, (size[0] // 2, size[1] // 2)))
+        strip.AddInputData(common.take(pool.renderer, panel))
     strip.Update()
     return strip.GetOutput()
+
+
+FRAMES = 40  # of the loop, which lasts 4 seconds
+# Amplitude, wave vector, phase and periods in the loop, of waves that move.
+SWELL = ((0.0085, 9.0, 4.0, 0.3, 3), (0.0065, -6.0, 10.0, 1.7, 4), (0.0035, 15.0, 11.0, 4.0, 6),
+         (0.0028, -17.0, 8.0, 2.2, 6), (0.007, 3.0, -4.0, 0.8, 2))
+
+
+def draw_frames(size, frames):
+    """The pictures of a loop: waves pass over a pool in which a ball floats and one has sunk."""
+    tiles = make_tiles()
+    for frame in range(frames):
+        def height(x, y, turn=2.0 * math.pi * frame / frames):
+            return sum(a * math.sin(k * x + l * y + p - n * turn) for a, k, l, p, n in SWELL)
+
+        pool = Pool(height, (0.60, 0.10, 0.05), 64)
+        pool.add_sides(tiles)
+        pool.add_colored(make_ball((0.45, 0.3, -0.53), 0.22), (0.95, 0.35, 0.15))
+        pool.add_colored(make_ball((-0.4, -0.1, 0.04 + height(-0.4, -0.1)), 0.19),
+                         (0.98, 0.80, 0.12))
+        common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.0, -0.25), (0, 0, 1), 32.0)
+        pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
+        yield common.take(pool.renderer, size)

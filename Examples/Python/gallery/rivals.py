@@ -21,8 +21,6 @@ SAMPLES = 128  # of the image, along a side; fewer for small pictures
 ZOOM = 4
 # Middle of the part that is enlarged, and its width, in shares of a panel's width and height.
 PART = (0.37, 0.19, 0.13)
-PAPER = ((1.0, 1.0, 1.0), (0.93, 0.94, 0.96))
-INK = (0.12, 0.14, 0.18)
 
 
 def make_property(mesh, for_images):
@@ -60,7 +58,7 @@ def draw(mapper, data, look, size):
     volume = vtkVolume()
     volume.SetMapper(mapper)
     volume.SetProperty(look)
-    renderer = common.make_renderer(PAPER)
+    renderer = common.make_renderer(common.PAPER)
     renderer.AddVolume(volume)
     common.look_from(renderer, (-9.5, -10.0, 7.0), (3.0, 2.0, 3.2), (0, 0, 1), 31.0)
     renderer.ResetCameraClippingRange()
@@ -119,7 +117,7 @@ def add_image(renderer, image, x, y):
 
 def make_panel(picture, size, lines):
     """A renderer with a picture, its enlarged part and lines of text."""
-    renderer = common.make_renderer((PAPER[0], PAPER[0]))
+    renderer = common.make_renderer((common.PAPER[0], common.PAPER[0]))
     add_image(renderer, picture, 0, 0)
     larger = enlarge(picture, size)
     add_image(renderer, larger, size[0] - larger.GetDimensions()[0] - 8, 8)
@@ -129,7 +127,7 @@ def make_panel(picture, size, lines):
         text.SetPosition(14, size[1] - 32 - 25 * index)
         text.GetTextProperty().SetFontSize(22 if index == 0 else 18)
         text.GetTextProperty().SetBold(index == 0)
-        text.GetTextProperty().SetColor(*INK)
+        text.GetTextProperty().SetColor(*common.INK)
         renderer.AddViewProp(text)
     return renderer
 

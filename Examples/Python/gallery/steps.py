@@ -84,13 +84,13 @@ def draw_blow(data, size):
         displacement = numpy_to_vtk(now, deep=True)
         displacement.SetName("Displacement")
         mesh.GetPointData().SetScalars(displacement)
-        renderer = common.make_renderer()
+        renderer = common.make_renderer(common.PAPER)
         renderer.AddVolume(volume)
         common.add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
                           ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
         common.look_from(renderer, (-6.5, -8.5, 14.5), (-3.1, 0.8, -15.9), (0, 1, 0), 20.0)
         renderer.ResetCameraClippingRange()
-        pictures.append(common.take(renderer, (2 * size[0] // 3, size[1] // 2)))
+        pictures.append(common.take(renderer, (size[0] // 2, size[1] * 3 // 8)))
         renderer.RemoveVolume(volume)
     return stack([stack(pictures[:2], 0), stack(pictures[2:], 0)][::-1], 1)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volumes seen through waves, through the glass of a tank and through a lens."""
+"""A volume seen through a lens."""
 import math
 
 import meniscus
@@ -8,70 +8,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkFiltersCore import vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from . import common
-from .pools import make_sky, mix
-
-
-def get_dusk(direction):
-    """Colour of the sky after sunset, y upwards: a warm horizon below a dark blue."""
-    height = max(direction[1] / math.sqrt(sum(c * c for c in direction)), 0.0)
-    return mix((0.98, 0.62, 0.40), (0.10, 0.16, 0.34), min(1.6 * height, 1.0) ** 0.7)
-
-
-def draw_waves(data, size):
-    """The combustor's density under the waves of a pool at night."""
-    mesh = data.combustor
-    colors, look = common.make_flames(mesh, 0.35)
-    x0, x1, y0, y1, z0, z1 = mesh.GetBounds()
-    # y is up here: the water is a sheet over x and z.
-    water = common.make_height_field(
-        (x0 - 10, z1 + 10, 0), (x1 + 14, z1 + 10, 0), (x0 - 10, z0 - 10, 0), (200, 200),
-        lambda x, z: 0.15 * math.sin(0.9 * x + 0.5 * z) + 0.10 * math.sin(0.6 * z - 1.2 * x) +
-        0.035 * math.sin(2.3 * z + 1.1 * x))
-    for i in range(water.GetNumberOfPoints()):
-        x, z, height = water.GetPoint(i)
-        water.GetPoints().SetPoint(i, x, 7.2 + height, z)
-    volume = common.make_volume(mesh, look)
-    volume.GetMapper().SetMembraneData(water)
-    surface = vtkActor()
-    surface.SetMapper(vtkPolyDataMapper())
-    surface.GetMapper().SetInputData(water)
-    renderer = common.make_renderer()
-    refraction = meniscus.vtkRefractionPass()
-    refraction.AddVolume(surface, volume)
-    refraction.SetReflectionTexture(make_sky(64, get_dusk))
-    refraction.SetAttenuationCoefficients(0.035, 0.018, 0.012)
-    refraction.SetMediumColor(0.015, 0.09, 0.15)
-    refraction.InfiniteMediumOn()
-    renderer.SetPass(refraction)
-    common.add_lights(renderer, ((-0.8, 0.8, 1.0), (1.0, 0.97, 0.9), 1.5))
-    common.look_from(renderer, (-17.0, 27.0, 50.0), (8.6, 1.0, 29.6), (0, 1, 0), 25.0)
-    renderer.ResetCameraClippingRange(x0 - 10, x1 + 14, y0, 9, z0 - 10, z1 + 10)
-    return common.take(renderer, size, common.make_bar(colors, "Density"))
-
-
-def draw_pane(data, size):
-    """The combustor in water behind a thick pane; beside the pane there is no refraction."""
-    colors, look = common.make_flames(data.combustor, 0.35)
-    x0, x1, y0, y1, _, z1 = data.combustor.GetBounds()
-    renderer = common.make_renderer()
-    volume = common.make_volume(data.combustor, look)
-    mapper = volume.GetMapper()
-    interfaces = meniscus.vtkRefractingInterfaceCollection()
-    middle = 0.55 * (x0 + x1)
-    for z, before, behind in ((z1 + 2.0, 1.0, 1.52), (z1 + 0.5, 1.52, 1.333)):
-        side = common.make_plane(
-            (x0 - 3, y0 - 3, z), (middle, y0 - 3, z), (x0 - 3, y1 + 3, z), (2, 2))
-        mapper.AddMembraneData(side)
-        interfaces.AddInterface(before, behind)
-    mapper.SetInterfaces(interfaces)
-    renderer.AddVolume(volume)
-    common.light_flames(renderer)
-    common.look_from(renderer, (-9.0, 9.0, 62.0), (9.6, -0.2, 30.0), (0, 1, 0), 25.0)
-    renderer.ResetCameraClippingRange()
-    return common.take(renderer, size, common.make_bar(colors, "Density"))
 
 
 def draw_lens(data, size):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields on meshes: lit isosurfaces, lit dense media, radiographs."""
+"""Fields on meshes: lit dense media, radiographs."""
 import meniscus
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkImagingCore import vtkImageMapToColors
@@ -10,28 +10,16 @@ from . import common
 
 
 def draw_flames(data, size):
-    """The combustor as a dense lit medium."""
+    """The combustor as a dense medium that scatters light."""
     colors, look = common.make_flames(data.combustor, 0.35)
+    look.SetAmbient(0.6)
+    volume = common.make_volume(data.combustor, look)
+    volume.GetMapper().SetGlobalIlluminationReach(0.5)
+    volume.GetMapper().SetVolumetricScatteringBlending(2.0)
     renderer = common.make_renderer()
-    renderer.AddVolume(common.make_volume(data.combustor, look))
+    renderer.AddVolume(volume)
     common.light_flames(renderer)
-    return common.take(renderer, size, common.make_bar(colors, "Density"))
-
-
-def draw_shock(data, size):
-    """Isosurfaces of the density around the blunt fin, seen from its plane of symmetry."""
-    values = (1.12, 1.9, 2.7, 3.6)
-    colors = common.make_colors(common.VIRIDIS, 0.2, 3.8)
-    opacity = common.make_opacity(zip(values, (0.4, 0.45, 0.6, 1.0)))
-    renderer = common.make_renderer()
-    look = common.make_look(colors, opacity, 1.0)
-    look.SetAmbient(0.35)
-    look.SetDiffuse(1.1)
-    renderer.AddVolume(common.make_volume(data.fin, look, values))
-    common.add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
-                      ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
-    common.look_from(renderer, (-9.5, -10.0, 7.0), (2.2, 2.4, 2.5), (0, 0, 1), 27.0)
-    renderer.ResetCameraClippingRange()
+    renderer.GetActiveCamera().Zoom(0.95)
     return common.take(renderer, size, common.make_bar(colors, "Density"))
 
 
@@ -61,8 +49,8 @@ def draw_radiograph(data, size):
     page.GetProperty().LightingOff()
     renderer = common.make_renderer((common.BONE[0], common.BONE[0]))
     renderer.AddActor(page)
-    common.look_from(renderer, (2.15, 1.5, 5), (2.15, 1.5, 0), (0, 1, 0))
+    common.look_from(renderer, (2.0, 1.5, 5), (2.0, 1.5, 0), (0, 1, 0))
     renderer.GetActiveCamera().ParallelProjectionOn()
-    renderer.GetActiveCamera().SetParallelScale(1.75)
+    renderer.GetActiveCamera().SetParallelScale(1.8)
     renderer.ResetCameraClippingRange()
     return common.take(renderer, size, common.make_bar(colors, "Length"))
