@@ -124,9 +124,10 @@ def compare_mappers(
     below, columns, and colours as uint8. The volume has its mapper again in the end.
     """
     ours, camera = volume.GetMapper(), renderer.GetActiveCamera()
-    adjusts = ours.GetAutoAdjustSampleDistances()
+    adjusts, distance = ours.GetAutoAdjustSampleDistances(), ours.GetImageSampleDistance()
     try:
         ours.AutoAdjustSampleDistancesOff()
+        ours.SetImageSampleDistance(1.0)
         first, median, reference = _measure(window, camera, frames)
         yield Comparison(OURS, median, first, 0.0), reference
         grid = make_grid()
@@ -139,4 +140,5 @@ def compare_mappers(
             yield Comparison(name, median, first, difference(picture, reference)), picture
     finally:
         ours.SetAutoAdjustSampleDistances(adjusts)
+        ours.SetImageSampleDistance(distance)
         volume.SetMapper(ours)

@@ -463,8 +463,14 @@ double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
   {
     return this->ImageSampleDistance;
   }
-  // The time is proportional to the number of rays, the inverse square of the distance.
+  // Interaction asks for several frames per second.
+  constexpr double stillTime = 1.0;
   const double allocated = volume->GetAllocatedRenderTime();
+  if (this->ImageSampleDistance < 1.0f && (allocated <= 0.0 || allocated >= stillTime))
+  {
+    return this->ImageSampleDistance;
+  }
+  // The time is proportional to the number of rays, the inverse square of the distance.
   const double full = this->Internals->FullImageTime;
   const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
   return std::min(distance, static_cast<double>(this->MaximumImageSampleDistance));
@@ -479,15 +485,19 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   const double sampleDistance = selector ? 1.0 : this->ChooseImageSampleDistance(volume);
   int viewport[4];
   internals.GetPresenter().GetViewport(viewport);
+  // Several rays per pixel do not make the image larger.
+  const double pixels = std::max(sampleDistance, 1.0);
   for (int i = 0; i < 2; ++i)
   {
-    frame.Output.ImageSize[i] =
-      std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
+    frame.Output.ImageSize[i] = std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / pixels)));
   }
+  // In single precision, the reciprocal of the distance 1 / n is n.
+  frame.Output.RaysAcross =
+    std::max(1, static_cast<int>(std::ceil(1.0f / static_cast<float>(sampleDistance))));
   frame.Output.ColorBias = static_cast<float>(this->ColorBias);
   frame.MaximumTableSize = this->MaximumTableSize;
   frame.SettingsTime = this->vtkObject::GetMTime();
-  this->UsedImageSampleDistance = sampleDistance;
+  this->UsedImageSampleDistance = pixels / frame.Output.RaysAcross;
   if (selector)
   {
     // Other passes distinguish parts of a prop: this one has a single part with id 0.
@@ -643,9 +653,31 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     // Drawing is over when the device says so, not when the commands are sent.
     this->Internals->GetPresenter().Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
-    this->Internals->FullImageTime =
-      this->TimeToDraw * this->UsedImageSampleDistance * this->UsedImageSampleDistance;
+    this->Internals->FullImageTime = this->TimeToDraw * this->GetShareOfOneRay(casts);
   }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Time of a frame with one ray per pixel, as a share of the time of the last frame.
+ * @param casts number of casts before it.
+ */
+double vtkTetrahedraRayCastMapper::GetShareOfOneRay(vtkTypeInt64 casts)
+{
+  const double distance = this->UsedImageSampleDistance;
+  if (distance >= 1.0)
+  {
+    return distance * distance;
+  }
+  const vtkTypeInt64 images = this->Internals->GetNumberOfCasts() - casts;
+  if (images > 1)
+  {
+    return 1.0 / static_cast<double>(images);
+  }
+  // One image, of which some pixels have several rays.
+  const meniscus::RayCastStatistics statistics = this->Internals->GetStatistics();
+  const double steps = static_cast<double>(std::max<std::int64_t>(statistics.Steps, 1));
+  return 1.0 - static_cast<double>(statistics.RefiningSteps) / steps;
 }
 
 //------------------------------------------------------------------------------

@@ -322,9 +322,9 @@ public:
    * Set/Get the implementation of the ray caster: OPENGL, a fragment shader; COMPUTE, a compute
    * shader with the same functions (OpenGL 4.3); NATIVE, the CPU, in SIMD packets on all threads of
    * vtkSMPTools; AUTOMATIC, the default: backends that were registered from outside (see
-   * RayCastBackendRegistry.h), then NATIVE where OpenGL is a software rasteriser, else COMPUTE where
-   * the window has OpenGL 4.3, else OPENGL. If a backend cannot draw a frame, the next one does,
-   * after a warning with the reason.
+   * RayCastBackendRegistry.h), then NATIVE where OpenGL is a software rasteriser, else COMPUTE
+   * where the window has OpenGL 4.3, else OPENGL. If a backend cannot draw a frame, the next one
+   * does, after a warning with the reason.
    */
   virtual void SetBackend(int backend);
   vtkGetMacro(Backend, int);
@@ -491,8 +491,11 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the number of pixels between neighbouring rays, along each axis, >= 1; the pixels
-   * between are interpolated. Used only if AutoAdjustSampleDistances is off. Default is 1.
+   * Set/Get the number of pixels between neighbouring rays, along each axis, in [0.1, 100]; NaN
+   * counts as 1, the default. With more than 1, the pixels between are interpolated. With less than
+   * 1, pixels at edges, which differ from their neighbours, get a square of rays at most this
+   * distance apart, and the mean of their colours: 0.25 stands for 16 rays. With
+   * AutoAdjustSampleDistances, distances below 1 are those of still images, and others are ignored.
    */
   virtual void SetImageSampleDistance(float distance);
   vtkGetMacro(ImageSampleDistance, float);
@@ -502,8 +505,9 @@ public:
   /**
    * Set/Get whether the distance between rays is computed from the time allocated to the volume
    * (the window's desired update rate) and the time of the last frame: during interaction rays are
-   * up to MaximumImageSampleDistance pixels apart (default 8), in still images there is one per
-   * pixel. Default is on.
+   * up to MaximumImageSampleDistance pixels apart (default 8), in still images (less than one
+   * frame per second is wanted) there is one per pixel, or more with an ImageSampleDistance below
+   * 1. Default is on.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
@@ -644,6 +648,7 @@ private:
   void UpdateTransferFunction();
   const meniscus::BlendModel& GetBlendModel();
   double ChooseImageSampleDistance(vtkVolume* volume);
+  double GetShareOfOneRay(vtkTypeInt64 casts);
   std::string PrepareView(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);

@@ -8,6 +8,9 @@
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include <algorithm>
+#include <cmath>
+
 meniscusStatisticsMacro(vtkTetrahedraRayCastMapper);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, VectorMode, int, DISABLED, COMPONENT);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, VectorComponent, int, 0, VTK_INT_MAX);
@@ -26,9 +29,19 @@ meniscusSetClampMacro(vtkTetrahedraRayCastMapper, ColorBias, double, 0.0, 0.5);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, DepthWriting, int, NO_DEPTH, OPACITY_DEPTH);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, DepthOpacity, double, 0.0, 1.0);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, EarlyTerminationOpacity, double, 0.0, 1.0);
-meniscusSetClampMacro(vtkTetrahedraRayCastMapper, ImageSampleDistance, float, 1.0f, 100.0f);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MaximumImageSampleDistance, float, 1.0f, 100.0f);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MediumModel, int, EXPONENTIAL, LINEAR);
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetImageSampleDistance(float distance)
+{
+  const float clamped = std::isnan(distance) ? 1.0f : std::min(std::max(distance, 0.1f), 100.0f);
+  if (clamped != this->ImageSampleDistance)
+  {
+    this->ImageSampleDistance = clamped;
+    this->Modified();
+  }
+}
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
@@ -154,7 +167,10 @@ vtkTetrahedraRayCastMapper::vtkInternals::List()
         { "NumberOfTotallyReflectedRays",
           "rays of the last view that are totally reflected behind the first interface",
           [](Self& self) { return double(self.Internals->Membrane.GetCounts().Reflected); } },
-        { "UsedImageSampleDistance", "pixels between neighbouring rays in the last frame",
+        { "NumberOfRefinedPixels",
+          "pixels at edges of the last image, which got several rays (native backend)",
+          [](Self& self) { return double(self.Internals->GetStatistics().RefinedPixels); } },
+        { "UsedImageSampleDistance", "smallest distance of rays in the last frame, in pixels",
           [](Self& self) { return double(self.UsedImageSampleDistance); } },
       });
   return list;

@@ -156,6 +156,10 @@ def make_scene(options, report=lambda line: None):
     scene.set_lit(options.light or options.shadows)
     scene.set_shadows(1.0 if options.shadows else 0.0)
     scene.set_backend(options.backend)
+    # Shaders and rays behind a surface take 16 times the time for it; a page is drawn while it
+    # moves; VTK's mappers have one ray per pixel.
+    scene.set_rays_at_edges(options.backend in ("automatic", "native")
+                            and not (options.water or options.web or options.compare))
     if options.clip:
         scene.set_clip(*_split_clip(options.clip))
     if options.water:

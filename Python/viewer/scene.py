@@ -271,6 +271,10 @@ class MeshScene:
             lamp.SetIntensity(SHADOW_INTENSITY)
             self.renderer.AddLight(lamp)
 
+    def set_rays_at_edges(self, several):
+        """several: true for up to 16 rays per pixel at edges of still pictures."""
+        self.mapper.SetImageSampleDistance(0.25 if several else 1.0)
+
     def set_backend(self, name):
         if name not in BACKENDS:
             raise ReadingError(f"There is no backend '{name}'; known are " + ", ".join(BACKENDS))

@@ -42,6 +42,9 @@ struct RayCastStatistics
   std::int64_t Lost = 0;
   /** Rays that found parts of the mesh to overlap; 0 if the backend does not count them. */
   std::int64_t Overlaps = 0;
+  /** Pixels that got several rays, and the cells that these crossed, which are part of Steps. */
+  std::int64_t RefinedPixels = 0;
+  std::int64_t RefiningSteps = 0;
 };
 
 /** Memory and work of a backend, which the mapper adds up over its backends. */
@@ -245,6 +248,15 @@ public:
    * equal frame needs no Cast(): the image of the last one is shown again.
    */
   virtual bool IsRepeatable() const { return false; }
+  /**
+   * Returns true if Cast() itself casts the several rays per pixel of a frame of still pictures.
+   * For other backends, the image is the mean of several images with one ray per pixel.
+   */
+  virtual bool CastsSeveralRays(const RayCastRequest& request) const
+  {
+    static_cast<void>(request);
+    return false;
+  }
   /** Makes the objects it needs from tables that changed. Called before Cast(). */
   virtual std::string Update(const RayCastRequest& request)
   {

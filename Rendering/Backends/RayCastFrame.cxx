@@ -14,8 +14,8 @@ bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b)
   {
     const RayCastRefraction& refracting = frame.Refracting;
     return std::tie(frame.EarlyTerminationOpacity, frame.MaximumTableSize, frame.SettingsTime,
-      frame.Output.ImageSize[0], frame.Output.ImageSize[1], refracting.Part, refracting.Wanted,
-      refracting.Met, refracting.Center, refracting.EyeDepth);
+      frame.Output.ImageSize[0], frame.Output.ImageSize[1], frame.Output.RaysAcross,
+      refracting.Part, refracting.Wanted, refracting.Met, refracting.Center, refracting.EyeDepth);
   };
   return members(a) == members(b) && a.Rays == b.Rays && a.Optics == b.Optics;
 }

@@ -21,6 +21,8 @@ struct RayCastOutput
 {
   /** Rays of the image; fewer than the viewport's pixels are interpolated. */
   int ImageSize[2] = { 0, 0 };
+  /** Rays of a pixel along each axis, where its neighbours differ. */
+  int RaysAcross = 1;
   /** Hardware selection: a value where the image is visible, in place of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pipeline/RayCastPipeline.h"
 
+#include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/RayFrame.h"
 
 #include "vtkCamera.h"
@@ -27,6 +28,29 @@ glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
     }
   }
   return result;
+}
+
+namespace
+{
+
+/**
+ * Frame with one ray per pixel for one of the several rays of a pixel.
+ * @param number of the ray, row by row; ray 0 of 1 is at the centre.
+ */
+RayCastFrame FrameOfRay(const RayCastFrame& frame, int number)
+{
+  RayCastFrame ofRay = frame;
+  const int across = frame.Output.RaysAcross;
+  const glm::dvec2 place(number % across, number / across);
+  ofRay.Rays = Shifted(frame.Rays, (place + 0.5) / static_cast<double>(across) - 0.5);
+  for (RayClippingPlane& plane : ofRay.Optics.ClippingPlanes)
+  {
+    plane = ForRays(plane, ofRay.Rays);
+  }
+  ofRay.Output.RaysAcross = 1;
+  return ofRay;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -63,7 +87,7 @@ RayCastBackendChoice RayCastPipeline::ChooseBackend(
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
 {
-  frame.Refracting.Met = frame.Refracting.Wanted && this->Trace(frame);
+  frame.Refracting.Met = frame.Refracting.Wanted && this->Trace(FrameOfRay(frame, 0));
   const std::string mismatch = this->Membrane.DescribeMismatch();
   if (!mismatch.empty())
   {
@@ -82,15 +106,39 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
     const bool repeated = this->IsRepeated(source);
     this->Shown = ImageSource();
     error = this->Presenter.Present(frame.Output, repeated,
-      [this, &backend, &request](RayCastTarget& target)
+      [this, &frame, &backend, &request](RayCastTarget& target)
       {
+        if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
+        {
+          return this->CastMean(frame, backend);
+        }
         ++this->Casts;
         return backend.Cast(request, target);
       });
+    // Refracted rays may have been traced while the image was made.
+    source.Tables = this->ListWanted(frame);
     this->Shown = error.empty() ? std::move(source) : ImageSource();
   }
   this->Active = error.empty() ? &backend : this->Active;
   return error;
+}
+
+//------------------------------------------------------------------------------
+/** Casts an image for each of the rays of a pixel; their mean is the image. */
+std::string RayCastPipeline::CastMean(const RayCastFrame& frame, RayCastBackend& backend)
+{
+  const int count = frame.Output.RaysAcross * frame.Output.RaysAcross;
+  return this->Presenter.MakeMean(count,
+    [this, &frame, &backend, count](int i, RayCastTarget& target)
+    {
+      // The last one is traced first in the next frame: its refracted rays are still there.
+      RayCastFrame ofRay = FrameOfRay(frame, count - 1 - i);
+      ofRay.Refracting.Met = ofRay.Refracting.Wanted && this->Trace(ofRay);
+      const RayCastRequest request(*this, ofRay, this->Presenter.GetWindow());
+      const std::string error = backend.Update(request);
+      ++this->Casts;
+      return error.empty() ? backend.Cast(request, target) : error;
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -90,6 +90,7 @@ private:
 
   std::string PlaceIn(RayFrameInput& input, ViewContext& place) const;
   bool Trace(const RayCastFrame& frame);
+  std::string CastMean(const RayCastFrame& frame, RayCastBackend& backend);
   bool IsRepeated(const ImageSource& source) const;
 
   RayCastPresenter Presenter;

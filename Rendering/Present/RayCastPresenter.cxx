@@ -237,6 +237,31 @@ std::string RayCastPresenter::WriteImage(
 }
 
 //------------------------------------------------------------------------------
+std::string RayCastPresenter::MakeMean(
+  int count, const std::function<std::string(int, RayCastTarget&)>& makeImage)
+{
+  // The image that is held is none of these.
+  this->HasDepthsOfImage = false;
+  std::string error = this->Mean.Clear(this->Window, this->Size[0], this->Size[1]);
+  for (int i = 0; i < count && error.empty(); ++i)
+  {
+    this->Filled = { 0, this->Size[0], 0, this->Size[1] };
+    error = makeImage(i, *this);
+    if (error.empty())
+    {
+      error =
+        this->Mean.Add(this->Window, this->Image, this->Filled, static_cast<float>(1.0 / count));
+    }
+  }
+  if (error.empty())
+  {
+    this->Image = this->Mean.Take();
+    this->Filled = { 0, this->Size[0], 0, this->Size[1] };
+  }
+  return error;
+}
+
+//------------------------------------------------------------------------------
 void RayCastPresenter::Finish()
 {
   glFinish();
@@ -249,11 +274,8 @@ std::string RayCastPresenter::Resize(int width, int height)
   {
     return std::string();
   }
-  this->Image = vtkSmartPointer<vtkTextureObject>::New();
-  this->Image->SetContext(this->Window);
-  this->Image->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Image->SetMagnificationFilter(vtkTextureObject::Nearest);
-  if (!this->Image->Allocate2D(width, height, 4, VTK_FLOAT))
+  this->Image = MakeFloatImage(this->Window, width, height);
+  if (!this->Image)
   {
     this->Size[0] = this->Size[1] = 0;
     return "no float image of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -408,6 +430,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Selector.reset();
   this->DepthWriter.reset();
   this->Image = nullptr;
+  this->Mean.Release();
   this->Size[0] = this->Size[1] = 0;
   this->HasDepthsOfImage = false;
   this->Window = nullptr;

@@ -7,6 +7,7 @@
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Present/OpenGLColorCopy.h"
 #include "Rendering/Present/OpenGLDepthCopy.h"
+#include "Rendering/Present/OpenGLImageMean.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -61,6 +62,12 @@ public:
    */
   std::string WriteDepths(const std::vector<float>& depths, const int size[2]);
 
+  /**
+   * Makes the mean of several images, which then is the image to present.
+   * @param makeImage makes image number i of `count`, from 0; called from Present()'s makeImage.
+   */
+  std::string MakeMean(int count, const std::function<std::string(int, RayCastTarget&)>& makeImage);
+
   /** Waits until the device has executed all drawing commands. */
   void Finish();
 
@@ -93,6 +100,7 @@ private:
   OpenGLDepthCopy Depth;
   OpenGLColorCopy Under;
   vtkSmartPointer<vtkTextureObject> Image;
+  OpenGLImageMean Mean;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthWriter;

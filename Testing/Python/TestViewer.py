@@ -192,6 +192,14 @@ class TestCommand(unittest.TestCase):
             with self.subTest(options=options):
                 self.assertGreater(abs(self.draw(self.mesh, *options) - plain).max(), 20)
 
+    def test_rays_at_edges(self):
+        for options, distance in (([], 0.25), (["--backend", "native"], 0.25),
+                                  (["--backend", "opengl"], 1), (["--web"], 1), (["--compare"], 1),
+                                  (["--water", self.water], 1)):
+            with self.subTest(options=options):
+                scene = make_scene(make_parser().parse_args([self.mesh, *options]))
+                self.assertEqual(scene.mapper.GetImageSampleDistance(), distance)
+
     def test_index_one_does_not_refract(self):
         # Only the border of the surface is drawn in addition: at most a line around the picture.
         through = self.draw(self.mesh, "--water", self.water, "--index", "1")

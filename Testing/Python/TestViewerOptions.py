@@ -289,8 +289,11 @@ class TestCompare(Case):
     def test_the_scene_stays(self):
         scene = make_scene(make_parser().parse([self.mesh, "--array", "z"]))
         mapper, camera = scene.volume.GetMapper(), scene.renderer.GetActiveCamera().GetPosition()
+        distance = 0.5
+        mapper.SetImageSampleDistance(distance)
         pairs = list(contest.compare_on(scene, (120, 80)))
         self.assertIs(scene.volume.GetMapper(), mapper)
+        self.assertEqual(mapper.GetImageSampleDistance(), distance)
         self.assertEqual(scene.renderer.GetActiveCamera().GetPosition(), camera)
         for found, picture in pairs:
             self.assertEqual(picture.shape, (40, 60, 3))

@@ -20,6 +20,14 @@ struct TileLeg
   BoundaryRaster::PixelBox Box;
   /** Window depth in [0, 1] per pixel of the image, at which rays end; null for none. */
   const float* OpaqueDepth;
+  /** Rays of a pixel along each axis. */
+  int RaysAcross = 1;
+  /** Nonzero for each ray of the tile that is cast, in rows of TileSize; null for all rays. */
+  const std::uint8_t* Selected = nullptr;
+  /** Box of the image's rays outside of which none is selected. */
+  BoundaryRaster::PixelBox Wanted = Box;
+  /** True if the entries of all these rays were collected for the leg that was cast before. */
+  bool HasEntries = false;
 };
 
 /** Lines of one leg in one frame that enter the mesh, ready to be cast. */

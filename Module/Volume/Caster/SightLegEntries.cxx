@@ -79,7 +79,8 @@ private:
 SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
   const BoundaryTree* tree, const std::vector<RayClippingPlane>& clippingPlanes,
-  const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop)
+  const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop,
+  int pitch)
   : Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
@@ -87,7 +88,7 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   static const std::vector<BoundaryFace> none;
   const bool isHidden =
     legs.GetNumberOfLegs() > 1 && this->EndBefore(BoxOf(*tree, rays.GetFrame()), loop);
-  this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set);
+  this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set, pitch);
   this->Frame.Set(rays, vertices, optics);
 }
 
@@ -160,6 +161,16 @@ bool SightLegEntries::ReachDepth(
 }
 
 //------------------------------------------------------------------------------
+/** Number, in the image, of the pixel of a ray of a tile; of the ray itself if a pixel has one. */
+std::int64_t SightLegEntries::PixelOf(const TileLeg& leg, int column, int row) const
+{
+  const int across = leg.RaysAcross;
+  return across == 1
+    ? std::int64_t{ row } * this->Rays.GetWidth() + column
+    : std::int64_t{ row / across } * (this->Rays.GetWidth() / across) + column / across;
+}
+
+//------------------------------------------------------------------------------
 /** Sets up a ray for each pixel with an entry and a non-empty depth range. */
 void SightLegEntries::TakeRays(
   const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const
@@ -172,7 +183,8 @@ void SightLegEntries::TakeRays(
   for (const std::int32_t pixel : Curve.Pixels)
   {
     const auto inTile = static_cast<std::size_t>(pixel);
-    if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1))
+    if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1) ||
+      (leg.Selected && leg.Selected[inTile] == 0))
     {
       continue;
     }
@@ -180,7 +192,7 @@ void SightLegEntries::TakeRays(
     PacketRay& ray = batch.Rays.emplace_back();
     const int column = leg.Box.Left + pixel % TileSize;
     const int row = leg.Box.Bottom + pixel / TileSize;
-    const double end = ends.At(std::int64_t{ row } * this->Rays.GetWidth() + column);
+    const double end = ends.At(this->PixelOf(leg, column, row));
     this->Limit(column, row, next ? std::min(end, double{ next[pixel].Depth }) : end, ray);
     if (ray.StartDepth < ray.EndDepth)
     {
@@ -212,7 +224,10 @@ void SightLegEntries::Collect(
   if (!this->Raster.IsEmpty(leg.Tile) &&
     (!next || this->ReachDepth(leg.Box, next, this->Raster.NearestDepth(leg.Tile))))
   {
-    this->Raster.CollectEntries(leg.Tile, workspace.Raster);
+    if (!leg.HasEntries)
+    {
+      this->Raster.CollectEntries(leg.Tile, leg.Wanted, workspace.Raster);
+    }
     this->TakeRays(leg, next, joined, workspace);
   }
 }

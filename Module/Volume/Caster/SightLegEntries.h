@@ -14,6 +14,7 @@
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RayLegs.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -31,11 +32,12 @@ public:
   /**
    * All objects that the arguments refer to must outlive this object.
    * @param tree tree over the boundary; may be null if there are no further legs.
+   * @param pitch rays from a tile to the next one, as in `legs`.
    */
   SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
     const std::vector<BoundaryFace>& boundary, const BoundaryTree* tree,
     const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
-    const FrameOptics& optics, InstructionSet set, const RangeLoop& loop);
+    const FrameOptics& optics, InstructionSet set, const RangeLoop& loop, int pitch);
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }
@@ -72,6 +74,7 @@ private:
   bool EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const;
   bool ReachDepth(
     const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;
+  std::int64_t PixelOf(const TileLeg& leg, int column, int row) const;
   void TakeRays(
     const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;
 

@@ -37,6 +37,12 @@ RayEventState FirstState(const TileCaster::Scene& scene)
   return state;
 }
 
+/** Rays from a tile to the next one: tiles have whole pixels. */
+int PitchOf(const TileCaster::Scene& scene)
+{
+  return BoundaryRaster::TileSize / scene.RaysAcross * scene.RaysAcross;
+}
+
 /** A medium in single precision. */
 PacketFading Pack(const RefractionMedium& medium)
 {
@@ -55,8 +61,9 @@ struct TileCaster::TileWork
 {
   PacketJob Job;
   Workspace& Buffers;
-  /** Image of a picture; null for measurements. */
+  /** Colour of the tile's first ray, and rays from a row to the next one; null for measurements. */
   float* Image;
+  std::int64_t Stride;
   RayStatistics Sums;
 };
 
@@ -68,9 +75,10 @@ TileCaster::Workspace::~Workspace() = default;
 //------------------------------------------------------------------------------
 TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   : Input(scene)
-  , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)
+  , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs,
+      PitchOf(scene))
   , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, scene.Refracted.Tree,
-      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop)
+      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop, PitchOf(scene))
 {
   if (scene.PreIntegration)
   {
@@ -158,9 +166,10 @@ void TileCaster::CastBatch(const LegBatch& batch, PacketJob& job, Workspace& wor
 
 //------------------------------------------------------------------------------
 /** Writes the results of rays of one leg, which are colours, to the image. */
-void TileCaster::Show(const LegBatch& batch, const TileLeg& leg,
-  const std::vector<PacketResult>& results, float* image, RayStatistics& sums) const
+void TileCaster::Show(
+  const LegBatch& batch, const std::vector<PacketResult>& results, TileWork& work)
 {
+  RayStatistics& sums = work.Sums;
   for (std::size_t i = 0; i < results.size(); ++i)
   {
     const PacketResult& result = results[i];
@@ -173,9 +182,9 @@ void TileCaster::Show(const LegBatch& batch, const TileLeg& leg,
     sums.Steps += result.Steps;
     ++sums.Rays;
     const std::int32_t pixel = batch.Origins[i].Pixel;
-    const std::int64_t row = leg.Box.Bottom + pixel / RefractedRayTiles::TileSize;
-    const std::int64_t column = leg.Box.Left + pixel % RefractedRayTiles::TileSize;
-    std::copy_n(result.Color, 4, image + 4 * (row * this->Legs.GetWidth() + column));
+    const std::int64_t row = pixel / RefractedRayTiles::TileSize;
+    const std::int64_t column = pixel % RefractedRayTiles::TileSize;
+    std::copy_n(result.Color, 4, work.Image + 4 * (row * work.Stride + column));
   }
 }
 
@@ -257,7 +266,7 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
       this->CastBatch(*batch, job, workspace);
       if (!job.KeepsValues)
       {
-        this->Show(*batch, leg, workspace.Results, work.Image, work.Sums);
+        Show(*batch, workspace.Results, work);
         continue;
       }
       for (std::size_t i = 0; i < workspace.Results.size(); ++i)
@@ -286,11 +295,20 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
 }
 
 //------------------------------------------------------------------------------
-void TileCaster::CastLegs(int tile, const float* opaqueDepth, TileWork& work) const
+TileLeg TileCaster::FirstLeg(int tile, const float* opaqueDepth) const
+{
+  TileLeg leg{ tile, 0, this->GetBox(tile), opaqueDepth };
+  leg.RaysAcross = this->Input.RaysAcross;
+  return leg;
+}
+
+//------------------------------------------------------------------------------
+/** Casts the first leg and all further ones of a tile. */
+void TileCaster::CastLegs(TileLeg leg, TileWork& work) const
 {
   const LegRange& drawn = this->Input.Refracted.Drawn;
-  TileLeg leg{ tile, 0, this->Sight.GetRaster().BoxOfTile(tile), opaqueDepth };
-  for (; leg.Number < std::min(this->Legs.GetNumberOfLegs(tile), drawn.End); ++leg.Number)
+  const int legs = std::min(this->Legs.GetNumberOfLegs(leg.Tile), drawn.End);
+  for (; leg.Number < legs; ++leg.Number)
   {
     if (leg.Number < drawn.First)
     {
@@ -312,31 +330,71 @@ RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
   const int legs = this->Legs.GetNumberOfLegs(tile);
-  TileWork work{ PacketJob{}, workspace, image, RayStatistics() };
+  const BoundaryRaster::PixelBox box = this->GetBox(tile);
+  const std::int64_t stride = this->Legs.GetWidth();
+  TileWork work{ PacketJob{}, workspace, image + 4 * (box.Bottom * stride + box.Left), stride,
+    RayStatistics() };
   if (legs <= this->Input.Refracted.Drawn.First)
   {
     return work.Sums;
   }
-  SetOptics(this->Input, work.Job);
-  work.Job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
-  work.Job.VertexLight = this->Input.VertexLight ? &this->Input.VertexLight->x : nullptr;
+  this->SetPictureOptics(work.Job);
   work.Job.KeepsValues = legs > 1;
   if (work.Job.KeepsValues)
   {
     workspace.Joined.Clear(work.Job.Blending);
   }
-  this->CastLegs(tile, opaqueDepth, work);
+  this->CastLegs(this->FirstLeg(tile, opaqueDepth), work);
   if (work.Job.KeepsValues)
   {
-    workspace.Joined.Finish(work.Job, this->GetBox(tile), this->Legs.GetWidth(), image, work.Sums);
+    workspace.Joined.Finish(work.Job, box, this->Legs.GetWidth(), image, work.Sums);
   }
+  return work.Sums;
+}
+
+//------------------------------------------------------------------------------
+/** Sets the optics that pictures have, but measurements do not need. */
+void TileCaster::SetPictureOptics(PacketJob& job) const
+{
+  SetOptics(this->Input, job);
+  job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
+  job.VertexLight = this->Input.VertexLight ? &this->Input.VertexLight->x : nullptr;
+}
+
+//------------------------------------------------------------------------------
+BoundaryRaster::PixelBox TileCaster::GetPixels(int tile) const
+{
+  const BoundaryRaster::PixelBox rays = this->GetBox(tile);
+  const int across = this->Input.RaysAcross;
+  return { rays.Left / across, rays.Right / across, rays.Bottom / across, rays.Top / across };
+}
+
+//------------------------------------------------------------------------------
+RayStatistics TileCaster::Refine(int tile, const float* opaqueDepth, const std::uint8_t* selected,
+  float* image, Workspace& workspace) const
+{
+  PixelRays& rays = workspace.Refining;
+  const std::int64_t width = this->Legs.GetWidth() / this->Input.RaysAcross;
+  rays.Begin(this->GetBox(tile), this->Input.RaysAcross, selected, width);
+  TileWork work{ PacketJob{}, workspace, rays.GetColors(), PixelRays::TileSize, RayStatistics() };
+  this->SetPictureOptics(work.Job);
+  TileLeg leg = this->FirstLeg(tile, opaqueDepth);
+  leg.Wanted = rays.GetWanted();
+  leg.Selected = rays.GetSelected();
+  this->CastLegs(leg, work);
+  if (rays.SelectOthers(image))
+  {
+    leg.HasEntries = true;
+    this->CastLegs(leg, work);
+  }
+  rays.Finish(image);
   return work.Sums;
 }
 
 //------------------------------------------------------------------------------
 RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* opaqueDepth) const
 {
-  TileWork work{ PacketJob{}, workspace, nullptr, RayStatistics() };
+  TileWork work{ PacketJob{}, workspace, nullptr, 0, RayStatistics() };
   SetOptics(this->Input, work.Job);
   work.Job.Measuring = this->Input.Measuring;
   work.Job.KeepsValues = true;
@@ -357,7 +415,7 @@ RayStatistics TileCaster::Measure(int tile, Workspace& workspace, const float* o
   {
     workspace.Measured.Scalars.fill(MeasuredScalar());
   }
-  this->CastLegs(tile, opaqueDepth, work);
+  this->CastLegs(this->FirstLeg(tile, opaqueDepth), work);
   for (std::int32_t pixel = 0; pixel < RefractedRayTiles::RaysOfTile; ++pixel)
   {
     const std::int32_t steps = workspace.Joined.GetSteps(pixel);

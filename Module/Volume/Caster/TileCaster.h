@@ -10,6 +10,7 @@
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Caster/MeasuredRays.h"
 #include "Volume/Caster/PacketTables.h"
+#include "Volume/Caster/PixelRays.h"
 #include "Volume/Caster/RefractedLegEntries.h"
 #include "Volume/Caster/SightLegEntries.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -92,6 +93,11 @@ public:
     /** Factor from the length of a gradient in the frame to the argument of that table. */
     double GradientMagnitude = 1.0;
     FixedPointRays Rays;
+    /**
+     * Rays of a pixel along each axis, from 1 to 32: `Rays` belong to an image with so many times
+     * the columns and rows, divisible by it. 1 unless Refine() is called and no ray is refracted.
+     */
+    int RaysAcross = 1;
     /** Planes that clip rays: only the part of a ray on the kept side of all of them is drawn. */
     std::vector<RayClippingPlane> ClippingPlanes;
     /** Transmittance at or below which a ray ends. */
@@ -133,6 +139,7 @@ public:
     /** PacketJob::PathsAtPivot of a batch. */
     std::vector<float> Paths;
     JoinedRays Joined;
+    PixelRays Refining;
     /** Values of a batch that is measured, and the measurements of the tile. */
     std::vector<float> Values;
     std::vector<RayEventState> EventStates;
@@ -146,6 +153,16 @@ public:
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
   /**
+   * Casts several rays for each selected pixel (PixelRays), and sets it to the mean of their
+   * colours. Tiles consist of whole pixels.
+   * @param opaqueDepth,image as in Cast(), per pixel, with the colour of one ray per pixel.
+   * @param selected nonzero for each pixel of the image that is selected.
+   */
+  RayStatistics Refine(int tile, const float* opaqueDepth, const std::uint8_t* selected,
+    float* image, Workspace& workspace) const;
+  /** Pixels of a tile, in the image of Refine(). */
+  BoundaryRaster::PixelBox GetPixels(int tile) const;
+  /**
    * Measures the rays of a tile; Workspace::Measured has the results, for scalars, bins or events.
    * A ray that meets nothing has zeros.
    * @param opaqueDepth as in Cast(); null, so that rays are measured to the end, for none.
@@ -156,7 +173,9 @@ private:
   FrameOptics SightOptics() const;
   /** A tile that is being cast. */
   struct TileWork;
-  void CastLegs(int tile, const float* opaqueDepth, TileWork& work) const;
+  void SetPictureOptics(PacketJob& job) const;
+  TileLeg FirstLeg(int tile, const float* opaqueDepth) const;
+  void CastLegs(TileLeg leg, TileWork& work) const;
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,
     TileWork& work) const;
@@ -167,8 +186,7 @@ private:
   template <class Entries>
   void JoinMeasured(const Entries& entries, int frame, const TileLeg& leg, const LegBatch& batch,
     std::size_t ray, Workspace& workspace) const;
-  void Show(const LegBatch& batch, const TileLeg& leg, const std::vector<PacketResult>& results,
-    float* image, RayStatistics& sums) const;
+  static void Show(const LegBatch& batch, const std::vector<PacketResult>& results, TileWork& work);
 
   Scene Input;
   RayLegs Legs;

@@ -66,24 +66,25 @@ PixelSpan SpanOf(
 //------------------------------------------------------------------------------
 void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
   const std::vector<BoundaryFace>& faces, const FixedPointRays& rays, const RangeLoop& loop,
-  InstructionSet set)
+  InstructionSet set, int pitch)
 {
   this->Set = set;
+  this->Pitch = pitch;
   this->Faces.Set(vertices, faces, rays);
-  this->Columns = (rays.GetWidth() + TileSize - 1) / TileSize;
-  this->Rows = (rays.GetHeight() + TileSize - 1) / TileSize;
+  this->Columns = (rays.GetWidth() + pitch - 1) / pitch;
+  this->Rows = (rays.GetHeight() + pitch - 1) / pitch;
 
   this->Boxes.resize(faces.size());
   this->TileBegin.assign(this->GetNumberOfTiles() + 1, 0);
-  const auto forTilesOf = [this](const PixelBox& box, const auto& body)
+  const auto forTilesOf = [this, pitch](const PixelBox& box, const auto& body)
   {
     if (box.IsEmpty())
     {
       return;
     }
-    for (int row = box.Bottom / TileSize; row <= (box.Top - 1) / TileSize; ++row)
+    for (int row = box.Bottom / pitch; row <= (box.Top - 1) / pitch; ++row)
     {
-      for (int column = box.Left / TileSize; column <= (box.Right - 1) / TileSize; ++column)
+      for (int column = box.Left / pitch; column <= (box.Right - 1) / pitch; ++column)
       {
         body(row * this->Columns + column);
       }
@@ -118,10 +119,10 @@ void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
 //------------------------------------------------------------------------------
 ProjectedFaces::PixelBox BoundaryRaster::BoxOfTile(int tile) const
 {
-  const int left = tile % this->Columns * TileSize;
-  const int bottom = tile / this->Columns * TileSize;
-  return { left, std::min(left + TileSize, this->GetRays().GetWidth()), bottom,
-    std::min(bottom + TileSize, this->GetRays().GetHeight()) };
+  const int left = tile % this->Columns * this->Pitch;
+  const int bottom = tile / this->Columns * this->Pitch;
+  return { left, std::min(left + this->Pitch, this->GetRays().GetWidth()), bottom,
+    std::min(bottom + this->Pitch, this->GetRays().GetHeight()) };
 }
 
 //------------------------------------------------------------------------------
@@ -164,13 +165,17 @@ void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspa
 }
 
 //------------------------------------------------------------------------------
-/** Adds a face and the pixels of the tile that it may cover; returns their box. */
+/** Adds a face and the wanted pixels of the tile that it may cover; returns their box. */
 ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
-  std::int32_t index, const PixelBox& tile, Workspace& workspace) const
+  std::int32_t index, const PixelBox& tile, const PixelBox& wanted, Workspace& workspace) const
 {
   const PixelBox& box = this->Boxes[index];
-  const PixelBox covered{ std::max(box.Left, tile.Left), std::min(box.Right, tile.Right),
-    std::max(box.Bottom, tile.Bottom), std::min(box.Top, tile.Top) };
+  const PixelBox covered{ std::max(box.Left, wanted.Left), std::min(box.Right, wanted.Right),
+    std::max(box.Bottom, wanted.Bottom), std::min(box.Top, wanted.Top) };
+  if (covered.IsEmpty())
+  {
+    return { wanted.Right, wanted.Left, wanted.Top, wanted.Bottom };
+  }
   const int width = covered.Right - covered.Left;
   const auto number = static_cast<std::int32_t>(workspace.Faces.size());
   const auto add = [&](int row, const PixelSpan& span)
@@ -208,7 +213,7 @@ ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
 }
 
 //------------------------------------------------------------------------------
-void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
+void BoundaryRaster::CollectEntries(int tile, const PixelBox& wanted, Workspace& workspace) const
 {
   if (this->IsEmpty(tile))
   {
@@ -231,7 +236,7 @@ void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
   PixelBox covered{ box.Right, box.Left, box.Top, box.Bottom };
   for (const auto& face : workspace.Order)
   {
-    const PixelBox part = this->AddSpans(face.second, box, workspace);
+    const PixelBox part = this->AddSpans(face.second, box, wanted, workspace);
     covered = { std::min(covered.Left, part.Left), std::max(covered.Right, part.Right),
       std::min(covered.Bottom, part.Bottom), std::max(covered.Top, part.Top) };
   }

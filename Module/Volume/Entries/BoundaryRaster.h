@@ -33,10 +33,11 @@ public:
    * @param vertices vertices of the mesh in the grid of the rays; must outlive this object.
    * @param faces boundary by which rays may enter; must outlive this object.
    * @param loop runs over the faces, as the caller wants to.
+   * @param pitch rays from a tile to the next one, at most TileSize.
    */
   void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
     const FixedPointRays& rays, const RangeLoop& loop = SerialLoop,
-    InstructionSet set = BestInstructionSet());
+    InstructionSet set = BestInstructionSet(), int pitch = TileSize);
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
   const FixedPointRays& GetRays() const { return this->Faces.GetRays(); }
@@ -80,18 +81,27 @@ public:
       ray.SlopeRest[axis] = workspace.SlopeRests[at];
     }
   }
-  /** Replaces the lists of the workspace by the entries of a tile's rays. */
-  void CollectEntries(int tile, Workspace& workspace) const;
+  /**
+   * Replaces the lists of the workspace by the entries of a tile's rays.
+   * @param wanted box in the tile; rays outside of it get no entries.
+   */
+  void CollectEntries(int tile, const PixelBox& wanted, Workspace& workspace) const;
+  void CollectEntries(int tile, Workspace& workspace) const
+  {
+    this->CollectEntries(tile, this->BoxOfTile(tile), workspace);
+  }
 
 private:
   void FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const;
-  PixelBox AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
+  PixelBox AddSpans(
+    std::int32_t index, const PixelBox& tile, const PixelBox& wanted, Workspace& workspace) const;
 
   /** Readable length of each row of the tile's lines (PacketSpanJob). */
   static constexpr int SizeOfRays = TileSize * TileSize + 16;
 
   ProjectedFaces Faces;
   InstructionSet Set = InstructionSet::Portable;
+  int Pitch = TileSize;
   int Columns = 0;
   int Rows = 0;
   /** Pixels whose rays may enter by each face. */

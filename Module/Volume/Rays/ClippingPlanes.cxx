@@ -41,15 +41,21 @@ RayClippingPlane ComputeClippingPlane(
   {
     return RayClippingPlane();
   }
-  const glm::dvec3 unit = inFrame / size;
-  const glm::dvec2 across(unit);
+  RayClippingPlane plane;
+  plane.InFrame = glm::dvec4(inFrame / size, height / size);
+  return ForRays(plane, frame);
+}
+
+//------------------------------------------------------------------------------
+RayClippingPlane ForRays(const RayClippingPlane& plane, const RayFrame& frame)
+{
+  const glm::dvec2 across(plane.InFrame);
   const auto map = [&across](const AffinePixelMap& pixels, double constant)
   {
     return glm::dvec3(constant + glm::dot(across, pixels.Base), glm::dot(across, pixels.PerColumn),
       glm::dot(across, pixels.PerRow));
   };
-  return { map(frame.Origin, height / size), map(frame.Slope, unit.z),
-    glm::dvec4(unit, height / size) };
+  return { map(frame.Origin, plane.InFrame.w), map(frame.Slope, plane.InFrame.z), plane.InFrame };
 }
 
 //------------------------------------------------------------------------------

@@ -38,6 +38,9 @@ inline bool operator==(const RayClippingPlane& a, const RayClippingPlane& b)
 RayClippingPlane ComputeClippingPlane(
   const RayFrame& frame, const glm::dvec3& normal, double height);
 
+/** The same plane for other rays of the same frame: Refined() or Shifted(). */
+RayClippingPlane ForRays(const RayClippingPlane& plane, const RayFrame& frame);
+
 /** Narrows the depth range of a pixel's ray to the half space; the result may be empty. */
 void ClipRay(const RayClippingPlane& plane, const glm::dvec2& pixel, double& start, double& end);
 

@@ -81,6 +81,29 @@ bool operator==(const RayFrame& a, const RayFrame& b)
 }
 
 //------------------------------------------------------------------------------
+RayFrame Refined(const RayFrame& frame, int across)
+{
+  RayFrame refined = frame;
+  for (AffinePixelMap* map : { &refined.Origin, &refined.Slope })
+  {
+    map->PerColumn /= static_cast<double>(across);
+    map->PerRow /= static_cast<double>(across);
+  }
+  return refined;
+}
+
+//------------------------------------------------------------------------------
+RayFrame Shifted(const RayFrame& frame, const glm::dvec2& fromCenter)
+{
+  RayFrame shifted = frame;
+  for (AffinePixelMap* map : { &shifted.Origin, &shifted.Slope })
+  {
+    map->Base = map->At(fromCenter.x, fromCenter.y);
+  }
+  return shifted;
+}
+
+//------------------------------------------------------------------------------
 RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
 {
   const glm::dmat4& p = input.ViewToClip;

@@ -82,6 +82,15 @@ struct RayFrame
   }
 };
 
+/** Rays of an image with `across` times the columns and rows in the same view. */
+RayFrame Refined(const RayFrame& frame, int across);
+
+/**
+ * Rays of the same image through another point of each pixel.
+ * @param fromCenter place in the pixel from its centre, in pixels.
+ */
+RayFrame Shifted(const RayFrame& frame, const glm::dvec2& fromCenter);
+
 /** True if all numbers are equal, so that images have the same rays. */
 bool operator==(const RayFrame& a, const RayFrame& b);
 

@@ -24,12 +24,13 @@ LegRange LegsOf(MembranePart part)
 
 //------------------------------------------------------------------------------
 RayLegs::RayLegs(const RayFrame& sight, int width, int height,
-  const std::vector<const RefractedRayTiles*>& refracted)
+  const std::vector<const RefractedRayTiles*>& refracted, int pitch)
   : Sight(sight)
   , Width(width)
   , Height(height)
-  , Columns((width + TileSize - 1) / TileSize)
-  , Rows((height + TileSize - 1) / TileSize)
+  , Pitch(pitch)
+  , Columns((width + pitch - 1) / pitch)
+  , Rows((height + pitch - 1) / pitch)
   , Refracted(refracted)
 {
 }

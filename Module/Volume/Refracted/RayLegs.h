@@ -81,9 +81,12 @@ public:
    * @param sight rays of the image's pixels.
    * @param refracted rays behind each of the interfaces, in the order in which rays meet them.
    *   These objects must outlive this one.
+   * @param pitch rays from a tile to the next one: RefractedRayTiles::TileSize, or less if no ray
+   *   is refracted.
    */
   RayLegs(const RayFrame& sight, int width, int height,
-    const std::vector<const RefractedRayTiles*>& refracted = {});
+    const std::vector<const RefractedRayTiles*>& refracted = {},
+    int pitch = RefractedRayTiles::TileSize);
 
   const RayFrame& GetSight() const { return this->Sight; }
   int GetWidth() const { return this->Width; }
@@ -116,8 +119,8 @@ public:
   }
 
   /** Lower left pixel of a tile. */
-  int GetLeft(int tile) const { return tile % this->Columns * RefractedRayTiles::TileSize; }
-  int GetBottom(int tile) const { return tile / this->Columns * RefractedRayTiles::TileSize; }
+  int GetLeft(int tile) const { return tile % this->Columns * this->Pitch; }
+  int GetBottom(int tile) const { return tile / this->Columns * this->Pitch; }
 
   /**
    * Computes leg number `number` of a pixel's ray. Returns false if the ray has no such leg.
@@ -137,6 +140,7 @@ private:
   RayFrame Sight;
   int Width;
   int Height;
+  int Pitch;
   int Columns;
   int Rows;
   std::vector<const RefractedRayTiles*> Refracted;

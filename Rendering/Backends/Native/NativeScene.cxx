@@ -6,6 +6,7 @@
 #include "Rendering/Backends/PacketScene.h"
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
+#include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/PlacedVertices.h"
 #include "Volume/Rays/RayPivot.h"
 
@@ -49,7 +50,7 @@ std::int64_t NativeScene::GetVertexBytes() const
 
 //------------------------------------------------------------------------------
 TileCaster::Scene NativeScene::Make(
-  RayCastTables& tables, const RayCastFrame& frame, int width, int height)
+  RayCastTables& tables, const RayCastFrame& frame, int width, int height, int raysAcross)
 {
   const RayCastOptics& optics = frame.Optics;
   TileCaster::Scene scene;
@@ -67,8 +68,15 @@ TileCaster::Scene NativeScene::Make(
     scene.Refracted = tables.Membrane.See(tables.Input);
   }
   scene.Refracted.Drawn = LegsOf(frame.Refracting.Part);
-  scene.Rays =
-    FixedPointRays(frame.Rays, width, height, FindPivot(frame.Rays, width, height, *scene.Mesh));
+  const RayFrame rays = raysAcross == 1 ? frame.Rays : Refined(frame.Rays, raysAcross);
+  const int columns = raysAcross * width;
+  const int rows = raysAcross * height;
+  scene.Rays = FixedPointRays(rays, columns, rows, FindPivot(rays, columns, rows, *scene.Mesh));
+  scene.RaysAcross = raysAcross;
+  for (RayClippingPlane& plane : scene.ClippingPlanes)
+  {
+    plane = ForRays(plane, rays);
+  }
   const VolumeInput& input = tables.Input;
   const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
   if (versions != this->PlacedVersions || !scene.Rays.PlacesAs(this->PlacedBy))

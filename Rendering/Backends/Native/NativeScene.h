@@ -31,9 +31,11 @@ public:
   void UpdateProperty(const VolumePropertyTables& property);
   /**
    * Scene of a frame for an image of the given size, with the vertices placed about its rays. It
-   * refers to the tables and to this object.
+   * refers to the tables and to this object, and is valid until the next call.
+   * @param raysAcross rays of a pixel along each axis (TileCaster::Scene).
    */
-  TileCaster::Scene Make(RayCastTables& tables, const RayCastFrame& frame, int width, int height);
+  TileCaster::Scene Make(
+    RayCastTables& tables, const RayCastFrame& frame, int width, int height, int raysAcross = 1);
 
   /** Bytes of the tables of the transfer function. */
   std::int64_t GetPropertyBytes() const;

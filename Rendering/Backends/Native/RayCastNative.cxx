@@ -19,22 +19,6 @@ namespace meniscus
 namespace
 {
 
-/** True if two images of one number per pixel are equal in the box. */
-bool HaveEqualRows(const BoundaryRaster::PixelBox& box, int width, const std::vector<float>& a,
-  const std::vector<float>& b)
-{
-  for (int row = box.Bottom; row < box.Top; ++row)
-  {
-    const std::ptrdiff_t start = std::ptrdiff_t{ row } * width;
-    if (!std::equal(a.begin() + start + box.Left, a.begin() + start + box.Right,
-          b.begin() + start + box.Left))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 /** True if a ray of the tile was drawn. */
 bool IsFilled(const RayStatistics& tile)
 {
@@ -104,21 +88,38 @@ std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tabl
 //------------------------------------------------------------------------------
 std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& target)
 {
-  const TileCaster::Scene scene =
-    this->Scene.Make(request.Tables, request.Frame, target.GetWidth(), target.GetHeight());
-  this->CastTiles(scene, target.ReadDepths(), target.GetDepthsOfImage());
-  return target.WriteImage(this->Image, this->Filled);
+  const int width = target.GetWidth();
+  const int height = target.GetHeight();
+  const ImageDepths depths{ target.ReadDepths(), target.GetDepthsOfImage() };
+  this->CastTiles(this->Scene.Make(request.Tables, request.Frame, width, height), depths);
+  const int across = request.Frame.Output.RaysAcross;
+  if (across == 1 || !this->CastsSeveralRays(request))
+  {
+    this->Refined.Clear();
+    const BoundaryRaster::PixelBox& box = this->Filled;
+    return target.WriteImage(this->Image, { box.Left, box.Right, box.Bottom, box.Top });
+  }
+  this->Refined.Refine(this->Image, width, this->Filled, depths,
+    [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
+  return target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled());
 }
 
 //------------------------------------------------------------------------------
-void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
-  const std::vector<float>* before)
+/** Behind a membrane, rays between pixels would have to be refracted. */
+bool RayCastNative::CastsSeveralRays(const RayCastRequest& request) const
+{
+  return !request.Frame.Refracting.Met;
+}
+
+//------------------------------------------------------------------------------
+/** Casts the image, or the tiles of it in which a depth has changed. */
+void RayCastNative::CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths)
 {
   const TileCaster caster(scene, ThreadedLoop);
   const int width = scene.Rays.GetWidth();
-  if (this->Image.size() != 4 * depths.size() || this->ImageWidth != width)
+  if (this->Image.size() != 4 * depths.Now.size() || this->ImageWidth != width)
   {
-    this->Image.assign(4 * depths.size(), 0.0f);
+    this->Image.assign(4 * depths.Now.size(), 0.0f);
     this->ImageWidth = width;
     this->OfTile.assign(static_cast<std::size_t>(caster.GetNumberOfTiles()), RayStatistics());
   }
@@ -132,7 +133,7 @@ void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<
       for (vtkIdType tile = first; tile < last; ++tile)
       {
         const BoundaryRaster::PixelBox box = caster.GetBox(static_cast<int>(tile));
-        if (before && HaveEqualRows(box, width, *before, depths))
+        if (depths.AreThoseBefore(box, width))
         {
           continue;
         }
@@ -141,7 +142,8 @@ void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<
         {
           ClearRows(box, width, this->Image);
         }
-        sums = caster.Cast(static_cast<int>(tile), depths.data(), this->Image.data(), workspace);
+        sums =
+          caster.Cast(static_cast<int>(tile), depths.Now.data(), this->Image.data(), workspace);
         pixels += std::int64_t{ box.Right - box.Left } * (box.Top - box.Bottom);
       }
     });
@@ -177,6 +179,7 @@ RayCastStatistics RayCastNative::GetStatistics()
     total.Lost += tile.Lost;
     total.Overlaps += tile.Overlaps;
   }
+  this->Refined.AddTo(total);
   return total;
 }
 
@@ -185,8 +188,8 @@ RayCastCounters RayCastNative::GetCounters()
 {
   RayCastCounters counters;
   counters.UploadedBytes = this->Counter.GetBytes();
-  counters.HostBytes =
-    this->Scene.GetVertexBytes() + BytesOf(this->Image) + this->Scene.GetPropertyBytes();
+  counters.HostBytes = this->Scene.GetVertexBytes() + BytesOf(this->Image) +
+    this->Refined.GetBytes() + this->Scene.GetPropertyBytes();
   counters.CastPixels = this->CastPixels;
   return counters;
 }

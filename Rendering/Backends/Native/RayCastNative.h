@@ -3,10 +3,13 @@
 #ifndef meniscus_Rendering_Backends_Native_RayCastNative_h
 #define meniscus_Rendering_Backends_Native_RayCastNative_h
 
+#include "Rendering/Backends/Native/ImageDepths.h"
 #include "Rendering/Backends/Native/NativeScene.h"
+#include "Rendering/Backends/Native/RefinedImage.h"
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Backends/TableCounter.h"
 #include "Volume/Caster/TileCaster.h"
+#include "Volume/Entries/BoundaryRaster.h"
 #include "Volume/Rays/RayStatistics.h"
 
 #include <cstdint>
@@ -26,6 +29,7 @@ class RayCastNative : public RayCastBackend
 public:
   std::string CanDraw(const RayCastRequest&) override { return std::string(); }
   bool IsRepeatable() const override { return true; }
+  bool CastsSeveralRays(const RayCastRequest& request) const override;
   std::string Update(const RayCastRequest& request) override;
   std::string Cast(const RayCastRequest& request, RayCastTarget& target) override;
   RayCastStatistics GetStatistics() override;
@@ -34,23 +38,19 @@ public:
 
 private:
   std::int64_t SizeOf(RayCastTable table, const RayCastTables& tables) const;
-  /**
-   * Casts the image, or the tiles of it in which a depth has changed.
-   * @param depths  window depths in [0, 1], one per pixel, rows from below.
-   * @param before  depths that the image was cast for, if the frame is the same otherwise, or null.
-   */
   void BoundFilled(const TileCaster& caster);
-  void CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
-    const std::vector<float>* before);
+  void CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths);
 
   NativeScene Scene;
   TableCounter Counter;
-  /** Image of the last frame, and the statistics of its tiles. */
+  /** Image of the last frame, with one ray per pixel, and the statistics of its tiles. */
   std::vector<float> Image;
   int ImageWidth = 0;
   /** Box around the pixels that are not zero. */
-  RayCastImageBox Filled{ 0, 0, 0, 0 };
+  BoundaryRaster::PixelBox Filled{ 0, 0, 0, 0 };
   std::vector<RayStatistics> OfTile;
+  /** The same image with several rays for pixels at edges; empty unless these are wanted. */
+  RefinedImage Refined;
   std::int64_t CastPixels = 0;
 };
 

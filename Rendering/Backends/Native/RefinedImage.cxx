@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Backends/Native/RefinedImage.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Backends/TableCounter.h"
+#include "Volume/Caster/ImageEdges.h"
+
+#include "vtkSMPThreadLocal.h"
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace meniscus
+{
+namespace
+{
+
+using PixelBox = BoundaryRaster::PixelBox;
+
+/** True if a pixel of the box is at an edge. */
+bool HasEdges(const PixelBox& box, int width, const std::vector<std::uint8_t>& edges)
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    const auto begin = edges.begin() + std::ptrdiff_t{ row } * width;
+    if (std::find(begin + box.Left, begin + box.Right, std::uint8_t{ 1 }) != begin + box.Right)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Copies a box of an image of four numbers per pixel. */
+void CopyRows(
+  const PixelBox& box, int width, const std::vector<float>& from, std::vector<float>& to)
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    const std::ptrdiff_t start = 4 * (std::ptrdiff_t{ row } * width + box.Left);
+    std::copy_n(from.begin() + start, 4 * (box.Right - box.Left), to.begin() + start);
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+void RefinedImage::Refine(const std::vector<float>& image, int width, const PixelBox& filled,
+  const ImageDepths& depths, const std::function<TileCaster::Scene()>& makeScene)
+{
+  this->EdgesBefore.swap(this->Edges);
+  const int height = static_cast<int>(depths.Now.size()) / width;
+  FindImageEdges(image, width, height, filled, ThreadedLoop, this->Edges);
+  this->NumberOfEdges = std::count(this->Edges.begin(), this->Edges.end(), std::uint8_t{ 1 });
+  this->Filled = { filled.Left, filled.Right, filled.Bottom, filled.Top };
+  if (this->NumberOfEdges == 0)
+  {
+    this->Pixels = image;
+    this->OfTile.clear();
+    return;
+  }
+  const TileCaster caster(makeScene(), ThreadedLoop);
+  const bool isKept = depths.Before && this->Pixels.size() == image.size() &&
+    this->OfTile.size() == static_cast<std::size_t>(caster.GetNumberOfTiles());
+  this->Pixels.resize(image.size());
+  this->OfTile.resize(static_cast<std::size_t>(caster.GetNumberOfTiles()));
+  this->CastTiles(caster, image, width, { depths.Now, isKept ? depths.Before : nullptr });
+  this->BoundFilled(caster);
+}
+
+//------------------------------------------------------------------------------
+void RefinedImage::CastTiles(
+  const TileCaster& caster, const std::vector<float>& image, int width, const ImageDepths& depths)
+{
+  vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
+  vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
+    [&](vtkIdType first, vtkIdType last)
+    {
+      TileCaster::Workspace& workspace = workspaces.Local();
+      for (vtkIdType i = first; i < last; ++i)
+      {
+        const auto tile = static_cast<int>(i);
+        const PixelBox box = caster.GetPixels(tile);
+        if (depths.AreThoseBefore(box, width) &&
+          HaveEqualRows(box, width, this->Edges, this->EdgesBefore))
+        {
+          continue;
+        }
+        CopyRows(box, width, image, this->Pixels);
+        this->OfTile[static_cast<std::size_t>(tile)] = HasEdges(box, width, this->Edges)
+          ? caster.Refine(
+              tile, depths.Now.data(), this->Edges.data(), this->Pixels.data(), workspace)
+          : RayStatistics();
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+/** Adds the tiles whose rays met the mesh to the box of the filled pixels. */
+void RefinedImage::BoundFilled(const TileCaster& caster)
+{
+  for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
+  {
+    if (this->OfTile[static_cast<std::size_t>(tile)].Rays > 0)
+    {
+      const PixelBox box = caster.GetPixels(tile);
+      this->Filled = { std::min(this->Filled.Left, box.Left),
+        std::max(this->Filled.Right, box.Right), std::min(this->Filled.Bottom, box.Bottom),
+        std::max(this->Filled.Top, box.Top) };
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefinedImage::Clear()
+{
+  *this = RefinedImage();
+}
+
+//------------------------------------------------------------------------------
+std::int64_t RefinedImage::GetBytes() const
+{
+  return BytesOf(this->Pixels) + BytesOf(this->Edges) + BytesOf(this->EdgesBefore);
+}
+
+//------------------------------------------------------------------------------
+void RefinedImage::AddTo(RayCastStatistics& total) const
+{
+  total.RefinedPixels += this->NumberOfEdges;
+  for (const RayStatistics& tile : this->OfTile)
+  {
+    total.Steps += tile.Steps;
+    total.RefiningSteps += tile.Steps;
+    total.Rays += tile.Rays;
+    total.Lost += tile.Lost;
+    total.Overlaps += tile.Overlaps;
+  }
+}
+
+}

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_Native_RefinedImage_h
+#define meniscus_Rendering_Backends_Native_RefinedImage_h
+
+#include "Rendering/Backends/Native/ImageDepths.h"
+#include "Rendering/Backends/RayCastBackend.h"
+#include "Volume/Caster/TileCaster.h"
+#include "Volume/Entries/BoundaryRaster.h"
+#include "Volume/Rays/RayStatistics.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * An image with several rays for each pixel at an edge (FindImageEdges()), made of an image with
+ * one ray per pixel. Tiles are kept where nothing but depths elsewhere has changed.
+ */
+class RefinedImage
+{
+public:
+  /**
+   * @param image one ray per pixel, premultiplied RGBA, rows from below.
+   * @param filled pixels of the image outside this box are zero.
+   * @param makeScene scene of the rays of a refined image; called if there is an edge.
+   */
+  void Refine(const std::vector<float>& image, int width, const BoundaryRaster::PixelBox& filled,
+    const ImageDepths& depths, const std::function<TileCaster::Scene()>& makeScene);
+  /** Frees the image. */
+  void Clear();
+
+  const std::vector<float>& GetPixels() const { return this->Pixels; }
+  /** Pixels outside this box are zero. */
+  const RayCastImageBox& GetFilled() const { return this->Filled; }
+  std::int64_t GetBytes() const;
+  /** Adds the rays of pixels at edges. */
+  void AddTo(RayCastStatistics& total) const;
+
+private:
+  void CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
+    const ImageDepths& depths);
+  void BoundFilled(const TileCaster& caster);
+
+  std::vector<float> Pixels;
+  /** Nonzero for each pixel at an edge, in this image and in the one before. */
+  std::vector<std::uint8_t> Edges;
+  std::vector<std::uint8_t> EdgesBefore;
+  std::vector<RayStatistics> OfTile;
+  RayCastImageBox Filled{ 0, 0, 0, 0 };
+  std::int64_t NumberOfEdges = 0;
+};
+
+}
+
+#endif

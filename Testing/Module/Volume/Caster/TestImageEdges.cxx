@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Edges of images that are known.
+#include "Volume/Caster/ImageEdges.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <vector>
+
+using namespace meniscus;
+
+namespace
+{
+
+constexpr int Width = 11;
+constexpr int Height = 9;
+
+/** Edges of an image whose opacity is a function of column and row. */
+std::vector<std::uint8_t> EdgesOf(
+  const std::function<float(int, int)>& opacity, int width = Width, int height = Height)
+{
+  std::vector<float> image;
+  for (int row = 0; row < height; ++row)
+  {
+    for (int column = 0; column < width; ++column)
+    {
+      image.insert(image.end(), { 0.0f, 0.0f, 0.0f, opacity(column, row) });
+    }
+  }
+  std::vector<std::uint8_t> edges;
+  FindImageEdges(image, width, height, { 0, width, 0, height }, SerialLoop, edges);
+  return edges;
+}
+
+} // anonymous namespace
+
+TEST(ImageEdges, LinearImagesHaveThemAtTheBorderAtMost)
+{
+  const auto edges =
+    EdgesOf([](int column, int row) { return 0.02f * column + 0.03f * row + 0.1f; });
+  for (int row = 1; row < Height - 1; ++row)
+  {
+    for (int column = 1; column < Width - 1; ++column)
+    {
+      EXPECT_EQ(edges[row * Width + column], 0) << column << ", " << row;
+    }
+  }
+}
+
+TEST(ImageEdges, BothSidesOfAStep)
+{
+  for (const float height : { 0.9f * EdgeThreshold, 1.1f * EdgeThreshold })
+  {
+    const bool isEdge = height > EdgeThreshold;
+    const auto upright =
+      EdgesOf([height](int column, int) { return column < 5 ? 0.3f : 0.3f + height; });
+    const auto diagonal =
+      EdgesOf([height](int column, int row) { return column < row ? 0.3f : 0.3f + height; });
+    for (int row = 0; row < Height; ++row)
+    {
+      for (int column = 0; column < Width; ++column)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(row * Width + column);
+        const bool isBeside = column == 4 || column == 5;
+        EXPECT_EQ(upright[pixel], isEdge && isBeside ? 1 : 0) << column << ", " << row;
+        const bool isNear = column == row || column == row - 1;
+        EXPECT_TRUE(diagonal[pixel] == 1 || !(isEdge && isNear)) << column << ", " << row;
+        EXPECT_TRUE(diagonal[pixel] == 0 || isEdge) << column << ", " << row;
+      }
+    }
+  }
+}
+
+TEST(ImageEdges, OneRowOrColumn)
+{
+  const auto nothing = [](int, int) { return 0.0f; };
+  EXPECT_EQ(EdgesOf(nothing, 1, 1), std::vector<std::uint8_t>(1, 1));
+  EXPECT_EQ(EdgesOf(nothing, 7, 1), std::vector<std::uint8_t>(7, 1));
+  EXPECT_EQ(EdgesOf(nothing, 1, 7), std::vector<std::uint8_t>(7, 1));
+  EXPECT_EQ(EdgesOf(nothing, 2, 2), std::vector<std::uint8_t>(4, 0));
+}
+
+TEST(ImageEdges, PixelsNextToTheFilledBoxCount)
+{
+  std::vector<float> image(std::size_t{ 4 } * Width * Height, 0.0f);
+  image[4 * (4 * Width + 5) + 1] = 1.0f;
+  std::vector<std::uint8_t> edges;
+  FindImageEdges(image, Width, Height, { 5, 6, 4, 5 }, SerialLoop, edges);
+  for (int row = 0; row < Height; ++row)
+  {
+    for (int column = 0; column < Width; ++column)
+    {
+      const bool isNear = std::abs(column - 5) <= 1 && std::abs(row - 4) <= 1;
+      EXPECT_EQ(edges[row * Width + column], isNear ? 1 : 0) << column << ", " << row;
+    }
+  }
+  FindImageEdges(image, Width, Height, { Width, 0, Height, 0 }, SerialLoop, edges);
+  EXPECT_EQ(edges, std::vector<std::uint8_t>(Width * Height, 0));
+}
