@@ -158,7 +158,8 @@ int CompareAll(const VolumeOptions& options)
     }
   }
   const RunDescription description{ options.Mesh.empty() ? "generated block" : options.Mesh,
-    grid->GetNumberOfCells(), comparison.GetDevice(), comparison.GetCopyBandwidth() };
+    grid->GetNumberOfCells(), comparison.GetDevice(), comparison.GetCopyBandwidth(),
+    comparison.GetEmptyMs() };
   PrintDescription(std::cout, options, description);
   PrintTable(std::cout, all);
   return WriteFiles(options, description, all, comparison) ? EXIT_SUCCESS : EXIT_FAILURE;

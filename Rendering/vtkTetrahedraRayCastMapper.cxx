@@ -588,7 +588,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
     vtkErrorMacro("Nothing is rendered: " << error << ".");
     return false;
   }
-  this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
+  this->Tell({ "", internals.Input.WarnOfOverlaps(internals.CountOverlaps()) });
   vtkOpenGLCheckErrorMacro("failed after Render");
   return true;
 }

@@ -322,8 +322,8 @@ public:
    * Set/Get the implementation of the ray caster: OPENGL, a fragment shader; COMPUTE, a compute
    * shader with the same functions (OpenGL 4.3); NATIVE, the CPU, in SIMD packets on all threads of
    * vtkSMPTools; AUTOMATIC, the default: backends that were registered from outside (see
-   * RayCastBackendRegistry.h), then OPENGL, or NATIVE where OpenGL is a software rasteriser. If a
-   * backend cannot draw a frame, the next one does, after a warning with the reason.
+   * RayCastBackendRegistry.h), then NATIVE if OpenGL is a software rasteriser, COMPUTE, or
+   * OPENGL. If a backend cannot draw a frame, the next one does, after a warning with the reason.
    */
   virtual void SetBackend(int backend);
   vtkGetMacro(Backend, int);

@@ -158,6 +158,7 @@ void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
 {
   this->Arenas.clear();
   this->Results.clear();
+  std::vector<double> emptyMs;
   for (const Contestant& contestant : contestants)
   {
     Arena arena{ contestant, contestant.Make(),
@@ -165,6 +166,11 @@ void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
     this->LookFrom(*arena.Scene, 0);
     arena.Scene->GetVolume()->SetVisibility(false);
     this->TimeFrame(arena); // opens the window
+    constexpr int emptyFrames = 5;
+    for (int i = 0; i < emptyFrames; ++i)
+    {
+      emptyMs.push_back(this->TimeSteady(arena, 0).WallMs);
+    }
     this->Device = DeviceName(arena.Scene->GetWindow());
     Figures figures;
     figures.Name = contestant.Name;
@@ -179,6 +185,7 @@ void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
     this->Arenas.push_back(std::move(arena));
     this->Results.push_back(figures);
   }
+  this->EmptyMs = SpreadOf(emptyMs).Median;
   if (this->Settings.Bandwidth && !this->Arenas.empty())
   {
     this->CopyBandwidth = MeasureCopyBandwidth(this->Arenas.front().Scene->GetWindow());

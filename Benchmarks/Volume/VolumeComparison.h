@@ -97,6 +97,8 @@ public:
   std::string GetDevice() const { return this->Device; }
   /** Bytes per second of copies on the device; 0 if not measured. */
   double GetCopyBandwidth() const { return this->CopyBandwidth; }
+  /** Milliseconds of a frame without the mesh: what VTK and the window take of all frames. */
+  double GetEmptyMs() const { return this->EmptyMs; }
 
   /** Writes the first view of every contestant as START-NAME.png; returns false if that fails. */
   bool WritePictures(const std::string& start);
@@ -153,6 +155,7 @@ private:
   std::vector<Figures> Results;
   std::string Device;
   double CopyBandwidth = 0.0;
+  double EmptyMs = 0.0;
 };
 
 } // namespace benchmark

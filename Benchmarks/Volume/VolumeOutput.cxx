@@ -159,6 +159,10 @@ void PrintDescription(
       << description.Device << "; " << vtkVersion::GetVTKSourceVersion() << "; "
       << vtkSMPTools::GetBackend() << ", " << vtkSMPTools::GetEstimatedNumberOfThreads()
       << " threads\n";
+  if (description.EmptyMs > 0.0)
+  {
+    out << "A frame without the mesh: " << MakeNumber(description.EmptyMs, 2) << " ms\n";
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -207,6 +211,7 @@ bool WriteJson(
       << ", \"vtk\": " << Quoted(vtkVersion::GetVTKVersion())
       << ", \"threads\": " << vtkSMPTools::GetEstimatedNumberOfThreads();
   WriteIfMeasured(out, "copy_bytes_per_second", description.CopyBandwidth);
+  WriteIfMeasured(out, "empty_frame_ms", description.EmptyMs);
   out << ", \"mappers\": [";
   for (std::size_t i = 0; i < all.size(); ++i)
   {

@@ -23,6 +23,7 @@ struct RunDescription
   vtkIdType Cells = 0;
   std::string Device;
   double CopyBandwidth = 0.0; // bytes per second; 0: not measured
+  double EmptyMs = 0.0;       // of a frame without the mesh; 0: not measured
 };
 
 /** Mesh, window, device, versions, threads. */

@@ -253,8 +253,13 @@ public:
   }
   /** Fills the target's image: by WriteImage() or on the device. */
   virtual std::string Cast(const RayCastRequest& request, RayCastTarget& target) = 0;
-  /** Statistics of the last frame. */
+  /** Statistics of the last frame, on demand: reading them back may take as long as a frame. */
   virtual RayCastStatistics GetStatistics() { return RayCastStatistics(); }
+  /**
+   * Whether the statistics count overlaps and cost nothing: then they are asked for after every
+   * frame, to warn of overlapping cells.
+   */
+  virtual bool CountsOverlaps() const { return false; }
 };
 
 /** Resources that backends of one mapper share, one object of each class. */

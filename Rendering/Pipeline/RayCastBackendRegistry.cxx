@@ -23,13 +23,13 @@ EntryPointer Entry(
   return std::make_shared<RayCastBackendEntry>(name, std::move(make), fallback, number);
 }
 
-/** All backends of the process; the library's own to begin with, one line each. */
+/** All backends of the process; the library's own to begin with, those preferred first. */
 struct Registry
 {
   std::mutex Mutex;
   std::vector<EntryPointer> Entries{
-    Entry("OpenGL", MakeFragmentBackend, "", Number::OpenGL),
     Entry("Compute", MakeComputeBackend, "OpenGL", Number::Compute),
+    Entry("OpenGL", MakeFragmentBackend, "", Number::OpenGL),
     Entry("Native", MakeNativeBackend, "", Number::Native),
   };
 

@@ -123,6 +123,13 @@ RayCastStatistics RayCastPipeline::GetStatistics() const
 }
 
 //------------------------------------------------------------------------------
+std::int64_t RayCastPipeline::CountOverlaps() const
+{
+  return this->Active && this->Active->CountsOverlaps() ? this->Active->GetStatistics().Overlaps
+                                                        : 0;
+}
+
+//------------------------------------------------------------------------------
 void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Shown = ImageSource();

@@ -64,6 +64,9 @@ public:
 
   /** Statistics of the last frame; zeros after one without rays. */
   RayCastStatistics GetStatistics() const;
+  /** Rays of the last frame through overlapping cells; 0 from a backend that does not count them.
+   */
+  std::int64_t CountOverlaps() const;
   /** Notes a frame without rays. */
   void ClearStatistics() { this->Active = nullptr; }
 

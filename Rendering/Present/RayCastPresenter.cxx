@@ -318,10 +318,10 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
     return error;
   }
   vtkOpenGLQuadHelper* drawer = (output.Selecting ? this->Selector : this->Composer).get();
-  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that
-  // is composited later is rounded by the shader, which has to know all of the sum.
-  const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
-  const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
+  // Devices blend into 8 bits with colours of 8 bits, which rounds three times (Mesa's rasterisers,
+  // NVIDIA's H200); a picture that is composited later is rounded by the shader, which has to know
+  // all of the sum.
+  const bool hasUnder = !output.Selecting && this->Under.Update(this->Window, viewport);
   if (output.Selecting)
   {
     state->vtkglDisable(GL_BLEND);

@@ -9,7 +9,7 @@ in vec2 texCoord;
 //VTK::Output::Dec
 
 uniform sampler2D image;
-// Contents of the framebuffer from the viewport's corner on, for framebuffers that do not blend.
+// Contents of a framebuffer of 8 bits from the viewport's corner on, in place of blending.
 uniform sampler2D under;
 uniform vec2 corner;
 uniform bool hasUnder;
@@ -46,7 +46,8 @@ void main()
   if (hasUnder)
   {
     color += (1.0 - color.a) * texelFetch(under, ivec2(gl_FragCoord.xy - corner), 0);
-    color = biased ? roundForCompositing(color) : color;
+    // Rounded here: NVIDIA's units convert to 11 digits before they round to 8.
+    color = biased ? roundForCompositing(color) : floor(STEPS * color + 0.5) / STEPS;
   }
   else
   {

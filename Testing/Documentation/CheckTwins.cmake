@@ -32,7 +32,7 @@ include("${ROOT}/Module/Volume/Optics/BlendModes.cmake")
 list(TRANSFORM meniscus_blend_mode_parts PREPEND Tetrahedra)
 foreach (part PlateTransmittance TetrahedraRays TetrahedraWalk TetrahedraComponents
     TetrahedraMedium TetrahedraLights TetrahedraPreIntegrated TetrahedraTransferFunction
-    TetrahedraPlaceFS TetrahedraEntryTilesFS MediumTransmittance TetrahedraFading
+    TetrahedraPlaceFS TetrahedraEntryTiles MediumTransmittance TetrahedraFading
     ${meniscus_blend_mode_parts})
   if (NOT "${links}" MATCHES "Rendering/glsl/vtk${part}.glsl>Module/")
     message(SEND_ERROR "vtk${part}.glsl names no twin in Module/")

@@ -81,24 +81,44 @@ void WritePng(const ByteImage& image, const std::string& path)
   writer->Write();
 }
 
-//------------------------------------------------------------------------------
-BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold)
+namespace
 {
-  const ByteImage baseline = ReadPng(std::string(MENISCUS_BASELINE_DIR) + "/" + name + ".png");
-  const StrictDifference difference = CompareStrictly(image, baseline, threshold);
+
+bool IsWithin(const StrictDifference& difference)
+{
+  return difference.SameSize && difference.PixelsBeyond == 0;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+BaselineResult CompareToBaseline(
+  const ByteImage& image, const std::string& name, int threshold, const std::string& folder)
+{
+  const std::string baseline = (folder.empty() ? MENISCUS_BASELINE_DIR : folder) + "/" + name;
+  const StrictDifference difference = CompareStrictly(image, ReadPng(baseline + ".png"), threshold);
   BaselineResult result;
-  result.Passed = difference.SameSize && difference.PixelsBeyond == 0;
+  result.Passed = IsWithin(difference);
+  for (int i = 1; !result.Passed; ++i)
+  {
+    const ByteImage alternate = ReadPng(baseline + "_" + std::to_string(i) + ".png");
+    if (alternate.Rgb.empty())
+    {
+      break;
+    }
+    result.Passed = IsWithin(CompareStrictly(image, alternate, threshold));
+  }
   if (result.Passed)
   {
     return result;
   }
-  const std::string folder = MENISCUS_TEMPORARY_DIR;
-  vtksys::SystemTools::MakeDirectory(folder);
-  WritePng(image, folder + "/" + name + ".png");
+  const std::string output = MENISCUS_TEMPORARY_DIR;
+  vtksys::SystemTools::MakeDirectory(output);
+  WritePng(image, output + "/" + name + ".png");
   std::ostringstream message;
   if (difference.SameSize)
   {
-    WritePng(difference.Image, folder + "/" + name + "-difference.png");
+    WritePng(difference.Image, output + "/" + name + "-difference.png");
     message << difference.PixelsBeyond << " pixels of " << name << " differ by more than "
             << threshold << " of 255 (largest " << difference.Largest << ")";
   }
@@ -107,7 +127,7 @@ BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name
     message << "no baseline of the size " << image.Width << " x " << image.Height << " for "
             << name;
   }
-  message << "; see " << folder << "/" << name << "*.png";
+  message << "; see " << output << "/" << name << "*.png";
   result.Message = message.str();
   return result;
 }

@@ -32,7 +32,8 @@ ByteImage ReadPng(const std::string& path);
 void WritePng(const ByteImage& image, const std::string& path);
 
 /**
- * Result of a comparison with a baseline (Testing/Data/Baseline/NAME.png). On a failure, or without
+ * Result of a comparison with a baseline (Testing/Data/Baseline/NAME.png) or, if that differs, with
+ * its alternates (NAME_1.png, NAME_2.png, ...), as VTK's tests have them. On a failure, or without
  * a baseline, NAME.png and NAME-difference.png are written to the build tree's Testing/Temporary,
  * and the message says so.
  */
@@ -42,7 +43,9 @@ struct BaselineResult
   std::string Message;
 };
 
-BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold);
+/** @param folder  folder of the baselines; empty: Testing/Data/Baseline. */
+BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold,
+  const std::string& folder = std::string());
 
 } // namespace test
 } // namespace meniscus

@@ -4,8 +4,10 @@
 #include "StrictImage.h"
 
 #include <gtest/gtest.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <string>
 
 using namespace meniscus::test;
 
@@ -94,4 +96,18 @@ TEST(StrictImage, MissingBaselineFails)
   const BaselineResult result = CompareToBaseline(Ramp(), "NoSuchBaseline", Threshold);
   EXPECT_FALSE(result.Passed);
   EXPECT_NE(result.Message.find("NoSuchBaseline"), std::string::npos);
+}
+
+TEST(StrictImage, AnAlternateBaselinePasses)
+{
+  const std::string folder = std::string(MENISCUS_TEMPORARY_DIR) + "/AlternateBaselines";
+  vtksys::SystemTools::RemoveADirectory(folder);
+  vtksys::SystemTools::MakeDirectory(folder);
+  ByteImage other = Ramp();
+  std::reverse(other.Rgb.begin(), other.Rgb.end());
+  WritePng(other, folder + "/Ramp.png");
+  WritePng(other, folder + "/Ramp_1.png");
+  EXPECT_FALSE(CompareToBaseline(Ramp(), "Ramp", Threshold, folder).Passed);
+  WritePng(Ramp(), folder + "/Ramp_2.png");
+  EXPECT_TRUE(CompareToBaseline(Ramp(), "Ramp", Threshold, folder).Passed);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Twin: Rendering/glsl/vtkTetrahedraEntryTilesFS.glsl (faces that a tile is entered by)
+// Twin: Rendering/glsl/vtkTetrahedraEntryTiles.glsl (faces that a tile is entered by)
 #include "Volume/Entries/EntryTiles.h"
 
 #include "Common/BlockLoop.h"

@@ -15,7 +15,8 @@ namespace meniscus
 
 /**
  * Bounding volume hierarchy over boundary faces, in preorder, for traversal without a stack: a node
- * that is hit is followed by the next node, a node that is missed by its Skip.
+ * that is hit is followed by the next node, a node that is missed by its Skip. Of n faces a node's
+ * first child has n / 2, rounded down: vtkTetrahedraEntryTilesCS finds subtrees by that.
  */
 class BoundaryTree
 {

@@ -29,6 +29,7 @@ public:
   std::string Update(const RayCastRequest& request) override;
   std::string Cast(const RayCastRequest& request, RayCastTarget& target) override;
   RayCastStatistics GetStatistics() override;
+  bool CountsOverlaps() const override { return true; }
   RayCastCounters GetCounters() override;
 
 private:

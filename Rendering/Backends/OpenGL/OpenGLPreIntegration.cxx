@@ -34,8 +34,8 @@ std::string OpenGLPreIntegration::Upload(
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  texture->SetMinificationFilter(vtkTextureObject::Linear);
-  texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   // VTK only reads the values, but requires a pointer to non-const data.
   auto* values = const_cast<float*>(table.GetValues().data());
   if (!texture->Create3DFromRaw(scalars, scalars, lengths, 4, VTK_FLOAT, values))
@@ -45,8 +45,7 @@ std::string OpenGLPreIntegration::Upload(
       " bytes could not be created on the graphics device";
   }
   this->Texture = texture;
-  this->Size[0] = scalars;
-  this->Size[1] = lengths;
+  this->Scalars = scalars;
   this->Shortest = table.GetShortest();
   this->LengthsPerOctave = table.GetLengthsPerOctave();
   this->Range[0] = static_cast<float>(table.GetMiddle());
@@ -60,8 +59,7 @@ void OpenGLPreIntegration::Activate(vtkShaderProgram* program)
 {
   this->Texture->Activate();
   program->SetUniformi("preIntegrated", this->Texture->GetTextureUnit());
-  const float size[2] = { static_cast<float>(this->Size[0]), static_cast<float>(this->Size[1]) };
-  program->SetUniform2f("preIntegratedSize", size);
+  program->SetUniformf("preIntegratedScalars", static_cast<float>(this->Scalars));
   program->SetUniform2f("preIntegratedRange", this->Range);
   program->SetUniformf("shortestLengthReciprocal", static_cast<float>(1.0 / this->Shortest));
   program->SetUniformf("lengthsPerOctave", static_cast<float>(this->LengthsPerOctave));

@@ -36,7 +36,7 @@ public:
 
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
-  int Size[2] = { 0, 0 };
+  int Scalars = 0;
   double Shortest = 1.0;
   int LengthsPerOctave = 1;
   /** Middle of the scalars and the reciprocal of half their range. */

@@ -8,6 +8,7 @@
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 
+#include "vtkTetrahedraEntryTilesCS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastCS.h"
 #include "vtkTetrahedraRayCastFS.h"
@@ -37,6 +38,9 @@ namespace
  * vtkTetrahedraEntryTilesFS.
  */
 constexpr unsigned int TileLayers = 8;
+/** Pixels of a group of the compute shader, as there. */
+constexpr int GroupSize[2] = { 8, 4 };
+
 void Deactivate(const std::vector<OpenGLTable*>& tables)
 {
   for (OpenGLTable* table : tables)
@@ -155,11 +159,11 @@ std::string RayCastOpenGL::Cast(RayCastTarget& target, RayProgram program)
   }
   if (error.empty() && drawsSight && !this->Frame.Optics.LongLists)
   {
-    error = this->ListEntries(this->Frame, 0);
+    error = this->ListEntries(this->Frame, 0, program);
   }
   if (error.empty() && refracting)
   {
-    error = this->ListRefractedEntries(this->Frame);
+    error = this->ListRefractedEntries(this->Frame, program);
   }
   if (!error.empty())
   {
@@ -215,6 +219,26 @@ std::string RayCastOpenGL::ReadyQuad(
 }
 
 //------------------------------------------------------------------------------
+/** Makes a compute program the current one. */
+template <typename Function>
+std::string RayCastOpenGL::ReadyCompute(
+  vtkSmartPointer<OpenGLComputeProgram>& compute, Function&& makeShader)
+{
+  if (!compute)
+  {
+    const auto program = vtkSmartPointer<OpenGLComputeProgram>::New();
+    const std::string error = program->Build(makeShader());
+    if (!error.empty())
+    {
+      return "a compute shader does not compile on this graphics device: " + error;
+    }
+    compute = program;
+  }
+  compute->Use(this->Window);
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
 /** Makes room for a number of lists per tile. */
 std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists)
 {
@@ -232,7 +256,7 @@ std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tile
  * Lists the entries of refracted rays, if these rays or the boundary by which they enter have
  * changed.
  */
-std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
+std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame, RayProgram program)
 {
   const int legs = frame.Optics.NumberOfLegs;
   const bool hasRoom = this->RefractedTiles && this->RefractedTilesLegs == legs;
@@ -244,7 +268,7 @@ std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
   this->RefractedTilesLegs = legs;
   for (int leg = 1; leg < legs && error.empty(); ++leg)
   {
-    error = this->ListEntries(frame, leg);
+    error = this->ListEntries(frame, leg, program);
     ++this->RefractedEntryLists;
   }
   this->RefractedTilesVersions = error.empty() ? this->RefractedVersions : TableVersions();
@@ -253,7 +277,14 @@ std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 
 //------------------------------------------------------------------------------
 /** Lists the entries of a leg of the rays. */
-std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, int leg)
+std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, int leg, RayProgram program)
+{
+  return program == RayProgram::Compute ? this->DispatchEntries(frame, leg)
+                                        : this->DrawEntries(frame, leg);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DrawEntries(const RayCastFrame& frame, int leg)
 {
   const bool refracted = leg > 0;
   if (!this->TileTarget)
@@ -275,38 +306,58 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, int leg)
   const int legs = frame.Optics.NumberOfLegs;
   std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[{ legs, refracted }];
   const std::string error = this->ReadyQuad(lister,
-    [legs, refracted]()
-    {
-      RayCastOptics optics;
-      optics.NumberOfLegs = legs;
-      std::string source = RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics);
-      vtkShaderProgram::Substitute(source, "//VTK::TetrahedraBehind::Dec",
-        refracted ? "#define BEHIND 1" : "#define BEHIND 0");
-      return source;
-    });
+    [legs, refracted]() { return EntryListerSource(vtkTetrahedraEntryTilesFS, legs, refracted); });
   if (!error.empty())
   {
     return error;
   }
-  vtkShaderProgram* program = lister->Program;
-  const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
   const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
-  program->SetUniform2f("tileCount", tiles);
-  if (refracted)
+  lister->Program->SetUniform2f("tileCount", tiles);
+  this->RunLister(lister->Program, frame, leg, [&lister]() { lister->Render(); });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DispatchEntries(const RayCastFrame& frame, int leg)
+{
+  const bool refracted = leg > 0;
+  const int legs = frame.Optics.NumberOfLegs;
+  vtkSmartPointer<OpenGLComputeProgram>& lister = this->ComputeListers[{ legs, refracted }];
+  const std::string error = this->ReadyCompute(lister,
+    [legs, refracted]() { return EntryListerSource(vtkTetrahedraEntryTilesCS, legs, refracted); });
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkTextureObject* tiles = refracted ? this->RefractedTiles : this->EntryTiles;
+  glBindImageTexture(0, tiles->GetHandle(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+  lister->SetUniformi("firstLayer", refracted ? (leg - 1) * static_cast<int>(TileLayers) : 0);
+  this->RunLister(
+    lister, frame, leg, [this, &lister]() { lister->Dispatch(this->Tiles[0], this->Tiles[1]); });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+template <typename Function>
+void RayCastOpenGL::RunLister(
+  vtkShaderProgram* program, const RayCastFrame& frame, int leg, Function&& run)
+{
+  const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
+  if (leg > 0)
   {
     program->SetUniformi("listedLeg", leg);
   }
-  if (legs > 1)
+  const bool refracting = frame.Optics.NumberOfLegs > 1;
+  if (refracting)
   {
     this->Tables.ActivateRefractedRays(program);
   }
-  lister->Render();
-  if (legs > 1)
+  run();
+  if (refracting)
   {
     this->Tables.GetRefractedRays().Deactivate();
   }
   Deactivate(tables);
-  return std::string();
 }
 
 //------------------------------------------------------------------------------
@@ -338,29 +389,22 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
 {
-  constexpr int groupSize = 8; // as in the shader
   vtkSmartPointer<OpenGLComputeProgram>& caster =
     this->ComputeCasters[RayCastShaderOptions(frame.Optics)];
-  if (!caster)
+  const std::string error = this->ReadyCompute(
+    caster, [&frame]() { return RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics); });
+  if (!error.empty())
   {
-    const auto program = vtkSmartPointer<OpenGLComputeProgram>::New();
-    const std::string error =
-      program->Build(RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics));
-    if (!error.empty())
-    {
-      return "a compute shader does not compile on this graphics device: " + error;
-    }
-    caster = program;
+    return error;
   }
-  caster->Use(this->Window);
   glBindImageTexture(0, this->Image->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
   glBindImageTexture(
     1, this->StatisticsImage->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
   this->RunCaster(caster, frame,
     [this, &caster]()
     {
-      caster->Dispatch(
-        (this->Size[0] + groupSize - 1) / groupSize, (this->Size[1] + groupSize - 1) / groupSize);
+      caster->Dispatch((this->Size[0] + GroupSize[0] - 1) / GroupSize[0],
+        (this->Size[1] + GroupSize[1] - 1) / GroupSize[1]);
     });
   return std::string();
 }
@@ -531,14 +575,19 @@ void RayCastOpenGL::ReleaseGraphicsResources(vtkWindow* window)
   this->Tables.Release(owner);
   this->TileListers.clear();
   this->RayCasters.clear();
-  for (auto& caster : this->ComputeCasters)
+  const auto freeAll = [owner](auto& programs)
   {
-    if (caster.second && owner)
+    for (auto& program : programs)
     {
-      caster.second->Free();
+      if (program.second && owner)
+      {
+        program.second->Free();
+      }
     }
-  }
-  this->ComputeCasters.clear();
+    programs.clear();
+  };
+  freeAll(this->ComputeCasters);
+  freeAll(this->ComputeListers);
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;
   this->EntryTiles = nullptr;

@@ -68,9 +68,15 @@ private:
   std::string Resize(int width, int height);
   template <typename Function>
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
+  template <typename Function>
+  std::string ReadyCompute(vtkSmartPointer<OpenGLComputeProgram>& compute, Function&& makeShader);
   std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists);
-  std::string ListEntries(const RayCastFrame& frame, int leg);
-  std::string ListRefractedEntries(const RayCastFrame& frame);
+  std::string ListEntries(const RayCastFrame& frame, int leg, RayProgram program);
+  std::string DrawEntries(const RayCastFrame& frame, int leg);
+  std::string DispatchEntries(const RayCastFrame& frame, int leg);
+  template <typename Function>
+  void RunLister(vtkShaderProgram* program, const RayCastFrame& frame, int leg, Function&& run);
+  std::string ListRefractedEntries(const RayCastFrame& frame, RayProgram program);
   std::string CastRays(const RayCastFrame& frame);
   std::string DispatchRays(const RayCastFrame& frame);
   template <typename Function>
@@ -88,6 +94,7 @@ private:
   vtkTextureObject* Depth = nullptr;
   /** By the number of legs of a ray, and whether the leg is refracted. */
   std::map<std::pair<int, bool>, std::unique_ptr<vtkOpenGLQuadHelper>> TileListers;
+  std::map<std::pair<int, bool>, vtkSmartPointer<OpenGLComputeProgram>> ComputeListers;
   /** Casters by RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;

@@ -131,7 +131,19 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraLegs::Dec", vtkTetrahedraLegs);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntryTiles::Dec", vtkTetrahedraEntryTiles);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraModel::Dec", ModelSource(optics));
+  return source;
+}
+
+//------------------------------------------------------------------------------
+std::string EntryListerSource(const char* mainShader, int legs, bool behind)
+{
+  RayCastOptics optics;
+  optics.NumberOfLegs = legs;
+  std::string source = RayCastShaderSource(mainShader, optics);
+  vtkShaderProgram::Substitute(
+    source, "//VTK::TetrahedraBehind::Dec", behind ? "#define BEHIND 1" : "#define BEHIND 0");
   return source;
 }
 

@@ -29,6 +29,13 @@ std::string RayCastShaderOptions(const RayCastOptics& optics);
 /** A main shader with the walk and the optical model for the options inserted. */
 std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& optics);
 
+/**
+ * Source of the shader that lists the entries of tiles.
+ * @param legs number of legs of a ray.
+ * @param behind true for the entries of a refracted leg.
+ */
+std::string EntryListerSource(const char* mainShader, int legs, bool behind);
+
 /** Sets the uniforms of the optical model and the clipping planes. */
 void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics);
 

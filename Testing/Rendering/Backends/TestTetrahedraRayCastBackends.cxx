@@ -210,7 +210,7 @@ TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
   scene.GetWindow()->Render();
   const bool software = DeviceName(scene.GetWindow()).find("llvmpipe") != std::string::npos;
   const int expected =
-    software ? vtkTetrahedraRayCastMapper::NATIVE : vtkTetrahedraRayCastMapper::OPENGL;
+    software ? vtkTetrahedraRayCastMapper::NATIVE : vtkTetrahedraRayCastMapper::COMPUTE;
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "light and gradient opacity";
   scene.GetVolume()->SetProperty(MakeProperty(FunctionKind::Smooth, Range, 3.4));
   scene.GetWindow()->Render();

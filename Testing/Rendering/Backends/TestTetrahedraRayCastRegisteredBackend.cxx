@@ -96,6 +96,7 @@ struct Talk
   bool Automatic = true;
   int MeshCopies = 0;
   int ScalarCopies = 0;
+  int StatisticsReads = 0;
 };
 
 /** Draws as grey how long each ray is within the mesh, in world units. */
@@ -165,7 +166,11 @@ public:
     return target.WriteImage(image);
   }
 
-  meniscus::RayCastStatistics GetStatistics() override { return this->Statistics; }
+  meniscus::RayCastStatistics GetStatistics() override
+  {
+    ++this->Tester.StatisticsReads;
+    return this->Statistics;
+  }
 
   meniscus::RayCastCounters GetCounters() override
   {
@@ -268,7 +273,7 @@ protected:
   std::string OwnBackend()
   {
     const bool software = DeviceName(this->Scene.GetWindow()).find("llvmpipe") != std::string::npos;
-    return software ? "Native" : "OpenGL";
+    return software ? "Native" : "Compute";
   }
 
   Talk Words;
@@ -383,6 +388,15 @@ TEST_F(TetrahedraRayCastRegisteredBackend, TablesAreTakenOncePerVersion)
   EXPECT_EQ(this->Words.MeshCopies, 2);
 }
 
+// A device reads back as many numbers for them as for an image.
+TEST_F(TetrahedraRayCastRegisteredBackend, StatisticsAreReadOnDemand)
+{
+  EXPECT_EQ(this->DrawnBy(), "Path length");
+  EXPECT_EQ(this->Words.StatisticsReads, 0);
+  EXPECT_GT(this->Mapper->GetNumberOfRays(), 0);
+  EXPECT_EQ(this->Words.StatisticsReads, 1);
+}
+
 TEST_F(TetrahedraRayCastRegisteredBackend, NamesAreTakenOnce)
 {
   const auto make = [this](meniscus::RayCastSharing&)
@@ -398,5 +412,5 @@ TEST_F(TetrahedraRayCastRegisteredBackend, NamesAreTakenOnce)
   {
     names.push_back(entry->Name);
   }
-  EXPECT_EQ(names, (std::vector<std::string>{ "Path length", "OpenGL", "Compute", "Native" }));
+  EXPECT_EQ(names, (std::vector<std::string>{ "Path length", "Compute", "OpenGL", "Native" }));
 }

@@ -186,7 +186,7 @@ TEST_F(TetrahedraRayCastRepeats, TerminationKeepsItsErrorAndSavesSteps)
   this->Mapper()->SetEarlyTerminationOpacity(1.0);
   const FloatImage whole = this->Settle();
   vtkTypeInt64 steps = this->Mapper()->GetNumberOfTraversalSteps();
-  for (const double opacity : { 1.0 - 1.0 / 131072.0, 0.99, 0.9, 0.5 })
+  for (const double opacity : { 1.0 - 1.0 / 131072.0, 0.999, 0.99, 0.9, 0.5 })
   {
     this->Mapper()->SetEarlyTerminationOpacity(opacity);
     const FloatImage image = this->Settle();

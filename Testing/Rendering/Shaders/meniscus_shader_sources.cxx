@@ -8,6 +8,7 @@
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraDepthFS.h"
+#include "vtkTetrahedraEntryTilesCS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraPlaceFS.h"
 #include "vtkTetrahedraRayCastCS.h"
@@ -247,12 +248,8 @@ void AddAll(ShaderFolder& folder)
       {
         continue; // no ray goes on
       }
-      RayCastOptics optics;
-      optics.NumberOfLegs = legs;
-      std::string source = RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics);
-      ReplaceAll(
-        source, "//VTK::TetrahedraBehind::Dec", "#define BEHIND " + std::to_string(behind));
-      folder.AddFragment("tiles", source);
+      folder.AddFragment("tiles", EntryListerSource(vtkTetrahedraEntryTilesFS, legs, behind == 1));
+      folder.Add("tiles", "comp", EntryListerSource(vtkTetrahedraEntryTilesCS, legs, behind == 1));
     }
   }
   folder.AddFragment("place", vtkTetrahedraPlaceFS);

@@ -393,6 +393,26 @@ TEST(TetrahedralMesh, ManyCellsAboutAnEdge)
   ExpectConsistentLinks(mesh);
 }
 
+// vtkTetrahedraEntryTilesCS finds the subtrees by the number of faces alone.
+TEST(BoundaryTree, FirstChildrenHaveHalfOfTheFaces)
+{
+  MeshArrays arrays = KuhnGrid(3);
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  BoundaryTree tree;
+  tree.Build(mesh);
+  const auto& nodes = tree.GetNodes();
+  const auto facesOf = [&nodes](std::size_t node)
+  { return (static_cast<std::size_t>(nodes[node].Skip) - node + 1) / 2; };
+  EXPECT_EQ(facesOf(0), tree.GetFaces().size());
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+  {
+    const bool leaf = nodes[n].Face >= 0;
+    EXPECT_EQ(leaf, facesOf(n) == 1);
+    EXPECT_TRUE(leaf || facesOf(n + 1) == facesOf(n) / 2) << n;
+  }
+}
+
 TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
 {
   MeshArrays arrays = KuhnGrid(5);
