@@ -66,15 +66,14 @@ public:
     const glm::dvec3 toCenter = this->Box.Center - line.Begin;
     const bool ends = line.End < std::numeric_limits<double>::infinity();
     const double length = ends ? line.End - line.Depth : 0.0;
-    bool isBeside = false;
+    double gap = -1.0; // positive beside the box; computed without branches
     for (int k = 0; k < 3; ++k)
     {
       const double begin = -glm::dot(this->Areas[k], toCenter);
       const double end = begin + length * glm::dot(this->Areas[k], line.Step);
-      isBeside |=
-        (std::min(begin, end) > this->Extents[k]) | (std::max(begin, end) < -this->Extents[k]);
+      gap = std::max(gap, std::max(std::min(begin, end), -std::max(begin, end)) - this->Extents[k]);
     }
-    return ends & isBeside;
+    return ends && gap > 0.0;
   }
 
 private:

@@ -82,7 +82,9 @@ struct StartKernel
       y = flatY + (height * rayByY - besideY);
     }
     // Otherwise the patch is far from flat for this ray.
-    const bool isNear = (std::fabs(x - flatX) < Farthest) & (std::fabs(y - flatY) < Farthest);
+    const bool isNearX = std::fabs(x - flatX) < Farthest;
+    const bool isNearY = std::fabs(y - flatY) < Farthest;
+    const bool isNear = isNearX & isNearY; // without a branch
     lanes.PatchX[i] = lanes.X[i] + static_cast<double>(isNear ? x - flatX : 0.0f);
     lanes.PatchY[i] = lanes.Y[i] + static_cast<double>(isNear ? y - flatY : 0.0f);
     lanes.Behind[i] = start.Size * static_cast<double>(isNear ? height * perHeight : 0.0f);
