@@ -51,15 +51,14 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   {
     this->Clear(window);
   }
-  else if (samples > 0 || (source != 0 && format.HasTexture()))
+  else if (samples > 0)
   {
-    // On an NVIDIA H200, glCopyTexSubImage2D() of depths takes milliseconds and a blit does not.
-    this->Blit(window, viewport);
+    this->Resolve(window, viewport);
   }
   else
   {
-    // A blit would fail between different formats. CopyFromFrameBuffer() is not used: it checks the
-    // window's samples instead of the framebuffer's (VTK 9.1; test MultisampledWindow).
+    // CopyFromFrameBuffer() is not used: it checks the window's samples instead of the
+    // framebuffer's (VTK 9.1; test MultisampledWindow).
     this->Texture->Activate();
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2], viewport[3]);
     this->Texture->Deactivate();
@@ -83,7 +82,7 @@ void OpenGLDepthCopy::Clear(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-void OpenGLDepthCopy::Blit(vtkOpenGLRenderWindow* window, const int viewport[4])
+void OpenGLDepthCopy::Resolve(vtkOpenGLRenderWindow* window, const int viewport[4])
 {
   vtkOpenGLState* state = window->GetState();
   this->Target->SetContext(window);
@@ -123,7 +122,7 @@ void OpenGLDepthCopy::Allocate(
   this->Texture->SetContext(window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  // A blit of depths requires the same format as the source.
+  // A multisampled blit requires the same format as the source.
   if (format.StencilBits > 0)
   {
     this->Texture->AllocateDepthStencil(width, height);

@@ -40,13 +40,6 @@ private:
     int StencilBits = 0;
     bool Float = false;
 
-    /** Whether Allocate() makes a texture of just this format; with stencil bits it has 24 + 8. */
-    bool HasTexture() const
-    {
-      return this->StencilBits == 0 ||
-        (this->StencilBits == 8 && this->DepthBits == 24 && !this->Float);
-    }
-
     bool operator==(const Format& other) const
     {
       return this->DepthBits == other.DepthBits && this->StencilBits == other.StencilBits &&
@@ -57,7 +50,7 @@ private:
   static Format ReadFormat(int framebuffer);
   void Allocate(vtkOpenGLRenderWindow* window, const Format& format, int width, int height);
   void Clear(vtkOpenGLRenderWindow* window);
-  void Blit(vtkOpenGLRenderWindow* window, const int viewport[4]);
+  void Resolve(vtkOpenGLRenderWindow* window, const int viewport[4]);
 
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkNew<vtkOpenGLFramebufferObject> Target;
