@@ -28,7 +28,8 @@ COMMANDS = [
     (r"mpirun -np 2 pvserver$", ["Testing/Plugin/RunServer.py"]),
     (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
     (r"env/bin/pip install ", ["scripts/wheel"]),
-    (r"pip install trame trame-vuetify trame-rca trame-color-opacity-editor$", ["scripts/web"]),
+    (r"pip install trame trame-vuetify trame-rca "
+     r"trame-color-opacity-editor trame-colormaps$", ["scripts/web"]),
 ]
 # Programs of the project, with the folders whose sources contain their options.
 PROGRAMS = {
