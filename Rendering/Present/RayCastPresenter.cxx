@@ -340,9 +340,9 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
     return error;
   }
   vtkOpenGLQuadHelper* drawer = (output.Selecting ? this->Selector : this->Composer).get();
-  // Devices blend into 8 bits with colours of 8 bits, which rounds three times (Mesa's rasterisers,
-  // NVIDIA's H200); a picture that is composited later is rounded by the shader, which has to know
-  // all of the sum.
+  // Devices that blend into 8 bits round more than once: Mesa's rasterisers do, and an NVIDIA H200
+  // is up to 1.26 steps off. A picture that is composited later is rounded by the shader, which has
+  // to know all of the sum.
   const bool hasUnder = !output.Selecting && this->Under.Update(this->Window, viewport);
   if (output.Selecting)
   {
