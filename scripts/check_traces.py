@@ -2,15 +2,28 @@
 """usage: scripts/check_traces.py [ROOT]
 
 Checks the traces of ARCHITECTURE.md, numbered steps of the form "1. `file`, `function`: ...": each
-file has the function, and each step has the next number. Prints each fault; exits with 1 if there
-is any, or if a trace is missing.
+file has the function, and each step has the next number. Checks that the files and names between
+backquotes in ARCHITECTURE.md and Documentation/extending.md exist, and that "`name` in `file`" is
+true; parts of a name between < and > stand for any. Prints each fault; exits with 1 if there is
+any, or if a trace is missing.
 """
+import os
 import pathlib
 import re
 import sys
 
 STEP = re.compile(r"^(\d+)\. `([^`]+)`, `([^`]+)`:", re.MULTILINE)
 TRACES = ("From a scalar to a pixel", "From a membrane vertex to a virtual vertex")
+PAGES = ("ARCHITECTURE.md", "Documentation/extending.md")
+CODE = (".cmake", ".cxx", ".glsl", ".h", ".in", ".md", ".module", ".py", ".toml", ".txt", ".xml")
+WORD = re.compile(r"[A-Za-z_]\w*")
+NAME = re.compile(r"([A-Za-z_]\w*)(::[A-Za-z_]\w*)*(\(\))?")
+FILE = re.compile(r"[\w./<>-]+")
+PLACE = re.compile(r"`([\w:]+)(?:\(\))?`\s+(?:in|of)\s+`([\w./-]+\.\w+)`")
+
+
+def read(file):
+    return file.read_text(encoding="utf-8", errors="replace")
 
 
 def section(text, title):
@@ -32,15 +45,53 @@ def trace_faults(root, title, text):
         if not file.is_file():
             yield f"{where}: no file {name}"
         elif not re.search(r"\b" + re.escape(function.split("::")[-1]) + r"\s*\(",
-                           file.read_text(encoding="utf-8")):
+                           read(file)):
             yield f"{where}: {name} has no {function}"
+
+
+def list_files(root):
+    """Paths of the project's files, relative to its root, without those of builds."""
+    files = []
+    for folder, folders, names in os.walk(root):
+        folders[:] = [name for name in folders
+                      if not name.startswith((".", "build")) and name != "__pycache__"]
+        files += [(pathlib.Path(folder) / name).relative_to(root).as_posix() for name in names]
+    return files
+
+
+def name_faults(root, page, files, words):
+    """Files and names of a page that are neither among the files nor among the words."""
+    text = re.sub(r"^```.*?^```", "", read(root / page), flags=re.MULTILINE | re.DOTALL)
+    for span in sorted(set(re.findall(r"`([^`\n]+)`", text))):
+        if NAME.fullmatch(span):
+            missing = [word for word in WORD.findall(span) if word not in words]
+            if missing:
+                yield f"{page}: no {missing[0]}"
+        elif FILE.fullmatch(span) and ("/" in span or span.endswith(CODE)):
+            # A folder, a file of any folder, or the end of a path.
+            pattern = re.sub(r"<[^>]*>", "[^/]*", re.escape(span.rstrip("/")))
+            if not any(re.search(rf"(^|/){pattern}(/|$)", file) for file in files):
+                yield f"{page}: no file {span}"
+    for name, end in PLACE.findall(text):
+        places = [file for file in files if file == end or file.endswith("/" + end)]
+        if places and not any(re.search(rf"\b{name.split('::')[-1]}\b", read(root / place))
+                              for place in places):
+            yield f"{page}: {end} has no {name}"
 
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    text = (root / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    text = read(root / "ARCHITECTURE.md")
     faults = [fault for title in TRACES
               for fault in trace_faults(root, title, section(text, title))]
+    files = list_files(root)
+    words = {pathlib.PurePath(file).stem for file in files}
+    for file in files:
+        if file.endswith(CODE) and file not in PAGES:
+            words.update(WORD.findall(read(root / file)))
+    for page in PAGES:
+        if (root / page).is_file():
+            faults += name_faults(root, page, files, words)
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults else 0
 

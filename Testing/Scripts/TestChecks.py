@@ -94,6 +94,20 @@ class Checks(unittest.TestCase):
         self.write("ARCHITECTURE.md", TABLE)
         self.expect_fault("a trace without steps", "check_traces.py", str(self.root))
 
+    def test_names_that_a_recipe_invents_are_found(self):
+        page = "Documentation/extending.md"
+        true = ("`Begin()` in `Module/Low/Low.h`, `Low.h`, `Module/<Name>/High.h`, `Module/High`,\n"
+                "`cmake --build`, `a.b`\n\n```\n`Nothing`\n```\n")
+        self.write(page, true)
+        self.assertEqual(self.run_check("check_traces.py", str(self.root)), (0, ""))
+        for name, fault in (
+                ("`Nothing()`", "no Nothing"),
+                ("`Module/Low/Lower.h`", "no file Module/Low/Lower.h"),
+                ("`Lower.h`", "no file Lower.h"), ("`Module/Lower`", "no file Module/Lower"),
+                ("`High()` in\n`Low.h`", "Low.h has no High")):
+            self.write(page, true + "\n" + name + "\n")
+            self.expect_fault(page + ": " + fault, "check_traces.py", str(self.root))
+
     def test_wide_lines_are_found(self):
         self.write("wide.h", "// " + 97 * "x" + "\n// " + 98 * "x" + "\n")
         status, text = self.run_check(*self.text_of("wide.h"))
