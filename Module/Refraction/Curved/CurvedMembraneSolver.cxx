@@ -352,16 +352,6 @@ bool CurvedMembraneSolver::MayShow(
 }
 
 //------------------------------------------------------------------------------
-bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
-{
-  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
-  // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
-  // not.
-  return reach / this->GetMembrane().GetRadius() < RayTubeTree::FarthestRadii &&
-    std::isfinite(local.x + local.y + local.z);
-}
-
-//------------------------------------------------------------------------------
 bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong,
   std::int32_t& facet, glm::dvec2& b, double& l) const
 {

@@ -182,7 +182,10 @@ public:
   {
     return this->Optics.MakeEquation(local);
   }
-  bool IsInReach(const glm::dvec3& local) const;
+  bool IsInReach(const glm::dvec3& local) const
+  {
+    return RayTubeTree::IsInReach(local, this->GetMembrane().GetRadius());
+  }
 
   /**
    * Calls `visit(facet)` for every facet that may show a point of the cube with centre `local` and

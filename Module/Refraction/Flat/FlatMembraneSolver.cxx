@@ -54,16 +54,6 @@ void FlatMembraneSolver::Solve(
 }
 
 //------------------------------------------------------------------------------
-bool FlatMembraneSolver::IsInReach(const glm::dvec3& local) const
-{
-  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
-  // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
-  // not.
-  return reach / this->GetMembrane().GetRadius() < RayTubeTree::FarthestRadii &&
-    std::isfinite(local.x + local.y + local.z);
-}
-
-//------------------------------------------------------------------------------
 VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 {
   VirtualVertex vertex;

@@ -73,7 +73,10 @@ public:
   bool MayShow(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const;
 
 private:
-  bool IsInReach(const glm::dvec3& local) const;
+  bool IsInReach(const glm::dvec3& local) const
+  {
+    return RayTubeTree::IsInReach(local, this->GetMembrane().GetRadius());
+  }
   VirtualVertex MakeVertex(const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const;
 
   std::shared_ptr<const RefractingSurface> Surface = std::make_shared<RefractingSurface>();

@@ -109,12 +109,10 @@ bool StackSolver::MayBeOnLeg(const glm::dvec3& local, std::size_t count) const
 //------------------------------------------------------------------------------
 bool StackSolver::IsInReach(const glm::dvec3& local) const
 {
-  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
-  // The sum is tested so that a NaN fails.
-  return std::isfinite(local.x + local.y + local.z) &&
-    (this->Stack.GetLinks().empty() ||
-      reach / this->Stack.GetLinks().front().Surface->GetMembrane().GetRadius() <
-        RayTubeTree::FarthestRadii);
+  const auto& links = this->Stack.GetLinks();
+  return RayTubeTree::IsInReach(local,
+    links.empty() ? std::numeric_limits<double>::infinity()
+                  : links.front().Surface->GetMembrane().GetRadius());
 }
 
 //------------------------------------------------------------------------------

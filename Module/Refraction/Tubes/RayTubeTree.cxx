@@ -70,6 +70,15 @@ void TubeBounds::Add(const glm::dvec3& start, const glm::dvec3& direction)
 }
 
 //------------------------------------------------------------------------------
+bool RayTubeTree::IsInReach(const glm::dvec3& point, double unit)
+{
+  const double reach = std::max({ std::fabs(point.x), std::fabs(point.y), std::fabs(point.z) });
+  // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
+  // not.
+  return reach / unit < FarthestRadii && std::isfinite(point.x + point.y + point.z);
+}
+
+//------------------------------------------------------------------------------
 void RayTubeTree::Build(const std::vector<glm::dvec3>& centroids, double unit)
 {
   this->Scale = 1.0 / unit;

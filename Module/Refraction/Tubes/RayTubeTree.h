@@ -52,6 +52,8 @@ public:
    * tests.
    */
   static constexpr double FarthestRadii = 0x1p100;
+  /** True for a finite point within that reach of the origin, in units of this length. */
+  static bool IsInReach(const glm::dvec3& point, double unit);
 
   /**
    * Facets are identified by their index; `centroids` are those of all facets in local units.
