@@ -36,7 +36,6 @@ public:
   InputReport Update(const VolumeInput& input, const InputBlocks& parts, ComponentMixture mixture,
     const FunctionFeatures& features);
 
-  ComponentMixture GetMixture() const { return this->Mixture; }
   /** Number of components of the array; 1 if there is no mixture. */
   int GetNumberOfComponents() const { return this->NumberOfComponents; }
   /**

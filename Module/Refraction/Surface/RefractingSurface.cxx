@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 namespace meniscus
@@ -255,10 +256,6 @@ void RefractingSurface::FindInPatch(std::int32_t facet, const glm::dvec3& origin
   const double start = frame.GetHeight(origin);
   PatchCrossings crossings(patch, frame);
   crossings.Find(frame.Project(origin), start + least, start + most);
-  if (!crossings.IsComplete())
-  {
-    ++this->Undecided;
-  }
   for (const PatchCrossing& crossing : crossings)
   {
     take(crossing.B, crossing.Height - start, crossing.Side);

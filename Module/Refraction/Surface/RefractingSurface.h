@@ -11,7 +11,6 @@
 #include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -117,12 +116,6 @@ public:
   /** Rounding error of a position at `distance` from the origin. */
   double GetSlack(double distance) const;
 
-  /**
-   * Number of patches since construction that a ray touched, or ran along, within rounding, so that
-   * its crossings there are not known.
-   */
-  std::int64_t GetNumberOfUndecidedCrossings() const { return this->Undecided; }
-
 private:
   /** Lines that cross a patch once at most. */
   struct PatchSlant
@@ -148,7 +141,6 @@ private:
   BoxTree Tree;
   SteepDirections Steep;
   double Width = 0.0;
-  mutable std::atomic<std::int64_t> Undecided{ 0 };
 };
 
 }

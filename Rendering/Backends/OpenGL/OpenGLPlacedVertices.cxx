@@ -144,7 +144,6 @@ std::string OpenGLPlacedVertices::Update(vtkOpenGLRenderWindow* window, OpenGLTa
   vertices.Deactivate();
   this->Frames = frames;
   this->Version = version;
-  ++this->Placings;
   return std::string();
 }
 

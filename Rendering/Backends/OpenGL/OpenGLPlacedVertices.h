@@ -50,8 +50,6 @@ public:
 
   OpenGLTable& GetTable() { return this->Table; }
   const OpenGLTable& GetTable() const { return this->Table; }
-  /** Number of times that vertices were placed. */
-  std::int64_t GetNumberOfPlacings() const { return this->Placings; }
 
   void Release(vtkWindow* window);
 
@@ -62,7 +60,6 @@ private:
   OpenGLTable Table;
   std::vector<FrameRows> Frames;
   TableVersion Version;
-  std::int64_t Placings = 0;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Target;
   vtkSmartPointer<vtkTextureObject> Fragments;
