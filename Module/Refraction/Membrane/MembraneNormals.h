@@ -24,6 +24,10 @@ namespace meniscus
  * non-manifold is added with its own copies of its corners; it still contributes to the normals of
  * its vertices.
  *
+ * Half-edges exist only on oriented, manifold meshes. OrientFacets() and JoinCoincidentEdges() work
+ * on facets before they are oriented, and a membrane keeps facets whose edge three or more of them
+ * share, so these functions and CurvedPatches have tables of neighbours of their own.
+ *
  * Where the normals of the facets around a vertex cancel out, the normal of the first of them is
  * taken, so that every vertex of a facet has a normal. The other values of `normals` are neither
  * used nor changed.
