@@ -19,9 +19,11 @@ namespace
 // size of the surface: a few units in the last place.
 constexpr double LargestDeviation = 16.0 * std::numeric_limits<float>::epsilon();
 
-// Newton's method converges from one side and quadratically; it takes three to six steps.
+// Newton's method converges from one side and quadratically; it takes two to five steps. The second
+// derivative of the lateral distance, times t, is less than three times the first: a step of this
+// part of t leaves an error of less than 1.5e-14 t.
 constexpr int NewtonSteps = 24;
-constexpr double LastStep = 1e-13;
+constexpr double LastStep = 1e-7;
 
 // Depth of a surface's plane along the axis. Returns false if it is not one at right angles to the
 // axis.
@@ -105,9 +107,10 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 
 //------------------------------------------------------------------------------
 // The unknown is the tangent t in the layer of the smallest index m: those in the others,
-// s / sqrt(r^2 - s^2) with r = n / m and s = t / sqrt(1 + t^2), are concave in t, and so is the
-// lateral distance. Newton's method comes from below after the first step.
-glm::dvec3 ParallelPlanes::FindSight(const glm::dvec3& point, std::size_t count) const
+// t / sqrt(r^2 + (r^2 - 1) t^2) with r = n / m, are concave in t, and so is the lateral distance.
+// Newton's method comes from below after the first step. The straight way has the least tangent.
+glm::dvec3 ParallelPlanes::FindSight(
+  const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
 {
   const glm::dvec3 away = point - this->Eye;
   const double depth = glm::dot(this->Axis, away);
@@ -115,27 +118,30 @@ glm::dvec3 ParallelPlanes::FindSight(const glm::dvec3& point, std::size_t count)
   const double distance = glm::length(lateral);
   const double least =
     *std::min_element(this->Indices.begin(), this->Indices.begin() + static_cast<int>(count) + 1);
-  double t = distance / depth;
+  const double along = glm::dot(this->Axis, near);
+  const double nearSine =
+    this->Indices[0] / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
+  const double straight = distance / depth;
+  double t =
+    along > 0.0 && nearSine < 1.0 ? nearSine / std::sqrt(1.0 - nearSine * nearSine) : straight;
   for (int i = 0; i < NewtonSteps; ++i)
   {
-    const double squared = t * t / (1.0 + t * t); // of the sine
-    double reached = 0.0;
+    double reached = 0.0; // over t
     double slope = 0.0;
     double before = 0.0;
     for (std::size_t layer = 0; layer <= count; ++layer)
     {
       const double end = layer < count ? this->Depths[layer] : depth;
       const double ratio = this->Indices[layer] / least;
-      const double rest = ratio * ratio - squared;
-      const double tangentBySine = 1.0 / std::sqrt(rest);
-      reached += (end - before) * tangentBySine;
-      slope += (end - before) * ratio * ratio * tangentBySine / rest;
+      const double squared = ratio * ratio;
+      const double scale = 1.0 / std::sqrt(squared + (squared - 1.0) * t * t);
+      const double part = (end - before) * scale;
+      reached += part;
+      slope += part * squared * scale * scale;
       before = end;
     }
-    // The sine and its derivative by t.
-    const double cosine = std::sqrt(1.0 - squared);
-    const double step = (distance - reached * t * cosine) / (slope * cosine * cosine * cosine);
-    t += step;
+    const double step = (distance - reached * t) / slope;
+    t = std::max(t + step, straight);
     // Written so that a NaN ends the search.
     if (!(std::fabs(step) > LastStep * t))
     {

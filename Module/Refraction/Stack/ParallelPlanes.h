@@ -33,8 +33,12 @@ public:
    */
   int CountInFront(const glm::dvec3& point) const;
 
-  /** Unit direction of the sight ray to a point behind `count` planes, at least one. */
-  glm::dvec3 FindSight(const glm::dvec3& point, std::size_t count) const;
+  /**
+   * Unit direction of the sight ray to a point behind `count` planes, at least one. `near` is a
+   * direction to begin the search at, of any length; the result depends on it within rounding only.
+   */
+  glm::dvec3 FindSight(
+    const glm::dvec3& point, std::size_t count, const glm::dvec3& near = glm::dvec3(0.0)) const;
 
 private:
   glm::dvec3 Eye{ 0.0 };

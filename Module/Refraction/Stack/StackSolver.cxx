@@ -369,7 +369,7 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
 void StackSolver::Retrace(
   const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const
 {
-  path = StackPath();
+  path.Count = 0;
   if (count == 0)
   {
     return;

@@ -127,7 +127,7 @@ public:
 
   /**
    * Traces the path of a known sight point in world coordinates, in the patch of `facet`, through
-   * at most `count` interfaces.
+   * at most `count` interfaces. The search begins at the places of an earlier path.
    */
   void Retrace(
     const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const;

@@ -114,7 +114,7 @@ bool StackImages::IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count
                          const glm::dvec3& place, const glm::dvec3& image)
   {
     const glm::dvec3 drawn = image - stack.GetOrigin() - stack.GetEye();
-    const glm::dvec3 sight = planes.FindSight(place - stack.GetOrigin(), passed);
+    const glm::dvec3 sight = planes.FindSight(place - stack.GetOrigin(), passed, drawn);
     // Written so that a NaN fails.
     return glm::length(glm::cross(drawn, sight)) <= 0.5 * this->Tolerance * glm::length(drawn);
   };
