@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/CurvedPatches.h"
 
+#include "Common/GroupedItems.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -332,38 +334,29 @@ void CurvedPatches::FindNeighbours()
 void CurvedPatches::FindRings()
 {
   const std::size_t count = this->Surface->GetPositions().size();
-  std::vector<std::int32_t> start(count + 1, 0);
-  for (const Patch& patch : this->Patches)
-  {
-    for (const std::int32_t vertex : patch.Vertex)
+  GroupedItems rings;
+  rings.Set(count,
+    [this](const auto& visit)
     {
-      start[static_cast<std::size_t>(vertex) + 1] += 2;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    start[i + 1] += start[i];
-  }
-  std::vector<std::int32_t> ring(static_cast<std::size_t>(start[count]));
-  std::vector<std::int32_t> place(start.begin(), start.end() - 1);
-  for (const Patch& patch : this->Patches)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      std::int32_t& at = place[static_cast<std::size_t>(patch.Vertex[k])];
-      ring[static_cast<std::size_t>(at++)] = patch.Vertex[(k + 1) % 3];
-      ring[static_cast<std::size_t>(at++)] = patch.Vertex[(k + 2) % 3];
-    }
-  }
+      for (const Patch& patch : this->Patches)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto vertex = static_cast<std::size_t>(patch.Vertex[k]);
+          visit(vertex, patch.Vertex[(k + 1) % 3]);
+          visit(vertex, patch.Vertex[(k + 2) % 3]);
+        }
+      }
+    });
   this->RingStart.assign(1, 0);
   this->Ring.clear();
-  this->Ring.reserve(ring.size() / 2 + count);
+  this->Ring.reserve(3 * this->Patches.size() + count);
+  std::vector<std::int32_t> ring;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto begin = ring.begin() + start[i];
-    const auto end = ring.begin() + start[i + 1];
-    std::sort(begin, end);
-    this->Ring.insert(this->Ring.end(), begin, std::unique(begin, end));
+    ring.assign(rings[i].begin(), rings[i].end());
+    std::sort(ring.begin(), ring.end());
+    this->Ring.insert(this->Ring.end(), ring.begin(), std::unique(ring.begin(), ring.end()));
     this->RingStart.push_back(static_cast<std::int32_t>(this->Ring.size()));
   }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/MembraneOrientation.h"
 
+#include "Common/GroupedItems.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -14,37 +16,22 @@ namespace
 using Facet = std::array<std::int32_t, 3>;
 
 /** The facets around each vertex. */
-struct Fans
+GroupedItems ListFans(const std::vector<Facet>& facets, std::size_t points)
 {
-  std::vector<std::int32_t> Start;
-  std::vector<std::int32_t> Facets;
-
-  Fans(const std::vector<Facet>& all, std::size_t points)
-    : Start(points + 1, 0)
-    , Facets(3 * all.size())
-  {
-    for (const Facet& facet : all)
+  GroupedItems fans;
+  fans.Set(points,
+    [&facets](const auto& visit)
     {
-      for (const std::int32_t vertex : facet)
+      for (std::size_t i = 0; i < facets.size(); ++i)
       {
-        ++this->Start[static_cast<std::size_t>(vertex) + 1];
+        for (const std::int32_t vertex : facets[i])
+        {
+          visit(static_cast<std::size_t>(vertex), static_cast<std::int32_t>(i));
+        }
       }
-    }
-    for (std::size_t i = 1; i < this->Start.size(); ++i)
-    {
-      this->Start[i] += this->Start[i - 1];
-    }
-    std::vector<std::int32_t> next = this->Start;
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-      for (const std::int32_t vertex : all[i])
-      {
-        this->Facets[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] =
-          static_cast<std::int32_t>(i);
-      }
-    }
-  }
-};
+    });
+  return fans;
+}
 
 /** The other facet at an edge, and whether it runs along the edge in the same direction. */
 struct Across
@@ -55,21 +42,19 @@ struct Across
 };
 
 Across FindAcross(
-  const std::vector<Facet>& facets, const Fans& fans, std::int32_t self, std::size_t corner)
+  const std::vector<Facet>& facets, const GroupedItems& fans, std::int32_t self, std::size_t corner)
 {
   const Facet& own = facets[static_cast<std::size_t>(self)];
   const std::int32_t a = own[(corner + 1) % 3];
   const std::int32_t b = own[(corner + 2) % 3];
   Across result;
-  const auto first = static_cast<std::size_t>(fans.Start[static_cast<std::size_t>(a)]);
-  const auto last = static_cast<std::size_t>(fans.Start[static_cast<std::size_t>(a) + 1]);
-  for (std::size_t i = first; i < last; ++i)
+  for (const std::int32_t facet : fans[static_cast<std::size_t>(a)])
   {
-    const Facet& other = facets[static_cast<std::size_t>(fans.Facets[i])];
+    const Facet& other = facets[static_cast<std::size_t>(facet)];
     const auto at =
       static_cast<std::size_t>(std::find(other.begin(), other.end(), a) - other.begin());
     const bool isNext = other[(at + 1) % 3] == b;
-    if (fans.Facets[i] == self || (!isNext && other[(at + 2) % 3] != b))
+    if (facet == self || (!isNext && other[(at + 2) % 3] != b))
     {
       continue;
     }
@@ -77,7 +62,7 @@ Across FindAcross(
     {
       return { -1, false, true };
     }
-    result = { fans.Facets[i], isNext, false };
+    result = { facet, isNext, false };
   }
   return result;
 }
@@ -85,7 +70,7 @@ Across FindAcross(
 /**
  * Visits a piece from `seed`; `turned` marks the facets that have to be reversed to agree with it.
  */
-void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t seed,
+void FillPiece(const std::vector<Facet>& facets, const GroupedItems& fans, std::int32_t seed,
   SurfacePieces& pieces, std::vector<bool>& turned, std::vector<std::int32_t>& piece)
 {
   piece.assign(1, seed);
@@ -128,7 +113,7 @@ void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t 
 //------------------------------------------------------------------------------
 SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
 {
-  const Fans fans(facets, points);
+  const GroupedItems fans = ListFans(facets, points);
   SurfacePieces pieces;
   pieces.PieceOf.assign(facets.size(), -1);
   std::vector<bool> turned(facets.size(), false);

@@ -75,21 +75,6 @@ void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
   this->Rows = (rays.GetHeight() + pitch - 1) / pitch;
 
   this->Boxes.resize(faces.size());
-  this->TileBegin.assign(this->GetNumberOfTiles() + 1, 0);
-  const auto forTilesOf = [this, pitch](const PixelBox& box, const auto& body)
-  {
-    if (box.IsEmpty())
-    {
-      return;
-    }
-    for (int row = box.Bottom / pitch; row <= (box.Top - 1) / pitch; ++row)
-    {
-      for (int column = box.Left / pitch; column <= (box.Right - 1) / pitch; ++column)
-      {
-        body(row * this->Columns + column);
-      }
-    }
-  };
   loop(faces.size(),
     [this](std::size_t first, std::size_t last)
     {
@@ -99,21 +84,26 @@ void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
         this->Boxes[f] = this->Faces.BoundPixels(this->Faces.Project(index)).Box;
       }
     });
-  for (const PixelBox& box : this->Boxes)
-  {
-    forTilesOf(box, [this](int tile) { ++this->TileBegin[tile + 1]; });
-  }
-  for (int tile = 0; tile < this->GetNumberOfTiles(); ++tile)
-  {
-    this->TileBegin[tile + 1] += this->TileBegin[tile];
-  }
-  this->FaceOfSlot.resize(this->TileBegin.back());
-  std::vector<std::int32_t> next(this->TileBegin.begin(), this->TileBegin.end() - 1);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-  {
-    forTilesOf(this->Boxes[f],
-      [&](int tile) { this->FaceOfSlot[next[tile]++] = static_cast<std::int32_t>(f); });
-  }
+  this->FacesOfTiles.Set(static_cast<std::size_t>(this->GetNumberOfTiles()),
+    [this, pitch](const auto& visit)
+    {
+      for (std::size_t f = 0; f < this->Boxes.size(); ++f)
+      {
+        const PixelBox& box = this->Boxes[f];
+        if (box.IsEmpty())
+        {
+          continue;
+        }
+        for (int row = box.Bottom / pitch; row <= (box.Top - 1) / pitch; ++row)
+        {
+          for (int column = box.Left / pitch; column <= (box.Right - 1) / pitch; ++column)
+          {
+            visit(
+              static_cast<std::size_t>(row * this->Columns + column), static_cast<std::int32_t>(f));
+          }
+        }
+      }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -129,9 +119,9 @@ ProjectedFaces::PixelBox BoundaryRaster::BoxOfTile(int tile) const
 double BoundaryRaster::NearestDepth(int tile) const
 {
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
+  for (const std::int32_t face : this->FacesOfTiles[static_cast<std::size_t>(tile)])
   {
-    nearest = std::min(nearest, this->Faces.GetNearestDepth(this->FaceOfSlot[slot]));
+    nearest = std::min(nearest, this->Faces.GetNearestDepth(face));
   }
   return nearest;
 }
@@ -223,9 +213,8 @@ void BoundaryRaster::CollectEntries(int tile, const PixelBox& wanted, Workspace&
   // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
   // leaves little to sort.
   workspace.Order.clear();
-  for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
+  for (const std::int32_t face : this->FacesOfTiles[static_cast<std::size_t>(tile)])
   {
-    const std::int32_t face = this->FaceOfSlot[slot];
     workspace.Order.emplace_back(static_cast<float>(this->Faces.GetNearestDepth(face)), face);
   }
   std::sort(workspace.Order.begin(), workspace.Order.end());

@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Entries_BoundaryRaster_h
 #define meniscus_Volume_Entries_BoundaryRaster_h
 
+#include "Common/GroupedItems.h"
 #include "Common/RangeLoop.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Entries/EntryLists.h"
@@ -46,7 +47,10 @@ public:
   PixelBox BoxOfTile(int tile) const;
 
   /** True if no ray of the tile enters the mesh. */
-  bool IsEmpty(int tile) const { return this->TileBegin[tile] == this->TileBegin[tile + 1]; }
+  bool IsEmpty(int tile) const
+  {
+    return this->FacesOfTiles.IsEmpty(static_cast<std::size_t>(tile));
+  }
   /** Smallest depth of the faces by which rays of a tile may enter; infinite if there is none. */
   double NearestDepth(int tile) const;
 
@@ -106,9 +110,7 @@ private:
   int Rows = 0;
   /** Pixels whose rays may enter by each face. */
   std::vector<PixelBox> Boxes;
-  /** Faces of tile t: FaceOfSlot[TileBegin[t]] to [TileBegin[t + 1]]. */
-  std::vector<std::int32_t> TileBegin;
-  std::vector<std::int32_t> FaceOfSlot;
+  GroupedItems FacesOfTiles;
 };
 
 }

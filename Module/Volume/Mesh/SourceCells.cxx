@@ -3,6 +3,7 @@
 #include "Volume/Mesh/SourceCells.h"
 
 #include "Common/BlockLoop.h"
+#include "Common/GroupedItems.h"
 
 #include <algorithm>
 #include <array>
@@ -16,34 +17,20 @@ namespace
 
 using Quad = std::array<std::int32_t, 4>;
 
-/** Cells of a mesh by their lowest vertex, in compressed rows. */
-struct CellsByVertex
+/** Cells of a mesh by their lowest vertex. */
+GroupedItems ListCells(const TetrahedralMesh& mesh)
 {
-  /** First cell of each vertex in Cells; one more than there are vertices. */
-  std::vector<std::int32_t> Starts;
-  std::vector<std::int32_t> Cells;
-
-  explicit CellsByVertex(const TetrahedralMesh& mesh)
-    : Starts(static_cast<std::size_t>(mesh.GetNumberOfVertices()) + 1, 0)
-    , Cells(static_cast<std::size_t>(mesh.GetNumberOfCells()))
-  {
-    const auto& cells = mesh.GetCells();
-    for (const TetrahedralMesh::Cell& cell : cells)
+  GroupedItems byVertex;
+  byVertex.Set(static_cast<std::size_t>(mesh.GetNumberOfVertices()),
+    [&cells = mesh.GetCells()](const auto& visit)
     {
-      ++this->Starts[static_cast<std::size_t>(cell.Vertices[0]) + 1];
-    }
-    for (std::size_t v = 1; v < this->Starts.size(); ++v)
-    {
-      this->Starts[v] += this->Starts[v - 1];
-    }
-    std::vector<std::int32_t> next(this->Starts);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      const auto vertex = static_cast<std::size_t>(cells[c].Vertices[0]);
-      this->Cells[static_cast<std::size_t>(next[vertex]++)] = static_cast<std::int32_t>(c);
-    }
-  }
-};
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        visit(static_cast<std::size_t>(cells[c].Vertices[0]), static_cast<std::int32_t>(c));
+      }
+    });
+  return byVertex;
+}
 
 /** Vertices of an input cell in ascending order; the first is negative if one is missing. */
 Quad VerticesOf(
@@ -73,7 +60,7 @@ std::vector<std::int32_t> FindSourceCells(
   {
     vertexOfPoint[static_cast<std::size_t>(points[v])] = static_cast<std::int32_t>(v);
   }
-  const CellsByVertex byVertex(mesh);
+  const GroupedItems byVertex = ListCells(mesh);
   constexpr std::int32_t none = -1;
   const auto size = static_cast<std::size_t>(mesh.GetNumberOfCells());
   const std::unique_ptr<std::atomic<std::int32_t>[]> found(new std::atomic<std::int32_t>[size]);
@@ -92,10 +79,9 @@ std::vector<std::int32_t> FindSourceCells(
         {
           continue;
         }
-        const auto lowest = static_cast<std::size_t>(vertices[0]);
-        for (std::int32_t i = byVertex.Starts[lowest]; i < byVertex.Starts[lowest + 1]; ++i)
+        for (const std::int32_t i : byVertex[static_cast<std::size_t>(vertices[0])])
         {
-          const auto cell = static_cast<std::size_t>(byVertex.Cells[static_cast<std::size_t>(i)]);
+          const auto cell = static_cast<std::size_t>(i);
           if (mesh.GetCells()[cell].Vertices != vertices)
           {
             continue;

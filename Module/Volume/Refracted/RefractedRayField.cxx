@@ -124,8 +124,7 @@ private:
 //------------------------------------------------------------------------------
 std::int64_t RefractedRayField::GetBytes() const
 {
-  const std::size_t bytes = (this->TileBegin.capacity() + this->FacetOfSlot.capacity()) * 4;
-  return static_cast<std::int64_t>(bytes);
+  return static_cast<std::int64_t>(this->FacetsOfTiles.GetMemorySize());
 }
 
 //------------------------------------------------------------------------------
@@ -270,38 +269,26 @@ RefractedRayField::SeenFacet RefractedRayField::See(const Membrane& surface,
 //------------------------------------------------------------------------------
 void RefractedRayField::SortFacets(const std::vector<SeenFacet>& facets)
 {
-  const auto forTilesOf = [this](const Box& box, const auto& body)
-  {
-    if (box.IsEmpty())
+  this->FacetsOfTiles.Set(static_cast<std::size_t>(this->Columns) * this->Rows,
+    [this, &facets](const auto& visit)
     {
-      return;
-    }
-    for (int row = box.Bottom / TileSize; row <= (box.Top - 1) / TileSize; ++row)
-    {
-      for (int column = box.Left / TileSize; column <= (box.Right - 1) / TileSize; ++column)
+      for (std::size_t f = 0; f < facets.size(); ++f)
       {
-        body(static_cast<std::size_t>(row) * this->Columns + column);
+        const Box& box = facets[f].Pixels;
+        if (box.IsEmpty())
+        {
+          continue;
+        }
+        for (int row = box.Bottom / TileSize; row <= (box.Top - 1) / TileSize; ++row)
+        {
+          for (int column = box.Left / TileSize; column <= (box.Right - 1) / TileSize; ++column)
+          {
+            visit(
+              static_cast<std::size_t>(row) * this->Columns + column, static_cast<std::int32_t>(f));
+          }
+        }
       }
-    }
-  };
-  this->TileBegin.assign(static_cast<std::size_t>(this->Columns) * this->Rows + 1, 0);
-  for (const SeenFacet& facet : facets)
-  {
-    forTilesOf(facet.Pixels, [this](std::size_t tile) { ++this->TileBegin[tile + 1]; });
-  }
-  for (std::size_t tile = 0; tile + 1 < this->TileBegin.size(); ++tile)
-  {
-    this->TileBegin[tile + 1] += this->TileBegin[tile];
-  }
-  this->FacetOfSlot.resize(static_cast<std::size_t>(this->TileBegin.back()));
-  std::vector<std::int32_t> next(this->TileBegin.begin(), this->TileBegin.end() - 1);
-  for (std::size_t f = 0; f < facets.size(); ++f)
-  {
-    forTilesOf(facets[f].Pixels,
-      [&](std::size_t tile) {
-        this->FacetOfSlot[static_cast<std::size_t>(next[tile]++)] = static_cast<std::int32_t>(f);
-      });
-  }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -326,7 +313,7 @@ void RefractedRayField::Build(
     });
   this->SortFacets(facets);
 
-  const std::size_t tiles = this->TileBegin.size() - 1;
+  const std::size_t tiles = this->FacetsOfTiles.GetNumberOfGroups();
   std::vector<TileSum> sums(tiles);
   rays.Resize(tiles);
   loop(tiles,
@@ -429,23 +416,22 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
 bool RefractedRayField::HidesTile(const CurvedPatches& patches,
   const std::vector<SeenFacet>& facets, int tile, const PixelRays& rays) const
 {
-  const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
-  const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
-  int side = 0;
-  for (std::size_t slot = first; slot < last; ++slot)
+  const GroupedItems::Group own = this->FacetsOfTiles[static_cast<std::size_t>(tile)];
+  int side = 0; // of the first facet
+  for (const std::int32_t facet : own)
   {
-    const SeenFacet& seen = facets[static_cast<std::size_t>(this->FacetOfSlot[slot])];
-    side = slot == first ? seen.Side : side;
+    const SeenFacet& seen = facets[static_cast<std::size_t>(facet)];
+    side = side == 0 ? seen.Side : side;
     if (seen.Matters || seen.IsAtBorder || seen.Unbounded || seen.Side == 0 || seen.Side != side)
     {
       return false;
     }
   }
   std::vector<MembraneHit> hits;
-  for (std::size_t slot = first; slot < last && hits.empty(); ++slot)
+  for (const std::int32_t* facet = own.begin(); facet != own.end() && hits.empty(); ++facet)
   {
-    const std::int32_t facet = this->FacetOfSlot[slot];
-    this->TraceFacet(patches.GetPatch(facet), facets[static_cast<std::size_t>(facet)], rays, hits);
+    this->TraceFacet(
+      patches.GetPatch(*facet), facets[static_cast<std::size_t>(*facet)], rays, hits);
   }
   return !hits.empty();
 }
@@ -463,11 +449,8 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(const CurvedPatches& pat
     return sum;
   }
   std::vector<MembraneHit> hits;
-  const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
-  const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
-  for (std::size_t slot = first; slot < last; ++slot)
+  for (const std::int32_t facet : this->FacetsOfTiles[static_cast<std::size_t>(tile)])
   {
-    const std::int32_t facet = this->FacetOfSlot[slot];
     const SeenFacet& seen = facets[static_cast<std::size_t>(facet)];
     if (!seen.Unbounded || !tileRays.IsBeside(seen.Center, seen.Radius))
     {

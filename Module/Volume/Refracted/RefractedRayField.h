@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Refracted_RefractedRayField_h
 #define meniscus_Volume_Refracted_RefractedRayField_h
 
+#include "Common/GroupedItems.h"
 #include "Common/RangeLoop.h"
 #include "Refraction/Surface/Interface.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -142,8 +143,7 @@ private:
   /** Rays of the pixels, relative to the membrane's origin. */
   SightRays Rays;
   InstructionSet Set = BestInstructionSet();
-  std::vector<std::int32_t> TileBegin;
-  std::vector<std::int32_t> FacetOfSlot;
+  GroupedItems FacetsOfTiles;
 };
 
 }

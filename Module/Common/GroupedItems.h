@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Common_GroupedItems_h
+#define meniscus_Common_GroupedItems_h
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Numbers of items in groups, such as the facets at each vertex, in two arrays. */
+class GroupedItems
+{
+public:
+  struct Group
+  {
+    const std::int32_t* First;
+    const std::int32_t* Last;
+    const std::int32_t* begin() const { return this->First; }
+    const std::int32_t* end() const { return this->Last; }
+  };
+
+  /**
+   * Sets the groups. `forEach(visit)` calls `visit(group, item)` for all pairs, of which there may
+   * be 2^31 - 1. It is called twice; items keep the order of its second call.
+   */
+  template <typename ForEach>
+  void Set(std::size_t groups, const ForEach& forEach)
+  {
+    this->Begins.assign(groups + 1, 0);
+    forEach([this](std::size_t group, std::int32_t) { ++this->Begins[group + 1]; });
+    for (std::size_t group = 0; group < groups; ++group)
+    {
+      this->Begins[group + 1] += this->Begins[group];
+    }
+    this->Items.resize(static_cast<std::size_t>(this->Begins.back()));
+    std::vector<std::int32_t> next(this->Begins.begin(), this->Begins.end() - 1);
+    forEach([this, &next](std::size_t group, std::int32_t item)
+      { this->Items[static_cast<std::size_t>(next[group]++)] = item; });
+  }
+
+  std::size_t GetNumberOfGroups() const { return this->Begins.size() - 1; }
+  bool IsEmpty(std::size_t group) const { return this->Begins[group] == this->Begins[group + 1]; }
+  Group operator[](std::size_t group) const
+  {
+    return { this->Items.data() + this->Begins[group],
+      this->Items.data() + this->Begins[group + 1] };
+  }
+  std::size_t GetMemorySize() const
+  {
+    return (this->Begins.capacity() + this->Items.capacity()) * sizeof(std::int32_t);
+  }
+
+private:
+  std::vector<std::int32_t> Begins{ 0 };
+  std::vector<std::int32_t> Items;
+};
+
+}
+
+#endif
