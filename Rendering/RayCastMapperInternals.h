@@ -35,7 +35,7 @@ public:
    */
   double FullImageTime = 0.0;
 
-  /** Medium behind the membrane of the frame, and that of the caller of RenderPart(). */
+  /** Medium behind the membrane of the frame, and medium that the caller of RenderPart() gave. */
   meniscus::RefractionMedium Medium;
   meniscus::RefractionMedium Surroundings;
 
@@ -50,7 +50,7 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
-  /** Fallbacks that were reported: the backends that refused, and the one that drew. */
+  /** Fallbacks that were reported: names of the backends that refused and of the one that drew. */
   std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;
   /** Matrix of the last frame, for positions given in world coordinates. */
@@ -60,7 +60,7 @@ public:
   /** Null until depths are written, and the depths of the last image that was cast. */
   std::unique_ptr<meniscus::RayPicker> DepthCaster;
   std::vector<float> Depths;
-  /** Number of casts of which these are the depths. */
+  /** Value of the backend's counter of casts at the cast that Depths belongs to. */
   std::int64_t DepthsOfCast = -1;
   /** Part of the volume that is drawn. */
   meniscus::MembranePart Part = meniscus::MembranePart::Whole;

@@ -27,10 +27,10 @@ public:
   /** Filled when it is asked for. */
   vtkNew<vtkTable> StatisticsTable;
   std::vector<meniscus::EnergyBin> EnergyBins;
-  /** Stand in for those of the volume property where nothing depends on it. */
+  /** Used where no array depends on the volume property. */
   vtkNew<vtkVolumeProperty> NoProperty;
   meniscus::FunctionFeatures NoFeatures;
-  /** Stand in for scalars where their values do not matter: one array per data set. */
+  /** Used as scalars where their values do not matter: one array per data set. */
   std::vector<vtkSmartPointer<vtkDataArray>> Constants;
 };
 

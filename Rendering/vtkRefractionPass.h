@@ -27,13 +27,13 @@
  *
  * T is the colour of the virtual geometry, lit by the renderer's lights (Lighting) and seen through
  * the medium behind the membrane: L s + M (1 - s) with the object's light L, the colour M that the
- * medium scatters towards the eye (MediumColor), and the share s. That is exp(-k d) per channel
- * (Beer-Lambert) or linear in d (MediumModel), where d is the array RefractionDepth, the true path
- * from sight point to object. Where there is no virtual geometry, T is the renderer's background,
- * or that behind an infinite medium (InfiniteMedium). F is the Fresnel
- * reflectance of unpolarised light at the membrane's interpolated normal, exact or by Schlick's
- * approximation. R is the colour of the mirror images of AddReflection(), and where there are none
- * that of a cube map in the direction of the reflected ray, or the background.
+ * medium scatters towards the eye (MediumColor), and the transmittance s of the medium. The
+ * transmittance is exp(-k d) per channel (Beer-Lambert) or linear in d (MediumModel), where d is
+ * the array RefractionDepth, the true path from sight point to object. Where there is no virtual
+ * geometry, T is the renderer's background, or the colour of an infinite medium (InfiniteMedium). F
+ * is the Fresnel reflectance of unpolarised light at the membrane's interpolated normal, exact or
+ * by Schlick's approximation. R is the colour of the mirror images of AddReflection(). Where there
+ * are none, R is the colour of a cube map in the direction of the reflected ray, or the background.
  *
  * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
  * Fresnel's transmittance of the interfaces behind the first one that are in front of the object,

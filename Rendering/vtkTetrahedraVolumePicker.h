@@ -8,25 +8,24 @@
  * vtkTetrahedraRayCastMapper, and finds three places on it. Their meaning follows the mapper's
  * blend mode:
  *
- * | blend mode | FIRST_VISIBLE | OPACITY_REACHED | LARGEST_CONTRIBUTION |
- * |---|---|---|---|
- * | composite | first place with opacity | place at which the accumulated opacity reaches
- *   OpacityThreshold | largest attenuation times transmittance, the contribution per length |
- * | isosurface | first visible surface | surface with which it reaches OpacityThreshold | surface
- *   that contributes most |
- * | maximum, minimum | first place of the extreme | the same | the same |
- * | average | first place with a scalar | the same | the same |
- * | additive | as composite blending with the same functions | | |
+ * - composite: FIRST_VISIBLE is the first place with opacity; OPACITY_REACHED the place at which
+ *   the accumulated opacity reaches OpacityThreshold; LARGEST_CONTRIBUTION the place with the
+ *   largest product of attenuation and transmittance, which is the contribution per length;
+ * - isosurface: the first visible surface; the surface with which the opacity reaches
+ *   OpacityThreshold; the surface that contributes most;
+ * - maximum, minimum: the first place of the extreme, for all three;
+ * - average: the first place with a scalar, for all three;
+ * - additive: as composite blending with the same functions.
  *
- * Opacity is that of the picture: the opacity functions of the scalar or of its components, and
- * gradient opacity. The volume's matrix, the mapper's clipping planes, the camera's clipping range
- * and the mapper's refracting surfaces count; behind such surfaces the true place is picked. Early
+ * Opacity is the picture's: the opacity functions of the scalar or of its components, and gradient
+ * opacity. The volume's matrix, the mapper's clipping planes, the camera's clipping range and the
+ * mapper's refracting surfaces count; behind such surfaces the true place is picked. Early
  * termination and pre-integration do not count.
  *
- * Place chooses the place that the getters without an argument return, by which volumes compete:
- * the one with the smallest depth is picked. Volumes of other mappers and other props are not
- * picked. As in VTK's pickers, only props that are visible and pickable count, or those of the pick
- * list, and StartPickEvent, PickEvent and EndPickEvent are sent.
+ * Place chooses the place that the getters without an argument return. Of several volumes, the
+ * picker takes the volume whose place has the smallest depth. Volumes of other mappers and other
+ * props are not picked. As in VTK's pickers, only visible and pickable props count, or the props of
+ * the pick list, and StartPickEvent, PickEvent and EndPickEvent are sent.
  *
  * A pick needs neither a frame nor OpenGL, but a render window with a size. It brings the mapper's
  * tables up to date, as a frame does, so that either finds them ready; the place of the vertices
@@ -91,9 +90,9 @@ public:
   /** @} */
 
   /**
-   * Picks at a place in display coordinates: the ray is that through the centre of the pixel which
-   * contains it. selectionZ has no effect. Returns 1 if a volume was picked, otherwise 0; also for
-   * pixels outside the renderer's viewport.
+   * Picks at a place in display coordinates, by the ray through the centre of the pixel that
+   * contains it. selectionZ has no effect. Returns 1 if a volume was picked; otherwise, and for
+   * pixels outside the renderer's viewport, 0.
    */
   int Pick(double selectionX, double selectionY, double selectionZ, vtkRenderer* renderer) override;
   /** As above. */
@@ -130,8 +129,8 @@ public:
 
   /** @{ */
   /**
-   * The same of any of the three places on the ray through the picked volume, and their positions
-   * in world coordinates. GetPositionOf() returns false if there is none.
+   * Properties of any of the three places on the ray through the picked volume, and their positions
+   * in world coordinates. GetPositionOf() returns false if the ray has no such place.
    */
   vtkIdType GetCellIdOf(int place);
   vtkIdType GetFlatBlockIndexOf(int place);

@@ -33,8 +33,8 @@ struct MesherProcess
   std::function<bool(double)> GoesOn;
 
   /**
-   * Runs the program to an end. No file and no process remains, unless the host is killed
-   * meanwhile: the files then remain, and so does the program; meniscus_tetgen ends too on Linux.
+   * Runs the program to its end and removes its files. If the host process is killed meanwhile,
+   * the files remain, and the program goes on, except for meniscus_tetgen on Linux, which ends.
    */
   ProcessEnd Run(const MeshingTask& task, MeshingAnswer& answer) const;
 };

@@ -61,8 +61,9 @@ struct IntegralChoice
    */
   std::string Want(vtkDataArraySelection* selection);
   bool Has(IntegralArray array) const { return this->Wanted[static_cast<std::size_t>(array)]; }
-  /** True if the scalar is to be measured, and if its values and not only its presence count. */
+  /** True if an array measures the scalar, be it only where there is one. */
   bool NeedsScalars() const;
+  /** True if an array depends on the scalar's values. */
   bool NeedsScalarValues() const;
   /** True if an array needs a volume property. */
   bool NeedsProperty() const { return this->NeedsComposite() || this->Events.NeedsProperty(); }
