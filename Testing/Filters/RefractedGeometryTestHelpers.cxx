@@ -11,6 +11,9 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace meniscus::testing
 {
 
@@ -29,6 +32,52 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
   filter->AddObserver(vtkCommand::WarningEvent, counter);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
   return counter;
+}
+
+//------------------------------------------------------------------------------
+void ProgressWatch::Execute(vtkObject* caller, unsigned long, void*)
+{
+  auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+  this->Falls = this->Falls || algorithm->GetProgress() < this->Last;
+  this->Last = algorithm->GetProgress();
+  if (this->Last > 0.0 && ++this->Calls == 2 && this->Aborts)
+  {
+    algorithm->SetAbortExecute(1);
+  }
+}
+
+//------------------------------------------------------------------------------
+double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
+  const std::function<double(double)>& radius, const std::function<double(double)>& transmittance)
+{
+  vtkPolyData* floor = filter->GetOutput();
+  vtkDataArray* irradiance = floor->GetPointData()->GetArray("RefractionIrradiance");
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    floor->GetPoint(i, p);
+    const double r = std::hypot(p[0], p[2]);
+    if (r < 5.0 || r > 35.0)
+    {
+      continue;
+    }
+    double low = 0.0;
+    double high = 1.5;
+    for (int step = 0; step < 60; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      (radius(middle) < r ? low : high) = middle;
+    }
+    constexpr double small = 1e-5;
+    const double slope = (radius(low + small) - radius(low - small)) / (2.0 * small);
+    const double onSurface = height * std::tan(low);
+    const double surfaceSlope = height / (std::cos(low) * std::cos(low));
+    const double expected =
+      transmittance(low) * std::cos(low) * onSurface * surfaceSlope / (r * slope);
+    largest = std::max(largest, std::fabs(irradiance->GetComponent(i, 0) - expected));
+  }
+  return largest;
 }
 
 //------------------------------------------------------------------------------

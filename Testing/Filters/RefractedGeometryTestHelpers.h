@@ -9,9 +9,11 @@
 #include "vtkCommand.h"
 #include "vtkPolyData.h"
 #include "vtkRefractedGeometryFilter.h"
+#include "vtkRefractedLightFilter.h"
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,27 @@ public:
 
 /** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
+
+/** Observes the progress of a filter, and aborts at the second report of any if `Aborts` is set. */
+class ProgressWatch : public vtkCommand
+{
+public:
+  static ProgressWatch* New() { return new ProgressWatch; }
+  void Execute(vtkObject* caller, unsigned long event, void* data) override;
+
+  double Last = 0.0;
+  int Calls = 0; ///< reports of more than 0
+  bool Falls = false;
+  bool Aborts = false;
+};
+
+/**
+ * Largest difference of the irradiance at points of a horizontal floor from the light of a lamp at
+ * `height` above the first surface and the origin, at distances from 5 to 35. Light at the angle a
+ * passes the first surface at height tan a, ends at radius(a), and transmittance(a) of it passes.
+ */
+double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
+  const std::function<double(double)>& radius, const std::function<double(double)>& transmittance);
 
 /** A flat membrane of side 200, with eight cells along a side. */
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane();

@@ -189,31 +189,8 @@ TEST(RefractedLight, ALampAboveFlatWater)
   const auto sine = [](double a) { return std::sin(a) / Water; };
   const auto radius = [&](double a)
   { return height * std::tan(a) + depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
-  double largest = 0.0;
-  for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    floor->GetPoint(i, p);
-    const double r = std::hypot(p[0], p[2]);
-    if (r < 5.0 || r > 35.0)
-    {
-      continue;
-    }
-    double low = 0.0;
-    double high = 1.5;
-    for (int step = 0; step < 60; ++step)
-    {
-      const double middle = 0.5 * (low + high);
-      (radius(middle) < r ? low : high) = middle;
-    }
-    constexpr double small = 1e-5;
-    const double slope = (radius(low + small) - radius(low - small)) / (2.0 * small);
-    const double onWater = height * std::tan(low);
-    const double waterSlope = height / (std::cos(low) * std::cos(low));
-    const double expected =
-      MakeTransmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
-    largest = std::max(largest, std::fabs(OfPoints(filter)->GetComponent(i, 0) - expected));
-  }
+  const double largest = FindLargestLampError(
+    filter, height, radius, [](double a) { return MakeTransmittance(std::cos(a)); });
   EXPECT_LT(largest, 1e-3);
 }
 

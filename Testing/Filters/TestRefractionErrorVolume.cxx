@@ -8,8 +8,8 @@
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
+#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -530,44 +530,26 @@ TEST(RefractionErrorVolume, KeepsWhatDidNotChange)
 //------------------------------------------------------------------------------
 TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
 {
-  struct Observed
-  {
-    double Last = 0.0;
-    int Calls = 0;
-    bool Falls = false;
-    bool Abort = false;
-  } observed;
   const auto volume = MakeVolume(MakeFlatMembrane());
   volume->SetMembraneModelToFlatFacets();
   volume->SetSampleDimensions(60, 60, 60);
-  vtkNew<vtkCallbackCommand> callback;
-  callback->SetClientData(&observed);
-  callback->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      auto* o = static_cast<Observed*>(data);
-      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-      o->Falls = o->Falls || algorithm->GetProgress() < o->Last;
-      o->Last = algorithm->GetProgress();
-      if (o->Last > 0.0 && ++o->Calls == 2 && o->Abort)
-      {
-        algorithm->SetAbortExecute(1);
-      }
-    });
-  volume->AddObserver(vtkCommand::ProgressEvent, callback);
-  observed.Abort = true;
+  vtkNew<ProgressWatch> aborting;
+  aborting->Aborts = true;
+  const auto observer = volume->AddObserver(vtkCommand::ProgressEvent, aborting);
   volume->Update();
-  EXPECT_LT(observed.Calls, 5);
+  EXPECT_LT(aborting->Calls, 5);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 0);
-  observed = Observed();
+  volume->RemoveObserver(observer);
+  vtkNew<ProgressWatch> watch;
+  volume->AddObserver(vtkCommand::ProgressEvent, watch);
   volume->SetAbortExecute(0);
   volume->Modified();
   volume->Update();
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
-  EXPECT_GE(observed.Calls, 20);
-  EXPECT_FALSE(observed.Falls);
-  EXPECT_EQ(observed.Last, 1.0);
+  EXPECT_GE(watch->Calls, 20);
+  EXPECT_FALSE(watch->Falls);
+  EXPECT_EQ(watch->Last, 1.0);
 }
 
 //------------------------------------------------------------------------------

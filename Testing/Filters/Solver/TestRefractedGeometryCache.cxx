@@ -3,10 +3,10 @@
 // Recomputation after a change, measured by the counters; eye, camera, composite data, abort.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -279,43 +279,24 @@ TEST(RefractedGeometryPipeline, CachesGoWithTheirData)
 //------------------------------------------------------------------------------
 TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
 {
-  struct Observed
-  {
-    double Last = 0.0;
-    int Calls = 0;
-    bool Falls = false;
-    bool Abort = false;
-  } observed;
   const auto filter = MakeFilter(MakeGrid(400, 150.0, -60.0), MakeFlatMembrane());
-  vtkNew<vtkCallbackCommand> callback;
-  callback->SetClientData(&observed);
-  callback->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      auto* o = static_cast<Observed*>(data);
-      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-      o->Falls = o->Falls || algorithm->GetProgress() < o->Last;
-      o->Last = algorithm->GetProgress();
-      if (o->Last > 0.0 && ++o->Calls == 2 && o->Abort)
-      {
-        algorithm->SetAbortExecute(1);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, callback);
-  observed.Abort = true;
+  vtkNew<ProgressWatch> aborting;
+  aborting->Aborts = true;
+  const auto observer = filter->AddObserver(vtkCommand::ProgressEvent, aborting);
   filter->Update();
-  EXPECT_LT(observed.Calls, 5);
+  EXPECT_LT(aborting->Calls, 5);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 0);
-
-  observed = Observed();
+  filter->RemoveObserver(observer);
+  vtkNew<ProgressWatch> watch;
+  filter->AddObserver(vtkCommand::ProgressEvent, watch);
   filter->SetAbortExecute(0);
   filter->Modified();
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 160000);
-  EXPECT_GE(observed.Calls, 4);
-  EXPECT_FALSE(observed.Falls);
-  EXPECT_EQ(observed.Last, 1.0);
+  EXPECT_GE(watch->Calls, 4);
+  EXPECT_FALSE(watch->Falls);
+  EXPECT_EQ(watch->Last, 1.0);
 }
 
 //------------------------------------------------------------------------------
