@@ -8,7 +8,6 @@ from vtkmodules import vtkCommonDataModel as model
 from vtkmodules.vtkCommonDataModel import (
     VTK_POLYHEDRON, vtkImageData, vtkRectilinearGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
-from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
 from ..data import leaves_of
 from .cells import drawn_cells_of, types_of
@@ -74,6 +73,7 @@ def _measure_corners(points, ids, starts, tetrahedra):
 
 def _measure_others(grid, cells):
     """Volumes of polyhedra and prisms."""
+    from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
     chosen, ids = vtkUnstructuredGrid(), vtkIdList()
     chosen.SetPoints(grid.GetPoints())
     for cell in map(int, cells):

@@ -6,12 +6,14 @@ import io
 import os
 import re
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
 from unittest import mock
 
-from meniscus.viewer import levels, reading, window as viewer_window
+from meniscus.viewer import levels, pictures, reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -191,6 +193,18 @@ class TestCommand(unittest.TestCase):
                         ["--view", "0", "1", "3"], ["--up", "z"], ["--water", self.water]):
             with self.subTest(options=options):
                 self.assertGreater(abs(self.draw(self.mesh, *options) - plain).max(), 20)
+
+    def test_modules_of_a_picture(self):
+        """Parts of VTK for windows with widgets, charts and movies are not loaded for a picture."""
+        program = ("import sys\nfrom meniscus.viewer.command import main\n"
+                   "status = main(['demo', '--size', '64x48', '--output', sys.argv[1]])\n"
+                   "wanted = {'vtkInteractionWidgets', 'vtkChartsCore', 'vtkFiltersVerdict'}\n"
+                   "print(status, sorted(wanted & {name.split('.')[-1] for name in sys.modules}))")
+        with tempfile.TemporaryDirectory() as folder:
+            found = subprocess.run(
+                [sys.executable, "-B", "-c", program, os.path.join(folder, "demo.png")],
+                capture_output=True, text=True, check=True)
+        self.assertEqual(found.stdout.splitlines()[-1], "0 []", found.stderr)
 
     def test_rays_at_edges(self):
         for options, distance in (([], 0.25), (["--backend", "native"], 0.25),
@@ -410,9 +424,9 @@ class TestCommand(unittest.TestCase):
             version = mock.Mock(**{"GetVTKMajorVersion.return_value": 9,
                                    "GetVTKMinorVersion.return_value": minor})
             with mock.patch.dict(os.environ, variables, clear=True), \
-                    mock.patch.object(viewer_window, "vtkVersion", version), \
-                    mock.patch.object(viewer_window, "_can_load", libraries.__contains__):
-                viewer_window._choose_headless_window()
+                    mock.patch.object(pictures, "vtkVersion", version), \
+                    mock.patch.object(pictures, "_can_load", libraries.__contains__):
+                pictures._choose_headless_window()
                 return os.environ.get("VTK_DEFAULT_OPENGL_WINDOW")
 
         egl, osmesa = "libEGL.so.1", "libOSMesa.so.8"
