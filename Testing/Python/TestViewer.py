@@ -13,8 +13,11 @@ import unittest
 import warnings
 from unittest import mock
 
+import numpy
+from meniscus.threads import run_blocks
 from meniscus.viewer import levels, pictures, reading
 from meniscus.viewer.command import main, make_parser, make_scene
+from meniscus.viewer.reading import ReadingError
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -67,6 +70,24 @@ def read_picture(name):
 
 def radius(x, y, z):
     return (x * x + y * y + z * z) ** 0.5
+
+
+class TestBlocks(unittest.TestCase):
+    def test_each_index_once(self):
+        for size in (0, 1, 99, 100, 1001):
+            counts = numpy.zeros(size, int)
+
+            def count(first, last):
+                counts[first:last] += 1
+            run_blocks(count, size, 100)
+            self.assertTrue((counts == 1).all())
+
+    def test_exceptions_reach_the_caller(self):
+        def fail(first, _last):
+            if first == 200:
+                raise ReadingError("block")
+        with self.assertRaisesRegex(ReadingError, "block"):
+            run_blocks(fail, 1000, 100)
 
 
 class TestLevels(unittest.TestCase):
@@ -132,6 +153,28 @@ class TestLevels(unittest.TestCase):
                 for ours, theirs in ((found.areas, expected.areas),
                                      (found.volumes, expected.volumes)):
                     self.assertLess(abs(ours - theirs).max(), 1e-12 * theirs.max())
+
+    def test_cells_of_several_sizes(self):
+        """Areas and volumes of cells of two types are the sums of those of either type."""
+        tetrahedra, image = make_block({"z": lambda x, y, z: z}), vtkImageData()
+        image.SetDimensions(5, 5, 9)
+        image.SetOrigin(2, 2, -1)
+        image.SetSpacing(0.25, 0.25, 0.25)
+        heights = vtkDoubleArray()
+        heights.SetName("z")
+        for point in range(image.GetNumberOfPoints()):
+            heights.InsertNextValue(image.GetPoint(point)[2])
+        image.GetPointData().AddArray(heights)
+        both = vtkAppendFilter()
+        both.AddInputData(tetrahedra)
+        both.AddInputData(image)
+        both.Update()
+        found, *parts = (
+            levels.Levels(data, "z", "points") for data in (both.GetOutput(), tetrahedra, image))
+        self.assertEqual((found.low, found.high), (-1.0, 1.0))
+        for name in ("areas", "volumes"):
+            ours, theirs = getattr(found, name), sum(getattr(part, name) for part in parts)
+            self.assertLess(abs(ours - theirs).max(), 1e-12 * theirs.max())
 
     def test_values_that_are_not_finite(self):
         found = levels.Levels(
