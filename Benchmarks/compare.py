@@ -1,22 +1,26 @@
 #!/usr/bin/env python3
-"""usage: Benchmarks/compare.py BEFORE AFTER [--rounds N] [--part volume|refraction] [--json FILE]
+"""usage: Benchmarks/compare.py BEFORE AFTER [--rounds N] [--part PART] [--json FILE]
 
 Compares the benchmarks of two build trees on one machine. BEFORE and AFTER are build folders; their
 programs run in turns, in alternating order, and each row takes the smallest processor time of all
 rounds, because disturbances only add time. Prints a table in Markdown and exits with 1 if a row of
-AFTER is more than 3 % slower. Meshes are taken from the folder that MENISCUS_DATA_DIR names, or
-from ../shared/data next to the clone; without them only a generated block is used. Needs a
-display.
+AFTER is more than 3 % slower. PART is volume, refraction or picture: the processor time of the
+command `meniscus` from its start to the end of a picture, if both trees have the Python package; it
+needs a Python with their VTK. Default: all parts. Meshes are taken from the folder that
+MENISCUS_DATA_DIR names, or from ../shared/data next to the clone; without them only a generated
+block or the demo is used. Needs a display.
 """
 import argparse
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
 
 SLOWER = 1.03
+PARTS = ("volume", "refraction", "picture")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BACKENDS = "meniscus/native/exact,meniscus/opengl/exact,meniscus/compute/exact"
 # Rows of the growth of the refraction benchmark. Those of brute force take minutes and measure no
@@ -40,13 +44,16 @@ def run(command):
             return json.load(file)
 
 
+def find_meshes():
+    """Files of the data meshes, by name."""
+    data = pathlib.Path(os.environ.get("MENISCUS_DATA_DIR", ROOT.parent / "shared" / "data"))
+    files = {name: data / (name + ".vtu") for name in ("blunt_fin", "combustor")}
+    return {name: str(file) for name, file in files.items() if file.exists()}
+
+
 def volume_cases():
     """Arguments of the volume benchmark per case."""
-    data = pathlib.Path(os.environ.get("MENISCUS_DATA_DIR", ROOT.parent / "shared" / "data"))
-    meshes = [("block", [])]
-    for name in ("blunt_fin", "combustor"):
-        if (data / (name + ".vtu")).exists():
-            meshes.append((name, ["--mesh", str(data / (name + ".vtu"))]))
+    meshes = [("block", []), *((name, ["--mesh", file]) for name, file in find_meshes().items())]
     for mesh, arguments in meshes:
         for function in ("smooth", "opaque", "sparse"):
             yield f"{mesh}, {function}", [*arguments, "--function", function]
@@ -78,6 +85,28 @@ def measure_refraction(build):
     return rows
 
 
+def package_of(build):
+    """Folder of the Python package of a build tree."""
+    return build.resolve() / "lib/python3/dist-packages"
+
+
+def measure_pictures(build):
+    """Processor seconds of the command for a picture of 1920 x 1080, from a file or the demo."""
+    rows = {}
+    environment = {**os.environ, "PYTHONPATH": str(package_of(build))}
+    for name, mesh in {"demo": "demo", **find_meshes()}.items():
+        with tempfile.TemporaryDirectory() as folder:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run(
+                [sys.executable, "-m", "meniscus", mesh, "--size", "1920x1080", "--output",
+                 os.path.join(folder, "picture.png")],
+                env=environment, stdout=subprocess.DEVNULL, check=True)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        rows[f"{name}: first picture (s)"] = (
+            after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
+    return rows
+
+
 def compare(measure, before, after, rounds):
     """Smallest time of each row, of both trees."""
     best = ({}, {})
@@ -94,18 +123,22 @@ def main():
     parser.add_argument("before", type=pathlib.Path)
     parser.add_argument("after", type=pathlib.Path)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--part", choices=("volume", "refraction"))
+    parser.add_argument("--part", choices=PARTS)
     parser.add_argument("--json")
     options = parser.parse_args()
+    parts = [options.part] if options.part else PARTS
     rows = {}
-    if options.part != "refraction":
+    if "volume" in parts:
         for title, arguments in volume_cases():
             measured = compare(
                 lambda build, a=arguments: measure_volume(build, a), options.before, options.after,
                 options.rounds)
             rows.update({f"{title}: {name}": value for name, value in measured.items()})
-    if options.part != "volume":
+    if "refraction" in parts:
         rows.update(compare(measure_refraction, options.before, options.after, options.rounds))
+    if "picture" in parts and all(
+            package_of(build).exists() for build in (options.before, options.after)):
+        rows.update(compare(measure_pictures, options.before, options.after, options.rounds))
     print("| row | before | after | after / before |\n|---|---|---|---|")
     slower = 0
     for name, (old, new) in rows.items():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Threads of vtkSMPTools, which casts rays and runs filters."""
 import os
+from typing import Callable
 
 from vtkmodules.vtkCommonCore import vtkSMPTools
 
@@ -16,3 +17,14 @@ def use_threads() -> None:
     """
     if VARIABLE not in os.environ and vtkSMPTools.GetBackend() == "Sequential":
         vtkSMPTools.SetBackend("STDThread")
+
+
+def run_blocks(body: Callable[[int, int], None], size: int, block: int) -> None:
+    """Calls body(first, last) for blocks that cover [0, size), on as many threads as vtkSMPTools
+    has. Loops of numpy run outside of Python's lock.
+    """
+    from concurrent.futures import ThreadPoolExecutor
+    firsts = range(0, size, block)
+    with ThreadPoolExecutor(vtkSMPTools.GetEstimatedNumberOfThreads()) as pool:
+        for _ in pool.map(lambda first: body(first, min(first + block, size)), firsts):
+            pass  # raises the exceptions of the calls

@@ -10,6 +10,7 @@ levels: isosurface areas of a scalar, and the transfer function that is derived 
 curves: opacities as points that can be dragged, and the functions of mappers.
 furniture: outline, axes and edges.
 scene: the volume and its settings; has no window of its own.
+pictures: pictures without a window on the screen.
 window, web: a desktop window with keys and sliders, and a page served by trame.
 chart: the histogram and the curve of opacity in the window.
 contest: VTK's mappers and ours side by side.

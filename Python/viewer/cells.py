@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonDataModel import (
 from ..data import leaves_of
 from .files import ReadingError
 
+_STRUCTURED = (vtkImageData, vtkRectilinearGrid, vtkStructuredGrid)
 # Cells with one of these bits in the array vtkGhostType are not drawn.
 _LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
 _FACE = "a face of a polyhedron"
@@ -38,10 +39,18 @@ def types_of(leaf):
         types = _read_types(leaf)
         return vtk_to_numpy(types) if types else numpy.empty(0, numpy.uint8)
     if isinstance(leaf, vtkPolyData):
-        return numpy.array([leaf.GetCellType(cell) for cell in range(leaf.GetNumberOfCells())])
+        return numpy.array([leaf.GetCellType(cell) for cell in range(leaf.GetNumberOfCells())],
+                           numpy.uint8)
     # All cells of structured data have one type.
     first = leaf.GetCell(0).GetCellType() if leaf.GetNumberOfCells() else 0
     return numpy.full(leaf.GetNumberOfCells(), first, numpy.uint8)
+
+
+def kinds_in(types):
+    """The different types among those of cells."""
+    if types.size and (types == types[0]).all():
+        return types[:1]
+    return numpy.flatnonzero(numpy.bincount(types, minlength=256))
 
 
 def _is_solid(kind):
@@ -52,14 +61,20 @@ def _is_solid(kind):
 
 def solid_cells_of(leaf):
     """True for each cell with a volume."""
-    if isinstance(leaf, (vtkImageData, vtkRectilinearGrid, vtkStructuredGrid)):
-        solid = leaf.GetDataDimension() == 3
-        return numpy.full(leaf.GetNumberOfCells(), solid)
+    if isinstance(leaf, _STRUCTURED):
+        return numpy.full(leaf.GetNumberOfCells(), has_solid_cells(leaf))
     types = types_of(leaf)
     solid = numpy.zeros(256, bool)
-    for kind in numpy.unique(types):
+    for kind in kinds_in(types):
         solid[kind] = _is_solid(kind)
     return solid[types]
+
+
+def has_solid_cells(leaf):
+    """Whether a data set has cells with a volume."""
+    if isinstance(leaf, _STRUCTURED):
+        return leaf.GetDataDimension() == 3 and leaf.GetNumberOfCells() > 0
+    return any(_is_solid(kind) for kind in kinds_in(types_of(leaf)))
 
 
 def drawn_cells_of(leaf):
@@ -85,7 +100,8 @@ def drawn_points_of(leaf):
 
 def drawn_leaves_of(data):
     """The data sets with at least one cell that is drawn."""
-    return [leaf for leaf in leaves_of(data) if drawn_cells_of(leaf).any()]
+    return [leaf for leaf in leaves_of(data)
+            if (drawn_cells_of(leaf).any() if leaf.GetCellGhostArray() else has_solid_cells(leaf))]
 
 
 def _count_types(leaves):
@@ -99,8 +115,8 @@ def _count_types(leaves):
 
 
 def _check_ids(ids, points, what):
-    wrong = (ids < 0) | (ids >= points)
-    if wrong.any():
+    if ids.size and (ids.min() < 0 or ids.max() >= points):
+        wrong = (ids < 0) | (ids >= points)
         raise ReadingError(f"The mesh is damaged: {what} uses point {ids[wrong][0]}, but there "
                            f"are {points} points")
 
@@ -109,7 +125,7 @@ def _check_cells(cells, points, what="a cell"):
     """Checks a vtkCellArray of a mesh with a number of points."""
     ids = vtk_to_numpy(cells.GetConnectivityArray())
     offsets = vtk_to_numpy(cells.GetOffsetsArray())
-    if offsets.size and (offsets[0] != 0 or (numpy.diff(offsets) < 0).any()
+    if offsets.size and (offsets[0] != 0 or (offsets[1:] < offsets[:-1]).any()
                          or offsets[-1] > ids.size):
         raise ReadingError("The mesh is damaged: the offsets of the cells are not ascending "
                            f"numbers up to {ids.size}, the number of point indices")
@@ -167,7 +183,7 @@ def check_drawable(data):
     leaves = leaves_of(data)
     if not any(leaf.GetNumberOfCells() for leaf in leaves):
         raise ReadingError("The mesh has no cells")
-    if not any(solid_cells_of(leaf).any() for leaf in leaves):
+    if not any(has_solid_cells(leaf) for leaf in leaves):
         raise ReadingError("The mesh has no cells with a volume; its cells are: "
                            + _count_types(leaves))
     if not drawn_leaves_of(data):

@@ -1,20 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `meniscus MESH [...]`."""
+"""The command `meniscus MESH [...]`.
+
+Modules for a window, movies and comparisons are loaded when they are needed: their parts of VTK
+take a third of the time in which all modules are loaded.
+"""
 import argparse
 import os
 import sys
 
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
-from .contest import TITLE, compare_on, format_row, make_panels, show_panels
 from .files import collecting_reports
-from .movies import write_movie, write_pictures
 from .options import OptionParser
+from .pictures import draw_picture, grab_picture, write_picture
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, MeshScene
-from .watching import Watch
-from .window import Window, draw_picture, grab_picture, write_picture
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
@@ -178,6 +179,7 @@ def _has_display():
 
 
 def _compare(scene, options):
+    from .contest import TITLE, compare_on, format_row, make_panels, show_panels
     if options.orbit or options.movie or options.web:
         raise ReadingError("--compare makes a picture; it goes without --orbit, --movie and --web")
     pairs = []
@@ -196,18 +198,29 @@ def _compare(scene, options):
         show_panels(make_panels(pairs, offscreen=False))
 
 
+def _make_watch(scene):
+    from .watching import Watch
+    return Watch(scene)
+
+
+def _write_views(scene, options):
+    from .movies import write_movie, write_pictures
+    if options.movie:
+        write_movie(scene, options.size, options.movie, options.orbit)
+    else:
+        write_pictures(scene, options.size, options.output, options.orbit, options.transparent)
+
+
 def _show(scene, options):
-    watch = Watch(scene) if options.watch else None
+    watch = _make_watch(scene) if options.watch else None
     if options.compare:
         _compare(scene, options)
     elif options.orbit and not (options.output or options.movie):
         raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
     elif options.watch and (options.output or options.movie):
         raise ReadingError("--watch goes with the window or --web")
-    elif options.movie:
-        write_movie(scene, options.size, options.movie, options.orbit)
-    elif options.output and options.orbit:
-        write_pictures(scene, options.size, options.output, options.orbit, options.transparent)
+    elif options.movie or options.orbit:
+        _write_views(scene, options)
     elif options.output:
         picture, warnings = draw_picture(scene, options.size, options.transparent)
         write_picture(picture, options.output)
@@ -219,6 +232,7 @@ def _show(scene, options):
     elif not _has_display():
         raise ReadingError("There is no display; use --output PICTURE.png or --web")
     else:
+        from .window import Window
         Window(scene, options.size, watch=watch).start()
 
 

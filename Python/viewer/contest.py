@@ -18,8 +18,8 @@ from ..rivals import Comparison, compare_mappers, join_tetrahedra
 from .cells import drawn_leaves_of
 from .files import ReadingError
 from .levels import values_of
+from .pictures import make_window
 from .reading import arrays_of
-from .window import make_window
 
 # Columns of the picture.
 _COLUMNS = 2

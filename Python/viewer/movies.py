@@ -7,7 +7,7 @@ import tempfile
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .files import ReadingError
-from .window import draw_checked, grab_picture, make_window, write_picture
+from .pictures import draw_checked, grab_picture, make_window, write_picture
 
 ORBIT_FRAMES = 120
 FRAMES_PER_SECOND = 25

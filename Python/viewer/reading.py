@@ -69,8 +69,9 @@ class MeshSeries:
 def arrays_of(data):
     """Arrays of points and cells as {name: (association, components)}; points come first."""
     arrays = {}
+    leaves = drawn_leaves_of(data)
     for association in ("points", "cells"):
-        for leaf in drawn_leaves_of(data):
+        for leaf in leaves:
             attributes = leaf.GetPointData() if association == "points" else leaf.GetCellData()
             for index in range(attributes.GetNumberOfArrays()):
                 array = attributes.GetArray(index)

@@ -16,8 +16,8 @@ from ..names import BLEND_MODES
 from .colors import find_colors, list_colors
 from .reading import ReadingError
 from .scene import AXES
+from .pictures import make_window
 from .watching import PERIOD
-from .window import make_window
 
 PACKAGES = "trame trame-vuetify trame-rca"
 # Without it the page has no curve of opacity.

@@ -1,26 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A window with keys and sliders, and pictures without one."""
-import ctypes
+"""A window with keys and sliders."""
 import itertools
 import math
 import os
-import sys
 
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkInteractionStyle import vtkInteractorStyleTrackballCamera
 from vtkmodules.vtkInteractionWidgets import vtkSliderRepresentation2D, vtkSliderWidget
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import (
-    vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor, vtkTextActor, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindowInteractor, vtkTextActor
 
 from .. import vtkTetrahedraVolumePicker
 from ..names import BLEND_MODES
 from .chart import HEIGHT, OpacityChart
 from .colors import COLOR_MAPS
-from .files import ReadingError, collecting_reports
+from .files import ReadingError
 from .furniture import INK
+from .pictures import grab_picture, make_window, write_picture
 from .scene import AXES
 from .watching import PERIOD
 
@@ -42,104 +37,9 @@ s      save picture
 h      this help
 q      quit"""
 DENSITY_STEP = 1.25
-# Windows of VTK 9.4 and later that need no display, by their library, and the variable that selects
-# one.
-HEADLESS_WINDOWS = {
-    "libEGL.so.1": "vtkEGLRenderWindow",
-    "libOSMesa.so.8": "vtkOSOpenGLRenderWindow",
-}
-WINDOW_VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CLIP_STEP = 0.05
 # Height of the sliders above the strip, as a share of the window's.
 _SLIDER_HEIGHT = 0.09
-
-
-def _can_load(library):
-    try:
-        ctypes.CDLL(library)
-    except OSError:
-        return False
-    return True
-
-
-def _choose_headless_window():
-    """Without a display, VTK tries X first, with warnings, and crashes if libX11 is missing."""
-    if (os.environ.get("DISPLAY") or os.environ.get(WINDOW_VARIABLE)
-            or not sys.platform.startswith("linux")
-            or vtkVersion.GetVTKMajorVersion() * 100 + vtkVersion.GetVTKMinorVersion() < 904):
-        return
-    for library, window in HEADLESS_WINDOWS.items():
-        if _can_load(library):
-            os.environ[WINDOW_VARIABLE] = window
-            return
-    raise ReadingError("There is no display, and neither EGL nor OSMesa to draw without one "
-                       "(on Debian: apt-get install libegl1 libgl1-mesa-dri)")
-
-
-def make_window(renderer, size, offscreen, transparent=False):
-    """A window with a renderer. transparent: its background is, in pictures."""
-    if offscreen:
-        _choose_headless_window()
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(offscreen)
-    window.SetSize(*size)
-    window.SetMultiSamples(0 if offscreen else 4)
-    if transparent:
-        window.SetAlphaBitPlanes(True)
-        renderer.GradientBackgroundOff()
-        renderer.SetBackground(0.0, 0.0, 0.0)
-        renderer.SetBackgroundAlpha(0.0)
-    window.SetWindowName("Meniscus")
-    window.AddRenderer(renderer)
-    return window
-
-
-def grab_picture(window, transparent=False):
-    """The picture of a window after a frame, as vtkImageData, with opacities if it is
-    transparent."""
-    window.Render()
-    picture = vtkWindowToImageFilter()
-    picture.SetInput(window)
-    picture.ReadFrontBufferOff()
-    picture.ShouldRerenderOff()
-    if transparent:
-        picture.SetInputBufferTypeToRGBA()
-    picture.Update()
-    return picture.GetOutput()
-
-
-def write_picture(picture, name):
-    """Writes a PNG file; a file that cannot be written is a ReadingError."""
-    try:
-        with open(name, "wb"):
-            pass
-    except OSError as error:
-        raise ReadingError(f"{name}: {error.strerror}") from None
-    writer = vtkPNGWriter()
-    writer.SetInputData(picture)
-    writer.SetFileName(name)
-    writer.Write()
-
-
-def draw_picture(scene, size, transparent=False):
-    """The picture of a scene without a window on the screen, and VTK's warnings about it. A picture
-    that shows nothing of the mesh is a ReadingError."""
-    return draw_checked(scene, make_window(scene.renderer, size, True, transparent), transparent)
-
-
-def draw_checked(scene, window, transparent=False):
-    """The same as draw_picture(), in a window that exists."""
-    with collecting_reports() as reports:
-        picture = grab_picture(window, transparent)
-        scene.volume.VisibilityOff()
-        without = grab_picture(window, transparent)
-        scene.volume.VisibilityOn()
-        errors, warnings = reports()
-    pixels = [vtk_to_numpy(image.GetPointData().GetScalars()) for image in (picture, without)]
-    if (pixels[0] == pixels[1]).all():
-        raise ReadingError("The picture shows nothing of the mesh: "
-                           + (errors[0] if errors else scene.explain_empty_picture()))
-    return picture, errors + warnings
 
 
 def _next_of(names, name, forward=True):

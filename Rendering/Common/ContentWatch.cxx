@@ -132,6 +132,14 @@ void ContentDigest::AddBlocks(std::size_t count,
 }
 
 //------------------------------------------------------------------------------
+void ContentDigest::AddBytes(const unsigned char* bytes, std::size_t count)
+{
+  this->AddBlocks(count,
+    [bytes](std::size_t first, std::size_t last)
+    { return DigestBytes(bytes + first, last - first); });
+}
+
+//------------------------------------------------------------------------------
 void ContentDigest::Add(vtkDataArray* array)
 {
   this->Add(array ? 1 : 0);

@@ -49,6 +49,7 @@ public:
   /** Adds the size, type and values of an array; for null, adds that there is none. */
   void Add(vtkDataArray* array);
   void Add(std::uint64_t word);
+  void AddBytes(const unsigned char* bytes, std::size_t count);
   /**
    * Adds the values computed by valueOf(i), 0 <= i < count.
    * @pre several threads may call valueOf at the same time.

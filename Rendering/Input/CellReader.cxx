@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Input/CellReader.h"
 
+#include "Common/BlockLoop.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Common/VTKVersions.h"
 #include "Rendering/Input/CellShapes.h"
+#include "Rendering/Input/GridLayout.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -15,6 +19,7 @@
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <atomic>
 #include <cmath>
 #include <sstream>
 
@@ -22,6 +27,8 @@ namespace meniscus
 {
 namespace
 {
+
+constexpr vtkIdType PointsOfTetrahedron = 4;
 
 /** Least number of points of a type; 0 for types whose number of points is not fixed. */
 vtkIdType LeastPointsOf(int type)
@@ -194,6 +201,15 @@ std::string DescribeFault(vtkDataSet* grid)
 }
 
 //------------------------------------------------------------------------------
+const unsigned char* FindCellTypes(vtkDataSet* grid)
+{
+  auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid);
+  vtkDataArray* types = unstructured ? GetTypesOfCells(unstructured, 0) : nullptr;
+  auto* bytes = vtkAOSDataArrayTemplate<unsigned char>::FastDownCast(types);
+  return bytes ? bytes->GetPointer(0) : nullptr;
+}
+
+//------------------------------------------------------------------------------
 CellLists::CellLists(vtkCellArray* lists)
 {
   if (lists)
@@ -204,20 +220,29 @@ CellLists::CellLists(vtkCellArray* lists)
 }
 
 //------------------------------------------------------------------------------
-bool CellLists::HaveSize(std::int64_t size) const
+bool CellLists::HaveSize(std::int64_t size, std::int64_t first, std::int64_t last) const
 {
-  const std::int64_t lists = this->Offsets.GetSize() - 1;
-  std::int64_t list = 0;
-  while (list <= lists && this->Offsets[list] == size * list)
+  if (last > this->GetSize() || size * last > this->Ids.GetSize())
   {
-    ++list;
+    return false;
   }
-  return list > lists && this->Ids.GetSize() >= size * lists;
+  const auto follow = [=](const auto* offsets)
+  {
+    std::int64_t different = 0;
+    for (std::int64_t list = first; list <= last; ++list)
+    {
+      different |= offsets[list] ^ (size * list);
+    }
+    return different == 0;
+  };
+  return this->Offsets.GetInts() ? follow(this->Offsets.GetInts())
+                                 : follow(this->Offsets.GetLongs());
 }
 
 //------------------------------------------------------------------------------
 CellReader::CellReader(vtkDataSet* grid)
   : Grid(grid)
+  , Types(FindCellTypes(grid))
   , NumberOfPoints(grid->GetNumberOfPoints())
   , Ghosts(grid->GetCellGhostArray())
   , Degrees(grid->GetCellData()->GetHigherOrderDegrees())
@@ -242,26 +267,55 @@ CellReader::CellReader(vtkDataSet* grid)
 }
 
 //------------------------------------------------------------------------------
-int CellReader::GetType(vtkIdType cell) const
+int CellReader::ComputeType(vtkIdType cell) const
 {
   return this->Grid->GetCellType(cell);
 }
 
 //------------------------------------------------------------------------------
-bool CellReader::HasOnlyTetrahedra() const
+/** True if the cells [first, last) are tetrahedra of four points each, as those before are. */
+bool CellReader::AreTetrahedra(vtkIdType first, vtkIdType last) const
 {
-  constexpr vtkIdType points = 4;
-  const vtkIdType cells = this->Grid->GetNumberOfCells();
-  if (!this->HasLists || this->GetIds().GetSize() != points * cells)
+  const auto isTetrahedron = [](int type)
+  { return type == VTK_TETRA || ResolveCellType(type, PointsOfTetrahedron) == VTK_TETRA; };
+  vtkIdType cell = first;
+  if (this->Types)
   {
-    return false;
+    int different = 0;
+    for (vtkIdType c = first; c < last; ++c)
+    {
+      different |= this->Types[c] ^ VTK_TETRA;
+    }
+    cell = different == 0 ? last : first;
   }
-  vtkIdType cell = 0;
-  while (cell < cells && ResolveCellType(this->GetType(cell), points) == VTK_TETRA)
+  while (cell < last && isTetrahedron(this->GetType(cell)))
   {
     ++cell;
   }
-  return cell == cells && this->Cells.HaveSize(points);
+  return cell == last && this->Cells.HaveSize(PointsOfTetrahedron, first, last);
+}
+
+//------------------------------------------------------------------------------
+bool CellReader::HasOnlyTetrahedra() const
+{
+  const vtkIdType cells = this->Grid->GetNumberOfCells();
+  if (!this->HasLists || this->GetIds().GetSize() != PointsOfTetrahedron * cells ||
+    this->Cells.GetSize() != cells)
+  {
+    return false;
+  }
+  std::atomic<bool> found{ true };
+  ForEachBlock(static_cast<std::size_t>(cells),
+    IsThreadSafe(this->Grid) ? RangeLoop(ThreadedLoop) : RangeLoop(SerialLoop),
+    [this, &found](std::size_t, std::size_t first, std::size_t last)
+    {
+      if (found.load(std::memory_order_relaxed) &&
+        !this->AreTetrahedra(static_cast<vtkIdType>(first), static_cast<vtkIdType>(last)))
+      {
+        found.store(false, std::memory_order_relaxed);
+      }
+    });
+  return found;
 }
 
 //------------------------------------------------------------------------------

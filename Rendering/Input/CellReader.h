@@ -6,6 +6,7 @@
 
 #include "Rendering/Input/IdView.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -54,6 +55,9 @@ bool HasVolume(int type);
  */
 std::string DescribeFault(vtkDataSet* grid);
 
+/** Types of the cells of an unstructured grid that stores them as bytes; otherwise null. */
+const unsigned char* FindCellTypes(vtkDataSet* grid);
+
 /** Lists of integers in a vtkCellArray. */
 class CellLists
 {
@@ -74,8 +78,9 @@ public:
     return first >= 0 && first <= last && last <= this->Ids.GetSize();
   }
   const IdView& GetIds() const { return this->Ids; }
-  /** True if all lists have this size and follow each other. */
-  bool HaveSize(std::int64_t size) const;
+  std::int64_t GetSize() const { return std::max<std::int64_t>(this->Offsets.GetSize() - 1, 0); }
+  /** True if the lists [first, last) have this size and follow each other, as those before do. */
+  bool HaveSize(std::int64_t size, std::int64_t first, std::int64_t last) const;
 
 private:
   IdView Offsets;
@@ -93,7 +98,10 @@ public:
   explicit CellReader(vtkDataSet* grid);
 
   vtkDataSet* GetGrid() const { return this->Grid; }
-  int GetType(vtkIdType cell) const;
+  int GetType(vtkIdType cell) const
+  {
+    return this->Types ? this->Types[cell] : this->ComputeType(cell);
+  }
   /** True for duplicate, hidden and blanked cells. */
   bool IsLeftOut(vtkIdType cell) const;
   /**
@@ -121,11 +129,15 @@ public:
     UnusableCells& unusable) const;
 
 private:
+  int ComputeType(vtkIdType cell) const;
+  bool AreTetrahedra(vtkIdType first, vtkIdType last) const;
   bool FitsType(vtkIdType cell, vtkIdType size) const;
   bool AddFace(const IdView& ids, std::int64_t first, std::int64_t last,
     std::vector<std::int64_t>& faces, UnusableCells& unusable) const;
 
   vtkDataSet* Grid;
+  /** Types of the cells; null if they are not stored as bytes. */
+  const unsigned char* Types = nullptr;
   vtkIdType NumberOfPoints;
   vtkUnsignedCharArray* Ghosts;
   /** Degrees of cells of higher order along their axes; null if their points decide. */

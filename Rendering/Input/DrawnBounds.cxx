@@ -14,8 +14,11 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <vector>
 
 namespace meniscus
 {
@@ -101,33 +104,134 @@ private:
   std::vector<std::int64_t> Faces;
 };
 
-/**
- * Box around the points that are listed, each added once. Returns false if one of them does not
- * exist or is not finite.
- */
-bool AddListed(const IdView& ids, const PointsSource& points, PointBox& box)
+/** Marks of a point: bit 0 to 5 if it is the one that Extremes found for a side. */
+constexpr std::uint8_t AllSides = (1 << 6) - 1;
+constexpr std::uint8_t NotFinite = 1 << 6;
+constexpr std::uint8_t OutOfRange = 1 << 7;
+
+/** Box around finite points, and a point in each of its sides: lower and upper, by axis. */
+struct Extremes
 {
-  std::vector<std::uint8_t> isUsed(static_cast<std::size_t>(points.GetNumberOfPoints()), 0);
-  for (std::int64_t i = 0; i < ids.GetSize(); ++i)
+  PointBox Box;
+  std::array<std::size_t, 6> Points{};
+
+  void Add(const glm::dvec3& at, std::size_t point)
   {
-    const std::int64_t id = ids[i];
-    if (id < 0 || id >= points.GetNumberOfPoints())
+    for (int axis = 0; axis < 3; ++axis)
     {
-      return false;
+      if (at[axis] < this->Box.Lower[axis])
+      {
+        this->Box.Lower[axis] = at[axis];
+        this->Points[2 * axis] = point;
+      }
+      if (at[axis] > this->Box.Upper[axis])
+      {
+        this->Box.Upper[axis] = at[axis];
+        this->Points[2 * axis + 1] = point;
+      }
     }
-    isUsed[static_cast<std::size_t>(id)] = 1;
   }
-  bool isFinite = true;
-  for (std::size_t p = 0; p < isUsed.size(); ++p)
+};
+
+/** Marks all points and returns the box around the finite ones. */
+PointBox MarkPoints(const PointsView& points, std::vector<std::uint8_t>& marks)
+{
+  std::vector<Extremes> blocks(NumberOfBlocks(marks.size()));
+  ForEachBlock(marks.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      Extremes found;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        const glm::dvec3 at = points[p];
+        if (IsFinite(at))
+        {
+          found.Add(at, p);
+        }
+        else
+        {
+          marks[p] = NotFinite;
+        }
+      }
+      blocks[block] = found;
+    });
+  Extremes all;
+  for (const Extremes& block : blocks)
   {
-    if (isUsed[p])
+    for (const std::size_t point : block.Points)
     {
-      const glm::dvec3 at = points.GetView()[p];
-      isFinite = isFinite && IsFinite(at);
-      box.Add(at);
+      if (!block.Box.IsEmpty())
+      {
+        all.Add(points[point], point);
+      }
     }
   }
-  return isFinite;
+  for (std::size_t side = 0; side < all.Points.size() && !all.Box.IsEmpty(); ++side)
+  {
+    marks[all.Points[side]] |= static_cast<std::uint8_t>(1 << side);
+  }
+  return all.Box;
+}
+
+/** Marks of all listed points together. */
+template <typename Id>
+std::uint8_t JoinMarks(const Id* ids, std::size_t count, const std::vector<std::uint8_t>& marks)
+{
+  std::vector<std::uint8_t> parts(NumberOfBlocks(count));
+  ForEachBlock(count, ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      std::uint8_t part = 0;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const auto id = static_cast<std::size_t>(ids[i]);
+        part |= id < marks.size() ? marks[id] : OutOfRange; // negative numbers are large here
+      }
+      parts[block] = part;
+    });
+  return std::accumulate(
+    parts.begin(), parts.end(), std::uint8_t{ 0 }, [](int a, int b) { return a | b; });
+}
+
+/** Box around points that are listed, each as often as it is. */
+PointBox BoxOfListed(const IdView& ids, const PointsView& points)
+{
+  const auto count = static_cast<std::size_t>(ids.GetSize());
+  std::vector<PointBox> boxes(NumberOfBlocks(count));
+  ForEachBlock(count, ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      PointBox box;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        box.Add(points[static_cast<std::size_t>(ids[static_cast<std::int64_t>(i)])]);
+      }
+      boxes[block] = box;
+    });
+  return Enclose(boxes);
+}
+
+/**
+ * Box around the points that are listed. Returns false if one of them does not exist or is not
+ * finite. Mostly the points at the sides of the box around all points are listed: finding that
+ * takes a third of the time of a box around each cell.
+ */
+bool EncloseListed(const IdView& ids, const PointsSource& points, PointBox& box)
+{
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(points.GetNumberOfPoints()), 0);
+  box = MarkPoints(points.GetView(), marks);
+  const auto size = static_cast<std::size_t>(ids.GetSize());
+  const std::uint8_t found =
+    ids.GetInts() ? JoinMarks(ids.GetInts(), size, marks) : JoinMarks(ids.GetLongs(), size, marks);
+  if (found & (NotFinite | OutOfRange))
+  {
+    return false;
+  }
+  if (found != AllSides)
+  {
+    box = BoxOfListed(ids, points.GetView());
+  }
+  return true;
 }
 
 PointBox BoxOf(vtkDataSet* grid)
@@ -155,7 +259,7 @@ PointBox BoxOf(vtkDataSet* grid)
   const PointsSource points({ grid }, ThreadedLoop);
   PointBox ofTetrahedra;
   if (!cells.GetGhosts() && cells.HasOnlyTetrahedra() &&
-    AddListed(cells.GetIds(), points, ofTetrahedra))
+    EncloseListed(cells.GetIds(), points, ofTetrahedra))
   {
     return ofTetrahedra;
   }

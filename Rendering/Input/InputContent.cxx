@@ -3,6 +3,7 @@
 #include "Rendering/Input/InputContent.h"
 
 #include "Rendering/Common/VTKVersions.h"
+#include "Rendering/Input/CellReader.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -175,7 +176,14 @@ void AddCellTypes(vtkDataSet* grid, ContentDigest& digest)
 {
   if (vtkUnstructuredGrid::SafeDownCast(grid) && grid->GetNumberOfCells() > 0)
   {
-    digest.AddValues(static_cast<std::size_t>(grid->GetNumberOfCells()),
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfCells());
+    if (const unsigned char* types = FindCellTypes(grid))
+    {
+      digest.AddBytes(types, size);
+      return;
+    }
+    // The digest of the same bytes.
+    digest.AddValues(size,
       [grid](std::size_t cell)
       { return static_cast<unsigned char>(grid->GetCellType(static_cast<vtkIdType>(cell))); });
   }

@@ -539,9 +539,14 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
       continue;
     }
     const CellReader reader(grid);
+    if (reader.HasOnlyTetrahedra())
+    {
+      size.Tetrahedra += cells;
+      continue;
+    }
     for (vtkIdType c = 0; c < cells; ++c)
     {
-      const int type = grid->GetCellType(c);
+      const int type = reader.GetType(c);
       size.Tetrahedra += TetrahedraOf(type);
       UnusableCells counted;
       if (ShapeOf(type).Degree == CellShape::Varying && reader.ReadPoints(c, ids, counted))

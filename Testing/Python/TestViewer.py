@@ -6,13 +6,18 @@ import io
 import os
 import re
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
 from unittest import mock
 
-from meniscus.viewer import levels, reading, window as viewer_window
+import numpy
+from meniscus.threads import run_blocks
+from meniscus.viewer import levels, pictures, reading
 from meniscus.viewer.command import main, make_parser, make_scene
+from meniscus.viewer.reading import ReadingError
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray
@@ -65,6 +70,24 @@ def read_picture(name):
 
 def radius(x, y, z):
     return (x * x + y * y + z * z) ** 0.5
+
+
+class TestBlocks(unittest.TestCase):
+    def test_each_index_once(self):
+        for size in (0, 1, 99, 100, 1001):
+            counts = numpy.zeros(size, int)
+
+            def count(first, last):
+                counts[first:last] += 1
+            run_blocks(count, size, 100)
+            self.assertTrue((counts == 1).all())
+
+    def test_exceptions_reach_the_caller(self):
+        def fail(first, _last):
+            if first == 200:
+                raise ReadingError("block")
+        with self.assertRaisesRegex(ReadingError, "block"):
+            run_blocks(fail, 1000, 100)
 
 
 class TestLevels(unittest.TestCase):
@@ -131,6 +154,28 @@ class TestLevels(unittest.TestCase):
                                      (found.volumes, expected.volumes)):
                     self.assertLess(abs(ours - theirs).max(), 1e-12 * theirs.max())
 
+    def test_cells_of_several_sizes(self):
+        """Areas and volumes of cells of two types are the sums of those of either type."""
+        tetrahedra, image = make_block({"z": lambda x, y, z: z}), vtkImageData()
+        image.SetDimensions(5, 5, 9)
+        image.SetOrigin(2, 2, -1)
+        image.SetSpacing(0.25, 0.25, 0.25)
+        heights = vtkDoubleArray()
+        heights.SetName("z")
+        for point in range(image.GetNumberOfPoints()):
+            heights.InsertNextValue(image.GetPoint(point)[2])
+        image.GetPointData().AddArray(heights)
+        both = vtkAppendFilter()
+        both.AddInputData(tetrahedra)
+        both.AddInputData(image)
+        both.Update()
+        found, *parts = (
+            levels.Levels(data, "z", "points") for data in (both.GetOutput(), tetrahedra, image))
+        self.assertEqual((found.low, found.high), (-1.0, 1.0))
+        for name in ("areas", "volumes"):
+            ours, theirs = getattr(found, name), sum(getattr(part, name) for part in parts)
+            self.assertLess(abs(ours - theirs).max(), 1e-12 * theirs.max())
+
     def test_values_that_are_not_finite(self):
         found = levels.Levels(
             make_block({"n": lambda x, y, z: float("nan") if x > 0 else z}), "n", "points")
@@ -191,6 +236,18 @@ class TestCommand(unittest.TestCase):
                         ["--view", "0", "1", "3"], ["--up", "z"], ["--water", self.water]):
             with self.subTest(options=options):
                 self.assertGreater(abs(self.draw(self.mesh, *options) - plain).max(), 20)
+
+    def test_modules_of_a_picture(self):
+        """Parts of VTK for windows with widgets, charts and movies are not loaded for a picture."""
+        program = ("import sys\nfrom meniscus.viewer.command import main\n"
+                   "status = main(['demo', '--size', '64x48', '--output', sys.argv[1]])\n"
+                   "wanted = {'vtkInteractionWidgets', 'vtkChartsCore', 'vtkFiltersVerdict'}\n"
+                   "print(status, sorted(wanted & {name.split('.')[-1] for name in sys.modules}))")
+        with tempfile.TemporaryDirectory() as folder:
+            found = subprocess.run(
+                [sys.executable, "-B", "-c", program, os.path.join(folder, "demo.png")],
+                capture_output=True, text=True, check=True)
+        self.assertEqual(found.stdout.splitlines()[-1], "0 []", found.stderr)
 
     def test_rays_at_edges(self):
         for options, distance in (([], 0.25), (["--backend", "native"], 0.25),
@@ -410,9 +467,9 @@ class TestCommand(unittest.TestCase):
             version = mock.Mock(**{"GetVTKMajorVersion.return_value": 9,
                                    "GetVTKMinorVersion.return_value": minor})
             with mock.patch.dict(os.environ, variables, clear=True), \
-                    mock.patch.object(viewer_window, "vtkVersion", version), \
-                    mock.patch.object(viewer_window, "_can_load", libraries.__contains__):
-                viewer_window._choose_headless_window()
+                    mock.patch.object(pictures, "vtkVersion", version), \
+                    mock.patch.object(pictures, "_can_load", libraries.__contains__):
+                pictures._choose_headless_window()
                 return os.environ.get("VTK_DEFAULT_OPENGL_WINDOW")
 
         egl, osmesa = "libEGL.so.1", "libOSMesa.so.8"

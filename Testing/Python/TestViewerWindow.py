@@ -10,7 +10,8 @@ from meniscus.viewer import curves
 from meniscus.viewer.command import make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
 from meniscus.viewer.watching import Watch
-from meniscus.viewer.window import Window, grab_picture
+from meniscus.viewer.pictures import grab_picture
+from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction

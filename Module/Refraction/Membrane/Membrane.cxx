@@ -193,27 +193,40 @@ double Membrane::AcceptFacets(const MembraneInput& input)
 //------------------------------------------------------------------------------
 void Membrane::DropDuplicates()
 {
+  // Vertices in ascending order and the facet's number, in words that compare in one step each.
   struct Key
   {
-    Facet Sorted;
-    std::int32_t Id;
+    std::uint64_t LowerTwo;
+    std::uint64_t HighestAndId;
     bool operator<(const Key& other) const
     {
-      return this->Sorted != other.Sorted ? this->Sorted < other.Sorted : this->Id < other.Id;
+      return this->LowerTwo != other.LowerTwo ? this->LowerTwo < other.LowerTwo
+                                              : this->HighestAndId < other.HighestAndId;
+    }
+    bool HasVerticesOf(const Key& other) const
+    {
+      return this->LowerTwo == other.LowerTwo &&
+        this->HighestAndId >> 32 == other.HighestAndId >> 32;
     }
   };
+  // Neither number is negative.
+  const auto join = [](std::int32_t high, std::int32_t low)
+  { return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low); };
   std::vector<Key> keys(this->Facets.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
-    keys[i] = { this->Facets[i], static_cast<std::int32_t>(i) };
-    std::sort(keys[i].Sorted.begin(), keys[i].Sorted.end());
+    const Facet& v = this->Facets[i];
+    const auto [low, high] = std::minmax({ v[0], v[1], v[2] });
+    const std::int32_t middle =
+      std::max(std::min(v[0], v[1]), std::min(std::max(v[0], v[1]), v[2]));
+    keys[i] = { join(low, middle), join(high, static_cast<std::int32_t>(i)) };
   }
   std::sort(keys.begin(), keys.end());
 
   std::vector<bool> repeated(keys.size(), false);
   for (std::size_t i = 1; i < keys.size(); ++i)
   {
-    repeated[static_cast<std::size_t>(keys[i].Id)] = keys[i].Sorted == keys[i - 1].Sorted;
+    repeated[static_cast<std::uint32_t>(keys[i].HighestAndId)] = keys[i].HasVerticesOf(keys[i - 1]);
   }
   this->Report.Duplicated +=
     Filter(this->Facets, this->CellIds, [&repeated](std::size_t i) { return !repeated[i]; });

@@ -22,6 +22,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -46,8 +49,19 @@ glm::dvec3 ToVector(const OpenMesh::Vec3d& v)
   return { v[0], v[1], v[2] };
 }
 
+/** The vector times a power of two. */
 glm::dvec3 Scale(const glm::dvec3& v, int exponent)
 {
+  constexpr int bias = std::numeric_limits<double>::max_exponent - 1;
+  if (std::abs(exponent) < bias)
+  {
+    // The factor is a normal number: one product is rounded as std::scalbn() rounds.
+    const std::uint64_t bits = static_cast<std::uint64_t>(bias + exponent)
+      << (std::numeric_limits<double>::digits - 1);
+    double factor;
+    std::memcpy(&factor, &bits, sizeof(factor));
+    return v * factor;
+  }
   return { std::scalbn(v.x, exponent), std::scalbn(v.y, exponent), std::scalbn(v.z, exponent) };
 }
 

@@ -36,20 +36,57 @@ std::uint32_t HashOf(const glm::dvec3& position)
   return static_cast<std::uint32_t>(hash >> 2) & 0x3FFFFFFFu;
 }
 
-/** Marks the duplicates among the keys [first, last), which all have the same code. */
-void MarkDuplicates(const std::vector<MortonKey>& keys, std::size_t first, std::size_t last,
-  const std::function<Quad(std::size_t)>& verticesOf,
-  std::vector<std::pair<Quad, std::size_t>>& cells, std::vector<std::uint8_t>& duplicate)
+/** Vertices of a cell in two words, which compare in one step each, and its place in a run. */
+struct RunCell
 {
-  cells.clear();
-  for (std::size_t i = first; i < last; ++i)
+  std::uint64_t Low;
+  std::uint64_t High;
+  std::size_t Place;
+
+  RunCell(const Quad& vertices, std::size_t place)
+    : Low(Join(vertices[0], vertices[1]))
+    , High(Join(vertices[2], vertices[3]))
+    , Place(place)
   {
-    cells.emplace_back(verticesOf(IndexOf(keys[i])), i);
+  }
+  bool HasVerticesOf(const RunCell& other) const
+  {
+    return this->Low == other.Low && this->High == other.High;
+  }
+  bool operator<(const RunCell& other) const
+  {
+    return this->Low != other.Low ? this->Low < other.Low
+      : this->High != other.High  ? this->High < other.High
+                                  : this->Place < other.Place;
+  }
+
+private:
+  static std::uint64_t Join(std::int32_t first, std::int32_t second)
+  {
+    return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
+  }
+};
+
+/** Marks the cells of a run that equal an earlier one. Reorders the cells. */
+void MarkRepeated(std::vector<RunCell>& cells, std::uint8_t* marks)
+{
+  // For so few, comparing each with each is faster than sorting.
+  constexpr std::size_t few = 8;
+  if (cells.size() <= few)
+  {
+    for (std::size_t i = 1; i < cells.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        marks[i] = marks[i] | cells[i].HasVerticesOf(cells[j]);
+      }
+    }
+    return;
   }
   std::sort(cells.begin(), cells.end());
   for (std::size_t i = 1; i < cells.size(); ++i)
   {
-    duplicate[cells[i].second] = cells[i].first == cells[i - 1].first;
+    marks[cells[i].Place] = cells[i].HasVerticesOf(cells[i - 1]);
   }
 }
 
@@ -89,44 +126,38 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
 }
 
 //------------------------------------------------------------------------------
-std::size_t RemoveDuplicateCells(std::vector<MortonKey>& keys,
-  const std::function<Quad(std::size_t)>& verticesOf, const RangeLoop& loop)
+std::vector<std::uint8_t> MarkDuplicateCells(const std::vector<MortonKey>& keys,
+  const std::function<Quad(std::size_t)>& verticesAt, const RangeLoop& loop)
 {
-  std::vector<std::uint8_t> duplicate(keys.size());
-  std::vector<std::size_t> counts(NumberOfBlocks(keys.size()), 0);
+  std::vector<std::uint8_t> marks(keys.size());
   const auto continues = [&keys](std::size_t i)
   { return i > 0 && i < keys.size() && CodeOf(keys[i]) == CodeOf(keys[i - 1]); };
   ForEachBlock(keys.size(), loop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
+    [&](std::size_t, std::size_t first, std::size_t last)
     {
-      std::vector<std::pair<Quad, std::size_t>> cells;
+      std::vector<RunCell> cells;
       // A run belongs to the block in which it begins.
-      for (std::size_t i = first; i < last; ++i)
+      std::size_t i = first;
+      while (i < last && continues(i))
       {
-        std::size_t end = i + 1;
-        for (; !continues(i) && continues(end); ++end)
+        ++i;
+      }
+      while (i < last)
+      {
+        const std::size_t begin = i++;
+        if (continues(i))
         {
-        }
-        if (end - i > 1)
-        {
-          MarkDuplicates(keys, i, end, verticesOf, cells, duplicate);
-          counts[block] += static_cast<std::size_t>(
-            std::count(duplicate.begin() + i, duplicate.begin() + end, std::uint8_t{ 1 }));
+          cells.clear();
+          cells.emplace_back(verticesAt(begin), 0);
+          for (; continues(i); ++i)
+          {
+            cells.emplace_back(verticesAt(i), i - begin);
+          }
+          MarkRepeated(cells, marks.data() + begin);
         }
       }
     });
-  const std::size_t removed = std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
-  if (removed > 0)
-  {
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < keys.size(); ++i)
-    {
-      keys[next] = keys[i];
-      next += duplicate[i] ? 0 : 1;
-    }
-    keys.resize(next);
-  }
-  return removed;
+  return marks;
 }
 
 }

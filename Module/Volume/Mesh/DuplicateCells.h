@@ -22,14 +22,14 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
   const std::function<glm::dvec3(std::size_t)>& getPosition, const RangeLoop& loop);
 
 /**
- * Removes the keys of cells that have the same vertices as an earlier cell in the run of their
- * code, and returns the number of removed keys.
+ * Marks the cells that have the same vertices as an earlier cell in the run of their code.
  * @param keys sorted by code. Cells with the same vertices have the same code.
- * @param verticesOf returns the vertices of a key's cell in ascending order; called only where a
- *   code occurs repeatedly.
+ * @param verticesAt returns the vertices, in ascending order, of the cell of the key at a place in
+ *   `keys`; called in the order of the keys, and only where a code occurs repeatedly.
+ * @return 1 for each marked key, 0 for the others.
  */
-std::size_t RemoveDuplicateCells(std::vector<MortonKey>& keys,
-  const std::function<std::array<std::int32_t, 4>(std::size_t)>& verticesOf, const RangeLoop& loop);
+std::vector<std::uint8_t> MarkDuplicateCells(const std::vector<MortonKey>& keys,
+  const std::function<std::array<std::int32_t, 4>(std::size_t)>& verticesAt, const RangeLoop& loop);
 
 }
 

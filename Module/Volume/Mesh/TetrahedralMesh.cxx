@@ -85,7 +85,7 @@ private:
     std::size_t& accepted);
   std::vector<MortonKey> KeysOfUsedPoints();
   void TakeCodesOfCells(const MortonCurve& curve, std::vector<MortonKey>& keys);
-  void RemoveDuplicates(std::vector<MortonKey>& keys);
+  void RemoveDuplicates(const std::vector<MortonKey>& keys);
 
   TetrahedralMesh& Mesh;
   const TetrahedraView& Input;
@@ -390,17 +390,18 @@ void TetrahedralMesh::Builder::NumberVertices()
 }
 
 //------------------------------------------------------------------------------
-/** Removes the keys of cells that have the same four vertices as an earlier cell of the input. */
-void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
+/** Removes the cells that have the same four vertices as an earlier cell of the input. */
+void TetrahedralMesh::Builder::RemoveDuplicates(const std::vector<MortonKey>& keys)
 {
   std::vector<std::int32_t>& lowest = this->Mesh.Coincident;
   if (this->Input.MatchPositions)
   {
     lowest = this->Mesh.FindCoincident(this->Input.Points, this->Loop);
   }
-  const auto verticesOf = [this, &lowest](std::size_t cell)
+  std::vector<Cell>& cells = this->Mesh.Cells;
+  const auto verticesAt = [&cells, &lowest](std::size_t cell)
   {
-    Quad vertices = this->CornersOf(cell);
+    Quad vertices = cells[cell].Vertices;
     if (!lowest.empty())
     {
       for (std::int32_t& vertex : vertices)
@@ -411,8 +412,24 @@ void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
     }
     return vertices;
   };
-  this->Mesh.Rejected.Duplicate =
-    static_cast<std::int64_t>(RemoveDuplicateCells(keys, verticesOf, this->Loop));
+  const std::vector<std::uint8_t> marks = MarkDuplicateCells(keys, verticesAt, this->Loop);
+  std::size_t next = static_cast<std::size_t>(
+    std::find(marks.begin(), marks.end(), std::uint8_t{ 1 }) - marks.begin());
+  for (std::size_t c = next; c < marks.size(); ++c)
+  {
+    if (marks[c] == 0)
+    {
+      cells[next].Vertices = cells[c].Vertices;
+      if (this->Input.KeepSourceCells)
+      {
+        this->Mesh.SourceCells[next] = this->Mesh.SourceCells[c];
+      }
+      ++next;
+    }
+  }
+  this->Mesh.Rejected.Duplicate = static_cast<std::int64_t>(marks.size() - next);
+  cells.resize(next);
+  this->Mesh.SourceCells.resize(this->Input.KeepSourceCells ? next : 0);
 }
 
 //------------------------------------------------------------------------------
@@ -446,7 +463,6 @@ void TetrahedralMesh::Builder::NumberCells()
       }
     });
   SortByCode(keys, this->Loop);
-  this->RemoveDuplicates(keys);
   ResizeTable(this->Mesh.SourceCells, this->Input.KeepSourceCells ? keys.size() : 0);
   ForEachBlock(keys.size(), this->Loop,
     [this, &keys](std::size_t, std::size_t first, std::size_t last)
@@ -462,12 +478,12 @@ void TetrahedralMesh::Builder::NumberCells()
         }
       }
     });
-  this->Mesh.Cells.resize(keys.size());
-  if (this->Mesh.Cells.capacity() / 2 > keys.size())
+  this->RemoveDuplicates(keys);
+  if (this->Mesh.Cells.capacity() / 2 > this->Mesh.Cells.size())
   {
     this->Mesh.Cells.shrink_to_fit(); // most of the input was left out
   }
-  ForEachBlock(keys.size(), this->Loop,
+  ForEachBlock(this->Mesh.Cells.size(), this->Loop,
     [this](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t c = first; c < last; ++c)

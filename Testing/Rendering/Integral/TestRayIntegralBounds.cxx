@@ -117,6 +117,15 @@ std::vector<BoundsCase> MakeCases()
     cases.push_back({ name, grid });
   };
   add("unused point", [](vtkUnstructuredGrid* grid) { AddPoint(grid, 0.0, 0.0, 0.0); });
+  add("unused point that is not finite",
+    [](vtkUnstructuredGrid* grid) { AddPoint(grid, 0.0, NaN, 0.0); });
+  add("point that does not exist",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
+      ids->SetTuple1(ids->GetNumberOfTuples() - 1, grid->GetNumberOfPoints());
+    });
   add("triangle", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_TRIANGLE, 3); });
   add("vertex", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_VERTEX, 1); });
   add("hidden cell",
