@@ -13,6 +13,7 @@
 #include "Rendering/Integral/IntegralView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
 
 #include "vtkAbstractMapper.h"
@@ -96,6 +97,7 @@ public:
   meniscus::TetrahedralMesh Mesh;
   meniscus::BoundaryTree Tree;
   std::vector<double> SquaredIndices;
+  std::vector<meniscus::EdgeTerms> Terms;
   meniscus::IndexFaults Faults;
 
   meniscus::ParallelRectangle Rectangle;
@@ -325,6 +327,8 @@ void vtkTetrahedraSchlieren::ReadIndices(const meniscus::InputBlocks& blocks)
   const std::int64_t holes = meniscus::ActivateCellsWithIndex(
     internals.Mesh, internals.SquaredIndices, meniscus::ThreadedLoop);
   internals.Tree.Build(internals.Mesh);
+  internals.Terms =
+    meniscus::ComputeEdgeTerms(internals.Mesh, internals.SquaredIndices, meniscus::FacetLoop);
   if (holes > 0 && internals.Mesh.GetNumberOfActiveCells() > 0)
   {
     vtkWarningMacro(<< internals.Faults.NotFinite << " points have a value that is not finite and "
@@ -384,6 +388,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   medium.Mesh = &internals.Mesh;
   medium.Tree = &internals.Tree;
   medium.SquaredIndices = &internals.SquaredIndices;
+  medium.Terms = &internals.Terms;
   medium.OutsideIndex = key.OutsideIndex;
   medium.IsStraight = key.IsStraight;
   const meniscus::GradedRayWalk walk(medium);

@@ -6,8 +6,8 @@
  *
  * Casts one ray of light per pixel through a mesh in which the index of refraction n varies, and
  * writes what optical instruments make of the rays, as float arrays of a vtkImageData. It needs
- * neither a window nor OpenGL. n^2 is linear in each tetrahedron, in which rays are parabolas in
- * closed form; there is no step size.
+ * neither a window nor OpenGL. n^2 is quadratic in each tetrahedron, linear at jumps, and rays are
+ * exact in it; there is no step size. Errors are of second order in the size of the cells.
  *
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayIntegral
  * takes. SetInputArrayToProcess(0, 0, 0, association, name) chooses a point array, by default the
