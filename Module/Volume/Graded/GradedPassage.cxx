@@ -219,13 +219,11 @@ double GradedPassage::Extend(double time)
     // Even and odd terms are two series.
     isSmall[k % 2] = SizeOf(term) * power <= rounding;
   }
-  for (int k = this->Order - 1; k <= this->Order; ++k)
+  // Without both small, the series reaches so far that its last terms are small.
+  for (int k = this->Order - 1; !(isSmall[0] && isSmall[1]) && k <= this->Order; ++k)
   {
     const double size = SizeOf(this->Terms[k]);
-    if (size * std::pow(time, k - 1) > rounding)
-    {
-      time = std::min(time, std::pow(rounding / size, 1.0 / (k - 1)));
-    }
+    time = std::min(time, std::pow(rounding / size, 1.0 / (k - 1)));
   }
   return time;
 }
@@ -270,6 +268,8 @@ double GradedPassage::MeanCurvature(int i, double time) const
 bool GradedPassage::Refine(int face, double& time) const
 {
   constexpr int steps = 8;
+  // The error of a step is about the square of the change: this one is the last.
+  constexpr double lastChange = 0x1p-27;
   const double weight = this->Begin.Weights[face];
   double at = time;
   for (int step = 0; step < steps; ++step)
@@ -287,7 +287,7 @@ bool GradedPassage::Refine(int face, double& time) const
       return false;
     }
     const double size = weight + at * std::abs(this->WeightTerms[1][face]);
-    if (std::abs(change) <= Rounding * at || std::abs(rest) <= Rounding * size)
+    if (std::abs(change) <= lastChange * at || std::abs(rest) <= Rounding * size)
     {
       time = at;
       return true;
@@ -357,7 +357,9 @@ std::array<double, 4> GradedPassage::WeightsAfter(double time, int face) const
     weights[i] = i == face ? 0.0 : std::max(this->WeightAfter(i, time), 0.0);
     sum += weights[i];
   }
-  const double scale = 1.0 / sum;
+  // 1 / sum, without a division if it is that to rounding.
+  const double excess = sum - 1.0;
+  const double scale = std::abs(excess) < 0x1p-27 ? 1.0 - excess : 1.0 / sum;
   for (double& weight : weights)
   {
     weight *= scale;

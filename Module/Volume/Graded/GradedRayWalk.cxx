@@ -400,16 +400,19 @@ int GradedRayWalk::CrossCell(Path& path) const
   path.Statistics->FlatSteps += cell.IsFlat ? 1 : 0;
   path.Statistics->InvertedSteps += cell.IsInverted ? 1 : 0;
   const double sign = cell.IsInverted ? -1.0 : 1.0;
-  const double square = cell.GetSquaredIndex(path.Place.Weights);
   const bool isStraight = path.IsSearching() || this->Medium.IsStraight;
+  const double square = glm::dot(path.Momentum, path.Momentum);
   GradedPassage way(cell, path.Place, sign * path.Momentum, !isStraight);
   const bool glides = path.Constraints > 0 && way.Hold(path.Constraints);
-  const double shortTime = TimeAtVertex * std::sqrt(cell.SquaredSize / square);
+  const bool atRandom = path.Constraints > 0 && !glides;
+  const double shortTime = atRandom ? TimeAtVertex * std::sqrt(cell.SquaredSize / square) : 0.0;
   double time = Infinity;
-  int face = way.FindExit(path.Steps, path.Constraints > 0 && !glides, shortTime, time);
+  int face = way.FindExit(path.Steps, atRandom, shortTime, time);
   const double passed = cell.IsFlat ? 0.0 : sign * time;
+  const double height = 0.125 * passed * passed;
+  constexpr double glideHeight = GradedPassage::GlideHeight;
   path.IsShort =
-    0.125 * passed * passed * glm::length(way.GetForce()) <= GradedPassage::GlideHeight &&
+    height * height * glm::dot(way.GetForce(), way.GetForce()) <= glideHeight * glideHeight &&
     passed * passed * square <= LongestShare * LongestShare * cell.SquaredSize;
   path.NoteConstraints();
   path.Statistics->Glides += glides ? 1 : 0;
