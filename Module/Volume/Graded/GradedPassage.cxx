@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace meniscus
@@ -79,16 +80,15 @@ void GradedPassage::SetRates()
 {
   for (int i = 0; i < 4; ++i)
   {
-    this->WeightTerms[1][i] =
-      this->IsHeld[i] ? 0.0 : glm::dot(this->Cell.Gradients[i], this->Momentum);
-    this->WeightTerms[2][i] =
+    this->Rates[i] = this->IsHeld[i] ? 0.0 : glm::dot(this->Cell.Gradients[i], this->Momentum);
+    this->HalfCurvatures[i] =
       this->IsHeld[i] ? 0.0 : 0.5 * glm::dot(this->Cell.Gradients[i], this->Force);
   }
   // A ray that has entered by a face moves away from it or along it.
   if (this->Begin.Entry >= 0)
   {
-    this->WeightTerms[1][this->Begin.Entry] =
-      std::max(this->WeightTerms[1][this->Begin.Entry], 0.0);
+    double& rate = this->Rates[static_cast<std::size_t>(this->Begin.Entry)];
+    rate = std::max(rate, 0.0);
   }
 }
 
@@ -154,8 +154,8 @@ int GradedPassage::ChooseExit(
   std::int64_t step, bool atRandom, double shortTime, double& time) const
 {
   const auto& weights = this->Begin.Weights;
-  const auto& rates = this->WeightTerms[1];
-  const auto& halves = this->WeightTerms[2];
+  const auto& rates = this->Rates;
+  const auto& halves = this->HalfCurvatures;
   int face = -1;
   std::uint64_t best = 0;
   for (int i = 0; i < 4; ++i)
@@ -201,81 +201,105 @@ int GradedPassage::FindExit(std::int64_t step, bool atRandom, double shortTime, 
  */
 double GradedPassage::Extend(double time)
 {
-  const double rounding = 0.5 * Rounding * SizeOf(this->Momentum);
-  double power = time;
-  bool isSmall[2] = { false, false };
-  this->Order = 2;
-  while (this->Order < HighestOrder && !(isSmall[0] && isSmall[1]))
+  // Columns of A; the sum of their sizes is at least its norm.
+  glm::dvec3 columns[3];
+  double norm = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const int k = ++this->Order;
-    power *= time;
-    const glm::dvec3 term = 0.5 / (k * (k - 1.0)) *
-      this->Cell.AddGradients(this->Cell.ApplyEdges(this->WeightTerms[k - 2]));
-    this->Terms[k] = term;
-    for (int i = 0; i < 4; ++i)
-    {
-      this->WeightTerms[k][i] = glm::dot(this->Cell.Gradients[i], term);
-    }
-    // Even and odd terms are two series.
-    isSmall[k % 2] = SizeOf(term) * power <= rounding;
+    const auto& g = this->Cell.Gradients;
+    columns[axis] = 0.5 *
+      this->Cell.AddGradients(
+        this->Cell.ApplyEdges({ g[0][axis], g[1][axis], g[2][axis], g[3][axis] }));
+    norm = std::max(norm, SizeOf(columns[axis]));
   }
-  // Without both small, the series reaches so far that its last terms are small.
-  for (int k = this->Order - 1; !(isSmall[0] && isSmall[1]) && k <= this->Order; ++k)
+  double exponent = norm * time * time;
+  if (exponent > LargestExponent)
   {
-    const double size = SizeOf(this->Terms[k]);
-    time = std::min(time, std::pow(rounding / size, 1.0 / (k - 1)));
+    time = std::sqrt(LargestExponent / norm);
+    exponent = LargestExponent;
+  }
+  this->Order = 2;
+  glm::dvec3 odd = this->Momentum;
+  glm::dvec3 even = 0.5 * this->Force;
+  // Terms of the orders k + 1 and k + 2 are at most this share of those of the orders 1 and 2.
+  double share = exponent / 6.0;
+  while (share > 0.5 * Rounding && this->Order < HighestOrder)
+  {
+    const double k = this->Order;
+    odd = (odd.x * columns[0] + odd.y * columns[1] + odd.z * columns[2]) / (k * (k + 1.0));
+    even =
+      (even.x * columns[0] + even.y * columns[1] + even.z * columns[2]) / ((k + 1.0) * (k + 2.0));
+    this->Terms[static_cast<std::size_t>(this->Order + 1)] = odd;
+    this->Terms[static_cast<std::size_t>(this->Order + 2)] = even;
+    this->Order += 2;
+    share *= exponent / ((k + 2.0) * (k + 3.0));
   }
   return time;
 }
 
 //------------------------------------------------------------------------------
-double GradedPassage::WeightAfter(int i, double time) const
+void GradedPassage::MoveTo(double time)
 {
-  double sum = this->WeightTerms[this->Order][i];
-  for (int k = this->Order - 1; k > 0; --k)
+  if (time == this->EndTime)
   {
-    sum = sum * time + this->WeightTerms[k][i];
+    return;
   }
-  return this->Begin.Weights[i] + time * sum;
+  glm::dvec3 way(0.0);
+  glm::dvec3 change(0.0);
+  for (int k = this->Order; k > 2; --k)
+  {
+    const glm::dvec3& term = this->Terms[static_cast<std::size_t>(k)];
+    way = time * (way + term);
+    change = time * (change + static_cast<double>(k) * term);
+  }
+  this->EndTime = time;
+  this->EndWay = time * (this->Momentum + time * (0.5 * this->Force + way));
+  this->EndMomentum = this->Momentum + time * (this->Force + change);
 }
 
 //------------------------------------------------------------------------------
-double GradedPassage::RateAfter(int i, double time) const
+double GradedPassage::WeightOfWay(int i) const
 {
-  double sum = this->Order * this->WeightTerms[this->Order][i];
-  for (int k = this->Order - 1; k > 0; --k)
-  {
-    sum = sum * time + k * this->WeightTerms[k][i];
-  }
-  return sum;
+  return this->Begin.Weights[i] + glm::dot(this->Cell.Gradients[i], this->EndWay);
+}
+
+//------------------------------------------------------------------------------
+/** True if the ray has passed a face, by more than rounding. */
+bool GradedPassage::IsBeyond(int i) const
+{
+  return this->WeightOfWay(i) <
+    -Rounding * (this->Begin.Weights[i] + SizeOf(this->Cell.Gradients[i]) * SizeOf(this->EndWay));
 }
 
 //------------------------------------------------------------------------------
 /** Curvature of the parabola that begins alike and has the same weight after a time. */
 double GradedPassage::MeanCurvature(int i, double time) const
 {
-  double sum = this->WeightTerms[this->Order][i];
-  for (int k = this->Order - 1; k > 1; --k)
+  glm::dvec3 sum(0.0);
+  for (int k = this->Order; k > 2; --k)
   {
-    sum = sum * time + this->WeightTerms[k][i];
+    sum = time * (sum + this->Terms[static_cast<std::size_t>(k)]);
   }
-  return 2.0 * sum;
+  return 2.0 * glm::dot(this->Cell.Gradients[i], 0.5 * this->Force + sum);
 }
 
 //------------------------------------------------------------------------------
-/** Moves the time to the zero of a weight by Newton's method. Returns false if there is none near.
+/**
+ * Moves to the zero of a weight near a time by Newton's method. Returns false if there is none
+ * near.
  */
-bool GradedPassage::Refine(int face, double& time) const
+bool GradedPassage::Refine(int face, double& time)
 {
   constexpr int steps = 8;
   // The error of a step is about the square of the change: this one is the last.
   constexpr double lastChange = 0x1p-27;
-  const double weight = this->Begin.Weights[face];
+  const glm::dvec3& gradient = this->Cell.Gradients[face];
+  const double size = this->Begin.Weights[face] + SizeOf(gradient) * SizeOf(this->EndWay);
   double at = time;
   for (int step = 0; step < steps; ++step)
   {
-    const double rest = this->WeightAfter(face, at);
-    const double rate = this->RateAfter(face, at);
+    const double rest = this->WeightOfWay(face);
+    const double rate = glm::dot(gradient, this->EndMomentum);
     if (!(rate < 0.0))
     {
       return false;
@@ -286,7 +310,7 @@ bool GradedPassage::Refine(int face, double& time) const
     {
       return false;
     }
-    const double size = weight + at * std::abs(this->WeightTerms[1][face]);
+    this->MoveTo(at);
     if (std::abs(change) <= lastChange * at || std::abs(rest) <= Rounding * size)
     {
       time = at;
@@ -314,12 +338,13 @@ int GradedPassage::FollowCurve(int face, double& time)
     time = reach;
     face = -1;
   }
-  for (int attempt = 0; attempt < attempts; ++attempt)
+  for (int attempt = 0; attempt < attempts && time > 0.0; ++attempt)
   {
+    this->MoveTo(time);
     bool isFound = face < 0 || this->Refine(face, time);
     for (int i = 0; i < 4 && isFound; ++i)
     {
-      isFound = i == face || this->WeightAfter(i, time) >= 0.0;
+      isFound = i == face || !this->IsBeyond(i);
     }
     if (isFound)
     {
@@ -330,7 +355,7 @@ int GradedPassage::FollowCurve(int face, double& time)
     for (int i = 0; i < 4; ++i)
     {
       const double reached =
-        TimeToZero(this->Begin.Weights[i], this->WeightTerms[1][i], this->MeanCurvature(i, time));
+        TimeToZero(this->Begin.Weights[i], this->Rates[i], this->MeanCurvature(i, time));
       if (reached < nearest)
       {
         nearest = reached;
@@ -339,22 +364,22 @@ int GradedPassage::FollowCurve(int face, double& time)
     }
     face = next;
     time = nearest;
-    if (time == 0.0)
-    {
-      break;
-    }
   }
   return face;
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 4> GradedPassage::WeightsAfter(double time, int face) const
+std::array<double, 4> GradedPassage::GetWeights(int face) const
 {
   std::array<double, 4> weights;
   double sum = 0.0;
+  const double time = this->EndTime;
   for (int i = 0; i < 4; ++i)
   {
-    weights[i] = i == face ? 0.0 : std::max(this->WeightAfter(i, time), 0.0);
+    const double weight = this->Order > 2
+      ? this->WeightOfWay(i)
+      : this->Begin.Weights[i] + time * (this->Rates[i] + time * this->HalfCurvatures[i]);
+    weights[i] = i == face ? 0.0 : std::max(weight, 0.0);
     sum += weights[i];
   }
   // 1 / sum, without a division if it is that to rounding.
@@ -368,32 +393,19 @@ std::array<double, 4> GradedPassage::WeightsAfter(double time, int face) const
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 GradedPassage::MomentumAfter(double time) const
-{
-  glm::dvec3 sum(0.0);
-  for (int k = this->Order; k > 2; --k)
-  {
-    sum = time * (sum + static_cast<double>(k) * this->Terms[k]);
-  }
-  return this->Momentum + time * (this->Force + sum);
-}
-
-//------------------------------------------------------------------------------
-double GradedPassage::IntegrateSquare(double time, double square) const
+double GradedPassage::IntegrateSquare(double square) const
 {
   // With y = place - x: d(p y)/ds = n^2 + y grad(n^2) / 2, and n^2 = square + 2 Force y + y A y.
   // The integrals of y A y cancel.
-  glm::dvec3 way(0.0);
+  const double time = this->EndTime;
   glm::dvec3 mean(0.0);
   for (int k = this->Order; k > 2; --k)
   {
-    way = time * (way + this->Terms[k]);
-    mean = time * (mean + this->Terms[k] / (k + 1.0));
+    mean = time * (mean + this->Terms[static_cast<std::size_t>(k)] / (k + 1.0));
   }
-  way = time * (this->Momentum + time * (0.5 * this->Force + way));
   mean = time * time * (0.5 * this->Momentum + time * (this->Force / 6.0 + mean));
   return 0.5 *
-    (square * time + glm::dot(this->Force, mean) + glm::dot(this->MomentumAfter(time), way));
+    (square * time + glm::dot(this->Force, mean) + glm::dot(this->EndMomentum, this->EndWay));
 }
 
 }

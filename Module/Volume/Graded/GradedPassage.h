@@ -34,11 +34,13 @@ struct PlaceInCell
 class GradedPassage
 {
 public:
-  /**
-   * Highest order of the power series. The first two orders left out are below rounding for
-   * |A| s^2 < 0.6; longer ways are divided.
-   */
+  /** Highest order of the power series. */
   static constexpr int HighestOrder = 16;
+  /**
+   * Largest |A| s^2 of one step. The first terms left out are a share of |A s^2|^8 / 17! of the
+   * way, 2^-52; longer ways are divided.
+   */
+  static constexpr double LargestExponent = 0.7;
 
   /**
    * @param cell, begin must outlive this object.
@@ -72,23 +74,25 @@ public:
    */
   int FindExit(std::int64_t step, bool atRandom, double shortTime, double& time);
 
-  /** Weights after a time; that of the face (-1 for none) is 0. */
-  std::array<double, 4> WeightsAfter(double time, int face) const;
-  /** Momentum after a time. */
-  glm::dvec3 MomentumAfter(double time) const;
-  /** Integral of n^2 along the way, from its value at the beginning. */
-  double IntegrateSquare(double time, double square) const;
+  /** Moves to a time: that of FindExit(), or any for a straight way. */
+  void MoveTo(double time);
+  /** Weights where the ray has moved to; that of the face (-1 for none) is 0. */
+  std::array<double, 4> GetWeights(int face) const;
+  /** Momentum there. */
+  const glm::dvec3& GetMomentum() const { return this->EndMomentum; }
+  /** Integral of n^2 along the way there, from its value at the beginning. */
+  double IntegrateSquare(double square) const;
   /** grad(n^2) / 2 at the beginning, or its component along the faces that hold the ray. */
   const glm::dvec3& GetForce() const { return this->Force; }
 
 private:
   void SetRates();
-  double WeightAfter(int i, double time) const;
-  double RateAfter(int i, double time) const;
-  double MeanCurvature(int i, double time) const;
   int ChooseExit(std::int64_t step, bool atRandom, double shortTime, double& time) const;
   double Extend(double time);
-  bool Refine(int face, double& time) const;
+  double WeightOfWay(int i) const;
+  bool IsBeyond(int i) const;
+  double MeanCurvature(int i, double time) const;
+  bool Refine(int face, double& time);
   int FollowCurve(int face, double& time);
 
   const GradedCell& Cell;
@@ -97,13 +101,19 @@ private:
   bool IsCurved;
   /** Faces that the ray stays on. */
   std::array<bool, 4> IsHeld{};
-  int Order = 2;
   glm::dvec3 Momentum;
   glm::dvec3 Force;
+  /** Rates of the weights and halves of their curvatures at the beginning. */
+  std::array<double, 4> Rates;
+  std::array<double, 4> HalfCurvatures;
+  int Order = 2;
   /** Coefficients of the place from the third order on. */
   std::array<glm::dvec3, HighestOrder + 1> Terms;
-  /** Coefficients of the weights from the first order on. */
-  std::array<std::array<double, 4>, HighestOrder + 1> WeightTerms;
+  /** End of the way: the time, -1 before the first move, the place from the beginning and the
+   * momentum. */
+  double EndTime = -1.0;
+  glm::dvec3 EndWay;
+  glm::dvec3 EndMomentum;
 };
 
 }

@@ -426,16 +426,16 @@ int GradedRayWalk::CrossCell(Path& path) const
   {
     return -1;
   }
-  const std::array<double, 4> end = way.WeightsAfter(time, face);
+  way.MoveTo(time);
+  const std::array<double, 4> end = way.GetWeights(face);
   if (this->Medium.IsStraight && !path.IsSearching())
   {
     path.AddStraight(cell, passed, end);
   }
   else if (!isStraight)
   {
-    path.Result->OpticalPath += cell.IsFlat ? 0.0 : sign * way.IntegrateSquare(time, square);
-    const glm::dvec3 momentum =
-      sign * (cell.IsFlat ? sign * path.Momentum : way.MomentumAfter(time));
+    path.Result->OpticalPath += cell.IsFlat ? 0.0 : sign * way.IntegrateSquare(square);
+    const glm::dvec3 momentum = sign * (cell.IsFlat ? sign * path.Momentum : way.GetMomentum());
     // |p| = n holds along the way but for rounding, which must not add up.
     path.Momentum = std::sqrt(cell.GetSquaredIndex(end) / glm::dot(momentum, momentum)) * momentum;
   }
