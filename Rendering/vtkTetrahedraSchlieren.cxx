@@ -3,19 +3,22 @@
 #include "vtkTetrahedraSchlieren.h"
 
 #include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Statistics.h"
 #include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/ConcatenatedArray.h"
+#include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Rendering/Integral/ImagePlace.h"
 #include "Rendering/Integral/IntegralView.h"
+#include "Rendering/Integral/SchlierenArrays.h"
 #include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
-#include "Volume/Graded/SchlierenImages.h"
 
 #include "vtkAbstractMapper.h"
 #include "vtkCamera.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -23,17 +26,15 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat2x2.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,106 +45,40 @@ namespace
 constexpr double ShareOfMedium = 0.3;
 constexpr double ShareOfRays = 0.6;
 /** Rows of the image that are cast between two reports of the progress. */
-constexpr int RowsPerReport = 32;
+constexpr std::size_t RowsPerReport = 32;
 
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
-/** Rays of an image's pixels in the mesh's units, and places in the image that they reach. */
-class PixelRays
+/** Everything that the index of refraction at the vertices depends on but the input's values. */
+struct MediumKey
 {
-public:
-  PixelRays(const meniscus::IntegralView& view, const int size[2])
-    : View(view)
-    , ToFrame(glm::transpose(glm::dmat3(view.Rays.RowX, view.Rays.RowY, view.Rays.RowDepth)))
-    , FromFrame(glm::inverse(this->ToFrame))
-    , Middle(0.5 * (size[0] - 1), 0.5 * (size[1] - 1))
-  {
-  }
+  meniscus::TableVersions Mesh;
+  int Quantity = -1;
+  /** 0 if the values are indices. */
+  double GladstoneDale = 0.0;
 
-  glm::dvec2 GetSlope(const glm::dvec2& pixel) const
+  bool operator==(const MediumKey& other) const
   {
-    const glm::dvec2 p = pixel - this->Middle;
-    return this->View.Rays.Slope.At(p.x, p.y);
+    return this->Mesh == other.Mesh && this->Quantity == other.Quantity &&
+      this->GladstoneDale == other.GladstoneDale;
   }
-  glm::dvec3 GetOrigin(const glm::dvec2& pixel) const
-  {
-    const glm::dvec2 p = pixel - this->Middle;
-    const double depth = this->View.BeginDepth;
-    return this->FromFrame *
-      glm::dvec3(this->View.Rays.Origin.At(p.x, p.y) + depth * this->GetSlope(pixel), depth);
-  }
-  glm::dvec3 GetDirection(const glm::dvec2& pixel) const
-  {
-    return this->FromFrame * glm::dvec3(this->GetSlope(pixel), 1.0);
-  }
-  /** Depth in the frame at a distance in world coordinates behind a box about the centre. */
-  double GetDepthBehind(const glm::dvec3& half, double distance) const
-  {
-    return glm::dot(glm::abs(this->View.Rays.RowDepth), half) +
-      distance / glm::length(this->View.Rays.ViewToWorld[2]);
-  }
-  /** Change of a direction's slope against that of the pixel's ray; NaN for a ray that returns. */
-  glm::dvec2 Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const
-  {
-    const glm::dvec3 d = this->ToFrame * direction;
-    return d.z > 0.0 ? glm::dvec2(d) / d.z - this->GetSlope(pixel) : glm::dvec2(NaN);
-  }
-  /** Pixel whose undisturbed ray reaches the place at a depth that this ray reaches. */
-  glm::dvec2 Land(const meniscus::GradedRayResult& ray, double depth) const
-  {
-    const glm::dvec3 place = this->ToFrame * ray.Exit;
-    const glm::dvec3 d = this->ToFrame * ray.Direction;
-    if (!(d.z > 0.0))
-    {
-      return glm::dvec2(NaN);
-    }
-    const glm::dvec2 there = glm::dvec2(place) + (depth - place.z) / d.z * glm::dvec2(d);
-    const auto& origin = this->View.Rays.Origin;
-    const auto& slope = this->View.Rays.Slope;
-    const glm::dmat2 steps(
-      origin.PerColumn + depth * slope.PerColumn, origin.PerRow + depth * slope.PerRow);
-    return this->Middle + glm::inverse(steps) * (there - origin.Base - depth * slope.Base);
-  }
-
-private:
-  const meniscus::IntegralView& View;
-  glm::dmat3 ToFrame;
-  glm::dmat3 FromFrame;
-  glm::dvec2 Middle;
 };
 
-/** An array of the output. */
-vtkFloatArray* AddArray(vtkImageData* image, const char* name, int components)
+/** Everything that rays depend on. */
+struct RayKey
 {
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  image->GetPointData()->AddArray(array);
-  return array;
-}
+  meniscus::TableVersion Medium;
+  meniscus::RayFrame Frame;
+  double BeginDepth = 0.0;
+  glm::ivec2 Size{ 0 };
+  double OutsideIndex = 0.0;
+  bool IsStraight = false;
 
-/** A picture as numbers, row by row. */
-struct Picture
-{
-  std::vector<float> Values;
-  int Width = 0;
-  int Height = 0;
-};
-
-Picture ReadPicture(vtkImageData* image)
-{
-  Picture picture;
-  const int* size = image->GetDimensions();
-  picture.Width = size[0];
-  picture.Height = size[1];
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  for (vtkIdType i = 0; i < vtkIdType{ size[0] } * size[1]; ++i)
+  bool operator==(const RayKey& other) const
   {
-    picture.Values.push_back(static_cast<float>(scalars->GetComponent(i, 0)));
+    return this->Medium == other.Medium && this->Frame == other.Frame &&
+      this->BeginDepth == other.BeginDepth && this->Size == other.Size &&
+      this->OutsideIndex == other.OutsideIndex && this->IsStraight == other.IsStraight;
   }
-  return picture;
-}
+};
 
 }
 
@@ -151,19 +86,32 @@ Picture ReadPicture(vtkImageData* image)
 class vtkTetrahedraSchlieren::vtkInternals
 {
 public:
+  static const std::vector<meniscus::Statistic<vtkTetrahedraSchlieren>>& List();
+
   meniscus::VolumeInput Input;
+  meniscus::ContentWatch ValueWatch;
+  MediumKey Medium;
+  /** Bumped when the medium is read. */
+  meniscus::TableVersion MediumVersion;
   /** A copy of the input's mesh, in which cells without an index are inactive. */
   meniscus::TetrahedralMesh Mesh;
   meniscus::BoundaryTree Tree;
   std::vector<double> SquaredIndices;
+  std::vector<meniscus::EdgeTerms> Terms;
   meniscus::IndexFaults Faults;
+
   meniscus::ParallelRectangle Rectangle;
   meniscus::IntegralView View;
+  /** Not equal to any key before the first cast and after one that was not finished. */
+  RayKey CastFor;
   std::vector<meniscus::GradedRayResult> Rays;
   meniscus::GradedRayStatistics Statistics;
+  std::int64_t Casts = 0;
+  vtkNew<vtkTable> StatisticsTable;
 };
 
 vtkStandardNewMacro(vtkTetrahedraSchlieren);
+meniscusStatisticsMacro(vtkTetrahedraSchlieren);
 meniscusSetClampMacro(vtkTetrahedraSchlieren, Quantity, int, DENSITY, REFRACTIVE_INDEX);
 meniscusSetClampMacro(vtkTetrahedraSchlieren, OutsideIndex, double, 0.0, VTK_DOUBLE_MAX);
 meniscusSetClampMacro(vtkTetrahedraSchlieren, KnifeCutOff, double, 0.0, 1.0);
@@ -206,33 +154,29 @@ vtkMTimeType vtkTetrahedraSchlieren::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraSchlieren::GetNumberOfRays()
+const std::vector<meniscus::Statistic<vtkTetrahedraSchlieren>>&
+vtkTetrahedraSchlieren::vtkInternals::List()
 {
-  return this->Internals->Statistics.Rays;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraSchlieren::GetNumberOfTraversalSteps()
-{
-  return this->Internals->Statistics.Steps;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraSchlieren::GetNumberOfStoppedRays()
-{
-  return this->Internals->Statistics.Trapped;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraSchlieren::GetNumberOfLostRays()
-{
-  return this->Internals->Statistics.Lost;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraSchlieren::GetNumberOfUnusablePoints()
-{
-  return this->Internals->Faults.GetNumberOfUnusable();
+  using Self = vtkTetrahedraSchlieren;
+  static const std::vector<meniscus::Statistic<Self>> list = {
+    { "NumberOfMediumUpdates", "readings of the index of refraction",
+      [](Self& self) { return double(self.Internals->MediumVersion.GetChanges()); } },
+    { "NumberOfCasts", "casts of all rays of an image",
+      [](Self& self) { return double(self.Internals->Casts); } },
+    { "NumberOfRays", "rays of the last image that met the mesh",
+      [](Self& self) { return double(self.Internals->Statistics.Rays); } },
+    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
+      [](Self& self) { return double(self.Internals->Statistics.Steps); } },
+    { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
+      [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
+    { "NumberOfLostRays",
+      "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
+      "doubles",
+      [](Self& self) { return double(self.Internals->Statistics.Lost); } },
+    { "NumberOfUnusablePoints", "points whose value cannot be used",
+      [](Self& self) { return double(self.Internals->Faults.GetNumberOfUnusable()); } },
+  };
+  return list;
 }
 
 //------------------------------------------------------------------------------
@@ -351,6 +295,28 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
   {
     return false;
   }
+  const bool hasNewValues = internals.ValueWatch.HasChanged(
+    meniscus::ScalarVersions(blocks), [&blocks]() { return meniscus::DigestScalars(blocks); });
+  MediumKey key;
+  key.Mesh = { internals.Input.GetBuildVersion(), internals.Input.GetMeshVersion() };
+  key.Quantity = this->Quantity;
+  key.GladstoneDale = this->Quantity == DENSITY ? this->GladstoneDale : 0.0;
+  if (hasNewValues || !(key == internals.Medium))
+  {
+    internals.Medium = key;
+    this->ReadIndices(blocks);
+  }
+  return this->TellError(internals.Mesh.GetNumberOfActiveCells() > 0
+      ? std::string()
+      : "No cell has an index of refraction in all of its points");
+}
+
+//------------------------------------------------------------------------------
+/** Reads the indices of refraction and the mesh of the cells that have them. */
+void vtkTetrahedraSchlieren::ReadIndices(const meniscus::InputBlocks& blocks)
+{
+  vtkInternals& internals = *this->Internals;
+  internals.MediumVersion.Bump();
   const std::vector<double> values = meniscus::GatherValues(blocks, 0,
     internals.Input.GetSources(meniscus::FieldAssociation::Points),
     internals.Input.GetInterpolatedPoints(meniscus::FieldAssociation::Points));
@@ -361,6 +327,8 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
   const std::int64_t holes = meniscus::ActivateCellsWithIndex(
     internals.Mesh, internals.SquaredIndices, meniscus::ThreadedLoop);
   internals.Tree.Build(internals.Mesh);
+  internals.Terms =
+    meniscus::ComputeEdgeTerms(internals.Mesh, internals.SquaredIndices, meniscus::FacetLoop);
   if (holes > 0 && internals.Mesh.GetNumberOfActiveCells() > 0)
   {
     vtkWarningMacro(<< internals.Faults.NotFinite << " points have a value that is not finite and "
@@ -371,14 +339,11 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
   {
     vtkWarningMacro(<< internals.Faults.BelowOne << " points have an index of refraction below 1.");
   }
-  return this->TellError(internals.Mesh.GetNumberOfActiveCells() > 0
-      ? std::string()
-      : "No cell has an index of refraction in all of its points");
 }
 
 //------------------------------------------------------------------------------
-/** Follows the rays of all pixels. Returns false after an error or an abort. */
-bool vtkTetrahedraSchlieren::CastRays()
+/** Computes the rays of the image before they are bent. Returns false after an error. */
+bool vtkTetrahedraSchlieren::UpdateView()
 {
   vtkInternals& internals = *this->Internals;
   const meniscus::TetrahedralMesh& mesh = internals.Mesh;
@@ -397,41 +362,63 @@ bool vtkTetrahedraSchlieren::CastRays()
                               internals.Rectangle, this->ImageSize, mesh, {}, internals.View)
                           : error;
   }
-  if (!this->TellError(error))
+  return this->TellError(error);
+}
+
+//------------------------------------------------------------------------------
+/** Follows the rays of all pixels, unless it has done so. Returns false after an abort. */
+bool vtkTetrahedraSchlieren::UpdateRays()
+{
+  vtkInternals& internals = *this->Internals;
+  RayKey key;
+  key.Medium = internals.MediumVersion;
+  key.Frame = internals.View.Rays;
+  key.BeginDepth = internals.View.BeginDepth;
+  key.Size = glm::make_vec2(this->ImageSize);
+  key.OutsideIndex = this->OutsideIndex;
+  key.IsStraight = this->BendRays == 0;
+  if (key == internals.CastFor)
   {
-    return false;
+    return true;
   }
+  internals.CastFor = RayKey();
+  internals.Statistics = meniscus::GradedRayStatistics();
+  ++internals.Casts;
   meniscus::GradedMedium medium;
-  medium.Mesh = &mesh;
+  medium.Mesh = &internals.Mesh;
   medium.Tree = &internals.Tree;
   medium.SquaredIndices = &internals.SquaredIndices;
-  medium.OutsideIndex = this->OutsideIndex;
-  medium.IsStraight = this->BendRays == 0;
+  medium.Terms = &internals.Terms;
+  medium.OutsideIndex = key.OutsideIndex;
+  medium.IsStraight = key.IsStraight;
   const meniscus::GradedRayWalk walk(medium);
-  const PixelRays rays(internals.View, this->ImageSize);
-  const int width = this->ImageSize[0];
-  const int height = this->ImageSize[1];
-  internals.Rays.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
-  std::vector<meniscus::GradedRayStatistics> ofRows(static_cast<std::size_t>(height));
-  for (int first = 0; first < height; first += RowsPerReport)
+  const meniscus::PixelRays rays(internals.View, this->ImageSize);
+  const auto width = static_cast<std::size_t>(this->ImageSize[0]);
+  const auto height = static_cast<std::size_t>(this->ImageSize[1]);
+  internals.Rays.assign(width * height, {});
+  std::vector<meniscus::GradedRayStatistics> ofRows(height);
+  const auto castRow = [&](std::size_t row)
   {
-    const int rows = std::min(RowsPerReport, height - first);
-    meniscus::ThreadedRanges(static_cast<std::size_t>(rows), 1,
+    for (std::size_t column = 0; column < width; ++column)
+    {
+      const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
+      internals.Rays[row * width + column] =
+        walk.Walk(rays.GetOrigin(pixel), rays.GetDirection(pixel), ofRows[row]);
+    }
+  };
+  for (std::size_t first = 0; first < height; first += RowsPerReport)
+  {
+    const std::size_t rows = std::min(RowsPerReport, height - first);
+    meniscus::ThreadedRanges(rows, 1,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t row = begin + static_cast<std::size_t>(first);
-             row < end + static_cast<std::size_t>(first); ++row)
+        for (std::size_t row = begin; row < end; ++row)
         {
-          for (int column = 0; column < width; ++column)
-          {
-            const glm::dvec2 pixel(column, static_cast<double>(row));
-            internals
-              .Rays[row * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
-              walk.Walk(rays.GetOrigin(pixel), rays.GetDirection(pixel), ofRows[row]);
-          }
+          castRow(first + row);
         }
       });
-    this->UpdateProgress(ShareOfMedium + ShareOfRays * (first + rows) / height);
+    this->UpdateProgress(ShareOfMedium +
+      ShareOfRays * static_cast<double>(first + rows) / static_cast<double>(height));
     if (this->GetAbortExecute())
     {
       return false;
@@ -441,6 +428,7 @@ bool vtkTetrahedraSchlieren::CastRays()
   {
     internals.Statistics.Add(row);
   }
+  internals.CastFor = key;
   if (internals.Statistics.Trapped + internals.Statistics.Lost > 0)
   {
     vtkWarningMacro(<< internals.Statistics.Trapped + internals.Statistics.Lost
@@ -455,84 +443,21 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   vtkInternals& internals = *this->Internals;
   const int width = this->ImageSize[0];
   const int height = this->ImageSize[1];
-  const PixelRays rays(internals.View, this->ImageSize);
-  const double radius = internals.Mesh.GetRadius();
-  const glm::dvec3 half = internals.Mesh.GetHalfSize() / radius;
-  const double screen = rays.GetDepthBehind(half, this->ScreenDistance);
-  const double behind = rays.GetDepthBehind(half, this->BackgroundDistance);
   output->SetExtent(0, width - 1, 0, height - 1, 0, 0);
   const meniscus::ImagePlace place =
     this->Camera ? meniscus::ImagePlace() : PlaceOf(internals.Rectangle, this->ImageSize);
   output->SetOrigin(place.Origin);
   output->SetSpacing(place.Spacing);
   output->SetDirectionMatrix(place.Direction);
-  vtkFloatArray* deflections = AddArray(output, "Deflection", 2);
-  vtkFloatArray* paths = AddArray(output, "OpticalPathDifference", 1);
-  vtkFloatArray* shadows = AddArray(output, "Shadowgraph", 1);
-  vtkFloatArray* knives = AddArray(output, "Schlieren", 1);
-  vtkFloatArray* fringes = AddArray(output, "Interferogram", 1);
-  vtkFloatArray* shifts = AddArray(output, "Displacement", 2);
-  vtkFloatArray* warped = background ? AddArray(output, "Background", 1) : nullptr;
-  const Picture picture = background ? ReadPicture(background) : Picture();
-  meniscus::KnifeEdge knife{ this->KnifeAngle, this->KnifeCutOff, this->KnifeRange };
-  const meniscus::Interferometer meter{ this->Wavelength,
-    glm::dvec2(this->Fringes[0], this->Fringes[1]) };
-  std::vector<glm::dvec2> turned(internals.Rays.size(), glm::dvec2(0.0));
-  std::vector<glm::dvec2> landings(internals.Rays.size());
-  double largest = 0.0;
-  for (std::size_t i = 0; i < internals.Rays.size(); ++i)
-  {
-    const meniscus::GradedRayResult& ray = internals.Rays[i];
-    const auto number = static_cast<vtkIdType>(i);
-    const glm::dvec2 pixel(static_cast<double>(i % static_cast<std::size_t>(width)),
-      static_cast<double>(i / static_cast<std::size_t>(width)));
-    glm::dvec2 seen = pixel;
-    landings[i] = pixel;
-    double path = 0.0;
-    if (ray.State == meniscus::GradedRayState::Left)
-    {
-      landings[i] = rays.Land(ray, screen);
-      seen = rays.Land(ray, behind);
-      turned[i] = rays.Deflect(pixel, ray.Direction);
-      path = radius *
-        (ray.OpticalPath -
-          this->ReferenceIndex *
-            glm::dot(ray.Exit - ray.Entry, glm::normalize(rays.GetDirection(pixel))));
-    }
-    const bool isLost = ray.State == meniscus::GradedRayState::Trapped ||
-      ray.State == meniscus::GradedRayState::Lost || std::isnan(turned[i].x);
-    if (isLost)
-    {
-      landings[i] = glm::dvec2(NaN);
-      turned[i] = glm::dvec2(0.0);
-      seen = pixel;
-    }
-    largest = std::max(largest, std::abs(knife.Along(turned[i])));
-    deflections->SetTuple2(number, turned[i].x, turned[i].y);
-    paths->SetValue(number, static_cast<float>(path));
-    shifts->SetTuple2(number, seen.x - pixel.x, seen.y - pixel.y);
-    const glm::dvec2 size(width, height);
-    fringes->SetValue(number, static_cast<float>(meter.Interfere(path, (pixel + 0.5) / size)));
-    if (warped)
-    {
-      const glm::dvec2 pixels(picture.Width, picture.Height);
-      warped->SetValue(number,
-        static_cast<float>(meniscus::SamplePicture(
-          picture.Values, picture.Width, picture.Height, (seen + 0.5) / size * pixels - 0.5)));
-    }
-  }
-  if (!(knife.Range > 0.0))
-  {
-    knife.Range = largest > 0.0 ? 2.0 * largest : 1.0;
-  }
-  double offScreen = 0.0;
-  const std::vector<double> light =
-    meniscus::ComputeShadowgraph(landings, width, height, meniscus::ThreadedLoop, offScreen);
-  for (std::size_t i = 0; i < light.size(); ++i)
-  {
-    shadows->SetValue(static_cast<vtkIdType>(i), static_cast<float>(light[i]));
-    knives->SetValue(static_cast<vtkIdType>(i), static_cast<float>(knife.Transmit(turned[i])));
-  }
+  meniscus::Instruments instruments;
+  instruments.ReferenceIndex = this->ReferenceIndex;
+  instruments.ScreenDistance = this->ScreenDistance;
+  instruments.BackgroundDistance = this->BackgroundDistance;
+  instruments.Knife = { this->KnifeAngle, this->KnifeCutOff, this->KnifeRange };
+  instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
+  instruments.Background = background;
+  const meniscus::PixelRays rays(internals.View, this->ImageSize);
+  meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output);
   output->GetPointData()->SetActiveScalars("Schlieren");
   this->UpdateProgress(1.0);
 }
@@ -543,12 +468,10 @@ int vtkTetrahedraSchlieren::RequestData(
 {
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->Initialize();
-  this->Internals->Statistics = meniscus::GradedRayStatistics();
-  this->Internals->Faults = meniscus::IndexFaults();
   vtkImageData* background =
     inputs[1]->GetNumberOfInformationObjects() > 0 ? vtkImageData::GetData(inputs[1]) : nullptr;
   if (this->CheckSettings(background) && this->UpdateMedium(vtkDataObject::GetData(inputs[0])) &&
-    this->CastRays())
+    this->UpdateView() && this->UpdateRays())
   {
     this->MakeImages(background, output);
     return 1;
@@ -579,9 +502,5 @@ void vtkTetrahedraSchlieren::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wavelength: " << this->Wavelength << "\n";
   os << indent << "Fringes: (" << this->Fringes[0] << ", " << this->Fringes[1] << ")\n";
   os << indent << "BackgroundDistance: " << this->BackgroundDistance << "\n";
-  os << indent << "NumberOfRays: " << this->GetNumberOfRays() << "\n";
-  os << indent << "NumberOfTraversalSteps: " << this->GetNumberOfTraversalSteps() << "\n";
-  os << indent << "NumberOfStoppedRays: " << this->GetNumberOfStoppedRays() << "\n";
-  os << indent << "NumberOfLostRays: " << this->GetNumberOfLostRays() << "\n";
-  os << indent << "NumberOfUnusablePoints: " << this->GetNumberOfUnusablePoints() << "\n";
+  meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);
 }

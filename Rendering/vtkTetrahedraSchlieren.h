@@ -6,8 +6,8 @@
  *
  * Casts one ray of light per pixel through a mesh in which the index of refraction n varies, and
  * writes what optical instruments make of the rays, as float arrays of a vtkImageData. It needs
- * neither a window nor OpenGL. n^2 is linear in each tetrahedron, in which rays are parabolas in
- * closed form; there is no step size.
+ * neither a window nor OpenGL. n^2 is quadratic in each tetrahedron, linear at jumps, and rays are
+ * exact in it; there is no step size. Errors are of second order in the size of the cells.
  *
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayIntegral
  * takes. SetInputArrayToProcess(0, 0, 0, association, name) chooses a point array, by default the
@@ -35,12 +35,14 @@
  * far side of its bounding box along the middle ray.
  *
  * **Bad input.** Cells with a value that is not finite, with n <= 0 or with a negative density are
- * holes (GetNumberOfUnusablePoints()); indices below 1 are used. Rays that stay in the mesh are
- * stopped (GetNumberOfStoppedRays()). Warnings report these. Errors, with an empty output: no
+ * holes; indices below 1 are used. Rays that stay in the mesh are stopped. Warnings report these,
+ * and GetStatistics() counts them. Errors, with an empty output: no
  * cells, no such point array, no usable values, an image size below 1, a background without pixels,
  * a direction that is zero or parallel to ViewUp.
  *
- * Rays are cast in parallel by vtkSMPTools; results do not depend on the number of threads.
+ * Rays are cast in parallel by vtkSMPTools; results do not depend on the number of threads. They
+ * are kept: if only instruments change, such as the knife edge, a distance, the wavelength or the
+ * background, no ray is cast again.
  *
  * @sa vtkTetrahedraRayIntegral
  */
@@ -54,6 +56,12 @@
 #include <memory> // For std::unique_ptr
 
 class vtkCamera;
+class vtkTable;
+
+namespace meniscus
+{
+struct InputBlocks;
+}
 
 class VTKMENISCUS_EXPORT vtkTetrahedraSchlieren : public vtkImageAlgorithm
 {
@@ -79,7 +87,7 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the Gladstone-Dale constant, volume per mass. Default is 2.26147e-4 m^3/kg: dry air at
+   * Set/Get the Gladstone-Dale constant, volume per mass. Default is 2.26157e-4 m^3/kg: dry air at
    * 589.3 nm, by Ciddor's equations (Applied Optics 35, 1996).
    */
   vtkSetMacro(GladstoneDale, double);
@@ -195,20 +203,14 @@ public:
   /** @} */
 
   /** @{ */
-  /** Numbers of the last image: rays that met the mesh, crossed cells, rays that were stopped. */
-  vtkTypeInt64 GetNumberOfRays();
-  vtkTypeInt64 GetNumberOfTraversalSteps();
-  vtkTypeInt64 GetNumberOfStoppedRays();
-  /** @} */
-
   /**
-   * Number of rays of the last image without a way out of a cell; can only be caused by numbers
-   * beyond the range of doubles.
+   * Counters by name: a table with one row each and the columns Name, Meaning and Value, which
+   * belongs to this object and is filled anew by each call; and the value of one name, such as
+   * "NumberOfStoppedRays". An unknown name is an error, and the value is not a number.
    */
-  vtkTypeInt64 GetNumberOfLostRays();
-
-  /** Number of points whose value cannot be used. */
-  vtkTypeInt64 GetNumberOfUnusablePoints();
+  vtkTable* GetStatistics();
+  double GetStatistic(const char* name);
+  /** @} */
 
   /** Includes the time of the camera. */
   vtkMTimeType GetMTime() override;
@@ -234,7 +236,9 @@ private:
   bool TellError(const std::string& error);
   bool CheckSettings(vtkImageData* background);
   bool UpdateMedium(vtkDataObject* input);
-  bool CastRays();
+  void ReadIndices(const meniscus::InputBlocks& blocks);
+  bool UpdateView();
+  bool UpdateRays();
   void MakeImages(vtkImageData* background, vtkImageData* output);
 
   int Quantity = DENSITY;

@@ -38,8 +38,7 @@ def make_air(cells):
     up = numpy.linspace(-0.045, RADIUS - WICK + 0.005, 3 * cells + 1)
     z, y, x = numpy.meshgrid(across, up, across, indexing="ij")
     half = 0.024 + 0.22 * numpy.maximum(y, 0.0)
-    # Turned, so that the rays pass the cells of a row at different places: the gradient of the
-    # square of the index is constant in a tetrahedron.
+    # Turned, so that the rays pass the cells of a row at different places.
     x, z = half * (x * COSINE - z * SINE), half * (x * SINE + z * COSINE)
     grid = vtkStructuredGrid()
     grid.SetDimensions(x.shape[::-1])

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Path of a ray in one tetrahedron in which the squared index of refraction is linear.
+ * Geometry and index of refraction of one tetrahedron.
  *
- * With the ray parameter s of dx/ds = p and |p| = n, the ray equation is dp/ds = grad(n^2) / 2. The
- * gradient is constant, so that the path is the parabola x + p s + Force s^2 / 2, and each of the
- * four barycentric weights is a quadratic function of s.
+ * With the ray parameter s of dx/ds = p and |p| = n, the ray equation is dp/ds = grad(n^2) / 2, the
+ * force. n^2 is linear or quadratic (QuadraticIndex.h); the force is constant or linear.
  */
 #ifndef meniscus_Volume_Graded_GradedCell_h
 #define meniscus_Volume_Graded_GradedCell_h
 
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
 #include <glm/common.hpp>
@@ -36,8 +36,11 @@ struct GradedCell
   std::array<glm::dvec3, 4> Gradients;
   /** n^2 at the vertices. */
   std::array<double, 4> SquaredIndices;
-  /** grad(n^2) / 2; 0 in a flat cell. */
+  /** grad(n^2) / 2 without the terms of the edges; 0 in a flat cell. */
   glm::dvec3 Force{ 0.0 };
+  /** Terms of the edges; all 0 unless the cell is curved. */
+  std::array<double, 6> Edges{};
+  bool IsCurved = false;
   /** Squared length of the longest of the edges at the first vertex. */
   double SquaredSize = 0.0;
   /** The volume is 0 within the error of its computation: rays pass in no time. */
@@ -45,16 +48,45 @@ struct GradedCell
   /** The volume has another sign than the mesh's orientation: rays pass it backwards. */
   bool IsInverted = false;
 
-  /** n^2 at barycentric weights. */
-  double GetSquaredIndex(const std::array<double, 4>& weights) const
+  /** Sum over the edges at each vertex of their terms times the weight at the other end. */
+  std::array<double, 4> ApplyEdges(const std::array<double, 4>& w) const
   {
-    return (weights[0] * this->SquaredIndices[0] + weights[1] * this->SquaredIndices[1]) +
-      (weights[2] * this->SquaredIndices[2] + weights[3] * this->SquaredIndices[3]);
+    const auto& e = this->Edges;
+    return { e[0] * w[1] + e[1] * w[2] + e[2] * w[3], e[0] * w[0] + e[3] * w[2] + e[4] * w[3],
+      e[1] * w[0] + e[3] * w[1] + e[5] * w[3], e[2] * w[0] + e[4] * w[1] + e[5] * w[2] };
+  }
+  /** Sum of the gradients of the weights times factors. */
+  glm::dvec3 AddGradients(const std::array<double, 4>& factors) const
+  {
+    return (factors[0] * this->Gradients[0] + factors[1] * this->Gradients[1]) +
+      (factors[2] * this->Gradients[2] + factors[3] * this->Gradients[3]);
+  }
+  /** n^2 at barycentric weights. */
+  double GetSquaredIndex(const std::array<double, 4>& w) const
+  {
+    const auto& f = this->SquaredIndices;
+    const double linear = (w[0] * f[0] + w[1] * f[1]) + (w[2] * f[2] + w[3] * f[3]);
+    if (!this->IsCurved)
+    {
+      return linear;
+    }
+    const auto products = this->ApplyEdges(w);
+    return linear +
+      0.5 * ((w[0] * products[0] + w[1] * products[1]) + (w[2] * products[2] + w[3] * products[3]));
+  }
+  /** grad(n^2) / 2 at barycentric weights. */
+  glm::dvec3 GetForce(const std::array<double, 4>& weights) const
+  {
+    return this->IsCurved && !this->IsFlat
+      ? this->Force + 0.5 * this->AddGradients(this->ApplyEdges(weights))
+      : this->Force;
   }
 };
 
-inline GradedCell MakeGradedCell(
-  const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices, std::int64_t cell)
+/** @param edgeTerms terms of all cells; null for a linear n^2. */
+inline GradedCell MakeGradedCell(const TetrahedralMesh& mesh,
+  const std::vector<double>& squaredIndices, const std::vector<EdgeTerms>* edgeTerms,
+  std::int64_t cell)
 {
   const auto& vertices = mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices;
   const glm::dvec3 first = mesh.GetPosition(vertices[0]);
@@ -89,6 +121,11 @@ inline GradedCell MakeGradedCell(
   if (result.IsFlat)
   {
     result.Force = glm::dvec3(0.0);
+  }
+  for (std::size_t i = 0; edgeTerms && i < result.Edges.size(); ++i)
+  {
+    result.Edges[i] = (*edgeTerms)[static_cast<std::size_t>(cell)][i];
+    result.IsCurved |= result.Edges[i] != 0.0;
   }
   return result;
 }

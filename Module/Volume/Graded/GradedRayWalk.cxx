@@ -3,6 +3,7 @@
 #include "Volume/Graded/GradedRayWalk.h"
 
 #include "Volume/Graded/GradedCell.h"
+#include "Volume/Graded/GradedPassage.h"
 #include "Volume/Mesh/CellFaces.h"
 
 #include <glm/common.hpp>
@@ -23,48 +24,15 @@ namespace
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 /**
- * Largest squared momentum that a glide may drop, in units of GlideHeight times the force. A zigzag
- * of the height h has p^2 = 2 h |Force|; the force on the other side of the face may be 8 times as
- * large.
- */
-constexpr double LargestDrop = 16.0;
-
-/**
  * Longest step of a zigzag in units of the cell. Longer ones are so few that no ray has to glide.
  */
 constexpr double LongestShare = 1.0 / 64.0;
 
+/** Result of a step that ends in the cell. */
+constexpr int StaysInCell = 4;
+
 /** Time, in units of that through the cell, in which a ray that is at a vertex stays there. */
 constexpr double TimeAtVertex = 0x1p-40;
-
-/**
- * Largest weight of a vertex opposite a face that the ray is taken to be on. A cell
- * whose height is 2^-20 of the radius has such a weight at GlideHeight.
- */
-constexpr double LargestGlidingWeight = 0x1p-11;
-
-/** Random number of a step, the same on every machine. */
-std::uint64_t Scatter(std::int64_t step)
-{
-  std::uint64_t z = static_cast<std::uint64_t>(step) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  return z ^ (z >> 27);
-}
-
-/** Replaces two vectors by their components in one or two faces of a cell. */
-void HoldFaces(const GradedCell& cell, int first, int second, glm::dvec3& a, glm::dvec3& b)
-{
-  if (second < 0)
-  {
-    const glm::dvec3 normal = glm::normalize(cell.Gradients[first]);
-    a -= glm::dot(a, normal) * normal;
-    b -= glm::dot(b, normal) * normal;
-    return;
-  }
-  const glm::dvec3 edge = glm::normalize(glm::cross(cell.Gradients[first], cell.Gradients[second]));
-  a = glm::dot(a, edge) * edge;
-  b = glm::dot(b, edge) * edge;
-}
 
 /**
  * Refracts a momentum at a face by Snell's law, or reflects it if it is totally reflected, which
@@ -97,10 +65,9 @@ struct GradedRayWalk::Path
   /** Outside of the mesh: a place and the direction; unit length. */
   glm::dvec3 Origin{ 0.0 };
   glm::dvec3 Direction{ 0.0 };
-  /** Inside: the cell, the face by which the ray has come (-1 for none), weights and momentum. */
+  /** Inside: the cell, the place in it and the momentum. */
   std::int64_t Cell = -1;
-  int Entry = -1;
-  std::array<double, 4> Weights{};
+  PlaceInCell Place;
   glm::dvec3 Momentum{ 0.0 };
   std::int64_t Steps = 0;
   /** Integral of grad(n) / n along a straight ray. */
@@ -131,7 +98,7 @@ struct GradedRayWalk::Path
     this->Anchor = -1;
     this->LastConstraints = 0;
   }
-  void AddStraight(double length, double first, double last, const glm::dvec3& force);
+  void AddStraight(const GradedCell& cell, double length, const std::array<double, 4>& end);
   void NoteConstraints()
   {
     this->LastConstraints = this->Constraints > 0 ? this->Constraints : this->LastConstraints;
@@ -140,159 +107,36 @@ struct GradedRayWalk::Path
 };
 
 //------------------------------------------------------------------------------
-/** Adds the integrals along a straight piece of a length, between two values of n^2. */
+/** Adds the integrals along a straight piece of a length that ends at barycentric weights. */
 void GradedRayWalk::Path::AddStraight(
-  double length, double first, double last, const glm::dvec3& force)
+  const GradedCell& cell, double length, const std::array<double, 4>& end)
 {
+  const double first = cell.GetSquaredIndex(this->Place.Weights);
+  const double last = cell.GetSquaredIndex(end);
+  if (cell.IsCurved)
+  {
+    // Gauss's rule of three points, the last of which is that in the middle.
+    const double offset = 0.5 * std::sqrt(0.6);
+    for (const double part : { 0.5 - offset, 0.5 + offset, 0.5 })
+    {
+      std::array<double, 4> weights;
+      for (std::size_t i = 0; i < weights.size(); ++i)
+      {
+        weights[i] = (1.0 - part) * this->Place.Weights[i] + part * end[i];
+      }
+      const double share = (part == 0.5 ? 8.0 : 5.0) / 18.0 * length;
+      const double square = cell.GetSquaredIndex(weights);
+      this->Result->OpticalPath += share * std::sqrt(square);
+      this->Deflection += share / square * cell.GetForce(weights);
+    }
+    return;
+  }
   const double roots[2] = { std::sqrt(first), std::sqrt(last) };
   this->Result->OpticalPath +=
     length * (2.0 / 3.0) * (first + roots[0] * roots[1] + last) / (roots[0] + roots[1]);
   const double change = (last - first) / first;
-  this->Deflection += length / first * (change == 0.0 ? 1.0 : std::log1p(change) / change) * force;
-}
-
-/** Barycentric weights along the path in a cell. */
-struct GradedRayWalk::Quadratics
-{
-  glm::dvec3 Momentum;
-  glm::dvec3 Force;
-  std::array<double, 4> Rates;
-  std::array<double, 4> Curvatures;
-  /** Faces that the ray stays on. */
-  std::array<bool, 4> IsHeld{};
-
-  void Set(const GradedCell& cell);
-  bool Hold(const GradedCell& cell, const Path& path);
-  int ChooseExit(
-    const GradedCell& cell, const Path& path, bool atRandom, double shortTime, double& time) const;
-  void MoveTo(double time, int face, std::array<double, 4>& weights) const;
-};
-
-//------------------------------------------------------------------------------
-void GradedRayWalk::Quadratics::Set(const GradedCell& cell)
-{
-  for (int i = 0; i < 4; ++i)
-  {
-    this->Rates[i] = this->IsHeld[i] ? 0.0 : glm::dot(cell.Gradients[i], this->Momentum);
-    this->Curvatures[i] = this->IsHeld[i] ? 0.0 : glm::dot(cell.Gradients[i], this->Force);
-  }
-}
-
-//------------------------------------------------------------------------------
-/**
- * Keeps the ray on the face or, for two constraints, on the edge of the cell at which it is and
- * which is nearest to its direction. Returns false if the ray does not zigzag there.
- */
-bool GradedRayWalk::Quadratics::Hold(const GradedCell& cell, const Path& path)
-{
-  if (cell.IsFlat || path.Entry < 0)
-  {
-    return false;
-  }
-  double least = LargestDrop * GlideHeight * glm::length(cell.Force);
-  int faces[2] = { -1, -1 };
-  const glm::dvec3 momentum = this->Momentum;
-  const glm::dvec3 force = this->Force;
-  const auto attempt = [&](int first, int second)
-  {
-    glm::dvec3 heldMomentum = momentum;
-    glm::dvec3 heldForce = force;
-    HoldFaces(cell, first, second, heldMomentum, heldForce);
-    const glm::dvec3 dropped = momentum - heldMomentum;
-    if (glm::dot(dropped, dropped) <= least)
-    {
-      least = glm::dot(dropped, dropped);
-      this->Momentum = heldMomentum;
-      this->Force = heldForce;
-      faces[0] = first;
-      faces[1] = second;
-    }
-  };
-  for (int i = 0; i < 4; ++i)
-  {
-    if (path.Weights[i] > LargestGlidingWeight)
-    {
-      continue;
-    }
-    if (path.Constraints == 1)
-    {
-      attempt(i, -1);
-    }
-    for (int k = i + 1; k < 4 && path.Constraints == 2; ++k)
-    {
-      if (path.Weights[k] <= LargestGlidingWeight)
-      {
-        attempt(i, k);
-      }
-    }
-  }
-  for (const int face : faces)
-  {
-    if (face >= 0)
-    {
-      this->IsHeld[face] = true;
-    }
-  }
-  return faces[0] >= 0;
-}
-
-//------------------------------------------------------------------------------
-/**
- * Face whose weight is the first to fall below 0, and the time; of equal ones, that of the lowest
- * rank. -1 if there is none.
- * @param atRandom choose among the faces that are reached within the short time: a ray that goes in
- *   circles about an edge or a vertex, without a zigzag, finds its way out so.
- */
-int GradedRayWalk::Quadratics::ChooseExit(
-  const GradedCell& cell, const Path& path, bool atRandom, double shortTime, double& time) const
-{
-  int face = -1;
-  std::uint64_t best = 0;
-  for (int i = 0; i < 4; ++i)
-  {
-    // A quadratic is above its tangent if it bends upwards, and has no zero before a place at which
-    // it is positive if it bends downwards.
-    const double bend = std::min(this->Curvatures[i], 0.0);
-    if (face >= 0 && !atRandom &&
-      path.Weights[i] + time * (this->Rates[i] + 0.5 * time * bend) > 0.0)
-    {
-      continue;
-    }
-    const double reached = TimeToZero(path.Weights[i], this->Rates[i], this->Curvatures[i]);
-    const bool random = atRandom && reached <= shortTime;
-    const std::uint64_t rank = random ? Scatter(4 * path.Steps + i) | 1 : 0;
-    if (reached < Infinity && (face < 0 || rank > best || (best == 0 && reached < time)))
-    {
-      face = i;
-      time = reached;
-      best = rank;
-    }
-  }
-  if (face < 0 && cell.IsFlat)
-  {
-    // The ray is in the cell's plane, or the cell has no area: any way out is as good.
-    face = static_cast<int>(Scatter(path.Steps) % 4);
-    time = 0.0;
-  }
-  return face;
-}
-
-//------------------------------------------------------------------------------
-/** Moves weights to their values after a time; that of the face (-1 for none) becomes 0. */
-void GradedRayWalk::Quadratics::MoveTo(double time, int face, std::array<double, 4>& weights) const
-{
-  double sum = 0.0;
-  for (int i = 0; i < 4; ++i)
-  {
-    const double moved = weights[i] + time * (this->Rates[i] + 0.5 * time * this->Curvatures[i]);
-    weights[i] = i == face ? 0.0 : std::max(moved, 0.0);
-    sum += weights[i];
-  }
-  const double scale = 1.0 / sum;
-  for (double& weight : weights)
-  {
-    weight *= scale;
-  }
+  this->Deflection +=
+    length / first * (change == 0.0 ? 1.0 : std::log1p(change) / change) * cell.Force;
 }
 
 //------------------------------------------------------------------------------
@@ -389,7 +233,7 @@ bool GradedRayWalk::BeginInside(Path& path) const
   // A ray that passes an edge of the mesh from outside leaves at once.
   const bool isInside = path.Limit <= BoundaryCrossings::DistanceError;
   path.Limit = Infinity;
-  path.Entry = -1;
+  path.Place.Entry = -1;
   path.Momentum = (this->Medium.IsStraight ? 1.0 : std::sqrt(this->SquaredIndexAt(path))) * forward;
   path.HasEntered = isInside;
   path.PassageBegin = path.Origin;
@@ -435,7 +279,7 @@ bool GradedRayWalk::EnterMesh(Path& path) const
     }
     path.Momentum = outside * path.Direction;
     path.IndexBefore = outside;
-    if (Refract(this->OutwardNormal(path.Cell, path.Entry), inside, -1.0, path.Momentum))
+    if (Refract(this->OutwardNormal(path.Cell, path.Place.Entry), inside, -1.0, path.Momentum))
     {
       return true;
     }
@@ -458,13 +302,13 @@ void GradedRayWalk::PutIn(const BoundaryCrossing& crossing, Path& path) const
     std::swap(weights[0], weights[1]);
   }
   path.Cell = face.CellFace / 4;
-  path.Entry = face.CellFace % 4;
-  path.Weights.fill(0.0);
+  path.Place.Entry = face.CellFace % 4;
+  path.Place.Weights.fill(0.0);
   for (int i = 0, k = 0; i < 4; ++i)
   {
-    if (i != path.Entry)
+    if (i != path.Place.Entry)
     {
-      path.Weights[i] = weights[k++];
+      path.Place.Weights[i] = weights[k++];
     }
   }
   path.Result->State = GradedRayState::Left;
@@ -480,6 +324,10 @@ void GradedRayWalk::CrossCells(Path& path) const
   {
     const bool isOver = path.Steps >= this->MaximumNumberOfSteps;
     const int face = isOver ? -1 : this->CrossCell(path);
+    if (face == StaysInCell)
+    {
+      continue;
+    }
     if (face < 0)
     {
       result.State = isOver ? GradedRayState::Trapped : GradedRayState::Lost;
@@ -509,11 +357,11 @@ void GradedRayWalk::PassTo(std::int32_t link, int face, Path& path) const
   const int entry = link % 4;
   for (int k = 0; k < 3; ++k)
   {
-    weights[k + (k >= entry ? 1 : 0)] = path.Weights[k + (k >= face ? 1 : 0)];
+    weights[k + (k >= entry ? 1 : 0)] = path.Place.Weights[k + (k >= face ? 1 : 0)];
   }
-  path.Weights = weights;
+  path.Place.Weights = weights;
   path.Cell = link / 4;
-  path.Entry = entry;
+  path.Place.Entry = entry;
 }
 
 //------------------------------------------------------------------------------
@@ -527,7 +375,7 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
     !Refract(this->OutwardNormal(path.Cell, face), outside * outside, 1.0, path.Momentum))
   {
     ++path.Statistics->Reflections;
-    path.Entry = face;
+    path.Place.Entry = face;
     return false;
   }
   path.Origin = result.Exit = this->PlaceOf(path);
@@ -542,32 +390,29 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
 //------------------------------------------------------------------------------
 /**
  * Moves the ray to the face by which it leaves its cell, which is returned; -1 if there is none, or
- * if the ray's limit is reached before.
+ * if the ray's limit is reached before; StaysInCell if the way to the face needs another step.
  */
 int GradedRayWalk::CrossCell(Path& path) const
 {
   const GradedCell cell =
-    MakeGradedCell(*this->Medium.Mesh, *this->Medium.SquaredIndices, path.Cell);
+    MakeGradedCell(*this->Medium.Mesh, *this->Medium.SquaredIndices, this->Medium.Terms, path.Cell);
   ++path.Steps;
   path.Statistics->FlatSteps += cell.IsFlat ? 1 : 0;
   path.Statistics->InvertedSteps += cell.IsInverted ? 1 : 0;
   const double sign = cell.IsInverted ? -1.0 : 1.0;
-  const double square = cell.GetSquaredIndex(path.Weights);
-  Quadratics way;
-  way.Momentum = sign * path.Momentum;
   const bool isStraight = path.IsSearching() || this->Medium.IsStraight;
-  way.Force = isStraight ? glm::dvec3(0.0) : cell.Force;
-  const bool glides = path.Constraints > 0 && way.Hold(cell, path);
-  way.Set(cell);
-  if (path.Entry >= 0)
-  {
-    way.Rates[path.Entry] = std::max(way.Rates[path.Entry], 0.0);
-  }
+  const double square = glm::dot(path.Momentum, path.Momentum);
+  GradedPassage way(cell, path.Place, sign * path.Momentum, !isStraight);
+  const bool glides = path.Constraints > 0 && way.Hold(path.Constraints);
+  const bool atRandom = path.Constraints > 0 && !glides;
+  const double shortTime = atRandom ? TimeAtVertex * std::sqrt(cell.SquaredSize / square) : 0.0;
   double time = Infinity;
-  const double shortTime = TimeAtVertex * std::sqrt(cell.SquaredSize / square);
-  int face = way.ChooseExit(cell, path, path.Constraints > 0 && !glides, shortTime, time);
+  int face = way.FindExit(path.Steps, atRandom, shortTime, time);
   const double passed = cell.IsFlat ? 0.0 : sign * time;
-  path.IsShort = 0.125 * passed * passed * glm::length(cell.Force) <= GlideHeight &&
+  const double height = 0.125 * passed * passed;
+  constexpr double glideHeight = GradedPassage::GlideHeight;
+  path.IsShort =
+    height * height * glm::dot(way.GetForce(), way.GetForce()) <= glideHeight * glideHeight &&
     passed * passed * square <= LongestShare * LongestShare * cell.SquaredSize;
   path.NoteConstraints();
   path.Statistics->Glides += glides ? 1 : 0;
@@ -577,27 +422,28 @@ int GradedRayWalk::CrossCell(Path& path) const
     time = cell.IsFlat ? time : sign * std::min(passed, path.Limit);
     path.Limit = std::max(0.0, path.Limit - passed);
   }
-  else if (face >= 0 && !isStraight)
+  if (!std::isfinite(time))
   {
-    const double drift = glm::dot(way.Momentum, way.Force);
-    const double bend = glm::dot(way.Force, way.Force);
-    path.Result->OpticalPath +=
-      passed * (square + std::abs(passed) * (drift + std::abs(passed) * bend / 3.0));
+    return -1;
   }
-  if (std::isfinite(time))
-  {
-    way.MoveTo(time, face, path.Weights);
-  }
+  way.MoveTo(time);
+  const std::array<double, 4> end = way.GetWeights(face);
   if (this->Medium.IsStraight && !path.IsSearching())
   {
-    path.AddStraight(passed, square, cell.GetSquaredIndex(path.Weights), cell.Force);
+    path.AddStraight(cell, passed, end);
   }
-  if (!isStraight && face >= 0)
+  else if (!isStraight)
   {
-    const glm::dvec3 momentum = sign * (way.Momentum + (cell.IsFlat ? 0.0 : time) * way.Force);
-    // |p| = n holds along the parabola but for rounding, which must not add up.
-    path.Momentum =
-      std::sqrt(cell.GetSquaredIndex(path.Weights) / glm::dot(momentum, momentum)) * momentum;
+    path.Result->OpticalPath += cell.IsFlat ? 0.0 : sign * way.IntegrateSquare(square);
+    const glm::dvec3 momentum = sign * (cell.IsFlat ? sign * path.Momentum : way.GetMomentum());
+    // |p| = n holds along the way but for rounding, which must not add up.
+    path.Momentum = std::sqrt(cell.GetSquaredIndex(end) / glm::dot(momentum, momentum)) * momentum;
+  }
+  path.Place.Weights = end;
+  if (face < 0 && !path.IsSearching())
+  {
+    path.Place.Entry = -1;
+    return StaysInCell;
   }
   return face;
 }
@@ -634,13 +480,9 @@ const TetrahedralMesh::Cell& GradedRayWalk::CellOf(const Path& path) const
 //------------------------------------------------------------------------------
 double GradedRayWalk::SquaredIndexAt(const Path& path) const
 {
-  const auto& vertices = this->CellOf(path).Vertices;
-  double sum = 0.0;
-  for (int i = 0; i < 4; ++i)
-  {
-    sum += path.Weights[i] * (*this->Medium.SquaredIndices)[static_cast<std::size_t>(vertices[i])];
-  }
-  return sum;
+  return MakeGradedCell(
+    *this->Medium.Mesh, *this->Medium.SquaredIndices, this->Medium.Terms, path.Cell)
+    .GetSquaredIndex(path.Place.Weights);
 }
 
 //------------------------------------------------------------------------------
@@ -650,7 +492,7 @@ glm::dvec3 GradedRayWalk::PlaceOf(const Path& path) const
   glm::dvec3 sum(0.0);
   for (int i = 0; i < 4; ++i)
   {
-    sum += path.Weights[i] * this->Medium.Mesh->GetPosition(vertices[i]);
+    sum += path.Place.Weights[i] * this->Medium.Mesh->GetPosition(vertices[i]);
   }
   return sum;
 }

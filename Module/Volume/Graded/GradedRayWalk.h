@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Walk of rays through a mesh whose index of refraction n bends them: n^2 is linear in each cell.
+ * Walk of rays through a mesh whose index of refraction n bends them: n^2 is linear or quadratic in
+ * each cell.
  *
  * Method:
- * 1. The path in a cell is a parabola (GradedCell.h). The ray leaves by the face whose barycentric
- *    weight is the first to fall below 0; of equal ones, by that opposite the vertex of the lowest
- *    rank.
+ * 1. The path in a cell is a parabola or a power series (GradedPassage.h). The ray leaves by the
+ *    face whose barycentric weight is the first to fall below 0; of equal ones, by that opposite
+ * the vertex of the lowest rank.
  * 2. A ray's place is its barycentric weights. They pass to the next cell unchanged, with a weight
  *    of exactly 0 for the vertex that is new, so that no rounding puts a ray outside of its cell.
  *    A ray that has entered by a face moves away from it or along it, never back at once.
@@ -26,6 +27,7 @@
 #define meniscus_Volume_Graded_GradedRayWalk_h
 
 #include "Volume/Graded/BoundaryCrossings.h"
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
@@ -45,6 +47,8 @@ struct GradedMedium
   const BoundaryTree* Tree = nullptr;
   /** Squared index of each vertex; not NaN at active cells. */
   const std::vector<double>* SquaredIndices = nullptr;
+  /** Terms of ComputeEdgeTerms(), with which n^2 is quadratic; null for a linear n^2. */
+  const std::vector<EdgeTerms>* Terms = nullptr;
   /**
    * Index outside of the mesh, where Snell's law holds on the boundary. With 0, the index outside
    * is everywhere that at the boundary, and rays enter and leave in their directions: the boundary
@@ -58,8 +62,8 @@ struct GradedMedium
   bool IsStraight = false;
   /**
    * Largest number of steps of one ray; 0 for four times the number of active cells, at least
-   * 65,536. A straight ray crosses each cell at most once. A zigzag of GlideHeight has about
-   * sqrt(|grad(n^2)| / (16 GlideHeight)) steps per unit of length, 12,000 for a gradient of 1.
+   * 65,536. A straight ray crosses each cell at most once. A zigzag of GradedPassage::GlideHeight
+   * has about sqrt(|grad(n^2)| / (16 height)) steps per unit of length, 12,000 for a gradient of 1.
    */
   std::int64_t MaximumNumberOfSteps = 0;
 };
@@ -111,13 +115,6 @@ struct GradedRayStatistics
 class GradedRayWalk
 {
 public:
-  /**
-   * Largest height of a zigzag along which a ray glides, in units of the mesh's radius: the
-   * rounding of the mesh's positions, within which it is not known where a face is. A ray in a
-   * plane of symmetry has a zigzag of that height.
-   */
-  static constexpr double GlideHeight = 0.5 * TetrahedralMesh::PositionUnit;
-
   explicit GradedRayWalk(const GradedMedium& medium);
 
   /**
@@ -130,7 +127,6 @@ public:
 
 private:
   struct Path;
-  struct Quadratics;
 
   bool MayBeInside(const glm::dvec3& place) const;
   bool BeginInside(Path& path) const;

@@ -16,11 +16,11 @@ namespace meniscus
 /**
  * Gladstone-Dale constant of dry air at a wavelength of 589.3 nm, in m^3/kg: n = 1 + K * density.
  *
- * It is the quotient of n - 1 = 2.77147e-4 and the density 1.22552 kg/m^3 of dry air with 450 ppm
+ * It is the quotient of n - 1 = 2.77147e-4 and the density 1.22546 kg/m^3 of dry air with 450 ppm
  * of carbon dioxide at 15 degrees Celsius and 101325 Pa: P. E. Ciddor, "Refractive index of air:
  * new equations for the visible and near infrared", Applied Optics 35 (1996), 1566-1573.
  */
-constexpr double GladstoneDaleOfAir = 2.26147e-4;
+constexpr double GladstoneDaleOfAir = 2.26157e-4;
 
 /** Numbers of vertices whose index of refraction is unusable or unusual. */
 struct IndexFaults

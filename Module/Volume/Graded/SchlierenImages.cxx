@@ -190,6 +190,24 @@ std::vector<glm::dvec2> FindCorners(const std::vector<glm::dvec2>& landings, int
   return corners;
 }
 
+/** Least and largest row on the screen that the light of each row of pixels reaches. */
+std::vector<glm::dvec2> FindReaches(const std::vector<glm::dvec2>& corners, int width, int height)
+{
+  std::vector<glm::dvec2> reaches;
+  const auto across = static_cast<std::size_t>(width + 1);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row)
+  {
+    glm::dvec2 reach(corners[row * across].y);
+    for (std::size_t i = row * across; i < (row + 2) * across; ++i)
+    {
+      reach.x = std::min(reach.x, corners[i].y);
+      reach.y = std::max(reach.y, corners[i].y);
+    }
+    reaches.push_back(reach);
+  }
+  return reaches;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -223,29 +241,37 @@ std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, 
       static_cast<std::size_t>(column)];
   };
   std::vector<double> image(landings.size(), 0.0);
-  // Each band looks at all quadrangles, in order: the result does not depend on the threads.
+  const std::vector<glm::dvec2> reaches = FindReaches(corners, width, height);
+  const auto fillRow = [&](int row, Band& band)
+  {
+    for (int column = 0; column < width; ++column)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+        static_cast<std::size_t>(column);
+      if (!std::isnan(landings[pixel].x))
+      {
+        const glm::dvec2 first = cornerAt(column, row);
+        const glm::dvec2 opposite = cornerAt(column + 1, row + 1);
+        band.Add(first, cornerAt(column + 1, row), opposite, 0.5);
+        band.Add(first, opposite, cornerAt(column, row + 1), 0.5);
+      }
+    }
+  };
+  // Each band looks at all rows of quadrangles, in order: the result does not depend on the
+  // threads.
   const int bands = (height + RowsPerBand - 1) / RowsPerBand;
   const auto fillBand = [&](int number)
   {
     const int first = number * RowsPerBand;
     const int last = std::min(height, first + RowsPerBand);
     Band band(image, width, first, last);
-    for (std::size_t pixel = 0; pixel < landings.size(); ++pixel)
+    for (int row = 0; row < height; ++row)
     {
-      const int row = static_cast<int>(pixel / static_cast<std::size_t>(width));
-      const int column = static_cast<int>(pixel % static_cast<std::size_t>(width));
-      const glm::dvec2 a = cornerAt(column, row);
-      const glm::dvec2 b = cornerAt(column + 1, row);
-      const glm::dvec2 c = cornerAt(column + 1, row + 1);
-      const glm::dvec2 d = cornerAt(column, row + 1);
-      const double least = std::min(std::min(a.y, b.y), std::min(c.y, d.y));
-      const double most = std::max(std::max(a.y, b.y), std::max(c.y, d.y));
-      if (most < first - 0.5 || least > last - 0.5 || std::isnan(landings[pixel].x))
+      const glm::dvec2& reach = reaches[static_cast<std::size_t>(row)];
+      if (reach.y >= first - 0.5 && reach.x <= last - 0.5)
       {
-        continue;
+        fillRow(row, band);
       }
-      band.Add(a, b, c, 0.5);
-      band.Add(a, c, d, 0.5);
     }
   };
   loop(static_cast<std::size_t>(bands),

@@ -11,6 +11,9 @@ namespace reference
 namespace
 {
 
+/** Vertices of the edges of a cell. */
+constexpr std::size_t Ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+
 Vector3 Sum(const Vector3& a, double factor, const Vector3& b)
 {
   return { a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2] };
@@ -57,7 +60,8 @@ LightRay RungeKuttaStep(
 
 //------------------------------------------------------------------------------
 GradedRayIntegrator::GradedRayIntegrator(const std::vector<double>& points,
-  const std::vector<std::int64_t>& cells, const std::vector<double>& squaredIndices)
+  const std::vector<std::int64_t>& cells, const std::vector<double>& squaredIndices,
+  const std::vector<double>& edgeTerms)
 {
   for (std::size_t c = 0; c < cells.size(); c += 4)
   {
@@ -80,6 +84,8 @@ GradedRayIntegrator::GradedRayIntegrator(const std::vector<double>& points,
       cell.Force = Sum(cell.Force, 0.5 * square, cell.Gradients[i]);
       cell.SquaredIndex += square * cell.Offsets[i];
     }
+    std::copy_n(
+      edgeTerms.begin() + static_cast<std::ptrdiff_t>(c / 4 * 6), 6, cell.EdgeTerms.begin());
     this->Cells.push_back(cell);
   }
 }
@@ -93,6 +99,22 @@ double GradedRayIntegrator::WeightOf(const Cell& cell, const Vector3& position)
     least = std::min(least, Dot(cell.Gradients[i], position) + cell.Offsets[i]);
   }
   return least;
+}
+
+//------------------------------------------------------------------------------
+Vector3 GradedRayIntegrator::ForceAt(const Cell& cell, const Vector3& position)
+{
+  Vector3 force = cell.Force;
+  for (std::size_t edge = 0; edge < 6; ++edge)
+  {
+    const std::size_t i = Ends[edge][0];
+    const std::size_t k = Ends[edge][1];
+    const double first = Dot(cell.Gradients[i], position) + cell.Offsets[i];
+    const double second = Dot(cell.Gradients[k], position) + cell.Offsets[k];
+    force = Sum(force, 0.5 * cell.EdgeTerms[edge] * first, cell.Gradients[k]);
+    force = Sum(force, 0.5 * cell.EdgeTerms[edge] * second, cell.Gradients[i]);
+  }
+  return force;
 }
 
 //------------------------------------------------------------------------------
@@ -117,7 +139,15 @@ double GradedRayIntegrator::SquaredIndexAt(const Vector3& position) const
 {
   const Cell& nearest = *std::max_element(this->Cells.begin(), this->Cells.end(),
     [&](const Cell& a, const Cell& b) { return WeightOf(a, position) < WeightOf(b, position); });
-  return nearest.SquaredIndex + 2.0 * Dot(nearest.Force, position);
+  double square = nearest.SquaredIndex + 2.0 * Dot(nearest.Force, position);
+  for (std::size_t edge = 0; edge < 6; ++edge)
+  {
+    const std::size_t i = Ends[edge][0];
+    const std::size_t k = Ends[edge][1];
+    square += nearest.EdgeTerms[edge] * (Dot(nearest.Gradients[i], position) + nearest.Offsets[i]) *
+      (Dot(nearest.Gradients[k], position) + nearest.Offsets[k]);
+  }
+  return square;
 }
 
 //------------------------------------------------------------------------------
@@ -132,7 +162,7 @@ LightRay GradedRayIntegrator::Follow(LightRay ray, double step) const
     {
       return ray;
     }
-    const auto force = [cell](const Vector3&) { return cell->Force; };
+    const auto force = [cell](const Vector3& position) { return ForceAt(*cell, position); };
     LightRay next = RungeKuttaStep(ray, step, force);
     while (WeightOf(*cell, next.Position) >= 0.0)
     {

@@ -28,20 +28,23 @@ LightRay RungeKuttaStep(
   const LightRay& ray, double step, const std::function<Vector3(const Vector3&)>& force);
 
 /**
- * Rays in cells with a linear n^2 by the Runge-Kutta method with small steps. The next cell is
- * found among all cells by its barycentric weights; the last step in a cell is bisected.
+ * Rays in cells with a linear or quadratic n^2 by the Runge-Kutta method with small steps. The next
+ * cell is found among all cells by its barycentric weights; the last step in a cell is bisected.
  */
 class GradedRayIntegrator
 {
 public:
-  /** Arrays of points (xyz), cells (4 ids each) and n^2 of each point. */
+  /**
+   * Arrays of points (xyz), cells (4 ids each), n^2 of each point and, for each cell, the factors
+   * of the products of weights of the edges 01, 02, 03, 12, 13, 23.
+   */
   GradedRayIntegrator(const std::vector<double>& points, const std::vector<std::int64_t>& cells,
-    const std::vector<double>& squaredIndices);
+    const std::vector<double>& squaredIndices, const std::vector<double>& edgeTerms);
 
   /** Follows a ray that begins on the boundary until it is outside of all cells. */
   LightRay Follow(LightRay ray, double step) const;
 
-  /** n^2 at a place in a cell or, by the plane of the nearest one, just outside of it. */
+  /** n^2 at a place in a cell or, by the function of the nearest one, just outside of it. */
   double SquaredIndexAt(const Vector3& position) const;
 
 private:
@@ -52,7 +55,9 @@ private:
     Vector3 Force;
     /** n^2 at the origin. */
     double SquaredIndex;
+    std::array<double, 6> EdgeTerms;
   };
+  static Vector3 ForceAt(const Cell& cell, const Vector3& position);
   /** Smallest barycentric weight. */
   static double WeightOf(const Cell& cell, const Vector3& position);
   const Cell* Find(const Vector3& position) const;

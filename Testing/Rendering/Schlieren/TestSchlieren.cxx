@@ -137,9 +137,9 @@ TEST(Schlieren, LinearFieldHasClosedForms)
     EXPECT_NEAR(
       ValueAt(filter, "Background", column, row), std::min(column + shift, Size - 1.0), 1.0e-3);
   }
-  EXPECT_EQ(filter->GetNumberOfRays(), Size * Size);
-  EXPECT_EQ(filter->GetNumberOfLostRays(), 0);
-  EXPECT_EQ(filter->GetNumberOfStoppedRays(), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfRays"), Size * Size);
+  EXPECT_EQ(filter->GetStatistic("NumberOfLostRays"), 0);
+  EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 0);
 }
 
 TEST(Schlieren, SmallAnglesAreNearlyStraight)
@@ -185,8 +185,9 @@ TEST(Schlieren, DensityIsIndexByGladstoneDale)
 
 TEST(Schlieren, LightIsConserved)
 {
-  // A weak lens in the middle: all of the light lands on the screen, on the axis as in a focus.
-  Filter filter = MakeFilter(MakeBlock(7,
+  // A weak lens in the middle, several cells wide: all of the light lands on the screen, on the
+  // axis as in a focus.
+  Filter filter = MakeFilter(MakeBlock(12,
     [](double x, double y, double z)
     { return 1.0 + 0.05 * std::exp(-20.0 * (x * x + y * y + z * z)); }));
   filter->SetScreenDistance(2.0);
@@ -224,22 +225,21 @@ TEST(Schlieren, CameraHasItsOwnRays)
   camera->SetFocalPoint(0.1, 0.05, -1.0);
   camera->SetViewAngle(30.0);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfRays(), Size * Size);
+  EXPECT_EQ(filter->GetStatistic("NumberOfRays"), Size * Size);
   const double path = ValueAt(filter, "OpticalPathDifference", Size / 2, Size / 2);
   EXPECT_NEAR(path, std::sqrt(Base + Slope * 0.1) - 1.0, 2.0e-3);
 }
 
 TEST(Schlieren, ThreadsDoNotMatter)
 {
-  Filter filter = MakeFilter(MakeBlock(6,
-    [](double x, double y, double z)
-    { return 1.3 + 0.2 * std::sin(3.0 * x + y) * std::cos(4.0 * z); }));
-  filter->SetDirection(0.3, -0.4, -1.0);
   std::vector<double> first;
   for (const int threads : { 5, 2, 1 })
   {
     vtkSMPTools::Initialize(threads);
-    filter->Modified();
+    Filter filter = MakeFilter(MakeBlock(6,
+      [](double x, double y, double z)
+      { return 1.3 + 0.2 * std::sin(3.0 * x + y) * std::cos(4.0 * z); }));
+    filter->SetDirection(0.3, -0.4, -1.0);
     filter->Update();
     const std::vector<double> values = AllValues(filter);
     first = first.empty() ? values : first;
@@ -247,6 +247,78 @@ TEST(Schlieren, ThreadsDoNotMatter)
   }
   vtkSMPTools::Initialize(0);
   EXPECT_FALSE(first.empty());
+}
+
+// Rays depend on the medium and on the view, not on what stands behind the medium.
+TEST(Schlieren, RaysAreCastWhereTheirInputChanges)
+{
+  const Grid block = MakeBlock(4, IndexAt);
+  Filter filter = MakeFilter(block);
+  filter->Update();
+  // A change of a filter that has an image: work of the medium and of the rays, and equal images.
+  const auto expectWork = [&](int media, int casts, const char* change)
+  {
+    SCOPED_TRACE(change);
+    const double before[2] = { filter->GetStatistic("NumberOfMediumUpdates"),
+      filter->GetStatistic("NumberOfCasts") };
+    filter->Update();
+    EXPECT_EQ(filter->GetStatistic("NumberOfMediumUpdates") - before[0], media);
+    EXPECT_EQ(filter->GetStatistic("NumberOfCasts") - before[1], casts);
+    Filter fresh = MakeFilter(block);
+    fresh->SetQuantity(filter->GetQuantity());
+    fresh->SetGladstoneDale(filter->GetGladstoneDale());
+    fresh->SetKnifeAngle(filter->GetKnifeAngle());
+    fresh->SetKnifeCutOff(filter->GetKnifeCutOff());
+    fresh->SetKnifeRange(filter->GetKnifeRange());
+    fresh->SetWavelength(filter->GetWavelength());
+    fresh->SetFringes(filter->GetFringes());
+    fresh->SetScreenDistance(filter->GetScreenDistance());
+    fresh->SetBackgroundDistance(filter->GetBackgroundDistance());
+    fresh->SetReferenceIndex(filter->GetReferenceIndex());
+    fresh->SetInputDataObject(1, filter->GetInputDataObject(1, 0));
+    fresh->SetCamera(filter->GetCamera());
+    fresh->SetDirection(filter->GetDirection());
+    fresh->SetOutsideIndex(filter->GetOutsideIndex());
+    fresh->SetBendRays(filter->GetBendRays());
+    fresh->Update();
+    EXPECT_TRUE(AllValues(filter) == AllValues(fresh));
+    EXPECT_EQ(filter->GetStatistic("NumberOfRays"), fresh->GetStatistic("NumberOfRays"));
+  };
+  filter->SetKnifeAngle(30.0);
+  filter->SetKnifeCutOff(0.3);
+  filter->SetKnifeRange(0.1);
+  expectWork(0, 0, "knife");
+  filter->SetWavelength(0.2);
+  filter->SetFringes(3.0, 1.0);
+  filter->SetReferenceIndex(1.2);
+  expectWork(0, 0, "interferometer");
+  filter->SetScreenDistance(3.0);
+  filter->SetBackgroundDistance(2.0);
+  expectWork(0, 0, "distances");
+  filter->SetInputDataObject(1, MakeRamp(5, 4));
+  expectWork(0, 0, "background");
+  filter->SetDirection(0.1, 0.2, -1.0);
+  expectWork(0, 1, "direction");
+  filter->SetOutsideIndex(1.3);
+  expectWork(0, 1, "index outside");
+  filter->BendRaysOff();
+  expectWork(0, 1, "straight rays");
+  filter->SetGladstoneDale(0.3);
+  expectWork(0, 0, "constant of a gas for values of the index");
+  filter->SetQuantityToDensity();
+  expectWork(1, 1, "quantity");
+  filter->SetGladstoneDale(0.4);
+  expectWork(1, 1, "constant of a gas");
+  block->Modified();
+  expectWork(0, 0, "input without a change");
+  block->GetPointData()->GetScalars()->SetComponent(3, 0, 1.1);
+  block->GetPointData()->GetScalars()->Modified();
+  block->Modified();
+  expectWork(1, 1, "values");
+  block->GetPoints()->SetPoint(0, -1.1, -1.0, -1.0);
+  block->GetPoints()->Modified();
+  block->Modified();
+  expectWork(1, 1, "points");
 }
 
 TEST(Schlieren, CompositeInputIsOneMedium)
@@ -287,8 +359,8 @@ TEST(Schlieren, UnusableValuesAreHolesWithAWarning)
     filter->Update();
     EXPECT_EQ(observer->Errors.size(), 0u);
     EXPECT_EQ(observer->Warnings.size(), 1u) << bad;
-    EXPECT_EQ(filter->GetNumberOfUnusablePoints(), 1) << bad;
-    EXPECT_EQ(filter->GetNumberOfLostRays(), 0);
+    EXPECT_EQ(filter->GetStatistic("NumberOfUnusablePoints"), 1) << bad;
+    EXPECT_EQ(filter->GetStatistic("NumberOfLostRays"), 0);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
   }
 }

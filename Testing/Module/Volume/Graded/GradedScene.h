@@ -5,6 +5,7 @@
 
 #include "KernelMeshes.h"
 #include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
 
 #include <glm/geometric.hpp>
@@ -27,7 +28,9 @@ using SquaredIndexField = std::function<double(const glm::dvec3&)>;
 class GradedScene
 {
 public:
-  GradedScene(const MeshArrays& arrays, const SquaredIndexField& field, double outsideIndex = 0.0)
+  /** @param isQuadratic false for an n^2 that is linear in each cell. */
+  GradedScene(const MeshArrays& arrays, const SquaredIndexField& field, double outsideIndex = 0.0,
+    bool isQuadratic = true)
   {
     this->Mesh.Build(arrays.View());
     for (const std::int32_t point : this->Mesh.GetSourcePoints())
@@ -36,6 +39,11 @@ public:
     }
     this->Unknown = ActivateCellsWithIndex(this->Mesh, this->Squares);
     this->Tree.Build(this->Mesh);
+    if (isQuadratic)
+    {
+      this->Terms = ComputeEdgeTerms(this->Mesh, this->Squares);
+      this->Medium.Terms = &this->Terms;
+    }
     this->Medium.Mesh = &this->Mesh;
     this->Medium.Tree = &this->Tree;
     this->Medium.SquaredIndices = &this->Squares;
@@ -59,6 +67,7 @@ public:
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
   std::vector<double> Squares;
+  std::vector<EdgeTerms> Terms;
   std::int64_t Unknown = 0;
   GradedMedium Medium;
   GradedRayStatistics Statistics;

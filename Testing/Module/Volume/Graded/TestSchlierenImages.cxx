@@ -136,12 +136,13 @@ TEST(StraightRays, DifferFromBentOnesBySecondOrder)
     const double strength = k == 0 ? 0.04 : 0.02;
     GradedScene scene(CenteredGrid(12, 1.0),
       [=](const glm::dvec3& p) { return 1.0 + strength * std::exp(-4.0 * glm::dot(p, p)); });
-    const glm::dvec3 origin(0.31, 0.17, -2.0);
+    // Both rays pass the same faces, at which the gradient jumps a little.
+    const glm::dvec3 origin(0.31, 0.1, -2.0);
     const glm::dvec3 direction(0.0, 0.0, 1.0);
     const GradedRayResult bent = scene.Trace(origin, direction);
     scene.Medium.IsStraight = true;
     const GradedRayResult straight = scene.Trace(origin, direction);
-    EXPECT_NEAR(glm::length(straight.Exit - glm::dvec3(0.31, 0.17, 1.0)), 0.0, 1.0e-8);
+    EXPECT_NEAR(glm::length(straight.Exit - glm::dvec3(0.31, 0.1, 1.0)), 0.0, 1.0e-8);
     deflections[k] = glm::length(bent.Direction - straight.Direction);
     paths[k] = std::abs(bent.OpticalPath - straight.OpticalPath);
     EXPECT_LT(deflections[k], 0.1 * glm::length(straight.Direction - direction));

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Integral/SchlierenArrays.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/** An array of the output. */
+vtkFloatArray* AddArray(vtkImageData* image, const char* name, int components)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  image->GetPointData()->AddArray(array);
+  return array;
+}
+
+/** A picture as numbers, row by row. */
+struct Picture
+{
+  std::vector<float> Values;
+  int Width = 0;
+  int Height = 0;
+};
+
+Picture ReadPicture(vtkImageData* image)
+{
+  Picture picture;
+  const int* size = image->GetDimensions();
+  picture.Width = size[0];
+  picture.Height = size[1];
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < vtkIdType{ size[0] } * size[1]; ++i)
+  {
+    picture.Values.push_back(static_cast<float>(scalars->GetComponent(i, 0)));
+  }
+  return picture;
+}
+
+/** Planes behind the medium, as depths in the frame of the rays, and units of paths. */
+struct Screens
+{
+  double Shadow = 0.0;
+  double Background = 0.0;
+  double ReferenceIndex = 1.0;
+  /** World length of the mesh's unit. */
+  double Radius = 1.0;
+};
+
+/** Light of a pixel behind the medium. */
+struct LightOfPixel
+{
+  glm::dvec2 Pixel;
+  glm::dvec2 Deflection{ 0.0 };
+  /** Optical path difference in world coordinates. */
+  double Path = 0.0;
+  /** Place on the screen of the shadowgraph, in pixels; NaN for light that does not land. */
+  glm::dvec2 Landing;
+  /** Place of the background that is seen, in pixels. */
+  glm::dvec2 Seen;
+};
+
+LightOfPixel FindLight(const PixelRays& rays, const GradedRayResult& ray, const glm::dvec2& pixel,
+  const Screens& screens)
+{
+  LightOfPixel light;
+  light.Pixel = light.Landing = light.Seen = pixel;
+  if (ray.State == GradedRayState::Missed)
+  {
+    return light;
+  }
+  const glm::dvec2 deflection = rays.Deflect(pixel, ray.Direction);
+  const bool leaves = ray.State == GradedRayState::Left;
+  if (leaves)
+  {
+    light.Path = screens.Radius *
+      (ray.OpticalPath -
+        screens.ReferenceIndex *
+          glm::dot(ray.Exit - ray.Entry, glm::normalize(rays.GetDirection(pixel))));
+  }
+  if (!leaves || std::isnan(deflection.x))
+  {
+    light.Landing = glm::dvec2(NaN);
+    return light;
+  }
+  light.Deflection = deflection;
+  light.Landing = rays.Land(ray, screens.Shadow);
+  light.Seen = rays.Land(ray, screens.Background);
+  return light;
+}
+
+/** Deflections and optical path differences. */
+void WriteMeasures(const std::vector<LightOfPixel>& light, vtkImageData* output)
+{
+  vtkFloatArray* deflections = AddArray(output, "Deflection", 2);
+  vtkFloatArray* paths = AddArray(output, "OpticalPathDifference", 1);
+  for (std::size_t i = 0; i < light.size(); ++i)
+  {
+    const auto number = static_cast<vtkIdType>(i);
+    deflections->SetTuple2(number, light[i].Deflection.x, light[i].Deflection.y);
+    paths->SetValue(number, static_cast<float>(light[i].Path));
+  }
+}
+
+void WriteShadows(const std::vector<LightOfPixel>& light, vtkImageData* output)
+{
+  vtkFloatArray* shadows = AddArray(output, "Shadowgraph", 1);
+  std::vector<glm::dvec2> landings;
+  landings.reserve(light.size());
+  for (const LightOfPixel& one : light)
+  {
+    landings.push_back(one.Landing);
+  }
+  const int* size = output->GetDimensions();
+  double offScreen = 0.0;
+  const std::vector<double> irradiance =
+    ComputeShadowgraph(landings, size[0], size[1], ThreadedLoop, offScreen);
+  for (std::size_t i = 0; i < light.size(); ++i)
+  {
+    shadows->SetValue(static_cast<vtkIdType>(i), static_cast<float>(irradiance[i]));
+  }
+}
+
+/** @param knife with a range of 0, twice the largest deflection is its range. */
+void WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImageData* output)
+{
+  vtkFloatArray* knives = AddArray(output, "Schlieren", 1);
+  if (!(knife.Range > 0.0))
+  {
+    double largest = 0.0;
+    for (const LightOfPixel& one : light)
+    {
+      largest = std::max(largest, std::abs(knife.Along(one.Deflection)));
+    }
+    knife.Range = largest > 0.0 ? 2.0 * largest : 1.0;
+  }
+  for (std::size_t i = 0; i < light.size(); ++i)
+  {
+    knives->SetValue(
+      static_cast<vtkIdType>(i), static_cast<float>(knife.Transmit(light[i].Deflection)));
+  }
+}
+
+void WriteFringes(
+  const std::vector<LightOfPixel>& light, const Interferometer& meter, vtkImageData* output)
+{
+  vtkFloatArray* fringes = AddArray(output, "Interferogram", 1);
+  const int* dimensions = output->GetDimensions();
+  const glm::dvec2 size(dimensions[0], dimensions[1]);
+  for (std::size_t i = 0; i < light.size(); ++i)
+  {
+    fringes->SetValue(static_cast<vtkIdType>(i),
+      static_cast<float>(meter.Interfere(light[i].Path, (light[i].Pixel + 0.5) / size)));
+  }
+}
+
+/** @param background null for none. */
+void WriteShifts(
+  const std::vector<LightOfPixel>& light, vtkImageData* background, vtkImageData* output)
+{
+  vtkFloatArray* shifts = AddArray(output, "Displacement", 2);
+  vtkFloatArray* warped = background ? AddArray(output, "Background", 1) : nullptr;
+  const Picture picture = background ? ReadPicture(background) : Picture();
+  const int* dimensions = output->GetDimensions();
+  const glm::dvec2 scale(static_cast<double>(picture.Width) / dimensions[0],
+    static_cast<double>(picture.Height) / dimensions[1]);
+  for (std::size_t i = 0; i < light.size(); ++i)
+  {
+    const auto number = static_cast<vtkIdType>(i);
+    const glm::dvec2 shift = light[i].Seen - light[i].Pixel;
+    shifts->SetTuple2(number, shift.x, shift.y);
+    if (warped)
+    {
+      warped->SetValue(number,
+        static_cast<float>(SamplePicture(
+          picture.Values, picture.Width, picture.Height, (light[i].Seen + 0.5) * scale - 0.5)));
+    }
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+PixelRays::PixelRays(const IntegralView& view, const int size[2])
+  : View(view)
+  , ToFrame(glm::transpose(glm::dmat3(view.Rays.RowX, view.Rays.RowY, view.Rays.RowDepth)))
+  , FromFrame(glm::inverse(this->ToFrame))
+  , Middle(0.5 * (size[0] - 1), 0.5 * (size[1] - 1))
+{
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 PixelRays::GetSlope(const glm::dvec2& pixel) const
+{
+  const glm::dvec2 p = pixel - this->Middle;
+  return this->View.Rays.Slope.At(p.x, p.y);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 PixelRays::GetOrigin(const glm::dvec2& pixel) const
+{
+  const glm::dvec2 p = pixel - this->Middle;
+  const double depth = this->View.BeginDepth;
+  return this->FromFrame *
+    glm::dvec3(this->View.Rays.Origin.At(p.x, p.y) + depth * this->GetSlope(pixel), depth);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 PixelRays::GetDirection(const glm::dvec2& pixel) const
+{
+  return this->FromFrame * glm::dvec3(this->GetSlope(pixel), 1.0);
+}
+
+//------------------------------------------------------------------------------
+double PixelRays::GetDepthBehind(const glm::dvec3& half, double distance) const
+{
+  return glm::dot(glm::abs(this->View.Rays.RowDepth), half) +
+    distance / glm::length(this->View.Rays.ViewToWorld[2]);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 PixelRays::Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const
+{
+  const glm::dvec3 d = this->ToFrame * direction;
+  return d.z > 0.0 ? glm::dvec2(d) / d.z - this->GetSlope(pixel) : glm::dvec2(NaN);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 PixelRays::Land(const GradedRayResult& ray, double depth) const
+{
+  const glm::dvec3 place = this->ToFrame * ray.Exit;
+  const glm::dvec3 d = this->ToFrame * ray.Direction;
+  if (!(d.z > 0.0))
+  {
+    return glm::dvec2(NaN);
+  }
+  const glm::dvec2 there = glm::dvec2(place) + (depth - place.z) / d.z * glm::dvec2(d);
+  const auto& origin = this->View.Rays.Origin;
+  const auto& slope = this->View.Rays.Slope;
+  const glm::dmat2 steps(
+    origin.PerColumn + depth * slope.PerColumn, origin.PerRow + depth * slope.PerRow);
+  return this->Middle + glm::inverse(steps) * (there - origin.Base - depth * slope.Base);
+}
+
+//------------------------------------------------------------------------------
+void WriteImages(const PixelRays& rays, const std::vector<GradedRayResult>& results,
+  const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output)
+{
+  const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();
+  Screens screens;
+  screens.Shadow = rays.GetDepthBehind(half, instruments.ScreenDistance);
+  screens.Background = rays.GetDepthBehind(half, instruments.BackgroundDistance);
+  screens.ReferenceIndex = instruments.ReferenceIndex;
+  screens.Radius = mesh.GetRadius();
+  const auto width = static_cast<std::size_t>(output->GetDimensions()[0]);
+  std::vector<LightOfPixel> light;
+  light.reserve(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    const glm::dvec2 pixel(static_cast<double>(i % width), static_cast<double>(i / width));
+    light.push_back(FindLight(rays, results[i], pixel, screens));
+  }
+  WriteMeasures(light, output);
+  WriteShadows(light, output);
+  WriteKnife(light, instruments.Knife, output);
+  WriteFringes(light, instruments.Meter, output);
+  WriteShifts(light, instruments.Background, output);
+}
+
+}

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Images of vtkTetrahedraSchlieren: rays behind a medium, and arrays of instruments. */
+#ifndef meniscus_Rendering_Integral_SchlierenArrays_h
+#define meniscus_Rendering_Integral_SchlierenArrays_h
+
+#include "Rendering/Integral/IntegralView.h"
+#include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/SchlierenImages.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+class vtkImageData;
+
+namespace meniscus
+{
+
+/** Rays of an image's pixels in the mesh's units, and places in the image that they reach. */
+class PixelRays
+{
+public:
+  PixelRays(const IntegralView& view, const int size[2]);
+
+  glm::dvec2 GetSlope(const glm::dvec2& pixel) const;
+  glm::dvec3 GetOrigin(const glm::dvec2& pixel) const;
+  glm::dvec3 GetDirection(const glm::dvec2& pixel) const;
+  /** Depth in the frame at a distance in world coordinates behind a box about the centre. */
+  double GetDepthBehind(const glm::dvec3& half, double distance) const;
+  /** Change of a direction's slope against that of the pixel's ray; NaN for a ray that returns. */
+  glm::dvec2 Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const;
+  /**
+   * Pixel whose undisturbed ray reaches the place at a depth that this ray reaches; NaN for a ray
+   * that returns.
+   */
+  glm::dvec2 Land(const GradedRayResult& ray, double depth) const;
+
+private:
+  const IntegralView& View;
+  glm::dmat3 ToFrame;
+  glm::dmat3 FromFrame;
+  glm::dvec2 Middle;
+};
+
+/** Instruments behind a medium. Lengths are in world coordinates. */
+struct Instruments
+{
+  /** Index that optical path differences are relative to. */
+  double ReferenceIndex = 1.0;
+  /** Distances of the shadowgraph's screen and of the background behind the mesh's box. */
+  double ScreenDistance = 1.0;
+  double BackgroundDistance = 1.0;
+  /** A range of 0 stands for twice the largest deflection along the knife. */
+  KnifeEdge Knife;
+  Interferometer Meter;
+  /** Picture behind the mesh; null for none. */
+  vtkImageData* Background = nullptr;
+};
+
+/**
+ * Adds the arrays of all instruments to an image.
+ * @param results of the image's rays, row by row.
+ */
+void WriteImages(const PixelRays& rays, const std::vector<GradedRayResult>& results,
+  const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output);
+
+}
+
+#endif
