@@ -4,9 +4,9 @@
 
 #include "Filters/Common/ClampedSetter.h"
 #include "Filters/Mesher/DelaunayMesher.h"
-#include "Filters/Mesher/MesherProcess.h"
 #include "Filters/Mesher/SurfaceExtraction.h"
 #include "Filters/Mesher/SurfaceMessages.h"
+#include "Filters/Mesher/TetGenRun.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -23,13 +23,6 @@ namespace
 
 /** Largest number of points: the mesher's indices are of type int. */
 constexpr vtkIdType MostPoints = std::numeric_limits<int>::max() / 4;
-
-/**
- * Distance from a triangle's plane at which TetGen still takes a point for coplanar, relative to
- * the size of the surface: its default for the switch T. VTK adds no points at all, and rounding of
- * the volumes is far below.
- */
-constexpr double CoplanarTolerance = 1e-8;
 
 }
 
@@ -55,7 +48,7 @@ int vtkTetrahedralizeSurface::FillInputPortInformation(int vtkNotUsed(port), vtk
 //------------------------------------------------------------------------------
 std::string vtkTetrahedralizeSurface::GetProgram() const
 {
-  return this->MesherProgram ? std::string(this->MesherProgram) : meniscus::FindTetGenProgram();
+  return meniscus::ChooseTetGenProgram(this->MesherProgram);
 }
 
 //------------------------------------------------------------------------------
@@ -146,7 +139,7 @@ bool vtkTetrahedralizeSurface::MakeCells(
     return false;
   }
   const std::string fault =
-    meniscus::DescribeSolidFault(meniscus::KeepSolid(surface, CoplanarTolerance, cells));
+    meniscus::DescribeSolidFault(meniscus::KeepSolid(surface, meniscus::CoplanarTolerance, cells));
   if (!fault.empty())
   {
     vtkErrorMacro(<< fault << " The output is empty.");
@@ -159,16 +152,8 @@ bool vtkTetrahedralizeSurface::MakeCells(
 bool vtkTetrahedralizeSurface::RunTetGen(
   const meniscus::TriangleSurface& surface, meniscus::TetrahedronCells& cells)
 {
-  meniscus::MesherProcess process;
-  process.Program = this->GetProgram();
-  process.TimeLimit = this->TimeLimit;
-  // TetGen reports no progress: each tenth of the time limit shows half of the remainder as done.
-  process.GoesOn = [this](double seconds)
-  {
-    this->UpdateProgress(1.0 - std::exp2(-10.0 * seconds / this->TimeLimit));
-    return !this->GetAbortExecute();
-  };
-  if (process.Program.empty())
+  const std::string program = this->GetProgram();
+  if (program.empty())
   {
     vtkErrorMacro("There is no program for TetGen: build Meniscus with MENISCUS_WITH_TETGEN, set "
                   "MesherProgram or use DELAUNAY. The output is empty.");
@@ -179,24 +164,7 @@ bool vtkTetrahedralizeSurface::RunTetGen(
   task.RadiusEdgeRatio = this->MaximumRadiusEdgeRatio;
   task.MaximumVolume = this->MaximumVolume;
   task.KeepsSurface = this->PreserveSurface;
-  meniscus::MeshingAnswer answer;
-  const meniscus::ProcessEnd end = process.Run(task, answer);
-  if (end == meniscus::ProcessEnd::Aborted)
-  {
-    return false;
-  }
-  std::string fault = meniscus::DescribeProcessEnd(end, process);
-  if (fault.empty())
-  {
-    fault = meniscus::DescribeMeshingEnd(answer.End);
-  }
-  if (!fault.empty())
-  {
-    vtkErrorMacro(<< fault << " The output is empty.");
-    return false;
-  }
-  cells = std::move(answer.Cells);
-  return true;
+  return meniscus::RunTetGen(this, program, this->TimeLimit, task, cells);
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of the thesis "Refraction by geometric transforms" again: a triangle of different
 resolutions next to a ray-traced picture (Figs. 4.9 and 4.10), the cells of diverging and converging
-membranes (Figs. 3.1 and 4.8), and an error volume (Fig. 4.2) with its angles at the eye.
+membranes (Figs. 3.1 and 4.8), all images of one point (Fig. 3.2), and an error volume (Fig. 4.2)
+with its angles at the eye.
 
 usage: thesis_figures.py [--output DIR] [--size N]
 """
@@ -17,7 +18,7 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharA
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkSphere
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkImageAppend, vtkTubeFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractEdges
-from vtkmodules.vtkFiltersSources import vtkCubeSource
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
 AIR, GLASS = 1.0, 1.51
@@ -287,6 +288,95 @@ def draw_cells(size):
     return join(panels, 0)
 
 
+def make_waves(cells, side, amplitude, wave_number):
+    """Waves amplitude sin(k x) sin(k z) over a square, with exact normals."""
+    points, normals, triangles = vtkPoints(), vtkDoubleArray(), vtkCellArray()
+    points.SetDataTypeToDouble()
+    normals.SetNumberOfComponents(3)
+    normals.SetName("Normals")
+    for j in range(cells + 1):
+        for i in range(cells + 1):
+            x, z = side * (i / cells - 0.5), side * (j / cells - 0.5)
+            sines = math.sin(wave_number * x), math.sin(wave_number * z)
+            slope = amplitude * wave_number
+            dx = slope * math.cos(wave_number * x) * sines[1]
+            dz = slope * sines[0] * math.cos(wave_number * z)
+            length = math.sqrt(1.0 + dx * dx + dz * dz)
+            points.InsertNextPoint(x, amplitude * sines[0] * sines[1], z)
+            normals.InsertNextTuple3(-dx / length, 1.0 / length, -dz / length)
+    for j in range(cells):
+        for i in range(cells):
+            a = j * (cells + 1) + i
+            b = a + cells + 1
+            triangles.InsertNextCell(3, (a, b, a + 1))
+            triangles.InsertNextCell(3, (a + 1, b, b + 1))
+    waves = vtkPolyData()
+    waves.SetPoints(points)
+    waves.SetPolys(triangles)
+    waves.GetPointData().SetNormals(normals)
+    return waves
+
+
+def make_rays(starts, ends, color, radius):
+    points, lines = vtkPoints(), vtkCellArray()
+    for pair in zip(starts, ends):
+        lines.InsertNextCell(2, [points.InsertNextPoint(p) for p in pair])
+    data = vtkPolyData()
+    data.SetPoints(points)
+    data.SetLines(lines)
+    tubes = vtkTubeFilter()
+    tubes.SetInputData(data)
+    tubes.SetRadius(radius)
+    tubes.SetNumberOfSides(8)
+    tubes.Update()
+    actor = common.make_actor(tubes.GetOutput(), color)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def draw_convergence(size):
+    """All images of one point below short waves: sight rays, refracted rays, virtual vertices."""
+    eye, place = (20.0, 300.0, 10.0), (0.0, -150.0, 0.0)
+    membrane = make_waves(128, 200.0, 4.0, 0.09 * math.pi)
+    point, points, verts = vtkPolyData(), vtkPoints(), vtkCellArray()
+    points.SetDataTypeToDouble()
+    verts.InsertNextCell(1, (points.InsertNextPoint(place),))
+    point.SetPoints(points)
+    point.SetVerts(verts)
+    refraction = meniscus.vtkRefractedGeometryFilter()
+    refraction.SetInputData(point)
+    refraction.SetMembraneData(membrane)
+    refraction.SetEyePosition(*eye)
+    refraction.SetExteriorIndexOfRefraction(AIR)
+    refraction.SetInteriorIndexOfRefraction(1.333)
+    refraction.Update()
+    images = refraction.GetOutput()
+    count = images.GetNumberOfPoints()
+    print(f"{count} virtual vertices of one point")
+    sights = [images.GetPointData().GetArray("SightPoint").GetTuple3(i) for i in range(count)]
+    renderer = common.make_renderer()
+    # The thesis's colours: sight rays light pink, refracted rays magenta, vertices white.
+    renderer.AddActor(make_rays([eye] * count, sights, (1.0, 0.75, 0.8), 0.25))
+    renderer.AddActor(make_rays(sights, [place] * count, (1.0, 0.2, 1.0), 0.4))
+    dot = vtkSphereSource()
+    dot.SetRadius(1.6)
+    dots = vtkGlyph3D()
+    dots.SetSourceConnection(dot.GetOutputPort())
+    dots.SetInputData(images)
+    dots.ScalingOff()
+    dots.Update()
+    white = common.make_actor(dots.GetOutput())
+    white.GetMapper().ScalarVisibilityOff()
+    renderer.AddActor(white)
+    surface = common.make_actor(membrane, (1.0, 0.85, 0.2))
+    surface.GetProperty().SetOpacity(0.5)
+    renderer.AddActor(surface)
+    common.add_lights(renderer, ((-0.5, 0.8, 1.0), (1.0, 1.0, 1.0), 1.0))
+    common.look_from(renderer, (250.0, 130.0, 420.0), (0.0, -35.0, 0.0), (0, 1, 0), 32.0)
+    renderer.ResetCameraClippingRange()
+    return common.take(renderer, (3 * size, 2 * size))
+
+
 def make_errors():
     """The error volume of a hemisphere with flat facets, with angles as pixels of 512 rows."""
     exact = vtkSphere()
@@ -368,7 +458,7 @@ def main():
     parser.add_argument("--size", type=int, default=256, help="height of a panel in pixels")
     options = parser.parse_args()
     for name, make in (("thesis-resolution", draw_resolutions), ("membrane-cells", draw_cells),
-                       ("error-volume", draw_errors)):
+                       ("error-volume", draw_errors), ("zone-of-convergence", draw_convergence)):
         common.write(make(options.size), os.path.join(options.output, name + ".png"))
 
 

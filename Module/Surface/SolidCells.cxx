@@ -164,6 +164,155 @@ void DropUnusedPoints(std::size_t first, TetrahedronCells& cells)
   }
 }
 
+// Keeps the regions of one winding number, 0 or 1, and compares the volume of those of 1 with that
+// of the surface.
+SolidFault KeepRegions(
+  const TriangleSurface& surface, double relativeTolerance, int winding, TetrahedronCells& cells)
+{
+  for (Tetrahedron& cell : cells.Cells)
+  {
+    if (SixfoldVolumeOf(cells, cell) < 0.0)
+    {
+      std::swap(cell[2], cell[3]);
+    }
+  }
+  const std::map<int, int> windings = FindWindings(surface, cells);
+  for (const auto& region : windings)
+  {
+    if (region.second != 0 && region.second != 1)
+    {
+      return SolidFault::Nesting;
+    }
+  }
+  std::size_t kept = 0;
+  double sixfold = 0.0;
+  bool flat = false;
+  for (std::size_t c = 0; c < cells.Cells.size(); ++c)
+  {
+    const int own = windings.at(cells.Regions[c]);
+    sixfold += own == 1 ? SixfoldVolumeOf(cells, cells.Cells[c]) : 0.0;
+    if (own == winding)
+    {
+      // Cells outside are not seen, so that they may be flat.
+      flat = flat || (own == 1 && IsCellFlat(cells, cells.Cells[c]));
+      cells.Cells[kept] = cells.Cells[c];
+      cells.Regions[kept] = cells.Regions[c];
+      ++kept;
+    }
+  }
+  cells.Cells.resize(kept);
+  cells.Regions.resize(kept);
+  DropUnusedPoints(surface.Points.size(), cells);
+  const double difference = std::abs(sixfold / 6.0 - ComputeEnclosedVolume(surface));
+  if (flat)
+  {
+    return SolidFault::FlatCells;
+  }
+  return difference <= BoundVolumeError(surface, relativeTolerance) ? SolidFault::None
+                                                                    : SolidFault::WrongVolume;
+}
+
+// Cells with the first of all points of equal coordinates; without those that lose a corner by
+// that.
+std::vector<Tetrahedron> JoinCorners(
+  const std::vector<glm::dvec3>& points, const std::vector<Tetrahedron>& cells)
+{
+  std::map<std::array<double, 3>, int> known;
+  std::vector<int> first(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    const glm::dvec3& x = points[p];
+    const int own = static_cast<int>(p);
+    // Numbers that are not finite have no place in an order.
+    const bool isFinite = std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+    first[p] =
+      isFinite ? known.emplace(std::array<double, 3>{ x.x, x.y, x.z }, own).first->second : own;
+  }
+  std::vector<Tetrahedron> joined;
+  joined.reserve(cells.size());
+  for (Tetrahedron cell : cells)
+  {
+    for (int& corner : cell)
+    {
+      corner = first[static_cast<std::size_t>(corner)];
+    }
+    Tetrahedron sorted = cell;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end())
+    {
+      joined.push_back(cell);
+    }
+  }
+  return joined;
+}
+
+// A face of a cell in VTK's order of corners, counterclockwise as seen from outside.
+Triangle SeenFromOutside(const Tetrahedron& cell, const Triangle& face)
+{
+  const std::array<Triangle, 4> without{ { { cell[1], cell[2], cell[3] },
+    { cell[0], cell[3], cell[2] }, { cell[0], cell[1], cell[3] }, { cell[0], cell[2], cell[1] } } };
+  return *std::find_if(without.begin(), without.end(),
+    [&](const Triangle& candidate) { return Sorted(candidate) == face; });
+}
+
+bool IsEvenPermutation(const Triangle& face)
+{
+  return ((face[0] > face[1]) + (face[0] > face[2]) + (face[1] > face[2])) % 2 == 0;
+}
+
+// Cells whose corners are in the other order than VTK's: neighbours agree, and the volume of
+// connected cells is positive. A cell that is inverted in a mesh of the right order is not turned,
+// so that it counts with a negative volume.
+std::vector<bool> FindTurnedCells(
+  const TetrahedronCells& mesh, const std::vector<FaceOfCell>& faces)
+{
+  std::vector<std::vector<std::pair<std::size_t, bool>>> neighbors(mesh.Cells.size());
+  for (std::size_t f = 1; f < faces.size(); ++f)
+  {
+    if (faces[f - 1].first == faces[f].first)
+    {
+      const std::size_t a = faces[f - 1].second;
+      const std::size_t b = faces[f].second;
+      const bool differ = IsEvenPermutation(SeenFromOutside(mesh.Cells[a], faces[f].first)) ==
+        IsEvenPermutation(SeenFromOutside(mesh.Cells[b], faces[f].first));
+      neighbors[a].emplace_back(b, differ);
+      neighbors[b].emplace_back(a, differ);
+    }
+  }
+  std::vector<bool> turned(mesh.Cells.size(), false);
+  std::vector<bool> known(mesh.Cells.size(), false);
+  std::vector<std::size_t> piece;
+  for (std::size_t seed = 0; seed < mesh.Cells.size(); ++seed)
+  {
+    if (known[seed])
+    {
+      continue;
+    }
+    known[seed] = true;
+    piece.assign(1, seed);
+    double sixfold = 0.0;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+    {
+      const std::size_t cell = piece[i];
+      sixfold += (turned[cell] ? -1.0 : 1.0) * SixfoldVolumeOf(mesh, mesh.Cells[cell]);
+      for (const auto& neighbor : neighbors[cell])
+      {
+        if (!known[neighbor.first])
+        {
+          known[neighbor.first] = true;
+          turned[neighbor.first] = turned[cell] != neighbor.second;
+          piece.push_back(neighbor.first);
+        }
+      }
+    }
+    for (const std::size_t cell : piece)
+    {
+      turned[cell] = turned[cell] != (sixfold < 0.0);
+    }
+  }
+  return turned;
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
@@ -201,46 +350,41 @@ std::size_t NumberRegions(const TriangleSurface& surface, TetrahedronCells& cell
 SolidFault KeepSolid(
   const TriangleSurface& surface, double relativeTolerance, TetrahedronCells& cells)
 {
-  for (Tetrahedron& cell : cells.Cells)
+  return KeepRegions(surface, relativeTolerance, 1, cells);
+}
+
+//------------------------------------------------------------------------------
+SolidFault KeepOutside(
+  const TriangleSurface& surface, double relativeTolerance, TetrahedronCells& cells)
+{
+  return KeepRegions(surface, relativeTolerance, 0, cells);
+}
+
+//------------------------------------------------------------------------------
+TriangleSurface FindBoundary(
+  const std::vector<glm::dvec3>& points, const std::vector<Tetrahedron>& cells)
+{
+  TetrahedronCells joined;
+  joined.Points = points;
+  joined.Cells = JoinCorners(points, cells);
+  const std::vector<FaceOfCell> faces = ListFaces(joined.Cells);
+  const std::vector<bool> turned = FindTurnedCells(joined, faces);
+  std::vector<Triangle> boundary;
+  for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    if (SixfoldVolumeOf(cells, cell) < 0.0)
+    const bool before = f > 0 && faces[f - 1].first == faces[f].first;
+    const bool after = f + 1 < faces.size() && faces[f + 1].first == faces[f].first;
+    if (!before && !after)
     {
-      std::swap(cell[2], cell[3]);
+      Triangle face = SeenFromOutside(joined.Cells[faces[f].second], faces[f].first);
+      if (turned[faces[f].second])
+      {
+        std::swap(face[1], face[2]);
+      }
+      boundary.push_back(face);
     }
   }
-  const std::map<int, int> windings = FindWindings(surface, cells);
-  for (const auto& region : windings)
-  {
-    if (region.second != 0 && region.second != 1)
-    {
-      return SolidFault::Nesting;
-    }
-  }
-  std::size_t kept = 0;
-  double sixfold = 0.0;
-  bool flat = false;
-  for (std::size_t c = 0; c < cells.Cells.size(); ++c)
-  {
-    if (windings.at(cells.Regions[c]) == 1)
-    {
-      const double volume = SixfoldVolumeOf(cells, cells.Cells[c]);
-      flat = flat || IsCellFlat(cells, cells.Cells[c]);
-      sixfold += volume;
-      cells.Cells[kept] = cells.Cells[c];
-      cells.Regions[kept] = cells.Regions[c];
-      ++kept;
-    }
-  }
-  cells.Cells.resize(kept);
-  cells.Regions.resize(kept);
-  DropUnusedPoints(surface.Points.size(), cells);
-  const double difference = std::abs(sixfold / 6.0 - ComputeEnclosedVolume(surface));
-  if (flat)
-  {
-    return SolidFault::FlatCells;
-  }
-  return difference <= BoundVolumeError(surface, relativeTolerance) ? SolidFault::None
-                                                                    : SolidFault::WrongVolume;
+  return JoinCoincidentPoints(points, boundary);
 }
 
 //------------------------------------------------------------------------------

@@ -50,6 +50,21 @@ std::size_t NumberRegions(const TriangleSurface& surface, TetrahedronCells& cell
 SolidFault KeepSolid(
   const TriangleSurface& surface, double relativeTolerance, TetrahedronCells& cells);
 
+/**
+ * Keeps the cells in the regions around which the surface does not wind: the rest of the convex
+ * hull, cavities included. Order of corners, points and tolerance as for KeepSolid.
+ */
+SolidFault KeepOutside(
+  const TriangleSurface& surface, double relativeTolerance, TetrahedronCells& cells);
+
+/**
+ * Boundary of the cells: faces of one cell only, counterclockwise as seen from outside. Points of
+ * equal coordinates count as one, and cells that lose a corner by that are left out. The order of
+ * the cells' corners does not matter.
+ */
+TriangleSurface FindBoundary(
+  const std::vector<glm::dvec3>& points, const std::vector<Tetrahedron>& cells);
+
 /** Whether each point is on the boundary of the cells, i.e. on a face of one cell only. */
 std::vector<bool> FindBoundaryPoints(const TetrahedronCells& cells);
 

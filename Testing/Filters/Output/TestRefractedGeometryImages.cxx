@@ -139,6 +139,39 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
 }
 
 //------------------------------------------------------------------------------
+// The thesis's Fig. 3.2 shows 30 virtual vertices of one point. Short waves have more: all that a
+// dense search for stationary paths finds, each once.
+TEST(RefractedGeometryImages, TensOfImagesOfOnePoint)
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 4.0, 0.09 * Pi, 1.0, 1.333 };
+  constexpr int cells = 128;
+  // Sight points are farther apart than two cells, and the patches' error is far below one.
+  const double nearby = 0.1 * waves.Side / cells;
+  const auto membrane = MakeMembrane(waves.MakeMesh(cells));
+  for (const glm::dvec3& point :
+    { glm::dvec3(0.0, -150.0, 0.0), { 3.0, -200.0, 5.0 }, { 8.0, -300.0, 2.0 } })
+  {
+    const auto filter = MakeAllImages(MakePoints({ { point.x, point.y, point.z } }), membrane);
+    filter->SetEyePosition(Eye.x, Eye.y, Eye.z);
+    filter->Update();
+    vtkPolyData* output = filter->GetOutput();
+    const auto exact = waves.FindSightPoints(Eye, point, 400);
+    EXPECT_GT(exact.size(), 30u);
+    ASSERT_EQ(static_cast<std::size_t>(output->GetNumberOfPoints()), exact.size()) << point.y;
+    for (const glm::dvec3& sight : exact)
+    {
+      int found = 0;
+      for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+      {
+        const auto own = GetTuple(output->GetPointData()->GetArray("SightPoint"), i);
+        found += glm::distance(own, sight) < nearby;
+      }
+      EXPECT_EQ(found, 1) << point.y;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Behind a flat membrane every point has one image: the pieces of a tile cover it once.
 TEST(RefractedGeometryImages, PiecesCoverThePolygonOnce)
 {
