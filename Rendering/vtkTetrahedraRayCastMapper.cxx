@@ -539,6 +539,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   frame.Optics.CompactCells = this->CompactCells;
   frame.Optics.CellScalars =
     internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
+  frame.Optics.Illuminated =
+    this->GlobalIlluminationReach > 0.0f && frame.Optics.Model().IsMedium();
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
       (volume->GetProperty()->GetShade() != 0 ||

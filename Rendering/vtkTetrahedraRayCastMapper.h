@@ -40,7 +40,8 @@
  *   these values; lit if Shade is on. For cell data, they are the faces shared by two cells whose
  *   values lie on either side of an isovalue.
  *
- * Cell data has no gradient: Shade applies to isosurfaces only, and gradient opacity has no effect.
+ * Cell data has no gradient: Shade applies to isosurfaces, and with GlobalIlluminationReach to the
+ * light that a medium scatters; gradient opacity has no effect.
  *
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
  * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
@@ -471,7 +472,7 @@ public:
    * medium on this part of its way to the vertices of the mesh, and the ambient light by the mean
    * over 32 directions (ambient occlusion); Documentation/volume.md has the rules for several
    * lights and for changes. Default is 0: light is not attenuated; NaN counts as 0. Composite
-   * blending only, for scalars of points.
+   * blending only. Cell data, which has no gradient, is lit by scattered light alone.
    */
   void SetGlobalIlluminationReach(float reach);
   vtkGetMacro(GlobalIlluminationReach, float);

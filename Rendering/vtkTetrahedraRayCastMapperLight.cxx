@@ -60,15 +60,15 @@ void vtkTetrahedraRayCastMapper::PrepareIllumination(
 {
   vtkInternals& internals = *this->Internals;
   meniscus::RayCastOptics& optics = frame.Optics;
-  optics.Illuminated =
-    this->GlobalIlluminationReach > 0.0f && optics.Shading && optics.Model().IsMedium();
+  optics.Illuminated = optics.Illuminated && optics.Shading;
   meniscus::ViewContext world;
   if (!optics.Illuminated || !internals.ComputeWorldFrame(volume, world).empty())
   {
     optics.Illuminated = false;
     return;
   }
-  optics.Lighting.Scattering = 0.5 * this->VolumetricScatteringBlending;
+  // Scalars of cells have no gradient that reflects light: all of it is scattered.
+  optics.Lighting.Scattering = optics.CellScalars ? 1.0 : 0.5 * this->VolumetricScatteringBlending;
   optics.Lighting.Anisotropy = meniscus::GetScatteringAnisotropy(volume->GetProperty(), 0);
   meniscus::VolumeIllumination::Request& request = internals.IlluminationRequest;
   request.Base = world.Frame;

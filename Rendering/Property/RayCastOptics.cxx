@@ -118,8 +118,10 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Vie
   const bool hasGradients =
     !optics.CellScalars && optics.Components != ComponentMixture::Independent;
   const bool isMedium = optics.Model().IsMedium();
-  optics.Shading =
-    property->GetShade() != 0 && optics.Model().IsLit() && (hasGradients || !isMedium);
+  // Light that a medium scatters needs no normal.
+  const bool isScattered = optics.CellScalars && optics.Illuminated;
+  optics.Shading = property->GetShade() != 0 && optics.Model().IsLit() &&
+    (hasGradients || isScattered || !isMedium);
   optics.GradientOpacity = isMedium && hasGradients && UsesGradientOpacity(property);
   if (!optics.UsesGradients())
   {

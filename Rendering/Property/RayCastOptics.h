@@ -106,8 +106,9 @@ struct ViewContext
 
 /**
  * Sets shading, its material and the active lights, and gradient opacity if there is one. Scalars
- * of cells have no gradient; only their isosurfaces have a normal. The other members of the optics,
- * on which these depend, must be set.
+ * of cells have no gradient: only their isosurfaces have a normal, and a medium of them is lit with
+ * global illumination alone. The other members of the optics, on which these depend, must be set;
+ * Illuminated if global illumination is wanted.
  */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);

@@ -21,8 +21,12 @@ void lightSegment()
 #if VERTEX_GRADIENTS
   vec3 start = GRADIENT_OF(segmentValuesStart);
   vec3 end = GRADIENT_OF(segmentValuesEnd);
-#else
+#elif CELL_GRADIENTS
   vec3 start = cellGradient(cell);
+  vec3 end = start;
+#else
+  // Scalars of cells have no gradient.
+  vec3 start = vec3(0.0);
   vec3 end = start;
 #endif
 #if SHADING

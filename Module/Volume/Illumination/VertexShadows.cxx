@@ -4,6 +4,7 @@
 
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Entries/EntryLists.h"
+#include "Volume/Illumination/EntryHorizon.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
 #include "Volume/Refracted/RayBundleEntries.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -39,15 +41,19 @@ struct ShadowLine
 /** Lines of one frame that are being cast, with buffers. */
 struct ShadowBatch
 {
+  /** The lines of a range of the starts. */
+  std::array<ShadowLine, BatchSize> Lines;
+  /** Lines that may enter by faces of the boundary, the first `Searched` ones of a cast. */
   std::array<LineBlock, BatchSize / LineBlock::Size> Blocks;
-  std::size_t Count = 0;
+  std::size_t Searched = 0;
+  /** Rays of all lines, their vertices and their numbers in Entries. */
+  std::vector<PacketRay> Rays;
   std::vector<std::int32_t> Vertices;
-  /** Entries in the cells at the vertices, and the lines that have one. */
+  std::vector<std::int32_t> Numbers;
+  /** Entries in the cells at the vertices, and the numbers of the lines that have one. */
   std::vector<std::pair<std::int32_t, PacketEntry>> Inside;
   RayBundleEntries::Workspace Found;
   EntryLists Entries;
-  std::vector<PacketRay> Rays;
-  std::vector<std::int32_t> RayVertices;
   std::vector<PacketResult> Results;
   /** Vertices whose lines are cast again, from the boundary. */
   std::vector<std::int32_t> Again;
@@ -55,8 +61,10 @@ struct ShadowBatch
 
   void Clear()
   {
-    this->Count = 0;
+    this->Searched = 0;
+    this->Rays.clear();
     this->Vertices.clear();
+    this->Numbers.clear();
     this->Inside.clear();
     for (LineBlock& block : this->Blocks)
     {
@@ -68,7 +76,7 @@ struct ShadowBatch
 /** Casts lines of one frame. */
 struct FrameCaster
 {
-  FrameCaster(const ShadowScene& scene, const RefractionFrame& frame)
+  FrameCaster(const ShadowScene& scene, const RefractionFrame& frame, bool isParallel)
     : Frame(frame)
     , Entries(*scene.Medium.Mesh, *scene.Tree, frame, scene.Medium.Set)
   {
@@ -76,11 +84,24 @@ struct FrameCaster
     this->Leg.Set(frame.Rays, frame.Vertices,
       { nullptr, frame.FromView * medium.GradientToFrame, medium.GradientMagnitude,
         medium.GradientOpacity ? &medium.Tables->GradientIntervals : nullptr });
+    this->IsParallel = isParallel;
+    if (isParallel && scene.Starts->AreInside())
+    {
+      this->Horizon.Set(scene.Tree->GetFaces(), frame);
+    }
+  }
+
+  /** False if a line that begins in a cell enters the mesh no more. */
+  bool MayEnter(const PacketRay& ray, double depth) const
+  {
+    return !this->IsParallel || this->Horizon.MayEnter(ray, depth);
   }
 
   const RefractionFrame& Frame;
   RayBundleEntries Entries;
   LegFrame Leg;
+  bool IsParallel;
+  EntryHorizon Horizon;
 };
 
 class ShadowCast
@@ -117,7 +138,7 @@ ShadowCast::ShadowCast(
   for (int index = 0; index < this->Frames.GetNumberOfFrames(); ++index)
   {
     this->Casters.push_back(this->Frames.IsNeeded(index)
-        ? std::make_unique<FrameCaster>(scene, this->Frames.Get(index))
+        ? std::make_unique<FrameCaster>(scene, this->Frames.Get(index), this->Frames.IsParallel())
         : nullptr);
   }
 }
@@ -164,64 +185,74 @@ void ShadowCast::Add(
 {
   const FrameCaster& caster = *this->Casters[static_cast<std::size_t>(line.Frame)];
   const FixedPointRays& rays = caster.Frame.Rays;
-  LineBlock& block = batch.Blocks[batch.Count / LineBlock::Size];
-  const int i = block.Count++;
   PacketRay ray = rays.RayAlong(line.Line.Origin, line.Line.Slope);
   ray.StartDepth = rays.FromPivot(line.Begin);
   ray.EndDepth = rays.FromPivot(line.End);
-  block.SetRay(i, ray);
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    block.Origin[axis][i] = line.Line.Origin[axis];
-    block.Slope[axis][i] = line.Line.Slope[axis];
-  }
   PacketEntry entry;
   const bool isInside = !fromBoundary && this->Scene.Starts->AreInside() &&
     caster.Entries.EntersCell(this->Scene.Starts->GetCell(vertex), ray, line.Place, entry);
-  block.From[i] = isInside ? line.Place : -caster.Frame.Extent;
+  std::size_t number = BatchSize + batch.Rays.size();
+  if (!isInside || caster.MayEnter(ray, line.Place))
+  {
+    number = batch.Searched++;
+    LineBlock& block = batch.Blocks[number / LineBlock::Size];
+    const int i = block.Count++;
+    block.SetRay(i, ray);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      block.Origin[axis][i] = line.Line.Origin[axis];
+      block.Slope[axis][i] = line.Line.Slope[axis];
+    }
+    block.From[i] = isInside ? line.Place : -caster.Frame.Extent;
+  }
   if (isInside)
   {
-    batch.Inside.emplace_back(static_cast<std::int32_t>(batch.Count), entry);
+    batch.Inside.emplace_back(static_cast<std::int32_t>(number), entry);
   }
+  batch.Rays.push_back(ray);
   batch.Vertices.push_back(vertex);
-  ++batch.Count;
+  batch.Numbers.push_back(static_cast<std::int32_t>(number));
 }
 
 //------------------------------------------------------------------------------
-/** Sets the rays of the batch's lines that enter the mesh. Others meet nothing. */
+/** Finds the entries of the batch's lines, and drops the lines that meet nothing. */
 void ShadowCast::FindRays(const FrameCaster& caster, ShadowBatch& batch) const
 {
-  const std::size_t blocks = (batch.Count + LineBlock::Size - 1) / LineBlock::Size;
   double last = -std::numeric_limits<double>::infinity();
-  for (std::size_t line = 0; line < batch.Count; ++line)
+  for (std::size_t line = 0; line < batch.Searched; ++line)
   {
     const float end = batch.Blocks[line / LineBlock::Size].EndDepth[line % LineBlock::Size];
     last = std::max(last, caster.Frame.Rays.ToFrame(end));
   }
-  caster.Entries.Collect(batch.Blocks.data(), blocks, batch.Found, last);
+  const std::size_t blocks = (batch.Searched + LineBlock::Size - 1) / LineBlock::Size;
+  batch.Found.Clear();
+  if (blocks > 0)
+  {
+    caster.Entries.Collect(batch.Blocks.data(), blocks, batch.Found, last);
+  }
   for (const auto& inside : batch.Inside)
   {
     batch.Found.Add(inside.first, inside.second);
   }
-  batch.Entries.Set(LineBlock::Size * blocks, batch.Found.Hits.data(), batch.Found.NumberOfHits,
-    batch.Found.Faces.data());
-  batch.Rays.clear();
-  batch.RayVertices.clear();
-  for (std::size_t line = 0; line < batch.Count; ++line)
+  batch.Entries.Set(
+    2 * BatchSize, batch.Found.Hits.data(), batch.Found.NumberOfHits, batch.Found.Faces.data());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < batch.Rays.size(); ++i)
   {
-    const std::int32_t begin = batch.Entries.GetBegin(line);
-    const std::int32_t end = batch.Entries.GetBegin(line + 1);
-    if (begin == end)
+    const auto number = static_cast<std::size_t>(batch.Numbers[i]);
+    PacketRay& ray = batch.Rays[i];
+    ray.FirstEntry = batch.Entries.GetBegin(number);
+    ray.EndEntry = batch.Entries.GetBegin(number + 1);
+    if (ray.FirstEntry == ray.EndEntry)
     {
-      this->Take(batch.Vertices[line], 1.0f);
+      this->Take(batch.Vertices[i], 1.0f);
       continue;
     }
-    batch.Rays.push_back(
-      batch.Blocks[line / LineBlock::Size].GetRay(static_cast<int>(line % LineBlock::Size)));
-    batch.Rays.back().FirstEntry = begin;
-    batch.Rays.back().EndEntry = end;
-    batch.RayVertices.push_back(batch.Vertices[line]);
+    batch.Rays[kept] = ray;
+    batch.Vertices[kept++] = batch.Vertices[i];
   }
+  batch.Rays.resize(kept);
+  batch.Vertices.resize(kept);
 }
 
 //------------------------------------------------------------------------------
@@ -234,6 +265,8 @@ void ShadowCast::CastLines(const FrameCaster& caster, ShadowBatch& batch) const
   job.TerminationTransmittance = OpaqueShadow;
   job.KeepsValues = true;
   caster.Leg.Describe(job);
+  const bool isPlain = job.Mixture == ComponentMixture::None && !job.Medium;
+  job.Measuring = isPlain ? RayMeasuring::OpticalDepth : RayMeasuring::None;
   job.Rays = batch.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(batch.Rays.size());
   job.Entries = batch.Entries.GetEntries().data();
@@ -247,11 +280,11 @@ void ShadowCast::CastLines(const FrameCaster& caster, ShadowBatch& batch) const
     ++batch.Sums.Rays;
     if (result.Lost != 0 && inside > 0)
     {
-      batch.Again.push_back(batch.RayVertices[i]);
+      batch.Again.push_back(batch.Vertices[i]);
       continue;
     }
     batch.Sums.Lost += result.Lost;
-    this->Take(batch.RayVertices[i], result.Color[3]);
+    this->Take(batch.Vertices[i], isPlain ? std::exp(-result.Color[0]) : result.Color[3]);
   }
 }
 
@@ -260,30 +293,30 @@ RayStatistics ShadowCast::Cast(std::size_t first, std::size_t last, ShadowBatch&
 {
   const std::vector<std::int32_t>& vertices = this->Scene.Starts->GetVertices();
   batch.Sums = RayStatistics();
-  for (int frame = -1; frame < this->Frames.GetNumberOfFrames(); ++frame)
+  for (std::size_t i = first; i < last; ++i)
   {
-    if (frame >= 0 && !this->Casters[static_cast<std::size_t>(frame)])
+    ShadowLine& line = batch.Lines[i - first];
+    line = this->LineOf(vertices[i]);
+    if (line.Frame < 0)
+    {
+      this->Take(vertices[i], 1.0f);
+    }
+  }
+  for (int frame = 0; frame < this->Frames.GetNumberOfFrames(); ++frame)
+  {
+    if (!this->Casters[static_cast<std::size_t>(frame)])
     {
       continue;
     }
     batch.Clear();
     for (std::size_t i = first; i < last; ++i)
     {
-      const ShadowLine line = this->LineOf(vertices[i]);
-      if (line.Frame != frame)
+      if (batch.Lines[i - first].Frame == frame)
       {
-        continue;
-      }
-      if (frame < 0)
-      {
-        this->Take(vertices[i], 1.0f);
-      }
-      else
-      {
-        this->Add(vertices[i], line, false, batch);
+        this->Add(vertices[i], batch.Lines[i - first], false, batch);
       }
     }
-    if (batch.Count > 0)
+    if (!batch.Rays.empty())
     {
       this->CastLines(*this->Casters[static_cast<std::size_t>(frame)], batch);
     }

@@ -5,6 +5,7 @@
 #include "Common/BlockLoop.h"
 #include "Simd/InstructionSets.h"
 #include "Simd/LaneLoop.h"
+#include "Volume/Mesh/CellFaces.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
 #include "Volume/Rays/ExactEdgeTest.h"
@@ -417,49 +418,47 @@ bool RayBundleEntries::Enters(
 /** A line about the vertices of a cell, in double precision. */
 struct RayBundleEntries::NearLine
 {
-  std::array<std::int32_t, 4> Vertices;
   double Depths[4];
-  /** Twice the area that the edge from vertex i to vertex j spans with the line. */
+  /** Twice the area that the edge from vertex i to vertex j spans with the line, for i < j. */
   double Areas[4][4];
-  /** Bound of the error of the areas that decide, which are of floats. */
-  double Margin;
-
-  int IndexOf(std::int32_t vertex) const
-  {
-    return static_cast<int>(
-      std::find(this->Vertices.begin(), this->Vertices.end(), vertex) - this->Vertices.begin());
-  }
+  /** Bounds of the errors of the areas that decide, which are of floats. */
+  double Margins[4][4];
 };
 
 //------------------------------------------------------------------------------
-auto RayBundleEntries::LineNear(std::int64_t cell, const PacketRay& ray) const -> NearLine
+auto RayBundleEntries::LineNear(
+  const std::array<std::int32_t, 4>& vertices, const PacketRay& ray) const -> NearLine
 {
   NearLine line;
-  line.Vertices = this->Mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices;
   const std::int32_t pivot = this->Frame.Rays.GetPivot();
   double places[4][2];
-  double largest = 0.0;
   for (int k = 0; k < 4; ++k)
   {
-    const PacketVertex& vertex = this->Frame.Vertices[static_cast<std::size_t>(line.Vertices[k])];
+    const PacketVertex& vertex = this->Frame.Vertices[static_cast<std::size_t>(vertices[k])];
     line.Depths[k] = static_cast<double>(vertex.Place[2]) - pivot;
     for (int axis = 0; axis < 2; ++axis)
     {
       places[k][axis] = static_cast<double>(vertex.Place[axis]) - ray.Offset[axis] -
         ray.Fraction[axis] - (double{ ray.Slope[axis] } + ray.SlopeRest[axis]) * line.Depths[k];
-      largest = std::max(largest, std::fabs(places[k][axis]));
     }
   }
-  // About a line along the depth, only the conversion to floats rounds.
-  const bool isParallel = ray.Slope[0] == 0.0f && ray.Slope[1] == 0.0f;
-  const double error =
-    isParallel ? 1.0 + largest / (1 << 23) : double{ FixedPointRays::RoundingOfRay };
-  line.Margin = 4.0 * error * (largest + error);
+  // About a line along the depth, a coordinate is rounded at most twice, by 2^-24 of it: where the
+  // integer is converted, and where the fraction of a fine ray is subtracted. A product has twice
+  // the error, and as much again is left for the rounding of these numbers.
+  const bool isParallel = ray.Slope[0] == 0.0f && ray.Slope[1] == 0.0f &&
+    ray.SlopeRest[0] == 0.0f && ray.SlopeRest[1] == 0.0f;
+  const double relative = isParallel ? 1.0 / (1 << 21) : 0.0;
+  const double absolute = isParallel ? 0.0 : double{ FixedPointRays::RoundingOfRay };
   for (int i = 0; i < 4; ++i)
   {
-    for (int j = 0; j < 4; ++j)
+    for (int j = i + 1; j < 4; ++j)
     {
-      line.Areas[i][j] = places[i][0] * places[j][1] - places[i][1] * places[j][0];
+      const double products[2] = { places[i][0] * places[j][1], places[i][1] * places[j][0] };
+      const double sum = std::fabs(places[i][0]) + std::fabs(places[i][1]) +
+        std::fabs(places[j][0]) + std::fabs(places[j][1]);
+      line.Areas[i][j] = products[0] - products[1];
+      line.Margins[i][j] = relative * (std::fabs(products[0]) + std::fabs(products[1])) +
+        2.0 * absolute * (sum + absolute);
     }
   }
   return line;
@@ -467,21 +466,31 @@ auto RayBundleEntries::LineNear(std::int64_t cell, const PacketRay& ray) const -
 
 //------------------------------------------------------------------------------
 /** As Enters(), by the double-precision areas where these decide. */
-bool RayBundleEntries::Enters(
-  const PacketFace& face, const NearLine& line, const PacketRay& ray, PacketEntry& entry) const
+bool RayBundleEntries::EntersFace(std::int64_t cell, int number, const NearLine& line,
+  const PacketRay& ray, PacketEntry& entry) const
 {
-  const int at[3] = { line.IndexOf(face.Vertices[0]), line.IndexOf(face.Vertices[1]),
-    line.IndexOf(face.Vertices[2]) };
-  const double areas[3] = { line.Areas[at[0]][at[1]], line.Areas[at[1]][at[2]],
-    line.Areas[at[2]][at[0]] };
-  const double least = std::min({ areas[0], areas[1], areas[2] });
-  if (std::fabs(least) <= line.Margin)
+  const bool isTurned = (this->Mesh.IsPositivelyOriented(cell) != (FaceParity(number) > 0)) !=
+    (this->Frame.Rays.GetFrame().Handedness < 0);
+  const double sign = isTurned ? -1.0 : 1.0;
+  const auto at = FaceVertices({ 0, 1, 2, 3 }, number);
+  const double areas[3] = { sign * line.Areas[at[0]][at[1]], sign * line.Areas[at[1]][at[2]],
+    -sign * line.Areas[at[0]][at[2]] };
+  const double margins[3] = { line.Margins[at[0]][at[1]], line.Margins[at[1]][at[2]],
+    line.Margins[at[0]][at[2]] };
+  bool isCertain = true;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (areas[k] < -margins[k])
+    {
+      return false;
+    }
+    isCertain &= areas[k] > margins[k];
+  }
+  const PacketFace face =
+    EnteredFace(this->Mesh.GetFace(cell, number), this->Frame.Rays.GetFrame());
+  if (!isCertain)
   {
     return this->Enters(face, ray, entry);
-  }
-  if (least < 0.0)
-  {
-    return false;
   }
   const double* const depths = line.Depths;
   const double first = depths[at[0]];
@@ -495,11 +504,12 @@ bool RayBundleEntries::Enters(
 bool RayBundleEntries::EntersCell(
   std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const
 {
-  const NearLine line = this->LineNear(cell, ray);
+  const NearLine line =
+    this->LineNear(this->Mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices, ray);
   for (int k = 0; k < 4; ++k)
   {
-    const PacketFace face = EnteredFace(this->Mesh.GetFace(cell, k), this->Frame.Rays.GetFrame());
-    if (this->Enters(face, line, ray, entry) && this->Frame.Rays.ToFrame(entry.Depth) <= before)
+    if (this->EntersFace(cell, k, line, ray, entry) &&
+      this->Frame.Rays.ToFrame(entry.Depth) <= before)
     {
       return true;
     }

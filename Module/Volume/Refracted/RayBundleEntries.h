@@ -11,6 +11,7 @@
 #include "Volume/Refracted/LineBlock.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -72,6 +73,12 @@ public:
      */
     std::vector<PacketHit> Hits;
     std::size_t NumberOfHits = 0;
+    /** Removes all entries. */
+    void Clear()
+    {
+      this->Faces.clear();
+      this->NumberOfHits = 0;
+    }
     /** Adds an entry, with its face. */
     void Add(std::int32_t ray, const PacketEntry& entry);
 
@@ -118,9 +125,9 @@ private:
   void AddHits(const LineBlock& lines, std::int32_t firstRay, Workspace& workspace) const;
   bool Enters(const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const;
   struct NearLine;
-  NearLine LineNear(std::int64_t cell, const PacketRay& ray) const;
-  bool Enters(
-    const PacketFace& face, const NearLine& line, const PacketRay& ray, PacketEntry& entry) const;
+  NearLine LineNear(const std::array<std::int32_t, 4>& vertices, const PacketRay& ray) const;
+  bool EntersFace(std::int64_t cell, int number, const NearLine& line, const PacketRay& ray,
+    PacketEntry& entry) const;
 
   const TetrahedralMesh& Mesh;
   const BoundaryTree& Tree;

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Global illumination: shadows of lights, occlusion of the ambient light, and scattering.
+#include "ComparisonSheet.h"
 #include "OpticsTruth.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkPiecewiseFunction.h>
@@ -21,7 +24,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <sstream>
 
 using namespace meniscus::test;
@@ -225,6 +230,56 @@ TEST(TetrahedraRayCastShadows, WorkFollowsChanges)
   expectCasts(0, "off again");
 }
 
+// Scalars of cells have no gradient: all their light is scattered, whatever the blending. The upper
+// half of the cube is twice as dense as the lower one.
+TEST(TetrahedraRayCastShadows, ScalarsOfCellsHaveClosedForm)
+{
+  const Grid grid = MakeBlock(8, ConstantField(0.0));
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("half");
+  double bounds[6];
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    grid->GetCellBounds(cell, bounds);
+    values->InsertNextValue(bounds[4] + bounds[5] > 0.0 ? 1.0 : 0.0);
+  }
+  grid->GetCellData()->SetScalars(values);
+  constexpr double dense = 0.4;
+  const auto property = MakeScatteringProperty(dense);
+  property->GetScalarOpacity()->RemoveAllPoints();
+  property->GetScalarOpacity()->AddPoint(0.0, 0.5);
+  property->GetScalarOpacity()->AddPoint(1.0, 1.0);
+  RayCastScene scene(grid, property, 33, 33);
+  scene.GetRayCaster()->SetScalarModeToUseCellData();
+  scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
+  scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
+  AddParallelLight(scene.GetRenderer(), 0.0, 0.0, 1.0);
+  LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0);
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
+  int visible = 0;
+  for (int y = 0; y < image.Height; ++y)
+  {
+    for (int x = 0; x < image.Width; ++x)
+    {
+      const Ray ray = rays.GetRay(x, y);
+      const double z = ray.Origin[2];
+      if (std::max(std::fabs(ray.Origin[1]), std::fabs(z)) > 0.999 || std::fabs(z) < 1e-3)
+      {
+        continue;
+      }
+      const double above = z > 0.0 ? dense * (1.0 - z) : dense * (1.0 - 0.5 * z);
+      const double depth = z > 0.0 ? 2.0 * dense : dense;
+      // At most depth^2 / 8 along an edge, and 2^-11 of the cell for the start of lines.
+      ASSERT_NEAR(image.GetPixel(x, y)[0], std::exp(-above) * (1.0 - std::exp(-depth)),
+        0.1 * 0.1 / 8.0 + 0.1 / 2048.0)
+        << z;
+      ++visible;
+    }
+  }
+  EXPECT_GT(visible, 100);
+}
+
 // A clipped half casts no shadow.
 TEST(TetrahedraRayCastShadows, ClippedPartCastsNoShadow)
 {
@@ -410,9 +465,12 @@ struct ShadowErrors
   int Visible = 0;
 };
 
-/** Compares every `step`-th pixel with shadow rays from each place on its ray. */
-ShadowErrors CompareToShadowRays(
-  RayCastScene& scene, vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int step)
+/**
+ * Compares every `step`-th pixel with shadow rays from each place on its ray.
+ * @param sheet gets the picture, the reference and ten times the difference; null for none.
+ */
+ShadowErrors CompareToShadowRays(RayCastScene& scene, vtkUnstructuredGrid* grid,
+  vtkVolumeProperty* property, int step, meniscus::testing::ComparisonSheet* sheet)
 {
   const FloatImage image = scene.RenderFloat();
   const PixelRays rays(scene.GetRenderer());
@@ -498,6 +556,17 @@ ShadowErrors CompareToShadowRays(
         largest = std::max(largest, error);
         sum += error * error / 3.0;
       }
+      if (sheet)
+      {
+        const auto colorOf = [&](const auto& channel)
+        { return glm::dvec3(channel(0), channel(1), channel(2)); };
+        const auto drawn = [&](int c) { return image.GetPixel(x, y)[c] + transmittance; };
+        const auto traced = [&](int c) { return total[c] + transmittance; };
+        const auto change = [&](int c) { return 1.0 - 10.0 * std::fabs(drawn(c) - traced(c)); };
+        sheet->SetPixel(0, 0, x / step, y / step, colorOf(drawn));
+        sheet->SetPixel(0, 1, x / step, y / step, colorOf(traced));
+        sheet->SetPixel(0, 2, x / step, y / step, colorOf(change));
+      }
       errors.Rms += sum;
       within += largest <= 0.03 ? 1 : 0;
       ++errors.Visible;
@@ -528,7 +597,9 @@ class TetrahedraRayCastShadowRays : public testing::TestWithParam<ShadowCase>
 } // anonymous namespace
 
 // One light with shadows and 32 directions of ambient light, against shadow rays from every cell
-// that a pixel's ray crosses.
+// that a pixel's ray crosses. With the environment variable MENISCUS_TEST_SHADOW_STEP, every such
+// pixel is compared, and shadows-MESH.png in the folder of temporary files shows both and their
+// difference: 1 takes minutes.
 TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
 {
   const std::string mesh = GetParam().Mesh;
@@ -548,7 +619,18 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
   AddParallelLight(scene.GetRenderer(), 1.0, 2.0, 3.0);
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-  const ShadowErrors errors = CompareToShadowRays(scene, grid, property, GetParam().Step);
+  const char* const wanted = std::getenv("MENISCUS_TEST_SHADOW_STEP");
+  const int step = wanted ? std::max(std::atoi(wanted), 1) : GetParam().Step;
+  std::unique_ptr<meniscus::testing::ComparisonSheet> sheet;
+  if (wanted)
+  {
+    sheet = std::make_unique<meniscus::testing::ComparisonSheet>(1, 3, GetParam().Size / step);
+  }
+  const ShadowErrors errors = CompareToShadowRays(scene, grid, property, step, sheet.get());
+  if (sheet)
+  {
+    sheet->Write(std::string(MENISCUS_TEMPORARY_DIR) + "/shadows-" + mesh + ".png");
+  }
   std::ostringstream text;
   text << mesh << ": RMS " << errors.Rms << ", within 3 %: " << errors.Within << " of "
        << errors.Visible;
@@ -560,6 +642,6 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, TetrahedraRayCastShadowRays,
-  testing::Values(ShadowCase{ "block", 60, 7 }, ShadowCase{ "blunt_fin", 48, 8 },
-    ShadowCase{ "combustor", 48, 8 }),
+  testing::Values(ShadowCase{ "block", 64, 7 }, ShadowCase{ "blunt_fin", 64, 9 },
+    ShadowCase{ "combustor", 64, 9 }),
   [](const auto& tested) { return std::string(tested.param.Mesh); });

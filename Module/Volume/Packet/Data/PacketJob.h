@@ -76,8 +76,8 @@ struct PacketJob
    */
   const float* VertexLight;
   /**
-   * Three numbers per cell, where gradients of cells are needed. For RayMeasuring::CellBins, the
-   * values of the bins.
+   * Three numbers per cell, where gradients of cells are needed; null if they are 0, for scalars of
+   * cells. For RayMeasuring::CellBins, the values of the bins.
    */
   const float* CellGradients;
   const glm::dmat3* GradientToFrame;

@@ -23,7 +23,12 @@ enum class RayMeasuring
   VertexBins,
   CellBins,
   /** Places at which something is seen, by the blend mode (RayEventKind). */
-  Events
+  Events,
+  /**
+   * The optical depth alone, of a medium of one scalar without gradients, up to that of
+   * PacketJob::TerminationTransmittance: the first value of the result.
+   */
+  OpticalDepth
 };
 
 /** Indices of the values that a ray measures of the scalar. */

@@ -7,6 +7,7 @@
 #include "Volume/Packet/Models/BinMeasureModel.h"
 #include "Volume/Packet/Models/BlendModeModels.h"
 #include "Volume/Packet/Models/MultiComponentModel.h"
+#include "Volume/Packet/Models/OpticalDepthModel.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PreIntegratedModel.h"
 #include "Volume/Packet/Models/RayEventModel.h"
@@ -176,6 +177,9 @@ void MeasurePackets(const PacketJob& job)
       {
         FindMediumEvents<Simd>(job);
       }
+      break;
+    case RayMeasuring::OpticalDepth:
+      PacketWalk<Simd, OpticalDepthModel<Simd>>(job).Run();
       break;
     default:
       PacketWalk<Simd, ScalarMeasureModel<Simd, false>>(job).Run();

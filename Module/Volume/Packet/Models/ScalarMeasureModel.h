@@ -5,7 +5,7 @@
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
-#include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/OpticalDepthModel.h"
 
 namespace meniscus
 {
@@ -23,16 +23,13 @@ public:
   using Mask = typename Simd::Mask;
 
   explicit ScalarMeasureModel(const PacketJob& job)
-    : Intervals(job.Intervals, job.NumberOfIntervals)
+    : Segments(job)
     , First(Simd::Splat(0.0f))
     , Last(First)
     , Lowest(First)
     , LowestAt(First)
     , Highest(First)
     , HighestAt(First)
-    , From(First)
-    , To(First)
-    , Remaining(First)
   {
   }
 
@@ -58,9 +55,7 @@ public:
     this->Measure(valid, from, to, length, place.StartDepth, place.EndDepth);
     if constexpr (WithOpticalDepth)
     {
-      this->From = Simd::Select(valid, from, this->From);
-      this->To = Simd::Select(valid, to, this->To);
-      this->Remaining = Simd::Select(valid, length, this->Remaining);
+      this->Segments.Begin(valid, from, to, length);
       return valid;
     }
     return Simd::FromBits(0);
@@ -97,7 +92,8 @@ private:
   /** Beyond all depths and normalised scalars. */
   static constexpr float Far = 1.0e+30f;
 
-  PacketIntervals<Simd> Intervals;
+  /** Used with the optical depth only. */
+  OpticalDepthSegments<Simd> Segments;
   CompensatedSum<Simd> Length;
   CompensatedSum<Simd> Integral;
   CompensatedSum<Simd> OpticalDepth;
@@ -107,10 +103,6 @@ private:
   Float LowestAt;
   Float Highest;
   Float HighestAt;
-  /** Segment whose optical depth is to be added. */
-  Float From;
-  Float To;
-  Float Remaining;
 };
 
 //------------------------------------------------------------------------------
@@ -141,20 +133,8 @@ auto ScalarMeasureModel<Simd, WithOpticalDepth>::Advance(Mask lanes) -> Mask
   {
     return lanes;
   }
-  const auto part = this->Intervals.FindPart(lanes, this->From, this->To);
-  const auto& fields = this->Intervals.GetFields();
-  const auto attenuationAt = [&fields](Float scalar)
-  {
-    return Simd::Max(Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation),
-      Simd::Splat(0.0f));
-  };
-  const Float length = part.Share * this->Remaining;
-  const Float ends = attenuationAt(this->From) + attenuationAt(part.To);
-  this->OpticalDepth.Add(lanes, Simd::Splat(0.5f) * ends * length);
-  this->Remaining = Simd::Select(lanes, this->Remaining - length, this->Remaining);
-  this->From = Simd::Select(lanes, part.To, this->From);
-  this->Intervals.Move(part.Upward, part.Downward);
-  return part.Upward | part.Downward;
+  return this->Segments.Advance(
+    lanes, [this](Mask adding, Float depth) { this->OpticalDepth.Add(adding, depth); });
 }
 
 }

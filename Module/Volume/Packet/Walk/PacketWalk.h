@@ -433,14 +433,16 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   }
   else if (isCut)
   {
-    const Float whole = depth - faceDepth;
-    const Float perDepth = (exit.Scalar - faceScalar) / whole;
+    const Float perDepth = (exit.Scalar - faceScalar) / (depth - faceDepth);
     from = Simd::Select(late, Simd::Fma(start - faceDepth, perDepth, faceScalar), from);
     to = Simd::Select(early, Simd::Fma(end - faceDepth, perDepth, faceScalar), to);
-    if constexpr (Model::NumberOfTriples > 0)
+  }
+  if constexpr (Model::NumberOfTriples > 0)
+  {
+    if (isCut)
     {
       const auto at = [&](Float place)
-      { return this->Face.Values.Between((place - faceDepth) / whole, exit.Values); };
+      { return this->Face.Values.Between((place - faceDepth) / (depth - faceDepth), exit.Values); };
       fromValues.Replace(late, at(start));
       toValues.Replace(early, at(end));
     }

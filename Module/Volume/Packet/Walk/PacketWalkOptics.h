@@ -25,16 +25,22 @@ inline auto PacketWalk<Simd, Model>::OppositeVertices(Int cellFace) const -> Int
 }
 
 //------------------------------------------------------------------------------
+/** Gradients of cells; 0 if there are none, for scalars of cells. */
 template <class Simd, class Model>
 inline auto PacketWalk<Simd, Model>::GradientsOf(Int cellFace) const -> CellValues
 {
+  CellValues gradients;
+  if (!this->Job.CellGradients)
+  {
+    gradients.Clear();
+    return gradients;
+  }
   std::int32_t at[Width];
   Simd::Store(at, cellFace);
   for (std::int32_t& cell : at)
   {
     cell >>= 2;
   }
-  CellValues gradients;
   gradients.Gather({ this->Job.CellGradients, nullptr, nullptr }, Simd::Load(at));
   return gradients;
 }

@@ -8,7 +8,9 @@
 #include "Volume/Illumination/FibonacciSphere.h"
 #include "Volume/Illumination/VertexShadows.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <gtest/gtest.h>
 
@@ -196,6 +198,56 @@ TEST_P(VertexShadowsTest, GapIsPassed)
     const double z = shadows.PlaceOf(static_cast<std::int32_t>(v)).z;
     const double length = z < 1.5 ? 2.0 - z : 3.0 - z;
     ASSERT_NEAR(result[v], std::exp(-0.7 * length), ErrorOf(0.7, 0.5)) << z;
+  }
+}
+
+TEST_P(VertexShadowsTest, HoleIsPassedInAllDirections)
+{
+  // A cube with a cubic hole: lines from one half of its vertices enter the mesh again.
+  const glm::dvec3 low(0.25);
+  const glm::dvec3 high(0.75);
+  const test::MeshArrays cube = test::KuhnGrid(8);
+  test::MeshArrays arrays;
+  arrays.Points = cube.Points;
+  for (std::size_t cell = 0; cell < cube.Cells.size(); cell += 4)
+  {
+    glm::dvec3 center(0.0);
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      center += 0.25 * cube.PointAt(cube.Cells[cell + k]);
+    }
+    if (glm::any(glm::lessThan(center, low)) || glm::any(glm::greaterThan(center, high)))
+    {
+      arrays.Cells.insert(
+        arrays.Cells.end(), cube.Cells.data() + cell, cube.Cells.data() + cell + 4);
+    }
+  }
+  constexpr double attenuation = 1.5;
+  Shadows shadows(arrays, attenuation, GetParam());
+  for (int i = 0; i < 12; ++i)
+  {
+    const glm::dvec3 direction = FibonacciDirection(i, 12);
+    const double steepest =
+      std::min({ std::abs(direction.x), std::abs(direction.y), std::abs(direction.z) });
+    const std::vector<float> result = shadows.CastParallel(direction);
+    for (std::size_t v = 0; v < result.size(); ++v)
+    {
+      if (result[v] < 0.0f)
+      {
+        continue; // a vertex in the hole
+      }
+      const glm::dvec3 place = shadows.PlaceOf(static_cast<std::int32_t>(v));
+      const glm::dvec3 toLow = (low - place) / direction;
+      const glm::dvec3 toHigh = (high - place) / direction;
+      const glm::dvec3 near = glm::min(toLow, toHigh);
+      const glm::dvec3 far = glm::max(toLow, toHigh);
+      const double enters = std::max({ near.x, near.y, near.z, 0.0 });
+      const double hole = std::max(std::min({ far.x, far.y, far.z }) - enters, 0.0);
+      // The hole has two more borders that displace the length.
+      ASSERT_NEAR(result[v], std::exp(-attenuation * (LengthInCube(place, direction) - hole)),
+        3.0 / steepest * ErrorOf(attenuation, 0.125))
+        << "vertex " << v << ", direction " << i;
+    }
   }
 }
 
