@@ -4,6 +4,7 @@
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 from .data import check_component, leaves_of, run
+from .names import set_properties
 from .vtkMeniscus import vtkTetrahedraRayIntegral
 
 try:
@@ -109,8 +110,7 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
     if surfaces is not None:
         from .api.surfaces import connect  # needs numpy
         connect(rays, surfaces, indices)
-    for name, value in properties.items():
-        getattr(rays, "Set" + name)(value)
+    set_properties(rays, properties)
     run(rays)
     points = rays.GetOutput().GetPointData()
     found = {name: _as_rows(points.GetArray(name), *size) for name in names}

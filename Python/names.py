@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of the settings of vtkTetrahedraRayCastMapper, and the material of lit volumes."""
+"""Names of the settings of vtkTetrahedraRayCastMapper, the material of lit volumes, and properties
+of VTK's objects by name."""
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
 from .vtkMeniscus import vtkTetrahedraRayCastMapper
@@ -30,3 +32,17 @@ def choose(kind, name, known):
     if name not in known:
         raise ValueError("There is no %s '%s'; known are %s" % (kind, name, ", ".join(known)))
     return known[name]
+
+
+def set_properties(target, properties):
+    """Calls SetX(value) of a vtkAlgorithm for each X=value of a dictionary; a name X that it has
+    not is an AttributeError that lists those that it has."""
+    for name, value in properties.items():
+        setter = getattr(target, "Set" + name, None)
+        if setter is None:
+            setters = {method[3:] for method in set(dir(target)) - set(dir(vtkAlgorithm))
+                       if method.startswith("Set")}
+            known = sorted(each for each in setters if each.split("To")[0] == each)
+            raise AttributeError("There is no property '%s'; known are %s" % (
+                name, ", ".join(known)))
+        setter(value)

@@ -18,7 +18,7 @@ _LOGARITHMIC_NODES = 256
 
 def check_color_map(cmap):
     """Raises a ValueError for the name of a colour map that neither PyVista nor matplotlib,
-    cmocean or colorcet have; it says which of them are not installed."""
+    cmocean or colorcet have; it lists names and says which packages are not installed."""
     if not isinstance(cmap, str):
         return
     try:
@@ -26,9 +26,15 @@ def check_color_map(cmap):
     except (ValueError, KeyError, TypeError, ImportError) as error:
         missing = [name for name in ("matplotlib", "cmocean", "colorcet")
                    if importlib.util.find_spec(name) is None]
-        hint = "; more are in packages that are not installed: pip install " + " ".join(missing)
-        raise ValueError("There is no colour map '%s': %s%s" % (
-            cmap, error, hint if missing else "")) from None
+        text = "There is no colour map '%s': %s" % (cmap, error)
+        if "matplotlib" not in missing:
+            import matplotlib
+            names = (name for name in matplotlib.colormaps if not name.endswith("_r"))
+            text += "; matplotlib has " + ", ".join(sorted(names, key=str.lower))
+        if missing:
+            text += ("; more are in packages that are not installed: pip install "
+                     + " ".join(missing))
+        raise ValueError(text) from None
 
 
 def _make_nodes(table):

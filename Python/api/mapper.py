@@ -3,7 +3,7 @@
 """The mapper with the attributes of PyVista's mappers."""
 import pyvista
 
-from ..names import BACKENDS, BLEND_MODES, choose
+from ..names import BACKENDS, BLEND_MODES, choose, set_properties
 from ..vtkMeniscus import vtkTetrahedraRayCastMapper
 
 
@@ -64,6 +64,5 @@ def make_mapper(scalars, blending, backend, properties):
     mapper.SetBackend(choose("backend", backend, BACKENDS))
     if isinstance(scalars.mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
         mapper.SetOpacityModel(mapper.OPACITY_PER_UNIT_DISTANCE)  # as VTK's mappers of these
-    for name, value in properties.items():
-        getattr(mapper, "Set" + name)(value)
+    set_properties(mapper, properties)
     return mapper

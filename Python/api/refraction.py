@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pyvista
 
 from ..data import run
-from ..names import choose
+from ..names import choose, set_properties
 from ..vtkMeniscus import vtkRefractedGeometryFilter
 from .surfaces import connect, surface_of
 
@@ -30,8 +30,7 @@ def _make_filter(mesh, surfaces, indices, images, properties):
     if images is None:
         images = "first" if isinstance(surfaces, (tuple, list)) else "all"
     refraction.SetImages(choose("value of images", images, _IMAGES))
-    for name, value in properties.items():
-        getattr(refraction, "Set" + name)(value)
+    set_properties(refraction, properties)
     return refraction
 
 

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 
 from ..data import run
-from ..names import choose
+from ..names import choose, set_properties
 from ..vtkMeniscus import vtkTetrahedraSchlieren
 
 if TYPE_CHECKING:
@@ -87,8 +87,7 @@ def schlieren(
     rays.SetDirection(*direction)
     rays.SetViewUp(*up)
     rays.SetCamera(camera)
-    for name, value in properties.items():
-        getattr(rays, "Set" + name)(value)
+    set_properties(rays, properties)
     run(rays)
     points = rays.GetOutput().GetPointData()
     found = {}

@@ -52,7 +52,9 @@ READERS = {
 # First bytes of files of libraries whose messages do not say that a file is of another kind, or
 # that end the process.
 _HDF = b"\x89HDF\r\n\x1a\n"
-_SIGNATURES = {".cgns": (_HDF, b"@(#)ADF"), ".vtkhdf": (_HDF,), ".hdf": (_HDF,)}
+# Files of ADF begin with "@(#)"; some have the highest bit set in these four bytes.
+_ADF = tuple(start + b"ADF Database Version" for start in (b"@(#)", b"\xc0\xa8\xa3\xa9"))
+_SIGNATURES = {".cgns": (_HDF, *_ADF), ".vtkhdf": (_HDF,), ".hdf": (_HDF,)}
 # Endings that meshio reads, if it is installed.
 MESHIO_ENDINGS = (".msh", ".med", ".xdmf", ".xmf", ".mesh", ".meshb", ".bdf", ".nas", ".fem",
                   ".su2", ".vol", ".mdpa")

@@ -312,8 +312,10 @@ class MeshScene:
 
     def _take(self, series, step):
         data = series.read(step)
-        if self.array not in arrays_of(data):
-            raise ReadingError(f"Time step {step} has no array '{self.array}'")
+        arrays = arrays_of(data)
+        if self.array not in arrays:
+            raise ReadingError(f"Time step {step} has no array '{self.array}'; it has "
+                               + (", ".join(arrays) or "none"))
         self.series, self.step, self.data = series, step, data
         self.mapper.SetInputData(data)
         self.furniture.set_data(data, self.mapper.GetBounds())

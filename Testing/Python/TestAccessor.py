@@ -284,7 +284,7 @@ class TestColors(unittest.TestCase):
             numpy.testing.assert_allclose(
                 volume.prop.GetRGBTransferFunction().GetColor(1.0),
                 pyvista.get_cmap_safe(name)(1.0)[:3], atol=1.5 / 255)
-        with self.assertRaisesRegex(ValueError, "There is no colour map 'viridus'"):
+        with self.assertRaisesRegex(ValueError, "There is no colour map 'viridus'.* viridis, "):
             meniscus.add_to(make_cube(), plotter, "y", cmap="viridus")
         plotter.close()
 

@@ -107,7 +107,7 @@ class TestRayIntegral(unittest.TestCase):
             integrals.ray_integral(self.block, "Sum", scalars="density")
         with self.assertRaisesRegex(ValueError, "at least 1 by 1"):
             integrals.ray_integral(self.block, scalars="density", size=(0, 3))
-        with self.assertRaises(AttributeError):
+        with self.assertRaisesRegex(AttributeError, "no property 'Directions'.* Direction, "):
             integrals.ray_integral(self.block, scalars="density", Directions=(0, -1, 0))
 
     def test_class(self):

@@ -14,7 +14,7 @@ import warnings
 from unittest import mock
 
 import numpy
-from meniscus.viewer import contest, reading
+from meniscus.viewer import contest, files, reading
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -188,6 +188,19 @@ class TestMessages(Case):
             with mock.patch.dict(sys.modules, {"pyvista": None, "meshio": None}):
                 with self.assertRaisesRegex(ReadingError, "pip install pyvista meshio"):
                     reading.MeshSeries([self.name(name)])
+
+    def test_first_bytes_of_cgns(self):
+        """Both kinds of ADF are taken; what only begins like one would end the process."""
+        name = self.name("grid.cgns")
+        for start in (b"@(#)", bytes(byte | 0x80 for byte in b"@(#)")):
+            for rest, is_adf in ((b"ADF Database Version A02011>", True), (b"ADF garbage", False)):
+                with open(name, "wb") as file:
+                    file.write(start + rest)
+                if is_adf:
+                    files._check_signature(name)
+                else:
+                    with self.assertRaisesRegex(ReadingError, "not a file of the kind"):
+                        files._check_signature(name)
 
     def test_points_only(self):
         points = vtkUnstructuredGrid()

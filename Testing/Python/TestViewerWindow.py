@@ -14,7 +14,7 @@ from meniscus.viewer.pictures import grab_picture
 from meniscus.viewer.window import Window
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis
-from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
+from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from TestViewer import make_block, radius, write
@@ -63,8 +63,16 @@ class TestWindow(unittest.TestCase):
 
     @classmethod
     def write_block(cls, name, field):
-        block = make_block({"r": field, "z": lambda x, y, z: z})
-        return write(vtkXMLUnstructuredGridWriter(), block, os.path.join(cls.folder.name, name))
+        return cls.write(name, make_block({"r": field, "z": lambda x, y, z: z}))
+
+    @classmethod
+    def write(cls, name, mesh):
+        return write(vtkXMLUnstructuredGridWriter(), mesh, os.path.join(cls.folder.name, name))
+
+    @staticmethod
+    def read(name):
+        with open(name, "rb") as file:
+            return file.read()
 
     def open(self, *arguments):
         window = Window(make_scene(make_parser().parse_args([self.mesh, *arguments])), SIZE,
@@ -207,16 +215,22 @@ class TestWindow(unittest.TestCase):
         window.look()
         self.assertEqual(abs(pixels_of(window) - before).max(), 0)
 
-        whole = self.write_block("moved.vtu", lambda x, y, z: radius(x - 0.7, y, z))
-        with open(whole, "rb") as file:
-            content = file.read()
-        for part in (content[:len(content) // 2], b""):
-            with open(name, "wb") as file:
-                file.write(part)
-            window.look()
-            self.assertRegex(window.message.GetInput(), "changing.vtu.*read again when it changes")
-        os.remove(name)
+        points = vtkUnstructuredGrid()
+        points.SetPoints(scene.data.GetPoints())
         data = scene.data
+        content = self.read(self.write_block("moved.vtu", lambda x, y, z: radius(x - 0.7, y, z)))
+        for unusable, message in (
+                (content[:len(content) // 2], "changing.vtu"), (b"", "changing.vtu"),
+                (b"\0\xff<VTKFile" * 1000, "changing.vtu"),
+                (self.read(self.write("points.vtu", points)), "no cells"),
+                (self.read(self.write("other.vtu", make_block({"q": radius}))),
+                 "no array 'r'; it has q")):
+            with open(name, "wb") as file:
+                file.write(unusable)
+            window.look()
+            self.assertRegex(window.message.GetInput(), message + ".*read again when it changes")
+            self.assertIs(scene.data, data)
+        os.remove(name)
         window.look()
         self.assertIs(scene.data, data)
         with open(name, "wb") as file:
