@@ -44,6 +44,12 @@ meniscus_precompile_headers(meniscus_kernel kernel)
 meniscus_compile_together(meniscus_kernel
   Module/Common
   Module/Surface
+  Module/Refraction/Membrane
+  Module/Refraction/Surface
+  Module/Refraction/Flat
+  Module/Refraction/Stack
+  Module/Refraction/Images
+  Module/Refraction/StackImages
   Module/Volume/Division
   Module/Volume/Mesh
   Module/Volume/Optics)

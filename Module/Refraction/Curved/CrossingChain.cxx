@@ -17,9 +17,6 @@ namespace
 constexpr int LongestChase = 4;
 constexpr int LongestWalk = 16;
 
-// As in PatchCrossings: the remaining error is of the order of the square of the last step.
-constexpr double LastStep = 1e-7;
-
 /** Place where a line meets a facet's plane, by Cramer's rule. */
 glm::dvec2 MeetFacet(const CurvedPatch& patch, const ObjectLine& line)
 {
@@ -74,7 +71,7 @@ bool CrossingChain::Follow(const CurvedPatches& patches, const glm::dvec3& origi
     glm::dvec2 b = flat + this->Offset;
     double l = 1.0;
     glm::dvec3 normal;
-    if (!MeetPatch(this->Patch, ray, LastStep, b, l, normal))
+    if (!MeetPatch(this->Patch, ray, b, l, normal))
     {
       return false;
     }

@@ -18,13 +18,10 @@ namespace meniscus
 namespace
 {
 
-// A root on an edge is found in both of its facets, within the accuracy of Newton's method.
-constexpr double Border = PatchCrossings::Border;
-
 // Limits while a line is followed across patches: the number of patches, and of facets to cross on
 // the way from one to the next.
-constexpr int LongestChase = 8;
-constexpr int LongestWalk = 64;
+constexpr int MostPatches = 8;
+constexpr int MostFacets = 64;
 
 constexpr int FirstSteps = 10;
 constexpr double FirstReach = 1.5;
@@ -355,19 +352,19 @@ bool CurvedMembraneSolver::MayShow(
 bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong,
   std::int32_t& facet, glm::dvec2& b, double& l) const
 {
-  for (int i = 0; i < LongestChase; ++i)
+  for (int i = 0; i < MostPatches; ++i)
   {
     const CurvedPatch patch = this->GetPatches().GetPatch(facet);
     if (!MeetPatch(patch, line, b, l))
     {
       return false;
     }
-    if (FindOutside(b).Least >= -Border)
+    if (FindOutside(b).Least >= -PatchCrossings::Border)
     {
       return true;
     }
     const glm::dvec3 target = patch.GetFlatPoint(b);
-    const std::int32_t next = this->GetPatches().Walk(facet, target, seenAlong, LongestWalk);
+    const std::int32_t next = this->GetPatches().Walk(facet, target, seenAlong, MostFacets);
     if (next == facet)
     {
       return false; // beyond the border
@@ -390,8 +387,8 @@ bool CurvedMembraneSolver::FindFirst(
     {
       const CurvedPatch patch = this->GetPatches().GetPatch(facet);
       const SightRoot root = equation.Solve(patch, glm::dvec2(1.0 / 3.0), FirstSteps, FirstReach);
-      if (root.End == SightRoot::End::Converged && FindOutside(root.B).Least >= -Border &&
-        equation.IsImage(root.At))
+      if (root.End == SightRoot::End::Converged &&
+        FindOutside(root.B).Least >= -PatchCrossings::Border && equation.IsImage(root.At))
       {
         place = { facet, root };
         return std::int32_t(0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/InjectivityGrid.h"
 
+#include "Refraction/Curved/PatchRoots.h"
 #include "Refraction/Curved/TriangleMap.h"
 
 #include <glm/common.hpp>
@@ -17,10 +18,6 @@ namespace meniscus
 {
 namespace
 {
-
-// Assumed part of higher degree, relative to the part of second degree, as in the search for roots:
-// on a mesh that resolves the membrane each degree is a fraction of the previous one.
-constexpr double HigherDegree = 0.5;
 
 // The grid has about one cell for every two facets, so that it needs no more memory than the
 // facets.
@@ -79,7 +76,7 @@ double FindMargin(const CornerDerivatives& base, const CornerDerivatives& slope,
   }
   const double varies =
     std::sqrt(std::max({ SquareOf(m[1] - m[0]), SquareOf(m[2] - m[1]), SquareOf(m[0] - m[2]) }));
-  return least - HigherDegree * varies;
+  return least - PatchRoots::HigherDegree * varies;
 }
 
 // Rounds to a float that is no farther from zero than `value`.
@@ -210,7 +207,7 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
     {
       const double mean = 0.5 * (slope[(k + 1) % 3][axis] + slope[(k + 2) % 3][axis]);
       const double bend = slope[k + 3][axis] - mean;
-      const double rest = (1.0 + HigherDegree) * std::fabs(bend);
+      const double rest = (1.0 + PatchRoots::HigherDegree) * std::fabs(bend);
       const double low = std::min(slope[k][axis], mean + bend) - rest;
       const double high = std::max(slope[k][axis], mean + bend) + rest;
       const auto i = static_cast<std::size_t>(axis);

@@ -3,6 +3,7 @@
 #include "Refraction/Curved/PatchRoots.h"
 
 #include "Refraction/Curved/TriangleMap.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ namespace
 // Roots closer than this, in units of the facet, are the same: near a caustic two roots merge, and
 // Newton's last step of 1e-5 leaves an error of that order.
 constexpr double SameRoot = 1e-5;
-
-// A root on the border of a triangle belongs to both sides. The error of Newton's method is 1e-10.
-constexpr double Border = 1e-8;
 
 // Parts have at least 2^-14 of the facet's size. A smaller undecided triangle holds a double root,
 // on a caustic, and Newton's method decides.
@@ -39,9 +37,7 @@ constexpr double FarthestRoot = 0.5;
 // only a guess.
 constexpr double LargestDeflection = 0.5;
 
-// Assumed part of higher degree, relative to the part of second degree. In a triangle half as large
-// the ratio is half of this, so the margin that is really needed shrinks with the subdivision.
-constexpr double HigherDegree = 0.5;
+// As PatchRoots::HigherDegree, where the interpolant is a guess.
 constexpr double HigherDegreeOfGuess = 2.0;
 
 // Distance of the nearest of six places from the apex of a cone, in longest sides, above which the
@@ -64,7 +60,7 @@ bool IsFarFromZero(const TriangleMap& f)
     std::max({ glm::length(f[1] - f[0]), glm::length(f[2] - f[1]), glm::length(f[0] - f[2]) });
   TriangleMap corners = f;
   std::copy(f.begin(), f.begin() + 3, corners.begin() + 3);
-  return IsSeparated(corners, (2.0 * LargestDeflection + HigherDegree) * size);
+  return IsSeparated(corners, (2.0 * LargestDeflection + PatchRoots::HigherDegree) * size);
 }
 
 }
@@ -233,8 +229,8 @@ bool PatchRoots::TakeRoot(const Triangle& triangle)
     return false;
   }
   // The border of a triangle is as wide as the facet's, whatever the triangle's size.
-  const double border = Border / std::sqrt(std::fabs(area));
-  if (FindOutside(inside).Least >= -border && FindOutside(root.B).Least >= -Border)
+  const double border = PatchCrossings::Border / std::sqrt(std::fabs(area));
+  if (FindOutside(inside).Least >= -border && FindOutside(root.B).Least >= -PatchCrossings::Border)
   {
     this->Add(root);
   }

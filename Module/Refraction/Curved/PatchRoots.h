@@ -35,6 +35,13 @@ public:
    * smooth one shows few.
    */
   static constexpr std::size_t Capacity = 16;
+  /**
+   * Assumed part of higher degree of a map, relative to the part of second degree: on a mesh that
+   * resolves the membrane each degree is a fraction of the previous one. In a triangle half as
+   * large the ratio is half of this, so the margin that is really needed shrinks with the
+   * subdivision.
+   */
+  static constexpr double HigherDegree = 0.5;
 
   PatchRoots(const SightEquation& equation, const CurvedPatch& patch)
     : Equation(equation)

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/EdgeSubdivision.h"
 
+#include "Common/PointOrder.h"
 #include "Refraction/Images/ImageTurns.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 namespace meniscus
@@ -36,11 +36,6 @@ std::size_t Hash(const glm::dvec3& point)
     bits[0] * 0x9e3779b97f4a7c15u + bits[1] * 0xbf58476d1ce4e5b9u + bits[2] * 0x94d049bb133111ebu;
   sum ^= sum >> 32;
   return static_cast<std::size_t>(sum * 0x9e3779b97f4a7c15u >> 32);
-}
-
-bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
-{
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
 }

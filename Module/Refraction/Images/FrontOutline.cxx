@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/FrontOutline.h"
 
+#include "Common/PointOrder.h"
+
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 namespace meniscus
 {
@@ -14,11 +15,6 @@ namespace
 // Barycentric coordinates are at most 1 and carry one or two roundings; a product of two
 // differences of them carries a few times as many.
 constexpr double Rounding = 16.0 * std::numeric_limits<double>::epsilon();
-
-bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
-{
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 // Twice the signed area in the second and third barycentric coordinates.
 double GetArea(const TrianglePoint& first, const TrianglePoint& second, const TrianglePoint& third)

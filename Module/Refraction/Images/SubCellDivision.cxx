@@ -17,11 +17,11 @@ namespace
 
 // An edge is divided into at most 32 parts, except next to the limit of incidence. Finer details
 // lie within 1/32 of a facet of a focus.
-constexpr int DeepestLevel = 5;
+constexpr int DeepestSides = 5;
 
 // Chords of the limit are divided until they are within the tolerance, but not below 1/256 of a
 // facet.
-constexpr int DeepestLevelOfChords = 8;
+constexpr int DeepestChords = 8;
 
 // The limit on a side is bracketed to 2^-16 of it, far below the tolerance. Coordinates of nodes
 // then have at most 24 binary digits, and midpoints are exact: both patches that share an edge
@@ -101,7 +101,7 @@ bool SubCellDivision::FindSplit(const CurvedPatch& patch, const SubCellNode& a,
     return true;
   }
   const bool isChord = a.IsAtLimit && b.IsAtLimit;
-  if (depth >= (isChord ? DeepestLevelOfChords : DeepestLevel))
+  if (depth >= (isChord ? DeepestChords : DeepestSides))
   {
     return false;
   }

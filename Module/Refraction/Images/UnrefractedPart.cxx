@@ -16,7 +16,7 @@ namespace
 // Smallest number of halvings for a primitive that crosses the membrane, and largest number along
 // the membrane.
 constexpr int FirstLevel = 2;
-constexpr int DeepestLevel = 5;
+constexpr int LastLevel = 5;
 
 // 2^-44 of a side, about the rounding of its ends.
 constexpr int Bisections = 44;
@@ -98,7 +98,7 @@ public:
       middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].Weight + corner[(k + 2) % 3].Weight));
       same = same && middle[k].IsInFront == corner[0].IsInFront;
     }
-    if (level == DeepestLevel || (level >= FirstLevel && (same || this->IsCutStraight(corner))))
+    if (level == LastLevel || (level >= FirstLevel && (same || this->IsCutStraight(corner))))
     {
       this->AddPolygon({ corner.begin(), corner.end() });
       return;
@@ -112,7 +112,7 @@ public:
 
   void CutLine(const Place& from, const Place& to, int level) const
   {
-    if (level < DeepestLevel)
+    if (level < LastLevel)
     {
       const Place middle = this->MakePlace(0.5 * (from.Weight + to.Weight));
       this->CutLine(from, middle, level + 1);

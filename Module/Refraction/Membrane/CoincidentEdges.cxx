@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/CoincidentEdges.h"
 
+#include "Common/PointOrder.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -30,11 +32,6 @@ struct PlacedEdge
     return this->First == other.First && this->Second == other.Second;
   }
 };
-
-bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
-{
-  return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
-}
 
 /** Numbers of the different places of vertices. */
 class Places

@@ -15,16 +15,10 @@ namespace meniscus
 namespace
 {
 
-constexpr double Border = PatchCrossings::Border;
-
 // Patches to go through from the crossing of an earlier path, and facets on the straight way to
 // the next one. For longer ways the tree is faster.
 constexpr int LongestChase = 4;
 constexpr int LongestWalk = 16;
-
-// Newton's method converges quadratically: the remaining error is of the order of the square of
-// the last step, 1e-14 of a facet.
-constexpr double LastStep = 1e-7;
 
 // Facets that a single step to a surface may be long: beyond, the place of the last trace says
 // nothing about the crossing.
@@ -32,7 +26,7 @@ constexpr double LongestStep = 4.0;
 
 // Two crossings are the same if they are closer than this fraction of the patch's size. Crossings
 // at a common edge of two patches may differ by the effect of Border in both.
-constexpr double SamePlace = 4.0 * Border;
+constexpr double SamePlace = 4.0 * PatchCrossings::Border;
 
 const CurvedPatch& Hold(const RefractionStack::Link& link, std::int32_t facet, HeldPatch& held)
 {
@@ -147,11 +141,11 @@ bool RefractionStack::MeetNear(
       return false;
     }
     double l = 1.0;
-    if (!MeetPatch(patch, { origin, distance * ray.Direction }, LastStep, place.B, l, jet))
+    if (!MeetPatch(patch, { origin, distance * ray.Direction }, place.B, l, jet))
     {
       return false;
     }
-    if (FindOutside(place.B).Least >= -Border)
+    if (FindOutside(place.B).Least >= -PatchCrossings::Border)
     {
       return l > 0.0 && glm::dot(ray.Direction, jet.Normal) < 0.0;
     }
@@ -218,7 +212,7 @@ bool RefractionStack::Meet(
   const double scale = std::max(patch.GetSize(), crossing.Distance);
   double l = crossing.Distance / scale;
   return MeetPatch(
-    patch, { ray.Origin - link.Shift, scale * ray.Direction }, LastStep, point.Place.B, l, jet);
+    patch, { ray.Origin - link.Shift, scale * ray.Direction }, point.Place.B, l, jet);
 }
 
 //------------------------------------------------------------------------------
@@ -236,14 +230,14 @@ bool RefractionStack::StepTo(const Link& link, const RayJet& ray, PathPoint& poi
     gradient = GetPlaceGradient(jet, ray.Direction);
     const glm::dvec3 rest = origin - jet.Position;
     const glm::dvec2 move(glm::dot(gradient.U, rest), glm::dot(gradient.V, rest));
-    const double size = std::max(std::fabs(move.x), std::fabs(move.y));
+    const double size = GetLargest(move);
     // Written so that a NaN fails.
     if (!(size <= LongestStep))
     {
       return false;
     }
     place.B += move;
-    if (FindOutside(place.B).Least >= -Border)
+    if (FindOutside(place.B).Least >= -PatchCrossings::Border)
     {
       jet.Position += move.x * jet.PositionBy[0] + move.y * jet.PositionBy[1];
       jet.Normal = jet.Normal + move.x * jet.NormalBy[0] + move.y * jet.NormalBy[1];

@@ -181,7 +181,7 @@ void StackBeams::FindCandidates(const StackTarget& target, std::vector<Candidate
         const RayJet& ray = this->Middles[leg][i];
         const glm::dvec3 nearest = GetNearest(ray, target.Point);
         candidate.Move = GetMove(ray, nearest, target.Point - nearest);
-        const double size = std::max(std::fabs(candidate.Move.x), std::fabs(candidate.Move.y));
+        const double size = GetLargest(candidate.Move);
         candidate.Size = std::isfinite(size) ? size : candidate.Size;
       }
       candidates.push_back(candidate);

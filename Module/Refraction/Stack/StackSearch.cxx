@@ -11,9 +11,6 @@ namespace meniscus
 namespace
 {
 
-// Newton's method starts near the root of a nearly linear map.
-constexpr int ShotSteps = 16;
-
 // Divisions of a patch in a search for one image, and of all patches in a search for all: a ring of
 // images needs as many as are allowed.
 constexpr int MostDivisions = 2000;
@@ -29,11 +26,6 @@ constexpr double SameRoot = 1e-5;
 
 // Cosine between a ray and the plane's normal below which its place in the plane is not used.
 constexpr double SmallestCosine = 0.1;
-
-double GetLargest(const glm::dvec2& v)
-{
-  return std::max(std::fabs(v.x), std::fabs(v.y));
-}
 
 }
 

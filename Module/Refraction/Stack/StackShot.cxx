@@ -13,8 +13,6 @@ namespace meniscus
 namespace
 {
 
-constexpr double Border = PatchCrossings::Border;
-
 // The error after a step is of the order of the step's square, in units of a facet of each surface
 // that the path meets: if the first step is this short, the remaining error is about 1e-12 of a
 // facet. Where the eye is closer to the surface than a facet is wide, that distance takes the place
@@ -37,23 +35,13 @@ constexpr double LargestTurnError = 1e-11;
 constexpr double Stagnation = 0.5;
 
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
-constexpr int LongestWalk = 64;
+constexpr int LongestMove = 64;
 
 // Halvings of steps that lead to rays which do not pass the stack. After the last of them the end
 // of the rays that pass is within 2^-6 of the way to the root, which is beyond. So it is next to a
 // critical angle, where the map is the square root of a linear one: a step to a root on this side
 // is at most twice as long as the way to the end.
 constexpr int Halvings = 6;
-
-double GetLargest(const glm::dvec2& v)
-{
-  return std::max(std::fabs(v.x), std::fabs(v.y));
-}
-
-double GetLargest(const NumberBy& by)
-{
-  return std::max(std::fabs(by[0]), std::fabs(by[1]));
-}
 
 // Largest change of a place on any surface, in facets.
 double GetLargestMove(const StackPath& path, const glm::dvec2& move)
@@ -135,7 +123,7 @@ ShotEnd Iterate(const RefractionStack& stack, const StackTarget& target, StackPl
   bool isTraced = false;
   // Why a step ends off the surface: it is too long to mean anything, or leads beyond the border.
   const auto leave = [&place]()
-  { return GetLargest(place.B) <= LongestWalk ? ShotEnd::Outside : ShotEnd::Failed; };
+  { return GetLargest(place.B) <= LongestMove ? ShotEnd::Outside : ShotEnd::Failed; };
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < steps; ++i)
   {
@@ -167,7 +155,7 @@ ShotEnd Iterate(const RefractionStack& stack, const StackTarget& target, StackPl
     }
     const bool isLast = IsLast(stack, path, move, size, before);
     before = size;
-    if (isLast && FindOutside(place.B + move).Least >= -Border)
+    if (isLast && FindOutside(place.B + move).Least >= -PatchCrossings::Border)
     {
       Correct(path, move);
       return ShotEnd::Converged;
@@ -235,7 +223,7 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
 {
   place.B += move;
   // Written so that a NaN fails.
-  if (!(GetLargest(place.B) <= LongestWalk))
+  if (!(GetLargest(place.B) <= LongestMove))
   {
     return false;
   }
@@ -247,7 +235,7 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
   const CurvedPatch patch = patches.GetPatch(place.Facet);
   const glm::dvec3 target = patch.GetFlatPoint(place.B);
   const std::int32_t next =
-    patches.Walk(place.Facet, target, patch.GetNormal(glm::dvec2(1.0 / 3.0)), LongestWalk);
+    patches.Walk(place.Facet, target, patch.GetNormal(glm::dvec2(1.0 / 3.0)), LongestMove);
   place = { next, patches.GetPatch(next).ProjectToFacet(target) };
   return FindOutside(place.B).Least >= -FollowReach;
 }

@@ -59,6 +59,9 @@ enum class ShotEnd
   Failed
 };
 
+/** Steps of Newton's method that suffice from a place near the root of a nearly linear map. */
+constexpr int ShotSteps = 16;
+
 /**
  * Newton's method from `place` with at most `steps` steps. Crossings with later surfaces are
  * looked for near those of the path. If it converges in the surface, the path ends at the target.

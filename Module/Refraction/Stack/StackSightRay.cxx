@@ -16,10 +16,6 @@ namespace meniscus
 namespace
 {
 
-// Newton's method converges quadratically: the remaining error is of the order of the square of
-// the last step, 1e-14 of a facet.
-constexpr double LastStep = 1e-7;
-
 /** Side of a link's interface from which rays arrive, or where they go on: see SightLeg. */
 std::size_t GetSide(const RefractionStack::Link& link, bool behind)
 {
@@ -66,7 +62,7 @@ bool StackPatches::Search(const RefractionStack::Link& link, const glm::dvec3& o
   double l = crossing.Distance / scale;
   glm::dvec2 b = crossing.B;
   glm::dvec3 normal;
-  if (!MeetPatch(patch, { origin, scale * direction }, LastStep, b, l, normal))
+  if (!MeetPatch(patch, { origin, scale * direction }, b, l, normal))
   {
     return false;
   }

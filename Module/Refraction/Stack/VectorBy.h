@@ -10,6 +10,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace meniscus
 {
 
@@ -19,6 +22,18 @@ using NumberBy = double __attribute__((vector_size(16)));
 inline NumberBy MakeNumberBy(const glm::dvec2& by)
 {
   return NumberBy{ by.x, by.y };
+}
+
+/** Larger modulus of the two derivatives. */
+inline double GetLargest(const NumberBy& by)
+{
+  return std::max(std::fabs(by[0]), std::fabs(by[1]));
+}
+
+/** Larger modulus of two coordinates. */
+inline double GetLargest(const glm::dvec2& v)
+{
+  return std::max(std::fabs(v.x), std::fabs(v.y));
 }
 
 /** Change of a number with a change of the parameters. */

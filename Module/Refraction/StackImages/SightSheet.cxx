@@ -39,8 +39,6 @@ constexpr std::int32_t NotSplit = -1;
 
 // Places around a corner of a border that are traced.
 constexpr int PlacesAround = 8;
-constexpr int ShotSteps = 16;
-
 // Length of a side in barycentric coordinates: the same in both patches at a common edge.
 double GetLength(const glm::dvec2& a, const glm::dvec2& b)
 {

@@ -19,8 +19,6 @@ namespace
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 
-constexpr int ShotSteps = 16;
-
 // Places in a patch from which Newton's method starts again, so that its result does not depend on
 // the first guess.
 constexpr double Grid = 1024.0;

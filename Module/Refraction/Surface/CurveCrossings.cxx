@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Surface/CurveCrossings.h"
 
+#include "Common/PointOrder.h"
 #include "Refraction/Surface/BracketedZero.h"
+#include "Refraction/Surface/PatchCrossings.h"
 
 #include <glm/common.hpp>
 
@@ -18,9 +20,6 @@ namespace
 
 constexpr int Steps = 12;
 
-// Newton's method converges quadratically: the remaining error is the square of the last step.
-constexpr double LastStep = 1e-7;
-
 // The guess comes from linear interpolation over a curve of small curvature; an iterate farther
 // away than the length of the curve has left it.
 constexpr double Reach = 1.0;
@@ -30,11 +29,6 @@ constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 bool IsNear(double value, double guess)
 {
   return std::fabs(value - guess) <= Reach;
-}
-
-bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
-{
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
 }
@@ -177,7 +171,7 @@ bool MeetPlaneLengthwise(const CurvedPatch& patch, const Media& media, const glm
     {
       return false;
     }
-    if (std::max(std::fabs(move.x), std::fabs(move.y)) < LastStep)
+    if (std::max(std::fabs(move.x), std::fabs(move.y)) < PatchCrossings::LastStep)
     {
       b = place;
       from = RefractAt(patch.Evaluate(place), media);
@@ -191,7 +185,7 @@ bool MeetPlaneLengthwise(const CurvedPatch& patch, const Media& media, const glm
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
 {
   glm::dvec3 normal;
-  return MeetPatch(patch, line, LastStep, b, l, normal);
+  return MeetPatch(patch, line, b, l, normal);
 }
 
 //------------------------------------------------------------------------------
@@ -213,18 +207,18 @@ bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2
 }
 
 //------------------------------------------------------------------------------
-bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
-  double& l, glm::dvec3& normal)
+bool MeetPatch(
+  const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l, glm::dvec3& normal)
 {
   PatchJet jet;
-  const bool isMet = MeetPatch(patch, line, lastStep, b, l, jet);
+  const bool isMet = MeetPatch(patch, line, b, l, jet);
   normal = isMet ? jet.Normal : normal;
   return isMet;
 }
 
 //------------------------------------------------------------------------------
-bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
-  double& l, PatchJet& jet)
+bool MeetPatch(
+  const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l, PatchJet& jet)
 {
   glm::dvec2 atB = b;
   double atL = l;
@@ -245,7 +239,8 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
     {
       return false;
     }
-    if (std::max({ std::fabs(moveB.x), std::fabs(moveB.y), std::fabs(moveL) }) < lastStep)
+    if (std::max({ std::fabs(moveB.x), std::fabs(moveB.y), std::fabs(moveL) }) <
+      PatchCrossings::LastStep)
     {
       b = atB;
       l = atL;

@@ -150,18 +150,15 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, 
  * starts again from a point of a grid.
  */
 bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l);
+/** As MeetPatch, and returns the patch's normal at the intersection, not normalised. */
+bool MeetPatch(
+  const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l, glm::dvec3& normal);
 /**
- * As MeetPatch, and returns the patch's normal at the intersection, not normalised. Newton's method
- * ends with a step shorter than `lastStep`; the remaining error is of the order of its square.
+ * As MeetPatch, and returns the patch at the intersection with derivatives. These are taken one
+ * step before the last, so their error is of the order of that step, 1e-7 of the patch.
  */
-bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
-  double& l, glm::dvec3& normal);
-/**
- * As the one above, and returns the patch at the intersection with derivatives. These are taken one
- * step before the last, so their error is of the order of `lastStep`.
- */
-bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
-  double& l, PatchJet& jet);
+bool MeetPatch(
+  const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l, PatchJet& jet);
 
 }
 

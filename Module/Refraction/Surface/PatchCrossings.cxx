@@ -19,10 +19,6 @@ constexpr double LargestSlope = 0.95;
 // Newton's method converges in three or four steps from such a start, unless rounding prevents it.
 constexpr int NewtonSteps = 12;
 
-// Newton's method converges quadratically: the remaining error is the square of the last step, in
-// units of the part.
-constexpr double LastStep = 1e-7;
-
 constexpr double Largest(const std::array<double, 3>& values)
 {
   return std::max({ values[0], values[1], values[2] });

@@ -57,6 +57,12 @@ public:
    */
   static constexpr double Margin = 1e-7;
 
+  /**
+   * Newton's method ends with a step shorter than this, in units of the patch or its part. It
+   * converges quadratically, so the remaining error is of the order of the square.
+   */
+  static constexpr double LastStep = 1e-7;
+
   /** `patch` and `frame` must outlive this. The axis is the frame's. */
   PatchCrossings(const CurvedPatch& patch, const HeightFrame& frame);
 

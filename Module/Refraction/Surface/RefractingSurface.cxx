@@ -16,10 +16,6 @@ namespace meniscus
 namespace
 {
 
-// Newton's method converges quadratically: the remaining error is of the order of the square of
-// the last step, 1e-14 of a facet.
-constexpr double LastStep = 1e-7;
-
 // Slant of most rays. The cheap bound of the largest slant is enough if it is above; another value
 // changes the time only.
 constexpr double CommonSlant = 4.0;
@@ -213,7 +209,7 @@ bool RefractingSurface::FindOnly(const CurvedPatch& patch, const PatchSlant& sla
   const double scale = std::max(patch.GetSize(), std::fabs(distance));
   double l = distance / scale;
   glm::dvec3 normal;
-  if (!MeetPatch(patch, { origin, scale * direction }, LastStep, crossing.B, l, normal))
+  if (!MeetPatch(patch, { origin, scale * direction }, crossing.B, l, normal))
   {
     return false;
   }
