@@ -55,6 +55,23 @@ void HoldFaces(const GradedCell& cell, int first, int second, glm::dvec3& a, glm
   b = glm::dot(b, edge) * edge;
 }
 
+/** 1 / k for the orders of the series. */
+struct Inverses
+{
+  constexpr Inverses()
+  {
+    for (int k = 1; k < Size; ++k)
+    {
+      this->Values[k] = 1.0 / k;
+    }
+  }
+  constexpr double operator[](int k) const { return this->Values[k]; }
+
+  static constexpr int Size = GradedPassage::HighestOrder + 4;
+  double Values[Size] = {};
+};
+constexpr Inverses Inverse;
+
 /** Sum of the sizes of a vector's components. */
 double SizeOf(const glm::dvec3& v)
 {
@@ -225,14 +242,15 @@ double GradedPassage::Extend(double time)
   double share = exponent / 6.0;
   while (share > 0.5 * Rounding && this->Order < HighestOrder)
   {
-    const double k = this->Order;
-    odd = (odd.x * columns[0] + odd.y * columns[1] + odd.z * columns[2]) / (k * (k + 1.0));
-    even =
-      (even.x * columns[0] + even.y * columns[1] + even.z * columns[2]) / ((k + 1.0) * (k + 2.0));
-    this->Terms[static_cast<std::size_t>(this->Order + 1)] = odd;
-    this->Terms[static_cast<std::size_t>(this->Order + 2)] = even;
+    const int k = this->Order;
+    odd =
+      Inverse[k] * Inverse[k + 1] * (odd.x * columns[0] + odd.y * columns[1] + odd.z * columns[2]);
+    even = Inverse[k + 1] * Inverse[k + 2] *
+      (even.x * columns[0] + even.y * columns[1] + even.z * columns[2]);
+    this->Terms[static_cast<std::size_t>(k + 1)] = odd;
+    this->Terms[static_cast<std::size_t>(k + 2)] = even;
     this->Order += 2;
-    share *= exponent / ((k + 2.0) * (k + 3.0));
+    share *= exponent * Inverse[k + 2] * Inverse[k + 3];
   }
   return time;
 }
@@ -267,7 +285,9 @@ double GradedPassage::WeightOfWay(int i) const
 /** True if the ray has passed a face, by more than rounding. */
 bool GradedPassage::IsBeyond(int i) const
 {
-  return this->WeightOfWay(i) <
+  const double weight = this->WeightOfWay(i);
+  return weight < 0.0 &&
+    weight <
     -Rounding * (this->Begin.Weights[i] + SizeOf(this->Cell.Gradients[i]) * SizeOf(this->EndWay));
 }
 
@@ -401,7 +421,7 @@ double GradedPassage::IntegrateSquare(double square) const
   glm::dvec3 mean(0.0);
   for (int k = this->Order; k > 2; --k)
   {
-    mean = time * (mean + this->Terms[static_cast<std::size_t>(k)] / (k + 1.0));
+    mean = time * (mean + Inverse[k + 1] * this->Terms[static_cast<std::size_t>(k)]);
   }
   mean = time * time * (0.5 * this->Momentum + time * (this->Force / 6.0 + mean));
   return 0.5 *

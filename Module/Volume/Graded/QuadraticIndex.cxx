@@ -185,12 +185,21 @@ public:
 private:
   static double Product(const std::vector<double>& a, const std::vector<double>& b)
   {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
+    // Four sums, none of which waits for another one.
+    double sums[4] = {};
+    const std::size_t whole = a.size() / 4 * 4;
+    for (std::size_t i = 0; i < whole; i += 4)
     {
-      sum += a[i] * b[i];
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        sums[k] += a[i + k] * b[i + k];
+      }
     }
-    return sum;
+    for (std::size_t i = whole; i < a.size(); ++i)
+    {
+      sums[0] += a[i] * b[i];
+    }
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
   static void Subtract(double factor, const std::vector<double>& a, std::vector<double>& b)
   {
