@@ -278,6 +278,16 @@ TEST(TetrahedraRayCastShadows, ScalarsOfCellsHaveClosedForm)
     }
   }
   EXPECT_GT(visible, 100);
+
+  const int casts = CastsOf(scene.GetRayCaster());
+  scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
+  scene.GetWindow()->Render();
+  EXPECT_EQ(CastsOf(scene.GetRayCaster()), casts) << "a camera changes no shadow";
+  values->SetValue(0, 0.5);
+  values->Modified();
+  grid->Modified();
+  scene.GetWindow()->Render();
+  EXPECT_EQ(CastsOf(scene.GetRayCaster()), casts + 1 + 32) << "a value of a cell does";
 }
 
 // A clipped half casts no shadow.

@@ -131,8 +131,9 @@ private:
   End Evaluate(
     Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray);
   template <class Values, class Line>
-  PacketLit<Simd> Light(
-    const Vector& gradient, const Values& values, Float depth, const Line& ray) const;
+  PacketLit<Simd> Light(const Vector& gradient, const Values& values, Float depth, const Line& ray);
+  template <class Values>
+  static Vector ShadowOf(const Values& values);
   template <class Values>
   Vector ToFrame(const Values& values) const;
 
@@ -141,6 +142,8 @@ private:
   PacketIntervals<Simd> Opacity;
   End Front;
   End Back;
+  /** Light at the place that was lit last; used with shadows only. */
+  PacketLitParts<Simd> Parts;
   /** Lanes whose next segment begins where the last one ended, with the same gradient. */
   Mask Continues;
 };
@@ -162,17 +165,27 @@ inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ToFrame(const Val
 }
 
 //------------------------------------------------------------------------------
+/** Transmittances of the lights among the values at a place. */
+template <class Simd, bool OfVertices, bool Shadowed>
+template <class Values>
+inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ShadowOf(const Values& values)
+  -> Vector
+{
+  constexpr int first = OfVertices ? 3 : 0;
+  return { values.Of[first + AmbientTransmittance], values.Of[first + BrightestTransmittance],
+    values.Of[first + OtherTransmittance] };
+}
+
+//------------------------------------------------------------------------------
 template <class Simd, bool OfVertices, bool Shadowed>
 template <class Values, class Line>
 inline PacketLit<Simd> PacketGradientShading<Simd, OfVertices, Shadowed>::Light(
-  const Vector& gradient, const Values& values, Float depth, const Line& ray) const
+  const Vector& gradient, const Values& values, Float depth, const Line& ray)
 {
   if constexpr (Shadowed)
   {
-    constexpr int first = OfVertices ? 3 : 0;
-    return this->Lights.LightShadowed(gradient, depth, ray,
-      { values.Of[first + AmbientTransmittance], values.Of[first + BrightestTransmittance],
-        values.Of[first + OtherTransmittance] });
+    this->Parts = this->Lights.LightInParts(gradient, depth, ray);
+    return this->Parts.Attenuate(ShadowOf(values));
   }
   else
   {
@@ -242,9 +255,14 @@ inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Begin(Mask lanes,
       this->Evaluate(lanes, gradient, place.StartValues, place.StartDepth, place.Ray);
     this->Front.Replace(lanes, front);
     End back = front;
-    if (this->Medium.Shading && (Shadowed || this->Lights.DependOnPlace()))
+    if (this->Medium.Shading && this->Lights.DependOnPlace())
     {
       back.Light = this->Light(gradient, place.EndValues, place.EndDepth, place.Ray);
+    }
+    else if constexpr (Shadowed)
+    {
+      back.Light =
+        this->Medium.Shading ? this->Parts.Attenuate(ShadowOf(place.EndValues)) : back.Light;
     }
     this->Back.Replace(lanes, back);
   }

@@ -70,6 +70,40 @@ struct PacketLit
 };
 
 /**
+ * Light with global illumination as a function of the numbers of VertexLight, in which it is
+ * linear: the ambient light, and the light of the brightest lamp and of the others, all for
+ * transmittances of 1.
+ */
+template <class Simd>
+struct PacketLitParts
+{
+  typename Simd::Float Ambient;
+  PacketLit<Simd> Brightest;
+  PacketLit<Simd> Others;
+  /** False if the others are 0. */
+  bool HasOthers;
+
+  /** @param shadow the numbers of VertexLight at the place. */
+  PacketLit<Simd> Attenuate(const std::array<typename Simd::Float, 3>& shadow) const
+  {
+    PacketLit<Simd> lit;
+    for (int c = 0; c < 3; ++c)
+    {
+      lit.Reflected[c] = Simd::Fma(shadow[BrightestTransmittance], this->Brightest.Reflected[c],
+        this->Ambient * shadow[AmbientTransmittance]);
+      lit.Highlight[c] = shadow[BrightestTransmittance] * this->Brightest.Highlight[c];
+    }
+    for (int c = 0; this->HasOthers && c < 3; ++c)
+    {
+      const typename Simd::Float other = shadow[OtherTransmittance];
+      lit.Reflected[c] = Simd::Fma(other, this->Others.Reflected[c], lit.Reflected[c]);
+      lit.Highlight[c] = Simd::Fma(other, this->Others.Highlight[c], lit.Highlight[c]);
+    }
+    return lit;
+  }
+};
+
+/**
  * A ray per lane in its frame: (X, Y, Depth) at the pivot, the change of X and Y per depth, and the
  * unit vector towards the eye.
  */
@@ -109,33 +143,22 @@ public:
   /**
    * Light on a surface with a normal of any length, in the frame; 0 leaves the ambient light only.
    */
-  PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
-  {
-    const Float one = Simd::Splat(1.0f);
-    return this->LightBy(PacketUnshadowed(), normal, depth, ray, { one, one, one });
-  }
-  /**
-   * The same with global illumination, see SurfaceLighting.
-   * @param shadow the numbers of VertexLight at the place.
-   */
-  PacketLit<Simd> LightShadowed(
-    const Vector& normal, Float depth, const PacketLine<Simd>& ray, const Vector& shadow) const
-  {
-    return this->LightBy(PacketShadowed(), normal, depth, ray, shadow);
-  }
+  PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
+  /** The same with global illumination, see SurfaceLighting. */
+  PacketLitParts<Simd> LightInParts(
+    const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
 
 private:
-  struct PacketUnshadowed
+  /** A place on each ray, and the normal there that faces the eye. */
+  struct Surface
   {
-    static constexpr bool Scatters = false;
+    Vector Place;
+    Vector Normal;
+    /** Lanes with a normal. */
+    Mask Any;
   };
-  struct PacketShadowed
-  {
-    static constexpr bool Scatters = true;
-  };
-  template <class Kind>
-  PacketLit<Simd> LightBy(Kind, const Vector& normal, Float depth, const PacketLine<Simd>& ray,
-    const Vector& shadow) const;
+  Surface SurfaceAt(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
+
   /** Henyey and Greenstein's phase function, 1 in the mean; for the cosine of the turn of light. */
   Float Phase(Float cosine) const;
 
@@ -162,11 +185,10 @@ private:
 
   /**
    * Adds the light that a surface reflects, and the light that the medium scatters.
-   * @param shadow transmittance from the light.
+   * @param scattered null if none is wanted.
    */
-  template <class Kind>
-  void Add(Kind, const PacketLight& light, Float shadow, const Vector& place, const Vector& normal,
-    const Vector& toEye, PacketLit<Simd>& sum, Vector& scattered) const;
+  void Add(const PacketLight& light, const Surface& surface, const Vector& toEye,
+    PacketLit<Simd>& sum, Vector* scattered) const;
 
   const GradientShading& Medium;
   PacketPower<Simd> SpecularPower;
@@ -186,10 +208,8 @@ inline auto PacketLights<Simd>::Phase(Float cosine) const -> Float
 
 //------------------------------------------------------------------------------
 template <class Simd>
-template <class Kind>
-inline void PacketLights<Simd>::Add(Kind, const PacketLight& light, Float shadow,
-  const Vector& place, const Vector& normal, const Vector& toEye, PacketLit<Simd>& sum,
-  Vector& scattered) const
+inline void PacketLights<Simd>::Add(const PacketLight& light, const Surface& surface,
+  const Vector& toEye, PacketLit<Simd>& sum, Vector* scattered) const
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
@@ -199,7 +219,7 @@ inline void PacketLights<Simd>::Add(Kind, const PacketLight& light, Float shadow
   {
     for (int i = 0; i < 3; ++i)
     {
-      toLight[i] = toLight[i] - place[i];
+      toLight[i] = toLight[i] - surface.Place[i];
     }
     const Float distance = Simd::Sqrt(Dot(toLight, toLight));
     toLight = Scaled(toLight, Reciprocal(distance));
@@ -209,6 +229,7 @@ inline void PacketLights<Simd>::Add(Kind, const PacketLight& light, Float shadow
         Simd::Splat(light.Falloff[0])));
     strength = Simd::Min(strength, Simd::Splat(LargestLightStrength));
   }
+  const Vector& normal = surface.Normal;
   const Float facing = Cosine(normal, toLight);
   if (light.Cone[3] >= -1.0f)
   {
@@ -219,15 +240,17 @@ inline void PacketLights<Simd>::Add(Kind, const PacketLight& light, Float shadow
     }
     strength = Simd::Select(inCone < Simd::Splat(light.Cone[3]), zero, strength);
   }
-  if constexpr (Kind::Scatters)
+  if (scattered)
   {
-    strength = strength * shadow;
     // Light goes against toLight and on towards the eye.
-    const Float turned =
-      strength * Simd::Splat(this->Medium.Diffuse) * this->Phase(zero - Dot(toLight, toEye));
+    Float turned = strength * Simd::Splat(this->Medium.Diffuse);
+    if (this->Medium.Anisotropy != 0.0f)
+    {
+      turned = turned * this->Phase(zero - Dot(toLight, toEye));
+    }
     for (int c = 0; c < 3; ++c)
     {
-      scattered[c] = Simd::Fma(turned, Simd::Splat(light.Diffuse[c]), scattered[c]);
+      (*scattered)[c] = Simd::Fma(turned, Simd::Splat(light.Diffuse[c]), (*scattered)[c]);
     }
   }
   strength = Simd::Select(facing > zero, strength, zero);
@@ -268,50 +291,89 @@ inline auto PacketLights<Simd>::Normalized(const Vector& a, Mask any, Float larg
 
 //------------------------------------------------------------------------------
 template <class Simd>
-template <class Kind>
-PacketLit<Simd> PacketLights<Simd>::LightBy(Kind kind, const Vector& normal, Float depth,
-  const PacketLine<Simd>& ray, const Vector& shadow) const
+inline auto PacketLights<Simd>::SurfaceAt(
+  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const -> Surface
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  PacketLit<Simd> lit;
-  const Float ambient = Simd::Splat(this->Medium.Ambient);
-  lit.Reflected.fill(Kind::Scatters ? ambient * shadow[AmbientTransmittance] : ambient);
-  lit.Highlight.fill(zero);
-
   const Float largest =
     Simd::Max(Simd::Abs(normal[0]), Simd::Max(Simd::Abs(normal[1]), Simd::Abs(normal[2])));
-  const Mask any = largest > zero;
-  Vector facing = Normalized(normal, any, largest);
+  Surface surface;
+  surface.Any = largest > zero;
+  const Vector facing = Normalized(normal, surface.Any, largest);
   const Mask away = Dot(facing, ray.ToEye) < zero;
-  facing = Scaled(facing, Simd::Select(away, zero - one, one));
+  surface.Normal = Scaled(facing, Simd::Select(away, zero - one, one));
   const Float fromPivot = depth * Simd::Splat(PacketVertex::DepthUnit);
-  const Vector place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
+  surface.Place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
     Simd::Fma(fromPivot, ray.SlopeY, ray.Y), fromPivot + ray.Depth };
+  return surface;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+PacketLit<Simd> PacketLights<Simd>::Light(
+  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+{
+  const Float zero = Simd::Splat(0.0f);
+  PacketLit<Simd> lit;
+  lit.Reflected.fill(Simd::Splat(this->Medium.Ambient));
+  lit.Highlight.fill(zero);
+  const Surface surface = this->SurfaceAt(normal, depth, ray);
   PacketLit<Simd> sum = lit;
-  Vector scattered = lit.Reflected;
   for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
   {
-    const bool isBrightest = i == this->Medium.BrightestLight;
-    this->Add(kind, this->Medium.Lights[i],
-      shadow[isBrightest ? BrightestTransmittance : OtherTransmittance], place, facing, ray.ToEye,
-      sum, scattered);
+    this->Add(this->Medium.Lights[i], surface, ray.ToEye, sum, nullptr);
   }
   for (int c = 0; c < 3; ++c)
   {
-    lit.Reflected[c] = Simd::Select(any, sum.Reflected[c], lit.Reflected[c]);
-    lit.Highlight[c] = Simd::Select(any, sum.Highlight[c], lit.Highlight[c]);
-  }
-  if constexpr (Kind::Scatters)
-  {
-    const Float share = Simd::Splat(this->Medium.Scattering);
-    for (int c = 0; c < 3; ++c)
-    {
-      lit.Reflected[c] = Simd::Fma(share, scattered[c] - lit.Reflected[c], lit.Reflected[c]);
-      lit.Highlight[c] = Simd::Fma(zero - share, lit.Highlight[c], lit.Highlight[c]);
-    }
+    lit.Reflected[c] = Simd::Select(surface.Any, sum.Reflected[c], lit.Reflected[c]);
+    lit.Highlight[c] = Simd::Select(surface.Any, sum.Highlight[c], lit.Highlight[c]);
   }
   return lit;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+PacketLitParts<Simd> PacketLights<Simd>::LightInParts(
+  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+{
+  const Float zero = Simd::Splat(0.0f);
+  const Surface surface = this->SurfaceAt(normal, depth, ray);
+  PacketLitParts<Simd> parts;
+  parts.Ambient = Simd::Splat(this->Medium.Ambient);
+  parts.HasOthers = this->Medium.NumberOfLights > 1;
+  PacketLit<Simd>* const sums[2] = { &parts.Brightest, &parts.Others };
+  Vector scattered[2];
+  for (int part = 0; part < 2; ++part)
+  {
+    sums[part]->Reflected.fill(zero);
+    sums[part]->Highlight.fill(zero);
+    scattered[part].fill(zero);
+  }
+  const bool scatters = this->Medium.Scattering > 0.0f;
+  for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
+  {
+    const int part = i == this->Medium.BrightestLight ? 0 : 1;
+    this->Add(this->Medium.Lights[i], surface, ray.ToEye, *sums[part],
+      scatters ? &scattered[part] : nullptr);
+  }
+  const Float share = Simd::Splat(this->Medium.Scattering);
+  for (int part = 0; part < (parts.HasOthers ? 2 : 1); ++part)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      Float& reflected = sums[part]->Reflected[c];
+      Float& highlight = sums[part]->Highlight[c];
+      reflected = Simd::Select(surface.Any, reflected, zero);
+      highlight = Simd::Select(surface.Any, highlight, zero);
+      if (scatters)
+      {
+        reflected = Simd::Fma(share, scattered[part][c] - reflected, reflected);
+        highlight = Simd::Fma(zero - share, highlight, highlight);
+      }
+    }
+  }
+  return parts;
 }
 
 }
