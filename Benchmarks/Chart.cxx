@@ -3,7 +3,6 @@
 #include "Chart.h"
 
 #include <vtkAxis.h>
-#include <vtkChartLegend.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -15,10 +14,12 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTable.h>
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meniscus
@@ -32,6 +33,10 @@ namespace
 // Colours that remain distinct in print (Okabe and Ito).
 constexpr unsigned char Colors[][3] = { { 230, 159, 0 }, { 86, 180, 233 }, { 0, 158, 115 },
   { 213, 94, 0 }, { 204, 121, 167 }, { 120, 120, 120 }, { 0, 114, 178 }, { 0, 0, 0 } };
+
+/** Size of the picture in pixels. */
+constexpr int Width = 1100;
+constexpr int Height = 620;
 
 constexpr int Markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND,
   vtkPlotPoints::CROSS, vtkPlotPoints::PLUS };
@@ -98,6 +103,110 @@ void SetAxis(vtkAxis* axis, const std::string& title, const Range& range)
     std::pow(10.0, std::ceil(std::log10(range.High))));
 }
 
+// Place of a value on a logarithmic axis, in pixels of the picture.
+double PixelOf(vtkAxis* axis, int direction, double value)
+{
+  double range[2];
+  axis->GetUnscaledRange(range);
+  const double part = std::log(value / range[0]) / std::log(range[1] / range[0]);
+  const double first = axis->GetPoint1()[direction];
+  return first + part * (axis->GetPoint2()[direction] - first);
+}
+
+/** Left, right, bottom and top in pixels. */
+using Box = std::array<double, 4>;
+
+// Markers of a curve, and the line between them in steps of a few pixels.
+void TakePlaces(vtkChartXY* chart, const ChartSeries& series, std::vector<Box>& taken)
+{
+  double last[2] = { 0.0, 0.0 };
+  for (std::size_t i = 0; i < series.Points.size(); ++i)
+  {
+    const double x = PixelOf(chart->GetAxis(vtkAxis::BOTTOM), 0, series.Points[i].first);
+    const double y = PixelOf(chart->GetAxis(vtkAxis::LEFT), 1, series.Points[i].second);
+    const double length = i ? std::hypot(x - last[0], y - last[1]) : 0.0;
+    for (double way = 0.0; way < length; way += 6.0)
+    {
+      const double u = last[0] + way / length * (x - last[0]);
+      const double v = last[1] + way / length * (y - last[1]);
+      taken.push_back({ u - 3.0, u + 3.0, v - 3.0, v + 3.0 });
+    }
+    taken.push_back({ x - 7.0, x + 7.0, y - 7.0, y + 7.0 });
+    last[0] = x;
+    last[1] = y;
+  }
+}
+
+// Finds a free place for a name next to a point, within some steps up and down.
+bool FindPlace(
+  double x, double y, double length, int steps, const std::vector<Box>& taken, Box& box)
+{
+  constexpr double gap = 12.0;
+  for (int step = 0; step < steps; ++step)
+  {
+    const double middle = y + (step % 2 ? 1.0 : -1.0) * 10.0 * ((step + 1) / 2);
+    for (const double left : { x + gap, x - gap - length, x - 0.5 * length })
+    {
+      box = { left, left + length, middle - 9.0, middle + 9.0 };
+      const bool overlaps = std::any_of(taken.begin(), taken.end(),
+        [&box](const Box& other) {
+          return box[0] < other[1] && other[0] < box[1] && box[2] < other[3] && other[2] < box[3];
+        });
+      if (!overlaps && left > 0.0 && box[1] < Width && box[2] > 0.0 && box[3] < Height)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Writes the name of each curve in its colour next to one of its points, the last ones first, where
+// no other name and no curve is.
+void LabelCurves(vtkChartXY* chart, const std::vector<ChartSeries>& all, vtkRenderer* renderer)
+{
+  constexpr int few = 4;
+  constexpr int many = 40;
+  std::vector<Box> taken;
+  std::vector<ChartSeries> positive;
+  for (const ChartSeries& series : all)
+  {
+    positive.push_back(OnlyPositive(series));
+    TakePlaces(chart, positive.back(), taken);
+  }
+  for (std::size_t i = 0; i < positive.size(); ++i)
+  {
+    std::vector<std::pair<double, double>> points = positive[i].Points;
+    if (points.empty())
+    {
+      continue;
+    }
+    const auto& color = Colors[i % 8];
+    vtkNew<vtkTextActor> label;
+    label->SetInput(positive[i].Label.c_str());
+    label->GetTextProperty()->SetFontSize(16);
+    label->GetTextProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+    label->GetTextProperty()->SetVerticalJustificationToCentered();
+    double size[2];
+    label->GetSize(renderer, size);
+    std::reverse(points.begin(), points.end());
+    points.push_back(points.front()); // at last the last point again, with many steps
+    Box box{};
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const double x = PixelOf(chart->GetAxis(vtkAxis::BOTTOM), 0, points[k].first);
+      const double y = PixelOf(chart->GetAxis(vtkAxis::LEFT), 1, points[k].second);
+      if (FindPlace(x, y, size[0], k + 1 < points.size() ? few : many, taken, box))
+      {
+        break;
+      }
+    }
+    taken.push_back(box);
+    label->SetDisplayPosition(static_cast<int>(box[0]), static_cast<int>(0.5 * (box[2] + box[3])));
+    renderer->AddActor2D(label);
+  }
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
@@ -129,11 +238,6 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   chart->GetTitleProperties()->SetFontSize(18);
   SetAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x);
   SetAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y);
-  chart->SetShowLegend(true);
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-  chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::CENTER);
-  chart->GetLegend()->SetInline(false);
-  chart->GetLegend()->SetLabelSize(14);
 
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
@@ -144,8 +248,10 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);
-  window->SetSize(1100, 620);
+  window->SetSize(Width, Height);
   window->AddRenderer(renderer);
+  window->Render(); // places the axes
+  LabelCurves(chart, series, renderer);
   window->Render();
   vtkNew<vtkWindowToImageFilter> picture;
   picture->SetInput(window);

@@ -20,7 +20,8 @@ struct ChartSeries
 };
 
 /**
- * Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left out.
+ * Draws a chart with two logarithmic axes to a PNG file, the name of each curve next to one of
+ * its points. Points that are not positive are left out.
  * Returns false if none is left, or if the file cannot be written.
  */
 bool WriteChart(const std::string& file, const std::string& title, const std::string& xTitle,

@@ -11,6 +11,7 @@
 #include "Refraction/PassTables.h"
 #include "Refraction/RefractionOptions.h"
 #include "Refraction/RefractionReport.h"
+#include "Refraction/Rivals.h"
 #include "VolumeScene.h"
 
 #include <vtkSMPTools.h>
@@ -74,7 +75,7 @@ int main(int argc, char* argv[])
     return options.Help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   const bool draws = options.Frames || options.Report || options.Pass || !options.Plot.empty() ||
-    !options.Picture.empty();
+    !options.Picture.empty() || !options.Rivals.empty();
   if (draws && !meniscus::test::HasDisplay())
   {
     std::cerr << "no display: run under xvfb-run\n";
@@ -90,6 +91,11 @@ int main(int argc, char* argv[])
   if (!options.Picture.empty() && !WritePoolPicture(options.Picture))
   {
     std::cerr << "cannot write " << options.Picture << '\n';
+    return EXIT_FAILURE;
+  }
+  if (!options.Rivals.empty() && !CompareRivals(options.Rivals, std::cout))
+  {
+    std::cerr << "no Embree in this build, or cannot write to " << options.Rivals << '\n';
     return EXIT_FAILURE;
   }
   if (options.Frames)

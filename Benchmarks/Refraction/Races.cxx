@@ -4,15 +4,9 @@
 
 #ifdef MENISCUS_HAS_EMBREE
 
-#include "RefractionTracer.h"
 #include "Timing.h"
-#include "WellScene.h"
+#include "TracedWell.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkPolyData.h>
 #include <vtkRefractedGeometryFilter.h>
 
 #include <algorithm>
@@ -45,96 +39,6 @@ constexpr int FinerQuads[] = { 16, 32, 48 };
 
 // Half a pixel of 512 pixels and 29 degrees is 0.028 degrees.
 constexpr double Tolerances[] = { 0.015, 0.03, 0.06 };
-
-TracedMesh MembraneOf(const reference::MembraneMesh& mesh)
-{
-  TracedMesh result;
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    result.AddPoint(mesh.Points.data() + i);
-  }
-  result.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
-  result.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
-  result.Finish();
-  return result;
-}
-
-// Triangles 2 i and 2 i + 1 are those of quad i.
-TracedMesh ObjectOf(vtkPolyData* data)
-{
-  TracedMesh result;
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    result.AddPoint(data->GetPoint(i));
-  }
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
-  {
-    data->GetCellPoints(i, ids);
-    for (const vtkIdType k : { 1, 2 })
-    {
-      for (const vtkIdType c : { vtkIdType(0), k, k + 1 })
-      {
-        result.Triangles.push_back(static_cast<std::uint32_t>(ids->GetId(c)));
-      }
-    }
-  }
-  result.Finish();
-  return result;
-}
-
-TriangleColors ColorsOf(vtkPolyData* data)
-{
-  TriangleColors result;
-  vtkDataArray* colors = data->GetCellData()->GetScalars();
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
-  {
-    std::uint32_t rgba = 0xff000000u;
-    for (int c = 0; c < 3; ++c)
-    {
-      rgba |= static_cast<std::uint32_t>(colors->GetComponent(i, c)) << (8 * c);
-    }
-    result.Colors.insert(result.Colors.end(), { rgba, rgba });
-  }
-  return result;
-}
-
-TracedView ViewOf(const testing::PixelCamera& camera)
-{
-  return { camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
-    camera.GetPixels() };
-}
-
-// Places that the tracer's image shows.
-testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
-{
-  const TracedView view = ViewOf(camera);
-  testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
-  TracedPacket packet = {};
-  for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
-  {
-    for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
-    {
-      packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
-      tracer.TracePacket(view, packet);
-      for (int k = 0; k < packet.Count; ++k)
-      {
-        if (packet.Triangle[k] == TracedPacket::None)
-        {
-          continue;
-        }
-        testing::PlacePixel& pixel =
-          picture[static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k)];
-        pixel.Covered = true;
-        for (int i = 0; i < 3; ++i)
-        {
-          pixel.Place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
-        }
-      }
-    }
-  }
-  return picture;
-}
 
 //------------------------------------------------------------------------------
 class RaceTrack

@@ -24,9 +24,11 @@ const char* const RefractionUsage =
   "  --csv FILE   write time against error\n"
   "  --plot FILE  draw time against error to a PNG file; needs a display\n"
   "  --picture FILE  write the pool, drawn by vtkRefractionPass, to a PNG file; needs a display\n"
+  "  --rivals FOLDER  time against error of other methods, charts in the folder; needs a display\n"
   "  --help       this text\n"
   "\n"
-  "Without any of the first five --thesis and --growth are run. Times are processor times where\n"
+  "Without any of the first five and --rivals, --thesis and --growth are run. Times are processor "
+  "times where\n"
   "nothing else is said; nothing is judged.\n";
 
 //------------------------------------------------------------------------------
@@ -47,6 +49,7 @@ RefractionOptions ParseRefractionOptions(int argc, char* argv[])
       : key == "--csv"                        ? &options.Csv
       : key == "--plot"                       ? &options.Plot
       : key == "--picture"                    ? &options.Picture
+      : key == "--rivals"                     ? &options.Rivals
       : key == "--row"                        ? &options.Row
                                               : nullptr;
     if (flag)
@@ -67,7 +70,8 @@ RefractionOptions ParseRefractionOptions(int argc, char* argv[])
       return options;
     }
   }
-  if (!options.Thesis && !options.Growth && !options.Frames && !options.Report && !options.Pass)
+  if (!options.Thesis && !options.Growth && !options.Frames && !options.Report && !options.Pass &&
+    options.Rivals.empty())
   {
     options.Thesis = true;
     options.Growth = true;

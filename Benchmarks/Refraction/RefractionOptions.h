@@ -23,6 +23,7 @@ struct RefractionOptions
   std::string Csv;
   std::string Plot;
   std::string Picture;
+  std::string Rivals;
   int Threads = 2;
   std::string Problem;
 };

@@ -117,6 +117,7 @@ WellScene::WellScene(int cells, int quads, WellSurface surface)
   this->Filter->SetMembraneData(this->Membrane);
   this->Filter->SetExteriorIndexOfRefraction(this->Field.Exterior);
   this->Filter->SetInteriorIndexOfRefraction(this->Field.Interior);
+  this->Present.Amplitude = surface == WellSurface::Plane ? 0.0 : this->Field.Amplitude;
   this->ChangeColors(0);
   this->MoveEye(0.0);
 }
@@ -224,7 +225,15 @@ testing::PixelCamera WellScene::GetCamera() const
 //------------------------------------------------------------------------------
 void WellScene::SetUpWindow()
 {
-  this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
+  if (this->HasMatrix)
+  {
+    this->Mapper->SetInputData(this->Well);
+    this->Actor->SetScale(1.0, this->GetScale(), 1.0);
+  }
+  else
+  {
+    this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
+  }
   this->Mapper->SetScalarModeToUseCellData();
   this->Actor->SetMapper(this->Mapper);
   this->Actor->GetProperty()->LightingOff();
@@ -239,6 +248,18 @@ void WellScene::SetUpWindow()
   camera->SetViewUp(0.0, 0.0, 1.0);
   camera->SetClippingRange(100.0, 1000.0);
   this->HasWindow = true;
+}
+
+//------------------------------------------------------------------------------
+void WellScene::UseMatrix()
+{
+  this->HasMatrix = true;
+}
+
+//------------------------------------------------------------------------------
+double WellScene::GetScale() const
+{
+  return this->Field.Exterior / this->Field.Interior;
 }
 
 //------------------------------------------------------------------------------
@@ -260,41 +281,42 @@ void WellScene::Update()
 }
 
 //------------------------------------------------------------------------------
+testing::PlacePixel WellScene::Meet(const glm::dvec3& start, const glm::dvec3& direction)
+{
+  double t = std::numeric_limits<double>::max();
+  for (const int axis : { 0, 2 })
+  {
+    const double wall = direction[axis] > 0.0 ? HalfWidth : -HalfWidth;
+    const double at = (wall - start[axis]) / direction[axis];
+    // A ray that starts next to the well may meet a wall from outside.
+    const double other = (-wall - start[axis]) / direction[axis];
+    for (const double candidate : { other, at })
+    {
+      const glm::dvec3 hit = start + candidate * direction;
+      const double across = axis == 0 ? hit.z : hit.x;
+      if (candidate > 0.0 && candidate < t && std::fabs(across) <= HalfWidth && hit.y <= Top &&
+        hit.y >= -Depth)
+      {
+        t = candidate;
+      }
+    }
+  }
+  const double bottom = (-Depth - start.y) / direction.y;
+  const glm::dvec3 hit = start + bottom * direction;
+  testing::PlacePixel pixel;
+  if (bottom > 0.0 && bottom < t && std::max(std::fabs(hit.x), std::fabs(hit.z)) <= HalfWidth)
+  {
+    t = bottom;
+  }
+  pixel.Covered = t < std::numeric_limits<double>::max();
+  pixel.Place = start + (pixel.Covered ? t : bottom) * direction;
+  return pixel;
+}
+
+//------------------------------------------------------------------------------
 testing::PlacePicture WellScene::Trace() const
 {
-  return testing::TracePlaces(this->Present, this->GetCamera(),
-    [](const glm::dvec3& start, const glm::dvec3& direction)
-    {
-      // Leaves the box through a wall or the bottom.
-      double t = std::numeric_limits<double>::max();
-      for (const int axis : { 0, 2 })
-      {
-        const double wall = direction[axis] > 0.0 ? HalfWidth : -HalfWidth;
-        const double at = (wall - start[axis]) / direction[axis];
-        // A ray that starts next to the well may meet a wall from outside.
-        const double other = (-wall - start[axis]) / direction[axis];
-        for (const double candidate : { other, at })
-        {
-          const glm::dvec3 hit = start + candidate * direction;
-          const double across = axis == 0 ? hit.z : hit.x;
-          if (candidate > 0.0 && candidate < t && std::fabs(across) <= HalfWidth && hit.y <= Top &&
-            hit.y >= -Depth)
-          {
-            t = candidate;
-          }
-        }
-      }
-      const double bottom = (-Depth - start.y) / direction.y;
-      const glm::dvec3 hit = start + bottom * direction;
-      testing::PlacePixel pixel;
-      if (bottom > 0.0 && bottom < t && std::max(std::fabs(hit.x), std::fabs(hit.z)) <= HalfWidth)
-      {
-        t = bottom;
-      }
-      pixel.Covered = t < std::numeric_limits<double>::max();
-      pixel.Place = start + (pixel.Covered ? t : bottom) * direction;
-      return pixel;
-    });
+  return testing::TracePlaces(this->Present, this->GetCamera(), &WellScene::Meet);
 }
 
 //------------------------------------------------------------------------------
@@ -302,8 +324,24 @@ testing::PlacePicture WellScene::DrawPlaces()
 {
   testing::AddPlaces(this->Well);
   this->Well->Modified();
-  this->Filter->Update();
-  const auto picture = testing::DrawPlaces(this->Filter->GetOutput(), this->GetCamera());
+  vtkSmartPointer<vtkPolyData> drawn;
+  if (this->HasMatrix)
+  {
+    drawn = vtkSmartPointer<vtkPolyData>::New();
+    drawn->DeepCopy(this->Well);
+    for (vtkIdType i = 0; i < drawn->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      drawn->GetPoint(i, p);
+      drawn->GetPoints()->SetPoint(i, p[0], p[1] * this->GetScale(), p[2]);
+    }
+  }
+  else
+  {
+    this->Filter->Update();
+    drawn = this->Filter->GetOutput();
+  }
+  const auto picture = testing::DrawPlaces(drawn, this->GetCamera());
   this->Well->GetPointData()->RemoveArray("Place");
   return picture;
 }

@@ -71,16 +71,26 @@ public:
   /** Runs the filter alone. */
   void Update();
 
+  /** Place where a ray leaves the well through a wall or the bottom. */
+  static testing::PlacePixel Meet(const glm::dvec3& start, const glm::dvec3& direction);
+
+  /**
+   * Draws the well itself through one matrix instead of the filter's output: depths below the water
+   * at rest are divided by the ratio of the indices, as Diefenbach does for flat water.
+   */
+  void UseMatrix();
+
   /**
    * Places of the well that the present eye sees through the present membrane, by rays in double
    * precision.
    */
   testing::PlacePicture Trace() const;
-  /** The same places from the filter's output. */
+  /** The same places from the filter's output, or through the matrix. */
   testing::PlacePicture DrawPlaces();
 
 private:
   void SetUpWindow();
+  double GetScale() const;
 
   WellSurface Surface;
   reference::HeightField Field;
@@ -95,6 +105,7 @@ private:
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkRenderWindow> Window;
   bool HasWindow = false;
+  bool HasMatrix = false;
 };
 
 } // namespace benchmark

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeContestants.h"
 
+#include "ResampledMapper.h"
 #include "TestMeshes.h"
 #include "VolumeScene.h"
 
@@ -60,6 +61,9 @@ Contestant MakeZSweep()
     false };
 }
 
+// Points along the longest side of images that the mesh is resampled to.
+constexpr int ImageSizes[] = { 64, 128, 256 };
+
 std::vector<Contestant> MakePeers(const VolumeOptions& options)
 {
   std::vector<Contestant> peers{ { "projected",
@@ -70,6 +74,11 @@ std::vector<Contestant> MakePeers(const VolumeOptions& options)
   peers.push_back(MakeRayCast<vtkUnstructuredGridPartialPreIntegration>("partial", threads));
   peers.push_back(MakeRayCast<vtkUnstructuredGridLinearRayIntegrator>("linear", threads));
   peers.push_back(MakeRayCast<vtkUnstructuredGridHomogeneousRayIntegrator>("homogeneous", threads));
+  for (const int size : ImageSizes)
+  {
+    peers.push_back({ "resampled/" + std::to_string(size),
+      [size]() { return MakeResampledMapper(size); }, false });
+  }
   if (options.ZSweep)
   {
     peers.push_back(MakeZSweep());

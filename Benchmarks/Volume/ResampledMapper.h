@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Benchmarks_Volume_ResampledMapper_h
+#define meniscus_Benchmarks_Volume_ResampledMapper_h
+
+#include "VolumeContestants.h"
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/**
+ * A mesh resampled to an image with `size` points along its longest side by vtkResampleToImage, and
+ * drawn by vtkFixedPointVolumeRayCastMapper. Samples outside of the mesh are transparent; opacities
+ * are converted, so that both models of opacity attenuate alike.
+ */
+MapperPointer MakeResampledMapper(int size);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif
