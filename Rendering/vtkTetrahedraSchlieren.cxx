@@ -392,7 +392,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   medium.OutsideIndex = key.OutsideIndex;
   medium.IsStraight = key.IsStraight;
   const meniscus::GradedRayWalk walk(medium);
-  const meniscus::PixelRays rays(internals.View, this->ImageSize);
+  const meniscus::SchlierenRays rays(internals.View, this->ImageSize);
   const auto width = static_cast<std::size_t>(this->ImageSize[0]);
   const auto height = static_cast<std::size_t>(this->ImageSize[1]);
   internals.Rays.assign(width * height, {});
@@ -456,7 +456,7 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.Knife = { this->KnifeAngle, this->KnifeCutOff, this->KnifeRange };
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
-  const meniscus::PixelRays rays(internals.View, this->ImageSize);
+  const meniscus::SchlierenRays rays(internals.View, this->ImageSize);
   meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output);
   output->GetPointData()->SetActiveScalars("Schlieren");
   this->UpdateProgress(1.0);

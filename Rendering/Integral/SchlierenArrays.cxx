@@ -82,8 +82,8 @@ struct LightOfPixel
   glm::dvec2 Seen;
 };
 
-LightOfPixel FindLight(const PixelRays& rays, const GradedRayResult& ray, const glm::dvec2& pixel,
-  const Screens& screens)
+LightOfPixel FindLight(const SchlierenRays& rays, const GradedRayResult& ray,
+  const glm::dvec2& pixel, const Screens& screens)
 {
   LightOfPixel light;
   light.Pixel = light.Landing = light.Seen = pixel;
@@ -203,7 +203,7 @@ void WriteShifts(
 }
 
 //------------------------------------------------------------------------------
-PixelRays::PixelRays(const IntegralView& view, const int size[2])
+SchlierenRays::SchlierenRays(const IntegralView& view, const int size[2])
   : View(view)
   , ToFrame(glm::transpose(glm::dmat3(view.Rays.RowX, view.Rays.RowY, view.Rays.RowDepth)))
   , FromFrame(glm::inverse(this->ToFrame))
@@ -212,14 +212,14 @@ PixelRays::PixelRays(const IntegralView& view, const int size[2])
 }
 
 //------------------------------------------------------------------------------
-glm::dvec2 PixelRays::GetSlope(const glm::dvec2& pixel) const
+glm::dvec2 SchlierenRays::GetSlope(const glm::dvec2& pixel) const
 {
   const glm::dvec2 p = pixel - this->Middle;
   return this->View.Rays.Slope.At(p.x, p.y);
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 PixelRays::GetOrigin(const glm::dvec2& pixel) const
+glm::dvec3 SchlierenRays::GetOrigin(const glm::dvec2& pixel) const
 {
   const glm::dvec2 p = pixel - this->Middle;
   const double depth = this->View.BeginDepth;
@@ -228,27 +228,27 @@ glm::dvec3 PixelRays::GetOrigin(const glm::dvec2& pixel) const
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 PixelRays::GetDirection(const glm::dvec2& pixel) const
+glm::dvec3 SchlierenRays::GetDirection(const glm::dvec2& pixel) const
 {
   return this->FromFrame * glm::dvec3(this->GetSlope(pixel), 1.0);
 }
 
 //------------------------------------------------------------------------------
-double PixelRays::GetDepthBehind(const glm::dvec3& half, double distance) const
+double SchlierenRays::GetDepthBehind(const glm::dvec3& half, double distance) const
 {
   return glm::dot(glm::abs(this->View.Rays.RowDepth), half) +
     distance / glm::length(this->View.Rays.ViewToWorld[2]);
 }
 
 //------------------------------------------------------------------------------
-glm::dvec2 PixelRays::Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const
+glm::dvec2 SchlierenRays::Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const
 {
   const glm::dvec3 d = this->ToFrame * direction;
   return d.z > 0.0 ? glm::dvec2(d) / d.z - this->GetSlope(pixel) : glm::dvec2(NaN);
 }
 
 //------------------------------------------------------------------------------
-glm::dvec2 PixelRays::Land(const GradedRayResult& ray, double depth) const
+glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, double depth) const
 {
   const glm::dvec3 place = this->ToFrame * ray.Exit;
   const glm::dvec3 d = this->ToFrame * ray.Direction;
@@ -265,7 +265,7 @@ glm::dvec2 PixelRays::Land(const GradedRayResult& ray, double depth) const
 }
 
 //------------------------------------------------------------------------------
-void WriteImages(const PixelRays& rays, const std::vector<GradedRayResult>& results,
+void WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
   const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output)
 {
   const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();

@@ -20,10 +20,10 @@ namespace meniscus
 {
 
 /** Rays of an image's pixels in the mesh's units, and places in the image that they reach. */
-class PixelRays
+class SchlierenRays
 {
 public:
-  PixelRays(const IntegralView& view, const int size[2]);
+  SchlierenRays(const IntegralView& view, const int size[2]);
 
   glm::dvec2 GetSlope(const glm::dvec2& pixel) const;
   glm::dvec3 GetOrigin(const glm::dvec2& pixel) const;
@@ -64,7 +64,7 @@ struct Instruments
  * Adds the arrays of all instruments to an image.
  * @param results of the image's rays, row by row.
  */
-void WriteImages(const PixelRays& rays, const std::vector<GradedRayResult>& results,
+void WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
   const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output);
 
 }
