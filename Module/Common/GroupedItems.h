@@ -41,7 +41,10 @@ public:
       { this->Items[static_cast<std::size_t>(next[group]++)] = item; });
   }
 
-  std::size_t GetNumberOfGroups() const { return this->Begins.size() - 1; }
+  std::size_t GetNumberOfGroups() const
+  {
+    return this->Begins.empty() ? 0 : this->Begins.size() - 1;
+  }
   bool IsEmpty(std::size_t group) const { return this->Begins[group] == this->Begins[group + 1]; }
   Group operator[](std::size_t group) const
   {
@@ -54,7 +57,7 @@ public:
   }
 
 private:
-  std::vector<std::int32_t> Begins{ 0 };
+  std::vector<std::int32_t> Begins; ///< and the end of the last group; empty before Set()
   std::vector<std::int32_t> Items;
 };
 
