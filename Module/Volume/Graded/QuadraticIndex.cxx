@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/QuadraticIndex.h"
 
+#include "Common/GroupedItems.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -33,50 +35,36 @@ class Neighbourhoods
 public:
   explicit Neighbourhoods(const TetrahedralMesh& mesh)
     : Mesh(mesh)
-    , Begins(static_cast<std::size_t>(mesh.GetNumberOfVertices()) + 1, 0)
   {
-    this->ForEachCorner([this](std::size_t vertex, std::size_t) { ++this->Begins[vertex + 1]; });
-    for (std::size_t v = 1; v < this->Begins.size(); ++v)
-    {
-      this->Begins[v] += this->Begins[v - 1];
-    }
-    this->Cells.resize(this->Begins.back());
-    std::vector<std::size_t> next(this->Begins.begin(), this->Begins.end() - 1);
-    this->ForEachCorner([&](std::size_t vertex, std::size_t cell)
-      { this->Cells[next[vertex]++] = static_cast<std::int32_t>(cell); });
+    this->Cells.Set(static_cast<std::size_t>(mesh.GetNumberOfVertices()),
+      [&mesh](const auto& visit)
+      {
+        for (std::size_t c = 0; c < mesh.GetCells().size(); ++c)
+        {
+          if (mesh.IsActiveCell(static_cast<std::int64_t>(c)))
+          {
+            for (const std::int32_t vertex : mesh.GetCells()[c].Vertices)
+            {
+              visit(static_cast<std::size_t>(vertex), static_cast<std::int32_t>(c));
+            }
+          }
+        }
+      });
   }
 
   /** Adds the vertices of the cells around a vertex to a list, with repetitions. */
   void AddRing(std::int32_t vertex, std::vector<std::int32_t>& ring) const
   {
-    const auto v = static_cast<std::size_t>(vertex);
-    for (std::size_t k = this->Begins[v]; k < this->Begins[v + 1]; ++k)
+    for (const std::int32_t cell : this->Cells[static_cast<std::size_t>(vertex)])
     {
-      const auto& cell = this->Mesh.GetCells()[static_cast<std::size_t>(this->Cells[k])];
-      ring.insert(ring.end(), cell.Vertices.begin(), cell.Vertices.end());
+      const auto& vertices = this->Mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices;
+      ring.insert(ring.end(), vertices.begin(), vertices.end());
     }
   }
 
 private:
-  template <typename Body>
-  void ForEachCorner(Body&& body)
-  {
-    const auto& cells = this->Mesh.GetCells();
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      if (this->Mesh.IsActiveCell(static_cast<std::int64_t>(c)))
-      {
-        for (const std::int32_t vertex : cells[c].Vertices)
-        {
-          body(static_cast<std::size_t>(vertex), c);
-        }
-      }
-    }
-  }
-
   const TetrahedralMesh& Mesh;
-  std::vector<std::size_t> Begins;
-  std::vector<std::int32_t> Cells;
+  GroupedItems Cells; ///< around each vertex
 };
 
 void RemoveRepetitions(std::vector<std::int32_t>& list)
