@@ -24,7 +24,7 @@ FILTERS = {
         "ArrayComponent": 0, "CellDivision": "Fixed", "ImageSize": [256, 256],
         "AttenuationArrayName": "", "EmissionArrayName": ""},
     "TetrahedraSchlieren": {
-        "Quantity": "Density", "GladstoneDale": 2.26147e-4, "BendRays": 1, "OutsideIndex": 0,
+        "Quantity": "Density", "GladstoneDale": 2.26157e-4, "BendRays": 1, "OutsideIndex": 0,
         "ReferenceIndex": 1, "Direction": [0, 0, -1], "ViewUp": [0, 1, 0], "ImageSize": [256, 256],
         "KnifeAngle": 90, "KnifeCutOff": 0.5, "KnifeRange": 0, "ScreenDistance": 1,
         "Wavelength": 589.3e-9, "Fringes": [0, 0], "BackgroundDistance": 1},
