@@ -34,7 +34,7 @@ namespace meniscus
 using EdgeTerms = std::array<float, 6>;
 
 /**
- * Terms of all cells; 0 in inactive cells and at vertices around which no gradient can be told.
+ * Terms of all cells; 0 in inactive cells and at vertices whose gradient is not determined.
  * @param squaredIndices n^2 of each vertex; not NaN at active cells.
  */
 std::vector<EdgeTerms> ComputeEdgeTerms(const TetrahedralMesh& mesh,

@@ -66,7 +66,7 @@ public:
     const glm::dvec3 toCenter = this->Box.Center - line.Begin;
     const bool ends = line.End < std::numeric_limits<double>::infinity();
     const double length = ends ? line.End - line.Depth : 0.0;
-    double gap = -1.0; // positive if the ray passes beside the box
+    double gap = -1.0; // positive if both ends lie beyond one side
     for (int k = 0; k < 3; ++k)
     {
       const double begin = -glm::dot(this->Areas[k], toCenter);
