@@ -7,6 +7,7 @@
 
 #ifdef MENISCUS_HAS_EMBREE
 #include "RefractionTracer.h"
+#include "TracedWell.h"
 #endif
 
 #include <vtkIdList.h>
@@ -152,27 +153,14 @@ private:
   std::vector<std::uint32_t> First; ///< triangle of each part
 };
 
-TracedMesh WaterOf(const reference::HeightField& field, int cells)
-{
-  TracedMesh water;
-  const reference::MembraneMesh mesh = field.MakeMesh(cells);
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    water.AddPoint(mesh.Points.data() + i);
-  }
-  water.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
-  water.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
-  water.Finish();
-  return water;
-}
-
 PoolFigures TraceWithEmbree(
   const testing::PoolScene& scene, const testing::PoolPicture& truth, int cells, int frames)
 {
   const PoolShader shader(scene);
   reference::HeightField other = scene.MakeField();
   other.Amplitude *= std::cos(OtherTime);
-  const TracedMesh water[2] = { WaterOf(scene.MakeField(), cells), WaterOf(other, cells) };
+  const TracedMesh water[2] = { MembraneOf(scene.MakeField().MakeMesh(cells)),
+    MembraneOf(other.MakeMesh(cells)) };
   RefractionTracer tracer;
   tracer.SetIndices(scene.MakeField().Exterior, scene.MakeField().Interior);
   tracer.SetMembrane(water[0]);

@@ -95,24 +95,15 @@ public:
   testing::PlacePicture MakePicture(const RefractionTracer& tracer, const TracedView& view) const
   {
     testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
-    TracedPacket packet = {};
-    for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
-    {
-      for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
+    TracePixels(tracer, view,
+      [this, &picture](const TracedPacket& packet, int k, std::size_t number)
       {
-        packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
-        tracer.TracePacket(view, packet);
-        for (int k = 0; k < packet.Count; ++k)
+        const long texel = packet.Facet[k] == TracedPacket::None ? -1 : this->Find(packet, k);
+        if (texel >= 0)
         {
-          const long texel = packet.Facet[k] == TracedPacket::None ? -1 : this->Find(packet, k);
-          if (texel >= 0)
-          {
-            picture[static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k)] =
-              this->Map.Places[static_cast<std::size_t>(texel)];
-          }
+          picture[number] = this->Map.Places[static_cast<std::size_t>(texel)];
         }
-      }
-    }
+      });
     return picture;
   }
 

@@ -82,29 +82,20 @@ testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::Pi
 {
   const TracedView view = ViewOf(camera);
   testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
-  TracedPacket packet = {};
-  for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
-  {
-    for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
+  TracePixels(tracer, view,
+    [&picture](const TracedPacket& packet, int k, std::size_t number)
     {
-      packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
-      tracer.TracePacket(view, packet);
-      for (int k = 0; k < packet.Count; ++k)
+      if (packet.Triangle[k] == TracedPacket::None)
       {
-        if (packet.Triangle[k] == TracedPacket::None)
-        {
-          continue;
-        }
-        testing::PlacePixel& pixel =
-          picture[static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k)];
-        pixel.Covered = true;
-        for (int i = 0; i < 3; ++i)
-        {
-          pixel.Place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
-        }
+        return;
       }
-    }
-  }
+      testing::PlacePixel& pixel = picture[number];
+      pixel.Covered = true;
+      for (int i = 0; i < 3; ++i)
+      {
+        pixel.Place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
+      }
+    });
   return picture;
 }
 

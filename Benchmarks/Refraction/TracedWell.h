@@ -7,6 +7,9 @@
 #include "RefractionTracer.h"
 #include "WellScene.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace meniscus
 {
 namespace benchmark
@@ -21,6 +24,25 @@ TracedMesh ObjectOf(vtkPolyData* data);
 TriangleColors ColorsOf(vtkPolyData* data);
 
 TracedView ViewOf(const testing::PixelCamera& camera);
+
+/** Traces an image; calls visit(packet, k, pixel) for each pixel, number k of its packet. */
+template <typename Visit>
+void TracePixels(const RefractionTracer& tracer, const TracedView& view, const Visit& visit)
+{
+  TracedPacket packet = {};
+  for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
+  {
+    for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
+    {
+      packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
+      tracer.TracePacket(view, packet);
+      for (int k = 0; k < packet.Count; ++k)
+      {
+        visit(packet, k, static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k));
+      }
+    }
+  }
+}
 
 /** Places that the tracer's image shows. */
 testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera);
