@@ -202,7 +202,7 @@ private:
   double Scale = 0.0;
 };
 
-/** Gradient of the values at each vertex; not a number where the values around do not determine it. */
+/** Gradient of the values at each vertex; not a number where they do not determine it. */
 std::vector<glm::dvec3> FitGradients(
   const TetrahedralMesh& mesh, const std::vector<double>& values, const RangeLoop& loop)
 {
