@@ -1,7 +1,11 @@
 # Builds the kernel and its unit tests alone: no VTK, no OpenGL. For other processors, quick work,
 # and as the kernel of several builds (MENISCUS_KERNEL_BUILD).
 find_package(glm REQUIRED)
-find_package(OpenMesh REQUIRED)
+if (MENISCUS_BUILD_TESTING)
+  find_package(OpenMesh REQUIRED)
+else ()
+  find_package(OpenMesh QUIET) # the kernel's objects do not need it
+endif ()
 add_subdirectory(Module)
 if (MENISCUS_BUILD_TESTING)
   find_package(GTest REQUIRED)

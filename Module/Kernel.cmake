@@ -1,14 +1,8 @@
 # The target meniscus_kernel.
-add_library(meniscus_kernel OBJECT)
-target_include_directories(meniscus_kernel
-  PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}")
-target_link_libraries(meniscus_kernel PUBLIC glm::glm OpenMeshCore)
-# Also where the build around it has other ideas, as VTK's own, of C++11 up to 9.3.
-target_compile_features(meniscus_kernel PUBLIC cxx_std_17)
-set_property(TARGET meniscus_kernel PROPERTY POSITION_INDEPENDENT_CODE ON)
-# Results are the same on every machine: no fused operations where the source has two.
-# Nobody reads errno of mathematical functions: without it, roots and rounding are instructions.
-target_compile_options(meniscus_kernel PRIVATE -ffp-contract=off -fno-math-errno)
+meniscus_add_kernel_objects(meniscus_kernel)
+# Whoever links the kernel also links the file that uses OpenMesh.
+target_sources(meniscus_kernel INTERFACE $<TARGET_OBJECTS:meniscus_membrane_normals>)
+target_link_libraries(meniscus_kernel INTERFACE OpenMeshCore)
 # Its rooms, lowest first. ARCHITECTURE.md says which may include which.
 foreach (room
     Common
@@ -38,7 +32,6 @@ foreach (room
     Surface)
   add_subdirectory("${room}")
 endforeach ()
-meniscus_target_flags(meniscus_kernel)
 meniscus_precompile_headers(meniscus_kernel kernel)
 # Folders whose functions do not count in the time of a picture: inlining stays as it is elsewhere.
 meniscus_compile_together(meniscus_kernel

@@ -10,10 +10,12 @@ export DEBIAN_FRONTEND=noninteractive
 export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ROOT}"
 export CCACHE_NOHASHDIR="${CCACHE_NOHASHDIR:-1}"
 
-# Packages that a fresh Debian 12 lacks, per purpose. The first are those without VTK.
-PACKAGES_KERNEL=(g++ cmake ninja-build libglm-dev libopenmesh-dev)
+# Packages that a fresh Debian 12 lacks, per purpose. The first compile the kernel's objects; all
+# that links them needs OpenMesh.
+PACKAGES_KERNEL=(g++ cmake ninja-build libglm-dev)
 PACKAGES_TESTS=(python3 python3-numpy libpython3-dev libgtest-dev libbenchmark-dev)
-PACKAGES_BUILD=("${PACKAGES_KERNEL[@]}" "${PACKAGES_TESTS[@]}" libvtk9-dev python3-vtk9)
+PACKAGES_BUILD=("${PACKAGES_KERNEL[@]}" "${PACKAGES_TESTS[@]}" libopenmesh-dev libvtk9-dev
+  python3-vtk9)
 # Needed by a part of the benchmarks only; the build works without it.
 PACKAGES_BENCHMARKS=(libembree-dev)
 # TetGen, under the AGPL: for MENISCUS_WITH_TETGEN.
