@@ -17,7 +17,6 @@ from vtkmodules.util.vtkConstants import VTK_UNSIGNED_CHAR
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkSphere
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkImageAppend, vtkTubeFilter
-from vtkmodules.vtkFiltersExtraction import vtkExtractEdges
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
@@ -242,7 +241,7 @@ def add_cells(renderer, membrane, exterior, interior, length):
     print(f"{grid.GetNumberOfCells()} cells, {cells.GetNumberOfTotallyReflectedFacets()} facets "
           "totally reflected")
     paths = grid.GetPointData().GetArray("OpticalPath")
-    edges = vtkExtractEdges()
+    edges = common.vtkExtractEdges()
     edges.SetInputData(grid)
     rays = vtkTubeFilter()
     rays.SetInputConnection(edges.GetOutputPort())

@@ -8,7 +8,6 @@ from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_QUADRATIC_WEDGE, vtkCellArray, vtkPolyData,
     vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkTubeFilter
-from vtkmodules.vtkFiltersExtraction import vtkExtractEdges
 
 from . import common
 
@@ -153,7 +152,7 @@ def make_edges(mesh):
                 corners = (place(u + a, v + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
                 faces.InsertNextCell(4, [(k * side + j) * side + i for i, j, k in corners])
     walls.SetPolys(faces)
-    edges = vtkExtractEdges()
+    edges = common.vtkExtractEdges()
     edges.SetInputData(walls)
     tubes = vtkTubeFilter()
     tubes.SetInputConnection(edges.GetOutputPort())

@@ -15,6 +15,11 @@ from vtkmodules.vtkRenderingCore import (
     vtkTextActor, vtkVolume, vtkVolumeProperty, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
+try:
+    from vtkmodules.vtkFiltersCore import vtkExtractEdges
+except ImportError:  # VTK 9.1
+    from vtkmodules.vtkFiltersExtraction import vtkExtractEdges  # noqa: F401
+
 # Perceptually uniform maps, sampled from matplotlib's.
 INFERNO = ((0.00, 0.00, 0.01), (0.16, 0.04, 0.36), (0.39, 0.09, 0.43), (0.62, 0.16, 0.39),
            (0.83, 0.28, 0.26), (0.96, 0.49, 0.08), (0.98, 0.76, 0.15), (0.99, 1.00, 0.64))
