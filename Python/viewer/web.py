@@ -309,6 +309,17 @@ def _is_this_machine(host):
         return host == "localhost"
 
 
+def find_address(host):
+    """The address itself, or 127.0.0.1 for a "localhost" that this system does not know: a minimal
+    container has no /etc/hosts."""
+    if host == "localhost":
+        try:
+            socket.getaddrinfo(host, None)
+        except OSError:
+            return "127.0.0.1"
+    return host
+
+
 def _check_free(host, port):
     """Raises a ReadingError if nothing can listen at an address."""
     try:
@@ -343,9 +354,10 @@ def serve(scene, host, port, watch=None):
     is made here and printed once, in the address of the page.
     watch: a Watch of the scene, for files that change.
     """
-    _check_free(host, port)
+    host = find_address(host)
     is_local = _is_this_machine(host)
     server, page = make_server(scene, is_local)
+    _check_free(host, port)
     secret = "" if is_local else secrets.token_urlsafe(24)
     if secret:
         server.cli.set_defaults(authKey=secret)  # which the page sends before anything else

@@ -14,7 +14,7 @@ import warnings
 from unittest import mock
 
 import numpy
-from meniscus.viewer import contest, files, reading
+from meniscus.viewer import contest, files, reading, web
 from meniscus.viewer.command import main, make_parser, make_scene
 from meniscus.viewer.reading import ReadingError
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -165,6 +165,14 @@ class TestMessages(Case):
             status, _, errors = self.run_command(self.mesh, "--web", "--port", "0")
         self.assertEqual(status, 1)
         self.assertIn("pip install trame trame-vuetify trame-rca", errors)
+
+    def test_a_system_without_localhost(self):
+        """Neither is there a page's address to look up before trame is found missing."""
+        unknown = mock.patch("socket.getaddrinfo", side_effect=socket.gaierror(-2, "not known"))
+        with unknown:
+            self.assertEqual(web.find_address("localhost"), "127.0.0.1")
+            self.assertEqual(web.find_address("10.0.0.1"), "10.0.0.1")
+            self.test_without_trame()
 
     def test_files_of_other_packages(self):
         """An image of MetaImage (.mhd) is read by PyVista, and a file of TetGen by meshio."""
