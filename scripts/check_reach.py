@@ -21,6 +21,9 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LAYERS = ("Module/", "Filters/", "Rendering/")
 # Functions that the compiler adds.
 SETUP = re.compile(r"_GLOBAL__|__cxx_global_var_init|asan\.|sancov\.")
+# Of a function in a source that is compiled together with others, addr2line of binutils 2.40 names
+# the generated file.
+COMMAND = ["llvm-symbolizer-14", "--functions=linkage", "--no-inlines", "--output-style=GNU", "-e"]
 Function = collections.namedtuple("Function", "offset first blocks")
 
 
@@ -48,8 +51,8 @@ def read_counters(start):
 
 def files_of(binary, functions):
     """The source file of each function that counts, relative to the project; None for others."""
-    text = subprocess.run(["addr2line", "-f", "-e", binary], check=True, capture_output=True,
-                          text=True, input="\n".join(f.offset for f in functions)).stdout
+    text = subprocess.run(COMMAND + [binary], check=True, capture_output=True,
+                          text=True, input="".join(f"0x{f.offset}\n" for f in functions)).stdout
     lines = text.splitlines()
     files = []
     for name, place in zip(lines[::2], lines[1::2]):

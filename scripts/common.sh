@@ -28,8 +28,8 @@ PACKAGES_SHADERS=(glslang-tools)
 PACKAGES_TIDY=(clang-tidy-14)
 # The second compiler.
 PACKAGES_CLANG=(clang-14)
-# libFuzzer is among the run-time libraries.
-PACKAGES_FUZZ=(clang-14 libclang-rt-14-dev)
+# libFuzzer is among the run-time libraries; llvm-14 has the symbolizer.
+PACKAGES_FUZZ=(clang-14 libclang-rt-14-dev llvm-14)
 # The page of `meniscus --web` in a browser.
 PACKAGES_WEB=(chromium chromium-driver python3-venv python3-numpy python3-pil)
 # Pictures to compare with; its include files are not needed.
