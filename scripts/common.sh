@@ -21,7 +21,7 @@ PACKAGES_BENCHMARKS=(libembree-dev)
 # TetGen, under the AGPL: for MENISCUS_WITH_TETGEN.
 PACKAGES_TETGEN=(libtet1.5-dev)
 PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
-PACKAGES_LINT=(clang-format-14 codespell git)
+PACKAGES_LINT=(clang-format-14 codespell flake8 git)
 PACKAGES_DOCS=(doxygen python3)
 # Validates the shaders, without a graphics device.
 PACKAGES_SHADERS=(glslang-tools)

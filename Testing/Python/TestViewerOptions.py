@@ -6,6 +6,7 @@ import importlib.util
 import io
 import os
 import re
+import socket
 import subprocess
 import sys
 import tempfile

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Air in a kitchen: a plume above a stove, below a hood."""
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkLight
 
 from . import common, daylight
