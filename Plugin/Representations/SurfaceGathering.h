@@ -88,4 +88,45 @@ private:                                                                        
   }                                                                                                \
   static_assert(true, "")
 
+/** Declares in a class, after `protected:`, what meniscusBlockPortsMacro defines. */
+#define meniscusBlockPortsDeclarations(requestExtent)                                              \
+  int FillInputPortInformation(int port, vtkInformation* info) override;                           \
+  int FillOutputPortInformation(int port, vtkInformation* info) override;                          \
+  int requestExtent(vtkInformation* request, vtkInformationVector** inputs,                        \
+    vtkInformationVector* outputs) override
+
+/**
+ * Defines the ports of a class whose first input may have blocks and whose second has surfaces: the
+ * output has the blocks of the input, and each rank requests its part of the surfaces.
+ */
+#define meniscusBlockPortsMacro(className, requestExtent)                                          \
+  int className::FillInputPortInformation(int port, vtkInformation* info)                          \
+  {                                                                                                \
+    const int filled = this->Superclass::FillInputPortInformation(port, info);                     \
+    meniscus::AcceptComposite(info);                                                               \
+    return filled;                                                                                 \
+  }                                                                                                \
+  int className::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)             \
+  {                                                                                                \
+    info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");                                   \
+    return 1;                                                                                      \
+  }                                                                                                \
+  int className::ProcessRequest(                                                                   \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
+  {                                                                                                \
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))                              \
+    {                                                                                              \
+      return meniscus::MakeOutputLikeInput(inputs[0], outputs);                                    \
+    }                                                                                              \
+    return this->Superclass::ProcessRequest(request, inputs, outputs);                             \
+  }                                                                                                \
+  int className::requestExtent(                                                                    \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
+  {                                                                                                \
+    const int succeeded = this->Superclass::requestExtent(request, inputs, outputs);               \
+    meniscus::AskForPiece(inputs[1], outputs);                                                     \
+    return succeeded;                                                                              \
+  }                                                                                                \
+  static_assert(true, "")
+
 #endif

@@ -82,41 +82,7 @@ void vtkPVRefractedGeometryFilter::SetViewParallelScale(double scale)
   this->View->SetParallelScale(scale);
 }
 
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  const int filled = this->Superclass::FillInputPortInformation(port, info);
-  meniscus::AcceptComposite(info);
-  return filled;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::FillOutputPortInformation(
-  int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    return meniscus::MakeOutputLikeInput(inputs[0], outputs);
-  }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::RequestUpdateExtent(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const int succeeded = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
-  meniscus::AskForPiece(inputs[1], outputs);
-  return succeeded;
-}
+meniscusBlockPortsMacro(vtkPVRefractedGeometryFilter, RequestUpdateExtent);
 
 //------------------------------------------------------------------------------
 int vtkPVRefractedGeometryFilter::RequestData(

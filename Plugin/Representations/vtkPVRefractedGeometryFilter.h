@@ -18,7 +18,7 @@
 #ifndef vtkPVRefractedGeometryFilter_h
 #define vtkPVRefractedGeometryFilter_h
 
-#include "InterfaceTable.h"                   // For the table of interfaces
+#include "SurfaceGathering.h"                 // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the view
 #include "vtkRefractedGeometryFilter.h"
@@ -72,10 +72,7 @@ protected:
   vtkPVRefractedGeometryFilter();
   ~vtkPVRefractedGeometryFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  meniscusBlockPortsDeclarations(RequestUpdateExtent);
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

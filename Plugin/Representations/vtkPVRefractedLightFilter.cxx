@@ -60,40 +60,7 @@ vtkPVRefractedLightFilter::vtkPVRefractedLightFilter()
 //------------------------------------------------------------------------------
 vtkPVRefractedLightFilter::~vtkPVRefractedLightFilter() = default;
 
-//------------------------------------------------------------------------------
-int vtkPVRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  const int filled = this->Superclass::FillInputPortInformation(port, info);
-  meniscus::AcceptComposite(info);
-  return filled;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedLightFilter::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedLightFilter::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    return meniscus::MakeOutputLikeInput(inputs[0], outputs);
-  }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedLightFilter::RequestUpdateExtent(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const int succeeded = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
-  meniscus::AskForPiece(inputs[1], outputs);
-  return succeeded;
-}
+meniscusBlockPortsMacro(vtkPVRefractedLightFilter, RequestUpdateExtent);
 
 //------------------------------------------------------------------------------
 int vtkPVRefractedLightFilter::RequestData(

@@ -12,7 +12,7 @@
 #ifndef vtkPVRefractedLightFilter_h
 #define vtkPVRefractedLightFilter_h
 
-#include "InterfaceTable.h"                   // For the table of interfaces
+#include "SurfaceGathering.h"                 // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkRefractedLightFilter.h"
 
@@ -38,10 +38,7 @@ protected:
   vtkPVRefractedLightFilter();
   ~vtkPVRefractedLightFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  meniscusBlockPortsDeclarations(RequestUpdateExtent);
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

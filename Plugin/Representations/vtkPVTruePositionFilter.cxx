@@ -28,40 +28,7 @@ void vtkPVTruePositionFilter::SetExactMembrane(vtkImplicitFunction* function)
   this->Table.SetExactSurface(function);
 }
 
-//------------------------------------------------------------------------------
-int vtkPVTruePositionFilter::FillInputPortInformation(int port, vtkInformation* info)
-{
-  const int filled = this->Superclass::FillInputPortInformation(port, info);
-  meniscus::AcceptComposite(info);
-  return filled;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVTruePositionFilter::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkPVTruePositionFilter::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    return meniscus::MakeOutputLikeInput(inputs[0], outputs);
-  }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
-}
-
-//------------------------------------------------------------------------------
-int vtkPVTruePositionFilter::ComputeInputUpdateExtent(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const int succeeded = this->Superclass::ComputeInputUpdateExtent(request, inputs, outputs);
-  meniscus::AskForPiece(inputs[1], outputs);
-  return succeeded;
-}
+meniscusBlockPortsMacro(vtkPVTruePositionFilter, ComputeInputUpdateExtent);
 
 //------------------------------------------------------------------------------
 int vtkPVTruePositionFilter::RequestData(

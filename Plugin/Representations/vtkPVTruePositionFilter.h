@@ -9,7 +9,7 @@
 #ifndef vtkPVTruePositionFilter_h
 #define vtkPVTruePositionFilter_h
 
-#include "InterfaceTable.h"                   // For the table of interfaces
+#include "SurfaceGathering.h"                 // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkTruePositionFilter.h"
 
@@ -38,10 +38,7 @@ protected:
   vtkPVTruePositionFilter();
   ~vtkPVTruePositionFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int ComputeInputUpdateExtent(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  meniscusBlockPortsDeclarations(ComputeInputUpdateExtent);
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
