@@ -85,7 +85,7 @@ class TestTypes(unittest.TestCase):
         done = subprocess.run([*command, *files], text=True, cwd=folder, env=environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         lines = [line.strip() for line in done.stdout.splitlines()]
-        self.assertTrue("rror" in done.stdout or "Success" in done.stdout, done.stdout)
+        self.assertRegex(done.stdout, r"(?m)\d+ errors?\b|^Success", done.stdout)
         return [line for line in lines if " error" in line and (
             "program.py:" in line or "accessor.py:" in line)]
 
