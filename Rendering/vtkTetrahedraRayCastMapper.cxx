@@ -8,6 +8,7 @@
 #include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCamera.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -456,6 +457,19 @@ std::string vtkTetrahedraRayCastMapper::DrawFrame(
   return error;
 }
 
+namespace
+{
+
+/** True in frames of still pictures: interaction asks for several frames per second. */
+bool IsStill(vtkVolume* volume)
+{
+  constexpr double stillTime = 1.0;
+  const double allocated = volume->GetAllocatedRenderTime();
+  return allocated <= 0.0 || allocated >= stillTime;
+}
+
+}
+
 //------------------------------------------------------------------------------
 double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
 {
@@ -463,13 +477,11 @@ double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
   {
     return this->ImageSampleDistance;
   }
-  // Interaction asks for several frames per second.
-  constexpr double stillTime = 1.0;
-  const double allocated = volume->GetAllocatedRenderTime();
-  if (this->ImageSampleDistance < 1.0f && (allocated <= 0.0 || allocated >= stillTime))
+  if (this->ImageSampleDistance < 1.0f && IsStill(volume))
   {
     return this->ImageSampleDistance;
   }
+  const double allocated = volume->GetAllocatedRenderTime();
   // The time is proportional to the number of rays, the inverse square of the distance.
   const double full = this->Internals->FullImageTime;
   const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
@@ -494,6 +506,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   // In single precision, the reciprocal of the distance 1 / n is n.
   frame.Output.RaysAcross =
     std::max(1, static_cast<int>(std::ceil(1.0f / static_cast<float>(sampleDistance))));
+  frame.Output.MayStop =
+    !selector && internals.Part == meniscus::MembranePart::Whole && IsStill(volume);
   frame.Output.ColorBias = static_cast<float>(this->ColorBias);
   frame.MaximumTableSize = this->MaximumTableSize;
   frame.SettingsTime = this->vtkObject::GetMTime();
@@ -529,6 +543,9 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
     return error;
   }
   frame.Rays = place.Frame;
+  frame.ModelToClip = meniscus::ToGlm(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+                        renderer->GetTiledAspectRatio(), -1.0, 1.0)) *
+    place.WorldToView * meniscus::ToGlm(volume->GetMatrix());
   this->PrepareRefraction(place, frame);
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.Blending = this->GetBlendModel().Mode;
@@ -590,7 +607,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
   {
     error = this->DrawFrame(frame, parts);
   }
-  if (error.empty() && this->DepthWriting != NO_DEPTH &&
+  if (error.empty() && internals.IsFinished() && this->DepthWriting != NO_DEPTH &&
     internals.Part == meniscus::MembranePart::Whole)
   {
     error = this->WriteDepths(frame);
@@ -655,7 +672,10 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     // Drawing is over when the device says so, not when the commands are sent.
     this->Internals->GetPresenter().Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
-    this->Internals->FullImageTime = this->TimeToDraw * this->GetShareOfOneRay(casts);
+    if (this->Internals->WasWhole())
+    {
+      this->Internals->FullImageTime = this->TimeToDraw * this->GetShareOfOneRay(casts);
+    }
   }
 }
 

@@ -508,7 +508,8 @@ public:
    * (the window's desired update rate) and the time of the last frame: during interaction rays are
    * up to MaximumImageSampleDistance pixels apart (default 8), in still images (less than one
    * frame per second is wanted) there is one per pixel, or more with an ImageSampleDistance below
-   * 1. Default is on.
+   * 1. Default is on. If an observer of the window's AbortCheckEvent gives up a still image, the
+   * native backend keeps what is done of it, and the next frames with the same view go on.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);

@@ -75,6 +75,7 @@ class Window:
             self.interactor.AddObserver(name + "ButtonPressEvent", self._note_button, 1.0)
             self.interactor.AddObserver(name + "ButtonReleaseEvent", self._note_button, 1.0)
         self.interactor.AddObserver("KeyPressEvent", self._press)
+        self.window.AddObserver("AbortCheckEvent", self._check_abort)
         self.message = vtkTextActor()
         self.message.GetTextProperty().SetColor(*INK)
         self.message.GetTextProperty().SetFontSize(16)
@@ -132,6 +133,12 @@ class Window:
     def _note_button(self, _interactor, event):
         name, pressed = event.split("Button")[0], "Press" in event
         (self._buttons.add if pressed else self._buttons.discard)(name)
+
+    @staticmethod
+    def _check_abort(window, _event):
+        """Gives up a still picture when a button is pressed; the next one goes on with it."""
+        if window.GetEventPending():
+            window.SetAbortRender(1)
 
     def _choose_style(self, interactor, _event):
         """The strip and the volume have different styles; what a drag begins with, it keeps."""

@@ -204,11 +204,24 @@ public:
   }
 
   /**
-   * Depths for which the image was made that the target still holds, if the frame at hand differs
-   * from that one in the depths only; else null. A backend may leave pixels as they are whose
-   * depths are the same.
+   * Depths for which the image was made that the target still holds, or for which it was begun, if
+   * the frame at hand differs from that one in the depths only; else null. A backend may leave
+   * pixels as they are whose depths are the same.
    */
   virtual const std::vector<float>* GetDepthsOfImage() { return nullptr; }
+
+  /**
+   * Whether the application may give up this frame: it is that of a still picture, and the window
+   * has an observer of vtkCommand::AbortCheckEvent.
+   */
+  virtual bool MayStop() { return false; }
+  /**
+   * Asks the application whether to go on with the image; true without MayStop(). To be called on
+   * the thread of Cast(), between parts of the image. After false, Cast() may return without
+   * WriteImage(): the window shows its last picture, and the next frame asks for the image again.
+   * A backend may keep the parts that are done as long as GetDepthsOfImage() gives their depths.
+   */
+  virtual bool GoOn() { return true; }
 
   /** The same on the device: depths of the viewport's size, an image of 4 floats per pixel. */
   virtual vtkTextureObject* GetDepthTexture() = 0;

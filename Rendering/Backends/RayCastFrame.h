@@ -7,6 +7,7 @@
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RayLegs.h"
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -23,6 +24,8 @@ struct RayCastOutput
   int ImageSize[2] = { 0, 0 };
   /** Rays of a pixel along each axis, where its neighbours differ. */
   int RaysAcross = 1;
+  /** Still picture, which the application may give up. */
+  bool MayStop = false;
   /** Hardware selection: a value where the image is visible, in place of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };
@@ -47,6 +50,8 @@ struct RayCastRefraction
 struct RayCastFrame
 {
   RayFrame Rays;
+  /** Map from the model to clip coordinates, the same for images of all sizes. */
+  glm::dmat4 ModelToClip{ 1.0 };
   double EarlyTerminationOpacity = 1.0;
   /**
    * Transmittance at which a ray ends. Where so little is left, single precision has no digits to

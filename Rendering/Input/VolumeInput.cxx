@@ -7,6 +7,7 @@
 #include "Rendering/Input/ConcatenatedArray.h"
 #include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/TetrahedraSource.h"
+#include "Volume/Mesh/InvertedCells.h"
 #include "Volume/Mesh/SourceCells.h"
 
 #include <algorithm>
@@ -469,10 +470,23 @@ std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
     return std::string();
   }
   this->OverlapsReported = this->BuildVersion;
-  return std::to_string(rays) +
-    " rays enter cells before they have left others: parts of the mesh overlap there, and the part "
-    "that a ray enters first is the only one to count. Give each part a volume or a ray integral "
-    "of its own, or remove the cells of one part that are inside another.";
+  const std::int64_t inverted = CountInvertedCells(this->Mesh, ThreadedLoop);
+  std::ostringstream text;
+  text << rays << " rays enter cells before they have left others: ";
+  if (inverted > 0)
+  {
+    text << inverted << " of " << this->Mesh.GetNumberOfActiveCells()
+         << " tetrahedra are inside out and overlap their neighbours, as where the points of a "
+            "mesh have moved too far. Only the cell that a ray enters first counts there. Repair "
+            "or remove these cells: vtkMeshQuality finds them by the sign of their volume.";
+  }
+  else
+  {
+    text << "parts of the mesh overlap there, and the part that a ray enters first is the only one "
+            "to count. Give each part a volume or a ray integral of its own, or remove the cells "
+            "of one part that are inside another.";
+  }
+  return text.str();
 }
 
 //------------------------------------------------------------------------------

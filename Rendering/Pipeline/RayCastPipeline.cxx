@@ -105,19 +105,26 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
     ImageSource source{ &backend, frame, this->ListWanted(frame) };
     const bool repeated = this->IsRepeated(source);
     this->Shown = ImageSource();
-    error = this->Presenter.Present(frame.Output, repeated,
+    error = this->Presenter.Present(frame.Output, repeated, this->View == frame.ModelToClip,
       [this, &frame, &backend, &request](RayCastTarget& target)
       {
+        this->Whole = target.GetDepthsOfImage() == nullptr;
         if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
         {
           return this->CastMean(frame, backend);
         }
-        ++this->Casts;
-        return backend.Cast(request, target);
+        std::string failure = backend.Cast(request, target);
+        this->Casts += this->Presenter.IsFinished() ? 1 : 0;
+        return failure;
       });
     // Refracted rays may have been traced while the image was made.
     source.Tables = this->ListWanted(frame);
     this->Shown = error.empty() ? std::move(source) : ImageSource();
+    if (this->Presenter.IsFinished())
+    {
+      const bool whole = frame.Refracting.Part == MembranePart::Whole;
+      this->View = whole ? std::make_optional(frame.ModelToClip) : std::nullopt;
+    }
   }
   this->Active = error.empty() ? &backend : this->Active;
   return error;
@@ -181,6 +188,7 @@ std::int64_t RayCastPipeline::CountOverlaps() const
 void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Shown = ImageSource();
+  this->View.reset();
   this->Backends.ReleaseGraphicsResources(window);
   this->Presenter.Release(window);
 }

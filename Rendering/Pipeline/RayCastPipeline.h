@@ -12,6 +12,7 @@
 #include <glm/mat4x4.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,11 @@ public:
 
   /** Images cast since construction. A frame equal to the last one shows its image again. */
   std::int64_t GetNumberOfCasts() const { return this->Casts; }
+  /** False if the application has given up the last frame, so that its image is not finished. */
+  bool IsFinished() const { return this->Presenter.IsFinished(); }
+  /** Whether the last cast made all of an image, and not only what was left of it or has changed.
+   */
+  bool WasWhole() const { return this->Whole; }
 
   RayCastCounters GetCounters() const { return this->Backends.GetCounters(); }
   RayCastPresenter& GetPresenter() { return this->Presenter; }
@@ -99,7 +105,10 @@ private:
   RayCastBackend* Active = nullptr;
   /** Source of the image that the presenter holds; without a backend if it holds none. */
   ImageSource Shown;
+  /** ModelToClip of the image that the presenter holds; none if it holds none. */
+  std::optional<glm::dmat4> View;
   std::int64_t Casts = 0;
+  bool Whole = false;
 };
 
 }

@@ -6,6 +6,7 @@
 #include "vtkTetrahedraDepthFS.h"
 #include "vtkTetrahedraSelectFS.h"
 
+#include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -110,7 +111,7 @@ void RayCastPresenter::GetViewport(int viewport[4]) const
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFrame,
+std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFrame, bool sameView,
   const std::function<std::string(RayCastTarget&)>& makeImage)
 {
   vtkOpenGLState* state = this->Window->GetState();
@@ -129,6 +130,8 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
   this->GetViewport(viewport);
   this->Depth.Update(this->Window, viewport);
   this->HasDepths = false;
+  this->Stoppable = output.MayStop;
+  const HeldImage last{ this->Image, { this->Size[0], this->Size[1] }, this->Filled };
   std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
   if (!error.empty())
   {
@@ -146,6 +149,7 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
     if (!this->HoldsImageOfDepths(sameFrame))
     {
       this->Filled = { 0, this->Size[0], 0, this->Size[1] };
+      this->Finished = true;
       error = makeImage(*this);
       this->DepthsOfImage.swap(this->Depths);
       this->HasDepthsOfImage = this->HasDepths;
@@ -153,7 +157,42 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
     }
     state->PopFramebufferBindings();
   }
+  if (!this->Finished)
+  {
+    this->ShowAgain(last, sameView);
+  }
   return error.empty() ? this->Blend(output, viewport) : error;
+}
+
+//------------------------------------------------------------------------------
+/** Takes back the image that was held before a frame that is given up. */
+void RayCastPresenter::ShowAgain(const HeldImage& last, bool sameView)
+{
+  if (sameView && last.Image)
+  {
+    this->Image = last.Image;
+    std::copy(last.Size, last.Size + 2, this->Size);
+    this->Filled = last.Filled;
+    return;
+  }
+  this->Filled = { 0, 0, 0, 0 };
+}
+
+//------------------------------------------------------------------------------
+bool RayCastPresenter::MayStop()
+{
+  return this->Stoppable && this->Window->HasObserver(vtkCommand::AbortCheckEvent);
+}
+
+//------------------------------------------------------------------------------
+bool RayCastPresenter::GoOn()
+{
+  if (!this->MayStop() || !this->Window->CheckAbortStatus())
+  {
+    return true;
+  }
+  this->Finished = false;
+  return false;
 }
 
 //------------------------------------------------------------------------------
@@ -204,7 +243,7 @@ bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
     return false;
   }
   const std::vector<float>& depths = this->ReadDepths();
-  return this->HasDepthsOfImage && this->DepthsOfImage == depths;
+  return this->Finished && this->HasDepthsOfImage && this->DepthsOfImage == depths;
 }
 
 //------------------------------------------------------------------------------
@@ -218,6 +257,7 @@ std::string RayCastPresenter::WriteImage(
       std::to_string(values);
   }
   this->Filled = filled;
+  this->Finished = true;
   if (IsEmpty(filled))
   {
     return std::string();
@@ -240,8 +280,9 @@ std::string RayCastPresenter::WriteImage(
 std::string RayCastPresenter::MakeMean(
   int count, const std::function<std::string(int, RayCastTarget&)>& makeImage)
 {
-  // The image that is held is none of these.
+  // The image that is held is none of these, and the mean is made of all of them.
   this->HasDepthsOfImage = false;
+  this->Stoppable = false;
   std::string error = this->Mean.Clear(this->Window, this->Size[0], this->Size[1]);
   for (int i = 0; i < count && error.empty(); ++i)
   {

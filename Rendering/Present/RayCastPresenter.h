@@ -49,11 +49,16 @@ public:
 
   /**
    * Has an image of the current viewport made and blends it into the current framebuffer.
-   * @param sameFrame true if the frame differs from that of the image held in the depths of opaque
-   *   geometry at most: `makeImage` is not called if these are equal, too.
+   * @param sameFrame true if the frame differs from that of the image held, or begun, in the depths
+   *   of opaque geometry at most: `makeImage` is not called if these are equal, too, and the image
+   *   is finished.
+   * @param sameView true if the image held shows the same view, perhaps with fewer rays: it is
+   *   shown again if the application gives up the frame. Nothing is drawn then if it does not.
    */
-  std::string Present(const RayCastOutput& output, bool sameFrame,
+  std::string Present(const RayCastOutput& output, bool sameFrame, bool sameView,
     const std::function<std::string(RayCastTarget&)>& makeImage);
+  /** False if the application has given up the last frame. */
+  bool IsFinished() const { return this->Finished; }
 
   /**
    * Writes depths to the depth buffer of the current viewport where they are nearer than
@@ -80,6 +85,8 @@ public:
   {
     return this->HasDepthsOfImage ? &this->DepthsOfImage : nullptr;
   }
+  bool MayStop() override;
+  bool GoOn() override;
   vtkTextureObject* GetDepthTexture() override { return this->Depth.GetTexture(); }
   vtkTextureObject* GetImageTexture() override { return this->Image; }
 
@@ -90,7 +97,16 @@ public:
   void Release(vtkWindow* window);
 
 private:
+  /** An image with its size, and the box outside of which it is zero. */
+  struct HeldImage
+  {
+    vtkSmartPointer<vtkTextureObject> Image;
+    int Size[2];
+    RayCastImageBox Filled;
+  };
+
   bool HoldsImageOfDepths(bool sameFrame);
+  void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
   std::string ReadyDrawer(std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
@@ -113,6 +129,10 @@ private:
   /** Depths that the rays of the image end at, if they were read. */
   std::vector<float> DepthsOfImage;
   bool HasDepthsOfImage = false;
+  /** RayCastOutput::MayStop of the frame at hand. */
+  bool Stoppable = false;
+  /** False while the image of DepthsOfImage is begun only. */
+  bool Finished = true;
 };
 
 }

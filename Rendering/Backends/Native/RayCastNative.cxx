@@ -7,8 +7,6 @@
 #include "Rendering/Backends/RayCastTables.h"
 
 #include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
-#include "vtkType.h"
 
 #include <algorithm>
 #include <atomic>
@@ -91,7 +89,12 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
   const int width = target.GetWidth();
   const int height = target.GetHeight();
   const ImageDepths depths{ target.ReadDepths(), target.GetDepthsOfImage() };
-  this->CastTiles(this->Scene.Make(request.Tables, request.Frame, width, height), depths);
+  if (!this->CastTiles(
+        this->Scene.Make(request.Tables, request.Frame, width, height), depths, target))
+  {
+    this->Refined.Forget();
+    return std::string();
+  }
   const int across = request.Frame.Output.RaysAcross;
   if (across == 1 || !this->CastsSeveralRays(request))
   {
@@ -99,9 +102,10 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     const BoundaryRaster::PixelBox& box = this->Filled;
     return target.WriteImage(this->Image, { box.Left, box.Right, box.Bottom, box.Top });
   }
-  this->Refined.Refine(this->Image, width, this->Filled, depths,
+  const bool finished = this->Refined.Refine(this->Image, width, this->Filled, depths, target,
     [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
-  return target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled());
+  return finished ? target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled())
+                  : std::string();
 }
 
 //------------------------------------------------------------------------------
@@ -112,8 +116,12 @@ bool RayCastNative::CastsSeveralRays(const RayCastRequest& request) const
 }
 
 //------------------------------------------------------------------------------
-/** Casts the image, or the tiles of it in which a depth has changed. */
-void RayCastNative::CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths)
+/**
+ * Casts the image, or the tiles of it that are left or in which a depth has changed. Returns false
+ * if the application gives up the frame.
+ */
+bool RayCastNative::CastTiles(
+  const TileCaster::Scene& scene, const ImageDepths& depths, RayCastTarget& target)
 {
   const TileCaster caster(scene, ThreadedLoop);
   const int width = scene.Rays.GetWidth();
@@ -123,32 +131,25 @@ void RayCastNative::CastTiles(const TileCaster::Scene& scene, const ImageDepths&
     this->ImageWidth = width;
     this->OfTile.assign(static_cast<std::size_t>(caster.GetNumberOfTiles()), RayStatistics());
   }
+  this->Tiles.Begin(caster.GetNumberOfTiles(), depths.Before != nullptr,
+    [&](int tile) { return depths.AreThoseBefore(caster.GetBox(tile), width); });
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
   std::atomic<std::int64_t> pixels{ 0 };
-  // Tiles differ in cost: small grains let threads share it.
-  vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
-    [&](vtkIdType first, vtkIdType last)
+  const bool finished = this->Tiles.Cast(target,
+    [&](int tile)
     {
-      TileCaster::Workspace& workspace = workspaces.Local();
-      for (vtkIdType tile = first; tile < last; ++tile)
+      const BoundaryRaster::PixelBox box = caster.GetBox(tile);
+      RayStatistics& sums = this->OfTile[static_cast<std::size_t>(tile)];
+      if (IsFilled(sums))
       {
-        const BoundaryRaster::PixelBox box = caster.GetBox(static_cast<int>(tile));
-        if (depths.AreThoseBefore(box, width))
-        {
-          continue;
-        }
-        RayStatistics& sums = this->OfTile[static_cast<std::size_t>(tile)];
-        if (IsFilled(sums))
-        {
-          ClearRows(box, width, this->Image);
-        }
-        sums =
-          caster.Cast(static_cast<int>(tile), depths.Now.data(), this->Image.data(), workspace);
-        pixels += std::int64_t{ box.Right - box.Left } * (box.Top - box.Bottom);
+        ClearRows(box, width, this->Image);
       }
+      sums = caster.Cast(tile, depths.Now.data(), this->Image.data(), workspaces.Local());
+      pixels += std::int64_t{ box.Right - box.Left } * (box.Top - box.Bottom);
     });
   this->CastPixels += pixels;
   this->BoundFilled(caster);
+  return finished;
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "Rendering/Backends/Native/ImageDepths.h"
 #include "Rendering/Backends/Native/NativeScene.h"
 #include "Rendering/Backends/Native/RefinedImage.h"
+#include "Rendering/Backends/Native/TilesToCast.h"
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Backends/TableCounter.h"
 #include "Volume/Caster/TileCaster.h"
@@ -39,7 +40,7 @@ public:
 private:
   std::int64_t SizeOf(RayCastTable table, const RayCastTables& tables) const;
   void BoundFilled(const TileCaster& caster);
-  void CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths);
+  bool CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths, RayCastTarget& target);
 
   NativeScene Scene;
   TableCounter Counter;
@@ -49,6 +50,7 @@ private:
   /** Box around the pixels that are not zero. */
   BoundaryRaster::PixelBox Filled{ 0, 0, 0, 0 };
   std::vector<RayStatistics> OfTile;
+  TilesToCast Tiles;
   /** The same image with several rays for pixels at edges; empty unless these are wanted. */
   RefinedImage Refined;
   std::int64_t CastPixels = 0;

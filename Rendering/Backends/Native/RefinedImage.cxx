@@ -7,8 +7,6 @@
 #include "Volume/Caster/ImageEdges.h"
 
 #include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
-#include "vtkType.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -48,8 +46,9 @@ void CopyRows(
 }
 
 //------------------------------------------------------------------------------
-void RefinedImage::Refine(const std::vector<float>& image, int width, const PixelBox& filled,
-  const ImageDepths& depths, const std::function<TileCaster::Scene()>& makeScene)
+bool RefinedImage::Refine(const std::vector<float>& image, int width, const PixelBox& filled,
+  const ImageDepths& depths, RayCastTarget& target,
+  const std::function<TileCaster::Scene()>& makeScene)
 {
   this->EdgesBefore.swap(this->Edges);
   const int height = static_cast<int>(depths.Now.size()) / width;
@@ -60,41 +59,40 @@ void RefinedImage::Refine(const std::vector<float>& image, int width, const Pixe
   {
     this->Pixels = image;
     this->OfTile.clear();
-    return;
+    return true;
   }
   const TileCaster caster(makeScene(), ThreadedLoop);
   const bool isKept = depths.Before && this->Pixels.size() == image.size() &&
     this->OfTile.size() == static_cast<std::size_t>(caster.GetNumberOfTiles());
   this->Pixels.resize(image.size());
   this->OfTile.resize(static_cast<std::size_t>(caster.GetNumberOfTiles()));
-  this->CastTiles(caster, image, width, { depths.Now, isKept ? depths.Before : nullptr });
+  const bool finished =
+    this->CastTiles(caster, image, width, { depths.Now, isKept ? depths.Before : nullptr }, target);
   this->BoundFilled(caster);
+  return finished;
 }
 
 //------------------------------------------------------------------------------
-void RefinedImage::CastTiles(
-  const TileCaster& caster, const std::vector<float>& image, int width, const ImageDepths& depths)
+bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
+  const ImageDepths& depths, RayCastTarget& target)
 {
-  vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
-  vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
-    [&](vtkIdType first, vtkIdType last)
+  this->Tiles.Begin(caster.GetNumberOfTiles(), depths.Before != nullptr,
+    [&](int tile)
     {
-      TileCaster::Workspace& workspace = workspaces.Local();
-      for (vtkIdType i = first; i < last; ++i)
-      {
-        const auto tile = static_cast<int>(i);
-        const PixelBox box = caster.GetPixels(tile);
-        if (depths.AreThoseBefore(box, width) &&
-          HaveEqualRows(box, width, this->Edges, this->EdgesBefore))
-        {
-          continue;
-        }
-        CopyRows(box, width, image, this->Pixels);
-        this->OfTile[static_cast<std::size_t>(tile)] = HasEdges(box, width, this->Edges)
-          ? caster.Refine(
-              tile, depths.Now.data(), this->Edges.data(), this->Pixels.data(), workspace)
-          : RayStatistics();
-      }
+      const PixelBox box = caster.GetPixels(tile);
+      return depths.AreThoseBefore(box, width) &&
+        HaveEqualRows(box, width, this->Edges, this->EdgesBefore);
+    });
+  vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
+  return this->Tiles.Cast(target,
+    [&](int tile)
+    {
+      const PixelBox box = caster.GetPixels(tile);
+      CopyRows(box, width, image, this->Pixels);
+      this->OfTile[static_cast<std::size_t>(tile)] = HasEdges(box, width, this->Edges)
+        ? caster.Refine(
+            tile, depths.Now.data(), this->Edges.data(), this->Pixels.data(), workspaces.Local())
+        : RayStatistics();
     });
 }
 

@@ -4,6 +4,7 @@
 #define meniscus_Rendering_Backends_Native_RefinedImage_h
 
 #include "Rendering/Backends/Native/ImageDepths.h"
+#include "Rendering/Backends/Native/TilesToCast.h"
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Entries/BoundaryRaster.h"
@@ -26,10 +27,15 @@ public:
   /**
    * @param image one ray per pixel, premultiplied RGBA, rows from below.
    * @param filled pixels of the image outside this box are zero.
+   * @param target of the image, which is asked whether to go on.
    * @param makeScene scene of the rays of a refined image; called if there is an edge.
+   * @return false if the application gives up the frame.
    */
-  void Refine(const std::vector<float>& image, int width, const BoundaryRaster::PixelBox& filled,
-    const ImageDepths& depths, const std::function<TileCaster::Scene()>& makeScene);
+  bool Refine(const std::vector<float>& image, int width, const BoundaryRaster::PixelBox& filled,
+    const ImageDepths& depths, RayCastTarget& target,
+    const std::function<TileCaster::Scene()>& makeScene);
+  /** Makes the next image anew in all tiles. */
+  void Forget() { this->Tiles = TilesToCast(); }
   /** Frees the image. */
   void Clear();
 
@@ -41,8 +47,8 @@ public:
   void AddTo(RayCastStatistics& total) const;
 
 private:
-  void CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
-    const ImageDepths& depths);
+  bool CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
+    const ImageDepths& depths, RayCastTarget& target);
   void BoundFilled(const TileCaster& caster);
 
   std::vector<float> Pixels;
@@ -50,6 +56,7 @@ private:
   std::vector<std::uint8_t> Edges;
   std::vector<std::uint8_t> EdgesBefore;
   std::vector<RayStatistics> OfTile;
+  TilesToCast Tiles;
   RayCastImageBox Filled{ 0, 0, 0, 0 };
   std::int64_t NumberOfEdges = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes that are measured, but not as their owner may expect: a warning with numbers, once.
+#include "HardMeshes.h"
 #include "IntegralScene.h"
 
 #include <vtkCellType.h>
@@ -178,6 +179,23 @@ TEST(MeshWarnings, OverlappingBodies)
     rays->SetImageSize(32, 32);
     EXPECT_TRUE(UpdateAndListen(rays).empty());
   }
+}
+
+/** A mesh that overlaps because cells are inside out: their number is the advice. */
+TEST(MeshWarnings, InvertedCells)
+{
+  const Grid grid = MakeTangledBlock(5, 0.15, 11);
+  const double cells = static_cast<double>(grid->GetNumberOfCells());
+  const auto inverted = static_cast<long>(std::lround(InvertedShare(grid) * cells));
+  const Filter rays = MakeFilter(grid, 64, 64);
+  rays->GetArraySelection()->EnableArray("PathLength");
+  rays->SetDirection(0.11, 0.07, -1.0);
+  const std::vector<std::string> warnings = UpdateAndListen(rays);
+  ASSERT_EQ(warnings.size(), 1u);
+  const std::string expected = std::to_string(inverted) + " of " +
+    std::to_string(grid->GetNumberOfCells()) + " tetrahedra are inside out";
+  EXPECT_NE(warnings[0].find(expected), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0].find("ray integral of its own"), std::string::npos) << warnings[0];
 }
 
 /** Bodies with filters of their own, over the same rays: their integrals are those of the sum. */

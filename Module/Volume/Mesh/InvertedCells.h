@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Mesh_InvertedCells_h
+#define meniscus_Volume_Mesh_InvertedCells_h
+
+#include "Common/RangeLoop.h"
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+class TetrahedralMesh;
+
+/**
+ * Number of active cells that are inside out: they lie on the same side of their faces as their
+ * neighbours, with which they overlap. Cells without a volume, to within rounding, do not count.
+ */
+std::int64_t CountInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
+
+}
+
+#endif
