@@ -34,20 +34,20 @@ GroupedItems ListFans(const std::vector<Facet>& facets, std::size_t points)
 }
 
 /** The other facet at an edge, and whether it runs along the edge in the same direction. */
-struct Across
+struct FacetAcross
 {
   std::int32_t Facet = -1; ///< -1: none, or several
   bool SameWay = false;
   bool AreSeveral = false;
 };
 
-Across FindAcross(
+FacetAcross FindAcross(
   const std::vector<Facet>& facets, const GroupedItems& fans, std::int32_t self, std::size_t corner)
 {
   const Facet& own = facets[static_cast<std::size_t>(self)];
   const std::int32_t a = own[(corner + 1) % 3];
   const std::int32_t b = own[(corner + 2) % 3];
-  Across result;
+  FacetAcross result;
   for (const std::int32_t facet : fans[static_cast<std::size_t>(a)])
   {
     const Facet& other = facets[static_cast<std::size_t>(facet)];
@@ -81,7 +81,7 @@ void FillPiece(const std::vector<Facet>& facets, const GroupedItems& fans, std::
     bool isNonManifold = false;
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
-      const Across across = FindAcross(facets, fans, facet, corner);
+      const FacetAcross across = FindAcross(facets, fans, facet, corner);
       isNonManifold = isNonManifold || across.AreSeveral;
       if (across.Facet < 0)
       {
