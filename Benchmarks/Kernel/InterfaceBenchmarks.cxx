@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times of refraction at wavy surfaces below each other; Arg is the number of surfaces. Rows named
 // ...AtMembrane measure the code for one membrane with the same arguments as a list with one
-// surface.
+// surface. The surfaces of ...Plane and ...Planes are flat.
 #include "KernelSurfaces.h"
 #include "MembraneMeshes.h"
 
@@ -27,13 +27,20 @@ namespace
 
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
-/** Wavy surfaces of 5,000 facets below each other. */
-std::vector<Interface> MakeInterfaces(std::int64_t number)
+enum class Shape
+{
+  Waves,
+  Planes
+};
+
+/** Surfaces of 5,000 facets below each other. */
+std::vector<Interface> MakeInterfaces(std::int64_t number, Shape shape = Shape::Waves)
 {
   std::vector<Interface> interfaces;
   for (int i = 0; i < number; ++i)
   {
-    reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, 2.0 + i, 3.0);
+    const double amplitude = shape == Shape::Waves ? 2.0 + i : 0.0;
+    reference::MembraneMesh waves = reference::MakeWaves(200.0, 50, amplitude, 3.0);
     waves.Translate(glm::dvec3(0.0, -15.0 * i, 0.0));
     auto surface = std::make_shared<RefractingSurface>();
     surface->SetMembrane(waves.AsInput(), SurfaceParts::Crossings);
@@ -47,9 +54,9 @@ struct OneMembrane
 {
   CurvedMembraneSolver Solver;
 
-  OneMembrane()
+  explicit OneMembrane(Shape shape = Shape::Waves)
   {
-    const Interface first = MakeInterfaces(1).front();
+    const Interface first = MakeInterfaces(1, shape).front();
     this->Solver.SetSurface(first.Surface);
     this->Solver.SetEye(Eye, first.Media.Exterior, first.Media.Interior);
   }
@@ -60,9 +67,9 @@ struct Interfaces
 {
   StackSolver Solver;
 
-  explicit Interfaces(std::int64_t number)
+  explicit Interfaces(std::int64_t number, Shape shape = Shape::Waves)
   {
-    this->Solver.SetInterfaces(MakeInterfaces(number));
+    this->Solver.SetInterfaces(MakeInterfaces(number, shape));
     this->Solver.SetEye(Eye);
   }
 };
@@ -105,9 +112,9 @@ void ForEachPoint(benchmark::State& state, const Find& find)
 }
 
 /** One image of each point of the grid. */
-void SolveAtMembrane(benchmark::State& state)
+void SolveAtShape(benchmark::State& state, Shape shape)
 {
-  const OneMembrane one;
+  const OneMembrane one(shape);
   const std::vector<double> points = MakeGridPoints();
   std::vector<VirtualVertex> vertices(points.size() / 3);
   for (auto step : state)
@@ -118,9 +125,19 @@ void SolveAtMembrane(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices.size()));
 }
 
-void SolveThroughInterfaces(benchmark::State& state)
+void SolveAtMembrane(benchmark::State& state)
 {
-  const Interfaces list(state.range(0));
+  SolveAtShape(state, Shape::Waves);
+}
+
+void SolveAtPlane(benchmark::State& state)
+{
+  SolveAtShape(state, Shape::Planes);
+}
+
+void SolveThroughShapes(benchmark::State& state, Shape shape)
+{
+  const Interfaces list(state.range(0), shape);
   const std::vector<double> points = MakeGridPoints();
   const std::size_t count = points.size() / 3;
   std::vector<VirtualVertex> vertices(count);
@@ -132,6 +149,16 @@ void SolveThroughInterfaces(benchmark::State& state)
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+}
+
+void SolveThroughInterfaces(benchmark::State& state)
+{
+  SolveThroughShapes(state, Shape::Waves);
+}
+
+void SolveThroughPlanes(benchmark::State& state)
+{
+  SolveThroughShapes(state, Shape::Planes);
 }
 
 /** All images of each point of the grid. */
@@ -301,6 +328,8 @@ BENCHMARK(SetEyeAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(SetEyeThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(SolveAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveThroughInterfaces)->Apply(ForOneToThree);
+BENCHMARK(SolveAtPlane)->Unit(benchmark::kMillisecond);
+BENCHMARK(SolveThroughPlanes)->Apply(ForOneToThree);
 BENCHMARK(FindAllImagesAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImagesThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(MapTrianglesAtMembrane)->Unit(benchmark::kMillisecond);

@@ -19,36 +19,47 @@ namespace
 // size of the surface: a few units in the last place.
 constexpr double LargestDeviation = 16.0 * std::numeric_limits<float>::epsilon();
 
-// Newton's method converges from one side and quadratically; it takes two to five steps. The second
-// derivative of the lateral distance, times t, is less than three times the first: a step of this
-// part of t leaves an error of less than 1.5e-14 t.
-constexpr int NewtonSteps = 24;
-constexpr double LastStep = 1e-7;
+// The same for coordinates of double precision.
+constexpr double LargestRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-// Depth of a surface's plane along the axis. Returns false if it is not one at right angles to the
-// axis.
-bool FindPlane(
-  const RefractionStack::Link& link, const glm::dvec3& axis, const glm::dvec3& eye, double& depth)
+// Depth of a surface's plane along the axis, and whether it is exact. Returns false if the surface
+// is not a plane at right angles to the axis.
+bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const glm::dvec3& eye,
+  double& depth, bool& isExact)
 {
   const Membrane& membrane = link.Surface->GetMembrane();
   const std::vector<glm::dvec3>& positions = membrane.GetPositions();
   const double side = link.Passage.FromFront ? -1.0 : 1.0;
   depth = glm::dot(axis, positions[0] + link.Shift - eye);
-  const double most = LargestDeviation * membrane.GetRadius();
+  double deviation = 0.0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    const double height = glm::dot(axis, positions[i] - positions[0]);
     const glm::dvec3& normal = membrane.GetNormals()[i];
+    const double height =
+      std::fabs(glm::dot(axis, positions[i] - positions[0])) / membrane.GetRadius();
+    const double lean = glm::length(glm::cross(axis, normal));
     // Written so that a NaN fails.
-    if (!(std::fabs(height) <= most) ||
-      !(glm::length(glm::cross(axis, normal)) <= LargestDeviation) ||
+    if (!(height <= LargestDeviation) || !(lean <= LargestDeviation) ||
       !(side * glm::dot(axis, normal) > 0.0))
     {
       return false;
     }
+    deviation = std::max({ deviation, height, lean });
   }
+  isExact = isExact && deviation <= LargestRounding;
   return depth > 0.0 &&
     IsConvexField(membrane, link.Surface->GetPatches(), HeightFrame(side * axis));
+}
+
+// Smallest index of refraction of the first `count` layers.
+double FindLeastIndex(const std::vector<PlaneLayer>& layers, std::size_t count)
+{
+  double least = layers[0].Index;
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    least = std::min(least, layers[i].Index);
+  }
+  return least;
 }
 
 }
@@ -69,23 +80,27 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   }
   this->Axis = (first.Passage.FromFront ? -1.0 : 1.0) * glm::normalize(normals.front());
   this->Eye = stack.GetEye();
-  this->Indices = { first.Passage.Before };
+  this->Exact = true;
   this->Slack = 0.0;
-  std::vector<double> depths;
+  std::vector<PlaneLayer> layers{ { 0.0, 0.0, first.Passage.Before, 0.0 } };
   for (const RefractionStack::Link& link : stack.GetLinks())
   {
     double depth = 0.0;
-    if (!FindPlane(link, this->Axis, this->Eye, depth) ||
-      (!depths.empty() && depth <= depths.back()))
+    if (!FindPlane(link, this->Axis, this->Eye, depth, this->Exact) || depth <= layers.back().Begin)
     {
       return;
     }
-    depths.push_back(depth);
-    this->Indices.push_back(link.Passage.Behind);
+    layers.back().End = depth;
+    layers.push_back({ depth, std::numeric_limits<double>::infinity(), link.Passage.Behind, 0.0 });
     this->Slack =
       std::max(this->Slack, 2.0 * LargestDeviation * link.Surface->GetMembrane().GetRadius());
   }
-  this->Depths = depths;
+  const double least = FindLeastIndex(layers, layers.size());
+  for (PlaneLayer& layer : layers)
+  {
+    layer.Squared = layer.Index / least * (layer.Index / least);
+  }
+  this->Layers = layers;
 }
 
 //------------------------------------------------------------------------------
@@ -93,8 +108,9 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 {
   const double depth = glm::dot(this->Axis, point - this->Eye);
   int count = this->IsEmpty() ? -1 : 0;
-  for (const double plane : this->Depths)
+  for (std::size_t i = 1; i < this->Layers.size(); ++i)
   {
+    const double plane = this->Layers[i].Begin;
     // Written so that a NaN fails.
     if (!(std::fabs(depth - plane) > this->Slack))
     {
@@ -106,9 +122,7 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 }
 
 //------------------------------------------------------------------------------
-// The unknown is the tangent t in the layer of the smallest index m: those in the others,
-// t / sqrt(r^2 + (r^2 - 1) t^2) with r = n / m, are concave in t, and so is the lateral distance.
-// Newton's method comes from below after the first step. The straight way has the least tangent.
+// The unknown is the tangent t of LateralSum.
 glm::dvec3 ParallelPlanes::FindSight(
   const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
 {
@@ -116,39 +130,31 @@ glm::dvec3 ParallelPlanes::FindSight(
   const double depth = glm::dot(this->Axis, away);
   const glm::dvec3 lateral = away - depth * this->Axis;
   const double distance = glm::length(lateral);
-  const double least =
-    *std::min_element(this->Indices.begin(), this->Indices.begin() + static_cast<int>(count) + 1);
+  const std::vector<PlaneLayer>& layers = this->Layers;
+  const double least = FindLeastIndex(layers, count + 1);
   const double along = glm::dot(this->Axis, near);
   const double nearSine =
-    this->Indices[0] / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
+    layers[0].Index / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
   const double straight = distance / depth;
   double t =
     along > 0.0 && nearSine < 1.0 ? nearSine / std::sqrt(1.0 - nearSine * nearSine) : straight;
-  for (int i = 0; i < NewtonSteps; ++i)
+  for (int tries = 0; tries < LateralSum::MostSteps; ++tries)
   {
-    double reached = 0.0; // over t
-    double slope = 0.0;
-    double before = 0.0;
-    for (std::size_t layer = 0; layer <= count; ++layer)
+    LateralSum sum;
+    for (std::size_t i = 0; i <= count; ++i)
     {
-      const double end = layer < count ? this->Depths[layer] : depth;
-      const double ratio = this->Indices[layer] / least;
-      const double squared = ratio * ratio;
-      const double scale = 1.0 / std::sqrt(squared + (squared - 1.0) * t * t);
-      const double part = (end - before) * scale;
-      reached += part;
-      slope += part * squared * scale * scale;
-      before = end;
+      const double ratio = layers[i].Index / least;
+      sum.Add((i < count ? layers[i].End : depth) - layers[i].Begin, ratio * ratio, t);
     }
-    const double step = (distance - reached * t) / slope;
+    const double step = sum.GetStep(distance, t);
     t = std::max(t + step, straight);
     // Written so that a NaN ends the search.
-    if (!(std::fabs(step) > LastStep * t))
+    if (!(std::fabs(step) > LateralSum::LastStep * t))
     {
       break;
     }
   }
-  const double sine = least / this->Indices[0] * t / std::sqrt(1.0 + t * t);
+  const double sine = least / layers[0].Index * t / std::sqrt(1.0 + t * t);
   return distance > 0.0
     ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->Axis + (sine / distance) * lateral
     : this->Axis;

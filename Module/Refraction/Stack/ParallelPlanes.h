@@ -3,6 +3,7 @@
 #ifndef meniscus_Refraction_Stack_ParallelPlanes_h
 #define meniscus_Refraction_Stack_ParallelPlanes_h
 
+#include "Refraction/Stack/PlaneLanes.h"
 #include "Refraction/Stack/RefractionStack.h"
 
 #include <glm/vec3.hpp>
@@ -23,9 +24,21 @@ class ParallelPlanes
 public:
   /** Sets the planes; none if the stack has other surfaces or another order along its axis. */
   void Set(const RefractionStack& stack);
-  void Clear() { this->Depths.clear(); }
+  void Clear() { this->Layers.clear(); }
 
-  bool IsEmpty() const { return this->Depths.empty(); }
+  bool IsEmpty() const { return this->Layers.empty(); }
+
+  /** True if the surfaces deviate from planes by rounding in double precision only. */
+  bool AreExact() const { return !this->IsEmpty() && this->Exact; }
+
+  /** Unit vector along which the planes follow each other, away from the eye. */
+  const glm::dvec3& GetAxis() const { return this->Axis; }
+
+  /** Layers in front of, between and behind the planes. */
+  const std::vector<PlaneLayer>& GetLayers() const { return this->Layers; }
+
+  /** Instruction set for loops over points. */
+  InstructionSet GetInstructionSet() const { return this->Instructions; }
 
   /**
    * Number of planes in front of a point; -1 if there are no planes, or if the point is on one
@@ -42,10 +55,11 @@ public:
 
 private:
   glm::dvec3 Eye{ 0.0 };
-  glm::dvec3 Axis{ 0.0 };      ///< away from the eye
-  std::vector<double> Depths;  ///< distances of the planes from the eye, in their order
-  std::vector<double> Indices; ///< of the media, one more
-  double Slack = 0.0;          ///< rounding of the planes
+  glm::dvec3 Axis{ 0.0 };
+  std::vector<PlaneLayer> Layers;
+  double Slack = 0.0; ///< rounding of the planes
+  bool Exact = false;
+  InstructionSet Instructions = BestInstructionSet();
 };
 
 }

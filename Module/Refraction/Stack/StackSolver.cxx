@@ -3,6 +3,7 @@
 #include "Refraction/Stack/StackSolver.h"
 
 #include "Refraction/Membrane/Optics.h"
+#include "Refraction/Stack/PlaneImages.h"
 #include "Refraction/Stack/StackSearch.h"
 #include "Refraction/Surface/CurveCrossings.h"
 
@@ -119,21 +120,45 @@ bool StackSolver::IsInReach(const glm::dvec3& local) const
 void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end,
   VirtualVertex* vertices, StackDetail* details, double* legs) const
 {
+  const ImageOutput output{ vertices, details, legs, this->Stack.GetNumberOfInterfaces() };
+  for (std::size_t first = begin; first < end;)
+  {
+    const std::size_t last = std::min((first / Chain + 1) * Chain, end);
+    this->SolveChain(points, first, last, output);
+    first = last;
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::SolveChain(
+  const double* points, std::size_t begin, std::size_t end, const ImageOutput& output) const
+{
+  static_assert(Chain <= PlaneImages::Most);
   Memory memory;
   const StackPath none{};
-  const std::size_t components = this->Stack.GetNumberOfInterfaces();
+  PlaneImages planes(this->Stack, this->Planes);
+  const auto getPoint = [points](std::size_t i)
+  { return glm::dvec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]); };
+  const auto solve = [&](std::size_t i)
+  {
+    const glm::dvec3 point = getPoint(i);
+    const StackVertex vertex = this->SolvePoint(point, memory);
+    output.Vertices[i] = vertex;
+    output.Details[i] = vertex;
+    this->MeasureLegs(
+      point, vertex.Passed > 0 ? memory.Path : none, output.Legs + output.LegsPerPoint * i);
+  };
   for (std::size_t i = begin; i < end; ++i)
   {
-    if (i % Chain == 0)
+    const glm::dvec3 point = getPoint(i);
+    if (!this->Planes.AreExact() || !this->IsInReach(point - this->Stack.GetOrigin()) ||
+      !planes.Add(point, i))
     {
-      memory = Memory();
+      solve(i);
     }
-    const glm::dvec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    const StackVertex vertex = this->SolvePoint(point, memory);
-    vertices[i] = vertex;
-    details[i] = vertex;
-    this->MeasureLegs(point, vertex.Passed > 0 ? memory.Path : none, legs + components * i);
   }
+  planes.Solve(output);
+  planes.Clear(solve);
 }
 
 //------------------------------------------------------------------------------

@@ -54,6 +54,8 @@ struct StackVertex
 {
 };
 
+struct ImageOutput;
+
 class StackSolver
 {
 public:
@@ -153,6 +155,8 @@ public:
   void CountNarrowPart() const { ++this->NarrowParts; }
 
 private:
+  void SolveChain(
+    const double* points, std::size_t begin, std::size_t end, const ImageOutput& output) const;
   void BoundLegs();
   bool MayBeOnLeg(const glm::dvec3& local, std::size_t count) const;
   bool Follow(const glm::dvec3& local, Memory& memory) const;
