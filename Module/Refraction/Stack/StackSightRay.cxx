@@ -107,34 +107,35 @@ void TraceSightRay(const RefractionStack& stack, double medium, const glm::dvec3
   const StackPatches surfaces(links, stack.GetOrigin(), chain);
   const glm::dvec3 eye = stack.GetEye() + stack.GetOrigin();
   constexpr double endless = std::numeric_limits<double>::infinity();
-  ray.Legs.clear();
   const std::size_t begin = links.empty() ? 0 : GetSide(links.front(), false);
-  ray.Legs.push_back({ eye, direction, links.empty() ? medium : links.front().Passage.Before,
-    endless, { begin, begin } });
+  // Legs of the ray before are overwritten in place.
+  ray.Legs.resize(links.size() + 1);
+  ray.Legs.front() = { eye, direction, links.empty() ? medium : links.front().Passage.Before,
+    endless, { begin, begin } };
+  ray.End = PathEnd::Passed;
   for (std::size_t k = 0; k < links.size(); ++k)
   {
-    SightLeg& leg = ray.Legs.back();
+    SightLeg& leg = ray.Legs[k];
     PatchPoint at;
-    if (!surfaces.Meet(k, leg.Origin, leg.Direction, leg.Origin, at))
-    {
-      ray.End = PathEnd::Missed;
-      return;
-    }
-    leg.Length = glm::length(at.Position - leg.Origin);
+    RefractionRay refracted{ {}, RayKind::BackFacing };
     const InterfacePassage& passage = links[k].Passage;
-    const RefractionRay refracted =
-      ComputeRefractionRay(leg.Direction, at.Normal, passage.Before / passage.Behind);
-    if (refracted.Kind != RayKind::Refracted)
+    ray.End = PathEnd::Missed;
+    if (surfaces.Meet(k, leg.Origin, leg.Direction, leg.Origin, at))
     {
-      ray.End = PathEnd::Reflected;
+      leg.Length = glm::length(at.Position - leg.Origin);
+      refracted = ComputeRefractionRay(leg.Direction, at.Normal, links[k].Ratio);
+      ray.End = refracted.Kind == RayKind::Refracted ? PathEnd::Passed : PathEnd::Reflected;
+    }
+    if (ray.End != PathEnd::Passed)
+    {
+      ray.Legs.resize(k + 1);
       return;
     }
     const std::size_t behind = GetSide(links[k], true);
     const std::size_t next = k + 1 < links.size() ? GetSide(links[k + 1], false) : behind;
-    ray.Legs.push_back(
-      { at.Position, refracted.Direction, passage.Behind, endless, { behind, next } });
+    ray.Legs[k + 1] = { at.Position, refracted.Direction, passage.Behind, endless,
+      { behind, next } };
   }
-  ray.End = PathEnd::Passed;
 }
 
 //------------------------------------------------------------------------------
