@@ -7,7 +7,7 @@
  * The input is a vtkImageData of one slice whose point scalars, or the point array of
  * SetInputArrayToProcess(), are depths; its lower left pixel is the first one. The output has a
  * vertex for each pixel with a depth, on the ray through the middle of the pixel, in double
- * precision. Pixels whose depth is not finite or not positive, and those of the far plane in a
+ * precision. Pixels whose depth is not finite or not positive, and pixels of the far plane in a
  * depth buffer, are left out. The other point arrays of the image are copied, and the point array
  * PixelId has the number of the pixel.
  *
@@ -62,7 +62,7 @@ public:
   void SetDepthTypeToRange() { this->SetDepthType(RANGE); }
   /** @} */
 
-  /** Modification time, which includes that of the camera. */
+  /** Modification time of this object and of the camera. */
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -52,7 +52,7 @@ public:
   vtkGetFilePathMacro(MesherProgram);
   /** @} */
 
-  /** Whether there is a program for TetGen: the one that was set, or that of the library. */
+  /** True if there is a program for TetGen: MesherProgram, or the library's own. */
   bool HasTetGen();
 
   /** Number of cells that the last run added. */

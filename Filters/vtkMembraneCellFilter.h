@@ -106,7 +106,7 @@ public:
   vtkGetMacro(NumberOfMissedFacets, vtkIdType);
   /** @} */
 
-  /** Modification time, which includes that of the interfaces. */
+  /** Modification time of this filter and of the interfaces. */
   vtkMTimeType GetMTime() override;
 
 protected:

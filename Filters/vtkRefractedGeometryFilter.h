@@ -13,11 +13,11 @@
  * are divided into triangles. Composite data runs block by block.
  *
  * Input port 1 is the membrane, a vtkPolyData with triangles, polygons or strips that separate the
- * eye's medium (exterior) from that of the geometry (interior). Its normals point to the eye's
+ * eye's medium (exterior) from the geometry's (interior). Its normals point to the eye's
  * side: its point normals are used where they are valid, others are computed from the facets'
  * winding. If most of them do not fit the triangles around them, for example after a filter that
- * moves points only, the filter warns. Facets whose winding is opposite to that of most of their
- * piece, and normals on the other side than most, are reversed, with a warning; a one-sided surface
+ * moves points only, the filter warns. Facets whose winding is opposite to most of their piece,
+ * and normals on the other side than most, are reversed, with a warning; a one-sided surface
  * (a Moebius band) is an error. A closed membrane is a body of the interior medium if its normals
  * point outwards, or a bubble of the exterior medium if they point inwards; geometry on the eye's
  * side of it is shown unchanged. Ghost levels of the membrane are not requested.
@@ -39,8 +39,8 @@
  * - `SourcePointId` (1 id): the point of the input, -1 for a point that clipping made.
  *
  * Cell arrays added: `SourceCellId` (1 id), and `ImageOrientation` (1 signed char, +1 or -1): -1
- * where the image is mirrored, as behind a caustic; with FIRST_IMAGE that of the cell's first
- * point.
+ * where the image is mirrored, as behind a caustic; with FIRST_IMAGE, -1 if the image of the cell's
+ * first point is mirrored.
  *
  * A point without an image (outside the visible volume, in front of the membrane with FIRST_IMAGE,
  * not finite) is not in the output; the field data array `PointsWithoutImage` lists its id. With
@@ -139,8 +139,8 @@ public:
   enum
   {
     FIRST_IMAGE = 0, ///< one: with FLAT_FACETS the image in the first facet, in the order of the
-                     ///< membrane's cells; with CURVED the one that continues the previous point's
-    ALL_IMAGES = 1   ///< every one
+                     ///< membrane's cells; with CURVED the continuation of the previous point's
+    ALL_IMAGES = 1   ///< all images
   };
 
   /** Formula for the array Reflectance. */
@@ -160,7 +160,7 @@ public:
    * distance is the array RefractionDepth. Points behind the mirror have no image and cells are cut
    * along the mirror; points on it are their own images. Polygons have the reversed winding, and
    * point normals are mirrored, so that the front of a polygon stays its front; ImageOrientation is
-   * +1 for images like those of a plane mirror. VirtualNormals are for light that comes to the
+   * +1 for images as a plane mirror shows them. VirtualNormals are for light that comes to the
    * geometry directly. The indices of refraction give the array Reflectance only.
    *
    * One interface can mirror, with MembraneModel CURVED; other settings are an error when the
@@ -188,7 +188,7 @@ public:
   /**
    * Set/Get a camera whose position is the eye. In parallel projection its eye is at infinity: the
    * filter uses a point 1e5 sizes of the membrane away, and AngularTolerance, as a part of the
-   * picture's height, is that of a view angle of 30 degrees. Changes of the camera modify the
+   * picture's height, is taken for a view angle of 30 degrees. Changes of the camera modify the
    * filter; only a change of its position, or of the part of the membrane in its view, costs more
    * than a comparison. Default is none.
    */
@@ -222,7 +222,7 @@ public:
   /** @{ */
   /**
    * Set/Get the index of refraction on the eye's side of the membrane. Must be positive and finite;
-   * other values are an error when the filter runs. Default is 1.0, that of air.
+   * other values are an error when the filter runs. Default is 1.0 (air).
    */
   virtual void SetExteriorIndexOfRefraction(double index);
   virtual double GetExteriorIndexOfRefraction();
@@ -231,7 +231,7 @@ public:
   /** @{ */
   /**
    * Set/Get the index of refraction on the geometry's side of the membrane. Must be positive and
-   * finite; other values are an error when the filter runs. Default is 1.333, that of water.
+   * finite; other values are an error when the filter runs. Default is 1.333 (water).
    */
   virtual void SetInteriorIndexOfRefraction(double index);
   virtual double GetInteriorIndexOfRefraction();
@@ -265,8 +265,8 @@ public:
 
   /**
    * Index of refraction behind each interface that sight rays meet, relative to the medium in front
-   * of the first one. With several interfaces, the list is that of the last update, because the eye
-   * chooses the first one.
+   * of the first interface. With several interfaces, the eye of the last update has chosen the
+   * first one.
    */
   std::vector<double> GetRelativeIndicesOfRefraction();
 
@@ -387,7 +387,8 @@ public:
   /** @{ */
   /**
    * Set/Get the precision of the output points, one of vtkAlgorithm::DesiredOutputPrecision.
-   * Default is DEFAULT_PRECISION, that of the input points. All computations use double precision.
+   * Default is DEFAULT_PRECISION, the precision of the input points. All computations use double
+   * precision.
    */
   virtual void SetOutputPointsPrecision(int precision);
   vtkGetMacro(OutputPointsPrecision, int);

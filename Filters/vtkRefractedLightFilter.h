@@ -118,9 +118,9 @@ public:
    * connections is an error when the filter runs. Null, the default, stands for a list of one with
    * default values.
    *
-   * With several interfaces, media and sides are those of
-   * vtkRefractedGeometryFilter::SetInterfaces(). The light of a cell is that of the beams of rays
-   * that reach it, times the transmittance of all interfaces in front of it. Rays that miss a later
+   * With several interfaces, media and sides have the meaning that they have in
+   * vtkRefractedGeometryFilter::SetInterfaces(). A cell gets the light of the beams of rays that
+   * reach it, times the transmittance of all interfaces in front of it. Rays that miss a later
    * surface end there.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
@@ -145,7 +145,7 @@ public:
   /** @} */
 
   /**
-   * Modification time, which includes that of the interfaces.
+   * Modification time of this filter and of the interfaces.
    */
   vtkMTimeType GetMTime() override;
 

@@ -244,8 +244,8 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /**
-   * Replaces the statistics and their copies in the output's field data, for example by those of
-   * several parts of the volume.
+   * Replaces the statistics and their copies in the output's field data, for example by statistics
+   * of several parts of the volume.
    */
   void SetStatistics(vtkImageData* output, double meanError, double standardDeviation,
     double largestError, vtkTypeInt64 numberOfMeasuredSamples);

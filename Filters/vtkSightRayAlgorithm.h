@@ -80,7 +80,7 @@ public:
    * another number of connections is an error when the filter runs. Null, the default, stands for a
    * list of one with default values.
    *
-   * With several interfaces, the media, the sides and the depth of a seen point are those of
+   * With several interfaces, the media, the sides and the depth of a seen point are defined by
    * vtkRefractedGeometryFilter::SetInterfaces(). A ray must meet the interface behind a point, too.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
@@ -89,8 +89,8 @@ public:
 
   /** @{ */
   /**
-   * Set the first surface at port 1, add that of the next interface of the list, by connection or
-   * as data; remove all surfaces; get their number.
+   * Set the first surface at port 1; add the surface of the next interface of the list; both by
+   * connection or as data; remove all surfaces; get their number.
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
@@ -103,7 +103,7 @@ public:
   /** Number of patches built since construction: once per change of a surface's values. */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
 
-  /** Modification time, which includes that of the interfaces. */
+  /** Modification time of this filter and of the interfaces. */
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -7,7 +7,7 @@
  * Ray diagrams: for each point of port 0 the sight ray from its eye to the place where the point is
  * seen, refracted at every surface of port 1, down to the place where the point is (see
  * vtkTruePositionFilter). Each leg of a ray is one line; consecutive legs share a point. Rays that
- * are totally reflected end at that surface, rays that miss a later surface at the one before it.
+ * are totally reflected end at that surface, rays that miss a later surface, at the surface before.
  *
  * Arrays of the output:
  *

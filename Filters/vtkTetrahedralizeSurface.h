@@ -21,8 +21,8 @@
  * surface must have triangles that are small against its curvature and its thickness: each must be
  * a face of a Delaunay cell, or the filter reports an error.
  *
- * Both kinds of cells are checked before they are returned: all are positive, and their volume is
- * that of the surface.
+ * Both kinds of cells are checked before they are returned: all are positive, and their volume
+ * equals the volume inside of the surface.
  *
  * Numerical point arrays are passed on. At points that were added on the surface, they are
  * interpolated in the triangle; inside they are continued harmonically, so that a linear field
@@ -115,7 +115,7 @@ public:
   vtkGetFilePathMacro(MesherProgram);
   /** @} */
 
-  /** Whether there is a program for TETGEN: the one that was set, or that of the library. */
+  /** True if there is a program for TETGEN: MesherProgram, or the library's own. */
   bool HasTetGen();
 
   /** Mesher of the last run: TETGEN or DELAUNAY. */

@@ -14,15 +14,14 @@
  * one or the length; or two to four are mixed as described below. Point data is linear within each
  * tetrahedron, cell data constant within each cell. Tetrahedra are drawn directly; voxels,
  * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells are split into tetrahedra that
- * have the same points and match across shared faces, whatever the cell types (each cell is split
- * by pulling its lowest-numbered point). With SetCellDivision() they are divided until the
- * tetrahedra follow the cells' shape functions, those of Lagrange and Bezier cells too. Other cells
+ * have the same points and match across shared faces. With SetCellDivision() they are divided until
+ * the tetrahedra follow the cells' shape functions, also of Lagrange and Bezier cells. Other cells
  * are left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with
  * inverted cells, cells of zero volume, duplicate points and faces of more than two cells. Cells
  * that vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of
  * range, a repeated point, a point that is not finite, a number of points that their type does not
  * have, or faces that are incomplete are left out and counted. Cells with a scalar that is not
- * finite, their own or that of a vertex, are transparent and counted.
+ * finite, of their own or of a vertex, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
@@ -58,19 +57,17 @@
  * until the error of linear interpolation is less than 1/32768 of the full range of colour and of
  * alpha over the unit distance.
  *
- * Method (Documentation/volume-method.md): a ray enters the mesh at a boundary face and walks from
- * cell to cell, by exact signs, so that no ray is lost. A segment is split at the transfer
- * function's nodes, and each piece is integrated in closed form up to an error of 3e-7; with
- * several components, by Gauss' rule up to 1e-6. SetIntegration() selects a table instead.
+ * A segment is split at the transfer function's nodes, and each piece is integrated in closed form
+ * up to an error of 3e-7; with several components, by Gauss' rule up to 1e-6. SetIntegration()
+ * selects a table instead. See Documentation/volume-method.md.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first is
  * used up to its exit. Cells that cannot be seen, because the transfer function has no opacity
  * anywhere in their range of scalars, are not visited and occlude nothing.
  *
  * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
- * Meshes", IEEE Visualization 2003, but in one pass, with edge signs (Eq. 1), boundary entries and
- * integration in closed form (K. Moreland, E. Angel, "A Fast High Accuracy Volume Renderer for
- * Unstructured Data", 2004; Eqs. 3 and 4 with PRE_INTEGRATED).
+ * Meshes", IEEE Visualization 2003; K. Moreland, E. Angel, "A Fast High Accuracy Volume Renderer
+ * for Unstructured Data", 2004.
  *
  * Requires OpenGL 3.2; the native backend casts rays on the CPU and uses OpenGL only to show the
  * image. Tables are built only when their input changes: see the counters.
@@ -146,7 +143,7 @@ public:
    * membrane is taken as virtual geometry, see SetInterfaces(). A membrane that is itself drawn
    * opaque occludes everything behind it.
    *
-   * The bounds of the mapper include those of the membrane, where the volume is seen. A membrane
+   * The bounds of the mapper include the membrane's, where the volume is seen. A membrane
    * that cannot be used is an error, and nothing is rendered.
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
@@ -162,8 +159,8 @@ public:
   /** @{ */
   /**
    * Set/Get the indices of refraction: exterior, on the side to which the membrane's normals point,
-   * default 1.0; and interior, on the other side, default 1.333; with several interfaces, those of
-   * the first. Must be positive and finite; other values are an error if there is a membrane. If
+   * default 1.0; and interior, on the other side, default 1.333; with several interfaces, of the
+   * first. Must be positive and finite; other values are an error if there is a membrane. If
    * the indices are equal, the membrane changes nothing and costs nothing.
    */
   virtual void SetExteriorIndexOfRefraction(double index);
@@ -189,14 +186,14 @@ public:
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
-  /** Modification time, which includes that of the interfaces. */
+  /** Modification time of this mapper and of the interfaces. */
   vtkMTimeType GetMTime() override;
 
   /** @{ */
   /**
    * Bounds of the cells of the input that are drawn (of all leaves of a composite data set) and of
-   * all membranes. Points that no such cell uses do not count: unused points, those of hidden cells
-   * and of cells without volume. Not initialized if there are no such cells.
+   * all membranes. Points that no cells use, or only hidden cells and cells without volume, do not
+   * count. Not initialized if there are no cells to draw.
    */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
@@ -223,7 +220,7 @@ public:
    * vtkScalarsToColors::SetVectorMode() the length is drawn, with COMPONENT the component of
    * SetVectorComponent(), using the functions of the first component. With COMPONENT 0, the default
    * of every colour function, two to four components are mixed if the property has a colour or
-   * opacity function for one beyond the first; otherwise the first component is drawn.
+   * opacity function for a further one; otherwise the first component is drawn.
    */
   virtual void SetVectorMode(int mode);
   vtkGetMacro(VectorMode, int);
@@ -296,8 +293,8 @@ public:
   /**
    * Set/Get the meaning of an opacity of the transfer function over a length L, with the property's
    * ScalarOpacityUnitDistance as unit: ATTENUATION_COEFFICIENT, the default and VTK's definition
-   * for unstructured grids, alpha = 1 - exp(-L * opacity / unit); OPACITY_PER_UNIT_DISTANCE, that
-   * for image data, alpha = 1 - (1 - opacity)^(L / unit), for opacities up to 1 - 2^-24.
+   * for unstructured grids, alpha = 1 - exp(-L * opacity / unit); OPACITY_PER_UNIT_DISTANCE, VTK's
+   * definition for image data, alpha = 1 - (1 - opacity)^(L / unit), for opacities up to 1 - 2^-24.
    */
   virtual void SetOpacityModel(int model);
   vtkGetMacro(OpacityModel, int);
@@ -345,9 +342,7 @@ public:
   /** @} */
 
   /** @{ */
-  /**
-   * The backend of the last Render() and its name; AUTOMATIC and empty before the first.
-   */
+  /** Backend of the last Render() and its name; AUTOMATIC and empty before the first. */
   vtkGetMacro(ActiveBackend, int);
   vtkGetCharFromStdStringMacro(ActiveBackendName);
   /** @} */
@@ -410,13 +405,13 @@ public:
   void SetGradientsToVertexGradients() { this->SetGradients(VERTEX_GRADIENTS); }
   /** @} */
 
-  /** True if pictures of parts of a volume, such as those of several ranks, can be blended. */
+  /** True if pictures of parts of a volume, such as pictures by several ranks, can be blended. */
   static bool CanRanksComposite(int blendMode);
 
   /** @{ */
   /**
    * Set/Get the bias of images that are composited afterwards by arithmetic that truncates
-   * fractions, as that of IceT, in steps of 8 bits, 1/255. It is added to the colours and the
+   * fractions, such as IceT's, in steps of 8 bits, 1/255. It is added to the colours and the
    * opacity of pixels that are not transparent, before these are rounded. With N images, each of
    * the N - 1 blends loses half a step on average, for which a bias of (N - 1) / (2 N) in every
    * image compensates. With a bias greater than 0, no colour exceeds the opacity in any pixel of
@@ -496,7 +491,7 @@ public:
    * counts as 1, the default. With more than 1, the pixels between are interpolated. With less than
    * 1, pixels at edges, which differ from their neighbours, get a square of rays at most this
    * distance apart, and the mean of their colours: 0.25 stands for 16 rays. With
-   * AutoAdjustSampleDistances, distances below 1 are those of still images, and others are ignored.
+   * AutoAdjustSampleDistances, distances below 1 are for still images, and others are ignored.
    */
   virtual void SetImageSampleDistance(float distance);
   vtkGetMacro(ImageSampleDistance, float);
@@ -603,7 +598,7 @@ public:
    * same colour that vtkRefractionPass draws at the same place, and what lies behind the volume
    * must have been faded by its own distance, as by that pass.
    *
-   * The coefficients per world length, of red, green and blue, are those of EXPONENTIAL and >= 0.
+   * The coefficients per world length, of red, green and blue, belong to EXPONENTIAL and are >= 0.
    * Zeros, the default, stand for the medium of the vtkRefractionPass that draws the volume, and
    * for a clear medium without one. The range of LINEAR is 0 <= MediumRange[0] <= MediumRange[1],
    * default (0, 1). Numbers without a meaning are an error of Render(), which then draws a clear

@@ -32,7 +32,7 @@ public:
    * Index of refraction on the side that the surface's normals point to, the eye's or the light's;
    * in a list of several interfaces it may be either side.
    * Positive and finite; other values are an error of the filter or mapper when it runs. Default is
-   * 1.0, that of air.
+   * 1.0 (air).
    */
   vtkSetMacro(ExteriorIndexOfRefraction, double);
   vtkGetMacro(ExteriorIndexOfRefraction, double);
@@ -41,7 +41,7 @@ public:
   /** @{ */
   /**
    * Index of refraction on the other side. Positive and finite; other values are an error of the
-   * filter or mapper when it runs. Default is 1.333, that of water.
+   * filter or mapper when it runs. Default is 1.333 (water).
    */
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);

@@ -12,10 +12,10 @@
  * intersection behind the last point of refraction at which it arrives in the medium of that side;
  * intersections from the other side do not count. So a closed surface, such as a glass ball, is
  * listed twice, with the same indices: it is entered and left. The medium behind each interface
- * must be one of those of the next one, otherwise the list is an error. Rays may come from the
- * interior of the first interface if the media match in that order. A ray that is totally reflected
- * at an interface ends there; one that misses an interface ends at the last one that it met, and
- * shows nothing behind it. Interfaces with equal indices are left out.
+ * must be one of the two media of the next interface, otherwise the list is an error. Rays may come
+ * from the interior of the first interface if the media match in that order. A ray that is totally
+ * reflected at an interface ends there; one that misses an interface ends at the last one that it
+ * met, and shows nothing behind it. Interfaces with equal indices are left out.
  *
  * @sa vtkRefractingInterface
  */
@@ -33,12 +33,12 @@ public:
   static vtkRefractingInterfaceCollection* New();
   vtkTypeMacro(vtkRefractingInterfaceCollection, vtkCollection);
 
-  /** Adds an interface behind those of the list. */
+  /** Adds an interface at the end of the list. */
   void AddItem(vtkRefractingInterface* interface);
 
   /**
    * Makes an interface with these indices of refraction, on the side that the normals of its
-   * surface point to and on the other side, adds it behind those of the list, and returns it. Media
+   * surface point to and on the other side, adds it at the end of the list, and returns it. Media
    * have no numbers of their own: which side of an interface is the medium before it depends on the
    * normals.
    */

@@ -97,7 +97,7 @@ public:
 
   /**
    * One image of a point, as Solve finds it after the points recorded in `memory`. If it passes
-   * interfaces, its path is that of `memory` afterwards.
+   * interfaces, `memory` has its path afterwards.
    */
   StackVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
 
