@@ -107,6 +107,14 @@ class TestWindow(unittest.TestCase):
         self.act(window, "MouseMoveEvent", end)
         self.act(window, button + "ButtonReleaseEvent", end)
 
+    def test_a_still_picture_is_given_up_for_an_event(self):
+        window = self.open()
+        for pending in (0, 1):
+            # Windows without a screen have no events.
+            window.window.GetEventPending = lambda pending=pending: pending
+            window.window.InvokeEvent("AbortCheckEvent")
+            self.assertEqual(window.window.GetAbortRender(), pending)
+
     def test_the_curve_is_dragged(self):
         window = self.open("--opacity", "0", "0.2", "0", "--range", "0", "2")
         scene = window.scene
