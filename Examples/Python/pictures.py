@@ -14,8 +14,8 @@ import os
 import types
 
 from gallery import (
-    cells, common, glass, opacity, pools, rivals, rooms, shadows, solids, steps, through, tunnel,
-    volumes)
+    cells, common, glass, lenses, mirage, opacity, pools, rivals, rooms, shadows, solids, steps,
+    through, tunnel, volumes)
 
 PICTURES = {
     "readme-rivals": rivals.draw_rivals,
@@ -25,6 +25,8 @@ PICTURES = {
     "gallery-cloud": shadows.draw_cloud,
     "gallery-glass": glass.draw_glass,
     "gallery-schlieren": tunnel.draw_schlieren,
+    "gallery-mirage": mirage.draw_mirage,
+    "gallery-luneburg": lenses.draw_luneburg,
     "true-cells": cells.draw_hexahedra,
     "gallery-radiograph": volumes.draw_radiograph,
     "gallery-cells": cells.draw_cells,

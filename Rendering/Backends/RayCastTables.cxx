@@ -79,7 +79,7 @@ const std::vector<Statistic<RayCastTables>>& RayCastTables::ListStatistics()
     { "NumberOfFoldedCells", "cells of the last division that are folded inside out in parts",
       [](Self& self) { return double(self.Input.GetNumberOfFoldedCells()); } },
     { "NumberOfUnresolvedEdges",
-      "edges of the last division that exceed the tolerance and are too short to be divided",
+      "edges of the last division that exceed the tolerance after 23 divisions",
       [](Self& self) { return double(self.Input.GetDivision().GetCounts().UnresolvedEdges); } },
     { "DivisionError",
       "largest error in the edges of the last division, in the unit of the tolerance",

@@ -215,9 +215,6 @@ DivisionStatus DividedCells::Divide(const DivisionRequest& request, const RangeL
   DivisionLimits limits;
   limits.Measure = MeasureFor(request, fields);
   limits.Tolerance = request.Settings.Tolerance;
-  // Halves of the edge are not too short for the precision of rays: the radius of the mesh is at
-  // most half of the diagonal.
-  limits.ShortestEdge = TetrahedralMesh::ShortestPreciseEdge * DiagonalOf(fields);
   this->Curved = FindCurvedCells(grids, fields, limits.Measure, limits.Tolerance,
     LeastDegreeOf(request.Settings), LoopFor(grids, loop));
   if (this->Curved.IsEmpty)

@@ -473,18 +473,25 @@ std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
   const std::int64_t inverted = CountInvertedCells(this->Mesh, ThreadedLoop);
   std::ostringstream text;
   text << rays << " rays enter cells before they have left others: ";
-  if (inverted > 0)
-  {
-    text << inverted << " of " << this->Mesh.GetNumberOfActiveCells()
-         << " tetrahedra are inside out and overlap their neighbours, as where the points of a "
-            "mesh have moved too far. Only the cell that a ray enters first counts there. Repair "
-            "or remove these cells: vtkMeshQuality finds them by the sign of their volume.";
-  }
-  else
+  if (inverted == 0)
   {
     text << "parts of the mesh overlap there, and the part that a ray enters first is the only one "
             "to count. Give each part a volume or a ray integral of its own, or remove the cells "
             "of one part that are inside another.";
+    return text.str();
+  }
+  text << inverted << " of " << this->Mesh.GetNumberOfActiveCells()
+       << " tetrahedra are inside out and overlap their neighbours, and the cell that a ray enters "
+          "first is the only one to count. ";
+  if (this->Divided.IsUsed())
+  {
+    text << "In divided cells they overlap by less than the tolerance of the division. If parts of "
+            "the mesh overlap as well, give each part a volume or a ray integral of its own.";
+  }
+  else
+  {
+    text << "The points of the mesh may have moved too far. Repair or remove these cells: "
+            "vtkMeshQuality finds them by the sign of their volume.";
   }
   return text.str();
 }

@@ -41,8 +41,6 @@ struct DivisionLimits
    * coordinates are exact in single precision.
    */
   int MostLevels = 23;
-  /** Edges of this length or below are not divided, whatever their error. */
-  double ShortestEdge = 0.0;
   /** Budget of pieces. It is spent where errors are largest. */
   std::int64_t MostPieces = std::numeric_limits<std::int32_t>::max();
 };

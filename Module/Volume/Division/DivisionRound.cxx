@@ -299,12 +299,8 @@ bool DivisionRound::Mark(double threshold)
   const auto last = std::unique(
     wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.Edge == b.Edge; });
   wishes.erase(last, wishes.end());
-  const double shortest = this->Limits.ShortestEdge * this->Limits.ShortestEdge;
-  const auto isFinal = [this, shortest](const Wish& wish)
-  {
-    return this->LevelOf(wish.Edge) >= this->Limits.MostLevels ||
-      this->SquareOf(wish.Edge) <= shortest;
-  };
+  const auto isFinal = [this](const Wish& wish)
+  { return this->LevelOf(wish.Edge) >= this->Limits.MostLevels; };
   for (const Wish& wish : wishes)
   {
     if (wish.IsBeyond && isFinal(wish))

@@ -120,7 +120,7 @@ private:
   std::vector<double> Squares;
   /** 1 for points of marked edges. */
   std::vector<std::uint8_t> Touched;
-  /** Edges beyond the tolerance that are not divided, because of MostLevels or ShortestEdge. */
+  /** Edges beyond the tolerance that are not divided, because of MostLevels. */
   EdgeIndex Unresolved;
   /** Largest error that is not pending. */
   double KeptError = 0.0;

@@ -423,15 +423,6 @@ TEST(CellDivision, LimitsAreKeptAndReported)
   EXPECT_EQ(division.Divide(block.GetPieces(), block.Fields, block.GetFunctions(),
               LimitsOf(1e-5, 1e-5), SerialLoop, [](double) { return false; }),
     DivisionStatus::Aborted);
-  // The cubes have edges of about 1/2.
-  limits = LimitsOf(1e-5, 1e-5);
-  for (const double shortest : { 10.0, 0.3 })
-  {
-    limits.ShortestEdge = shortest;
-    ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
-    EXPECT_GT(division.GetCounts().UnresolvedEdges, 0);
-    EXPECT_EQ(division.GetCounts().DividedEdges == 0, shortest == 10.0);
-  }
 }
 
 TEST(CellDivision, TheBudgetIsSpentOnTheLargestErrors)
