@@ -40,6 +40,8 @@ class MeshSeries:
             if name == SAMPLE and not os.path.exists(name):
                 self.steps.append((float(len(self.steps)), make_sample))
             elif len(names) > 1 and not is_collection(name):
+                if not os.path.exists(name):  # before the first step is shown
+                    raise ReadingError(f"{name}: there is no such file")
                 self.steps.append((float(len(self.steps)), self._make_reading(name)))
             else:
                 self._add_source(open_source(name))

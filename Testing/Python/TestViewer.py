@@ -447,6 +447,8 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--water", self.name("absent.stl")], "no such file"),
                 ([self.mesh, "--water", empty], "no surface"),
                 ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),
+                ([self.mesh, self.name("absent.vtu")], "absent.vtu: there is no such file"),
+                ([self.mesh, "--output", self.name("picture.jpg")], "end in '.png'"),
                 ([self.mesh, "--output", self.name("no/folder.png")], "No such file")):
             with self.subTest(arguments=arguments):
                 if "--output" not in arguments:
