@@ -618,6 +618,7 @@ bool vtkTetrahedraRayCastMapper::Draw(
     return false;
   }
   this->Tell({ "", internals.Input.WarnOfOverlaps(internals.CountOverlaps()) });
+  this->Tell({ "", internals.Membrane.WarnOfSide() });
   vtkOpenGLCheckErrorMacro("failed after Render");
   return true;
 }

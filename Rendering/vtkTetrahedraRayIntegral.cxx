@@ -508,6 +508,7 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
     return false;
   }
   this->Tell({ "", internals.Input.WarnOfOverlaps(internals.GetStatistics().Overlaps) });
+  this->Tell({ "", internals.Membrane.WarnOfSide() });
   output->SetExtent(0, this->ImageSize[0] - 1, 0, this->ImageSize[1] - 1, 0, 0);
   const meniscus::ImagePlace place = this->FrameMode == CAMERA
     ? meniscus::ImagePlace()

@@ -63,8 +63,9 @@ public:
    * normals are reversed, so that the eye is on the side of ExteriorIndexOfRefraction. In a list of
    * several interfaces, a surface is turned to the side from which rays pass it when they come from
    * the exterior of the first one. Surfaces with facets on both sides and closed surfaces are not
-   * turned. Filters with an eye for each point turn no surface. Default is off, and owners warn of
-   * such a surface: an eye that is really on the other side, as under water, sees it rightly so.
+   * turned. Filters with an eye for each point, vtkTetrahedraRayCastMapper and
+   * vtkTetrahedraRayIntegral turn no surface. Default is off, and owners warn of such a surface: an
+   * eye that is really on the other side, as under water, sees it rightly so.
    */
   vtkSetMacro(TurnTowardsEye, bool);
   vtkGetMacro(TurnTowardsEye, bool);

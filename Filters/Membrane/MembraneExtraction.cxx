@@ -5,7 +5,9 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
+#include "vtkContourTriangulator.h"
 #include "vtkDataArray.h"
+#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -162,7 +164,7 @@ private:
     this->SplitCells = cells;
     this->ForEachCell(triangles->GetPolys(), 0, &Extraction::AddSplitTriangle);
 
-    // A polygon that yielded no triangle has no area.
+    // A polygon that yielded no triangle touches itself or has no area.
     std::vector<std::int64_t> found = this->Arrays.CellIds;
     std::sort(found.begin(), found.end());
     vtkIdType polygon = 0;
@@ -175,8 +177,28 @@ private:
       iterator->GetCurrentCell(count, ids);
       if (!std::binary_search(found.begin(), found.end(), cell))
       {
-        this->AddTriangle(cell, ids[0], ids[0], ids[0]);
+        this->AddTouching(cell, count, ids);
       }
+    }
+  }
+
+  /** Divides a polygon that touches itself, as along the bridge between a border and a hole. */
+  void AddTouching(vtkIdType cell, vtkIdType size, const vtkIdType* corners)
+  {
+    vtkNew<vtkIdList> polygon;
+    std::for_each(corners, corners + size, [&](vtkIdType id) { polygon->InsertNextId(id); });
+    vtkNew<vtkCellArray> triangles;
+    vtkContourTriangulator::TriangulatePolygon(polygon, this->Surface->GetPoints(), triangles);
+    for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
+    {
+      vtkIdType count = 0;
+      const vtkIdType* ids = nullptr;
+      triangles->GetCellAtId(i, count, ids);
+      this->AddTriangle(cell, ids[0], ids[1], ids[2]);
+    }
+    if (triangles->GetNumberOfCells() == 0)
+    {
+      this->AddTriangle(cell, corners[0], corners[0], corners[0]);
     }
   }
 

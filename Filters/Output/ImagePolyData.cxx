@@ -46,8 +46,9 @@ bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
            glm::cross(diagonal, corner[3] - corner[0])) > 0.0;
 }
 
-// Ear clipping, which also splits polygons that are not convex. A polygon that cannot be split, or
-// that has fewer than three points, has no area.
+// Ear clipping, which also splits polygons that are not convex. A polygon that crosses itself
+// cannot be split: it is a fan about its first corner, as VTK draws it. One with fewer than three
+// points has no area.
 void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count,
   std::vector<std::int64_t>& triangles)
 {
@@ -76,6 +77,11 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
   for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
   {
     triangles.push_back(corners->GetId(i));
+  }
+  const auto last = static_cast<std::int64_t>(count) - 1;
+  for (std::int64_t i = 1; i < last && corners->GetNumberOfIds() == 0; ++i)
+  {
+    triangles.insert(triangles.end(), { 0, i, i + 1 });
   }
 }
 

@@ -19,6 +19,9 @@ from .scene import AXES, MeshScene
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
+# Pixels along a side that OpenGL draws everywhere at once: larger pictures are cut off, or exceed
+# the memory.
+_LARGEST_SIZE = 16384
 
 
 def _pair_of(text, separator, kind):
@@ -30,8 +33,8 @@ def _pair_of(text, separator, kind):
 
 def _size(text):
     size = _pair_of(text, "x", int)
-    if min(size) < 1:
-        raise argparse.ArgumentTypeError("both sizes must be at least 1")
+    if min(size) < 1 or max(size) > _LARGEST_SIZE:
+        raise argparse.ArgumentTypeError(f"both sizes must be from 1 to {_LARGEST_SIZE}")
     return size
 
 

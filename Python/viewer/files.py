@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 _EXODUS = ("vtkIOExodus", "vtkExodusIIReader")
+_BYU = ("vtkIOGeometry", "vtkBYUReader")
 _ENSIGHT = ("vtkIOEnSight", "vtkGenericEnSightReader")
 # Reader by the ending of the file's name, as VTK module and class. VTK's modules are loaded when
 # they are used, because a build of VTK may lack some.
@@ -118,6 +119,12 @@ def _without_standard_error():
         os.close(null)
 
 
+def text_of(name):
+    """Text of VTK, which is a str if it is UTF-8, and otherwise bytes, as parts of a damaged file
+    or names that a program wrote in Latin-1."""
+    return name.decode("latin-1") if isinstance(name, bytes) else name
+
+
 def _messages_of(text, kind):
     """First lines of the errors or warnings in the text of an output window."""
     messages = []
@@ -136,7 +143,8 @@ def collecting_reports():
     vtkOutputWindow.SetInstance(kept)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
-        yield lambda: tuple(_messages_of(kept.GetOutput(), kind) for kind in ("ERROR", "Warning"))
+        yield lambda: tuple(_messages_of(text_of(kept.GetOutput()), kind)
+                            for kind in ("ERROR", "Warning"))
     finally:
         vtkOutputWindow.SetInstance(shown)
         vtkLogger.SetStderrVerbosity(vtkLogger.ConvertToVerbosity(verbosity))
@@ -154,9 +162,18 @@ def _reading(name):
         raise ReadingError(f"{name}: {(reasons or ['VTK cannot read this file'])[0]}")
 
 
+def _is_byu(name):
+    """Whether a file is a surface of Movie.BYU, text with the ending of Exodus's .g: its first line
+    has four whole numbers."""
+    if ending_of(name) != ".g":
+        return False
+    with open(name, "rb") as file:
+        words = file.readline(200).split()
+    return len(words) >= 4 and all(word.isdigit() for word in words)
+
+
 def _make_reader(name):
-    suffix = ending_of(name)
-    module, reader = READERS[suffix]
+    module, reader = _BYU if _is_byu(name) else READERS[ending_of(name)]
     try:
         return getattr(importlib.import_module("vtkmodules." + module), reader)()
     except (ImportError, AttributeError):
@@ -187,10 +204,10 @@ class _VTKFile:
     def __init__(self, name):
         self.name = name
         self.reader = _make_reader(name)
-        if hasattr(self.reader, "SetFileName"):
-            self.reader.SetFileName(name)
-        else:
-            self.reader.SetCaseFileName(name)
+        for method in ("SetFileName", "SetCaseFileName", "SetGeometryFileName"):
+            if hasattr(self.reader, method):
+                getattr(self.reader, method)(name)
+                break
         with _reading(name):
             self.reader.UpdateInformation()
             _select_all(self.reader)

@@ -78,7 +78,11 @@ def grab_picture(window, transparent=False):
 
 
 def write_picture(picture, name):
-    """Writes a PNG file; a file that cannot be written is a ReadingError."""
+    """Writes a PNG file; a file that cannot be written, and the ending of another format, is a
+    ReadingError."""
+    ending = os.path.splitext(name)[1]
+    if ending and ending.lower() != ".png":
+        raise ReadingError(f"{name}: pictures are PNG files, whose names end in '.png'")
     try:
         with open(name, "wb"):
             pass

@@ -7,8 +7,9 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
+from ..data import leaves_of
 from .cells import check_damage, check_drawable, drawn_leaves_of
-from .files import ReadingError
+from .files import ReadingError, text_of
 from .sample import make_sample
 from .series import is_collection, open_source
 
@@ -39,6 +40,8 @@ class MeshSeries:
             if name == SAMPLE and not os.path.exists(name):
                 self.steps.append((float(len(self.steps)), make_sample))
             elif len(names) > 1 and not is_collection(name):
+                if not os.path.exists(name):  # before the first step is shown
+                    raise ReadingError(f"{name}: there is no such file")
                 self.steps.append((float(len(self.steps)), self._make_reading(name)))
             else:
                 self._add_source(open_source(name))
@@ -58,12 +61,23 @@ class MeshSeries:
         """The data of a step; if it is damaged or has no volume, it is a ReadingError. Without an
         array it gets one of cells, UNIFORM, with the value 1."""
         data = self.steps[step][1]()
+        _decode_names(data)
         check_damage(data)
         check_drawable(data)
         if not arrays_of(data):
             for leaf in drawn_leaves_of(data):
                 leaf.GetCellData().AddArray(_make_uniform(leaf.GetNumberOfCells()))
         return data
+
+
+def _decode_names(data):
+    """Makes the names of arrays text, where a program has written them in Latin-1."""
+    for leaf in leaves_of(data):
+        for attributes in (leaf.GetPointData(), leaf.GetCellData()):
+            for index in range(attributes.GetNumberOfArrays()):
+                array = attributes.GetAbstractArray(index)
+                if isinstance(array.GetName(), bytes):
+                    array.SetName(text_of(array.GetName()))
 
 
 def arrays_of(data):

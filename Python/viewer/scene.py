@@ -78,7 +78,7 @@ class MeshScene:
         look.SetDiffuse(MATERIAL["diffuse"])
         look.SetSpecular(MATERIAL["specular"])
         look.SetSpecularPower(MATERIAL["specular_power"])
-        self.set_array(array or self.get_arrays()[0], limits)
+        self.set_array(self.get_arrays()[0] if array is None else array, limits)
         # Of the cells that are drawn: blocks without the array are not.
         self.bounds = tuple(self.mapper.GetBounds())
         self.diagonal = math.hypot(*(self.bounds[2 * i + 1] - self.bounds[2 * i]

@@ -8,7 +8,10 @@
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -164,6 +167,49 @@ std::string RayCastMembrane::DescribeMismatch() const
 {
   return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? DescribeWrongSide()
                                                                      : std::string();
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if the first interface is an open surface none of whose facets shows the eye the side from
+ * which rays pass the list.
+ */
+bool RayCastMembrane::IsOnWrongSide() const
+{
+  std::vector<InterfaceMedia> media;
+  std::transform(this->Used.begin(), this->Used.end(), std::back_inserter(media),
+    [](const Interface& one) { return one.Media; });
+  const MediaChain chain(media);
+  if (this->Used.empty() || !media.front().IsRefracting() || chain.Ways.empty())
+  {
+    return false;
+  }
+  // Parallel rays come from far away, where the eye of vtkRefractedGeometryFilter is then.
+  constexpr double distance = 1e5;
+  const Membrane& surface = this->Used.front().Surface->GetMembrane();
+  const RayFrame& frame = this->View.Frame;
+  const bool isParallel =
+    frame.Slope.PerColumn == glm::dvec2(0.0) && frame.Slope.PerRow == glm::dvec2(0.0);
+  const glm::dvec3 step(frame.Slope.At(0.0, 0.0), 1.0);
+  const glm::dvec3 start = glm::dvec3(frame.Origin.At(0.0, 0.0), 0.0) + this->View.EyeDepth * step;
+  const glm::dvec3 along = glm::normalize(frame.ViewToWorld * step);
+  const glm::dvec3 eye = this->View.Center - surface.GetOrigin() + frame.ViewToWorld * start -
+    (isParallel ? distance * surface.GetRadius() : 0.0) * along;
+  return !surface.IsClosed() && std::isfinite(eye.x + eye.y + eye.z) &&
+    !surface.ShowsSide(eye, chain.Ways.front().front().FromFront ? 1.0 : -1.0);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastMembrane::WarnOfSide()
+{
+  const bool isWrong = this->IsOnWrongSide();
+  const bool isNew = isWrong && !this->IsSideReported;
+  this->IsSideReported = isWrong;
+  return isNew
+    ? "No facet of the " + std::string(this->Used.size() > 1 ? "first membrane" : "membrane") +
+      " faces the eye: its normals point to the other side, and rays come from the medium behind "
+      "it. Unless the eye is really there, reverse the normals and the order of the corners."
+    : std::string();
 }
 
 //------------------------------------------------------------------------------

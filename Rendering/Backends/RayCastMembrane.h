@@ -56,6 +56,11 @@ public:
    * which rays come; empty if there is none.
    */
   std::string DescribeMismatch() const;
+  /**
+   * Warning that the first interface shows the eye its back alone, after Trace(); empty if it does
+   * not, and after the first until it has shown its front.
+   */
+  std::string WarnOfSide();
   /** Frames of the refracted rays, after Trace(). */
   const RefractionFrames& GetFrames() const { return this->Frames; }
   /** Legs of the image's rays: the sight rays, and the rays behind each interface. */
@@ -80,6 +85,8 @@ public:
   RefractedRayStack::Counts GetCounts() const;
 
 private:
+  bool IsOnWrongSide() const;
+
   struct Shape
   {
     SourceSurface Source;
@@ -100,6 +107,8 @@ private:
   std::vector<Interface> Used;
   /** True if the media match along the list for rays from the exterior of the first interface. */
   bool FitsFromExterior = true;
+  /** True from the warning about the side of the first interface on, until it is right. */
+  bool IsSideReported = false;
   RefractedRayStack Rays;
   RefractionFrames Frames;
   /** View, interfaces and version of their shapes that the rays were traced for. */

@@ -143,6 +143,54 @@ int TetrahedraOf(int type)
   }
 }
 
+/** The three points that edges join to each corner, in an order that turns the same way at all. */
+using CornerEdges = std::array<int, 3>;
+
+/** Edges at the corners of a linear cell whose corners can be folded; empty for other types. */
+const std::vector<CornerEdges>& EdgesAtCorners(int type)
+{
+  static const std::vector<CornerEdges> none;
+  static const std::vector<CornerEdges> hexahedron = { { 1, 3, 4 }, { 2, 0, 5 }, { 3, 1, 6 },
+    { 0, 2, 7 }, { 7, 5, 0 }, { 4, 6, 1 }, { 5, 7, 2 }, { 6, 4, 3 } };
+  static const std::vector<CornerEdges> wedge = { { 1, 2, 3 }, { 2, 0, 4 }, { 0, 1, 5 },
+    { 5, 4, 0 }, { 3, 5, 1 }, { 4, 3, 2 } };
+  static const std::vector<CornerEdges> pyramid = { { 1, 3, 4 }, { 2, 0, 4 }, { 3, 1, 4 },
+    { 0, 2, 4 } };
+  switch (type)
+  {
+    case VTK_HEXAHEDRON:
+      return hexahedron;
+    case VTK_WEDGE:
+      return wedge;
+    case VTK_PYRAMID:
+      return pyramid;
+    default:
+      return none;
+  }
+}
+
+/** Orientations of the trihedra that were given, apart from those within rounding of a plane. */
+class Orientations
+{
+public:
+  void Add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+  {
+    // A determinant of three edges has six products, each with the rounding of three differences
+    // of coordinates in single precision.
+    constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double least = rounding * rounding * glm::dot(a, a) * glm::dot(b, b) * glm::dot(c, c);
+    if (volume * volume > least)
+    {
+      this->Found[volume > 0.0 ? 1 : 0] = true;
+    }
+  }
+  bool AreBoth() const { return this->Found[0] && this->Found[1]; }
+
+private:
+  std::array<bool, 2> Found{ false, false };
+};
+
 /** Reason why cells of a type are not drawn, with the cure. */
 std::string ReasonOf(int type)
 {
@@ -191,7 +239,9 @@ private:
   void AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids);
   void AddPolyhedron(const CellReader& cells, vtkIdType cell);
   bool AddByFaces(vtkCell* cell);
-  bool IsFolded(std::size_t firstId) const;
+  bool IsPoint(std::int64_t id) const { return id >= 0 && id < this->NumberOfPoints; }
+  bool HasOverlaps(std::size_t firstId) const;
+  bool HasFoldedCorners(int type, vtkIdList* points) const;
 
   std::vector<std::int64_t> Faces;
 };
@@ -210,7 +260,7 @@ void TetrahedraSource::Part::AddBlock(const CellReader& cells, std::size_t first
       if (this->Used == CellPoints::All &&
         ShapeOf(cells.GetType(cell)).Degree >= CellShape::SecondOrder)
       {
-        this->Folded += this->IsFolded(firstId);
+        this->Folded += this->HasOverlaps(firstId) ? 1 : 0;
       }
       this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
         static_cast<std::int32_t>(this->FirstCell + cell));
@@ -221,34 +271,55 @@ void TetrahedraSource::Part::AddBlock(const CellReader& cells, std::size_t first
 //------------------------------------------------------------------------------
 /**
  * True if tetrahedra of the last cell have either orientation: those of a cell that is not folded
- * have one, whichever it is. Volumes that may be due to the rounding of coordinates do not count: a
- * determinant of three edges has six products, each with the rounding of three differences.
+ * have one, whichever it is.
  */
-bool TetrahedraSource::Part::IsFolded(std::size_t firstId) const
+bool TetrahedraSource::Part::HasOverlaps(std::size_t firstId) const
 {
   const std::vector<std::int64_t>& ids = this->Tetrahedra.GetTetrahedra();
-  constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
-  bool found[2] = { false, false };
+  Orientations found;
   for (std::size_t t = firstId; t + 3 < ids.size(); t += 4)
   {
     std::array<glm::dvec3, 4> at;
     for (std::size_t i = 0; i < 4; ++i)
     {
-      if (ids[t + i] < 0 || ids[t + i] >= this->NumberOfPoints)
+      if (!this->IsPoint(ids[t + i]))
       {
         return false;
       }
       at[i] = this->Points[static_cast<std::size_t>(ids[t + i])];
     }
-    const glm::dvec3 a = at[1] - at[0];
-    const glm::dvec3 b = at[2] - at[0];
-    const glm::dvec3 c = at[3] - at[0];
-    const double volume = glm::dot(a, glm::cross(b, c));
-    const double least = rounding * glm::length(a) * glm::length(b) * glm::length(c);
-    found[0] = found[0] || volume > least;
-    found[1] = found[1] || volume < -least;
+    found.Add(at[1] - at[0], at[2] - at[0], at[3] - at[0]);
   }
-  return found[0] && found[1];
+  return found.AreBoth();
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if the edges at the corners of a linear cell have either orientation. Its tetrahedra are no
+ * evidence: faces that are not planes may turn one of a cell that is not folded.
+ */
+bool TetrahedraSource::Part::HasFoldedCorners(int type, vtkIdList* points) const
+{
+  const std::vector<CornerEdges>& edges = EdgesAtCorners(type);
+  constexpr std::size_t mostCorners = 8;
+  std::array<glm::dvec3, mostCorners> at;
+  for (vtkIdType i = 0; !edges.empty() && i < points->GetNumberOfIds(); ++i)
+  {
+    const std::int64_t id = this->FirstPoint + points->GetId(i);
+    if (!this->IsPoint(id))
+    {
+      return false;
+    }
+    at[static_cast<std::size_t>(i)] = this->Points[static_cast<std::size_t>(id)];
+  }
+  Orientations found;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const auto edge = [&](std::size_t k)
+    { return at[static_cast<std::size_t>(edges[i][k])] - at[i]; };
+    found.Add(edge(0), edge(1), edge(2));
+  }
+  return found.AreBoth();
 }
 
 //------------------------------------------------------------------------------
@@ -278,6 +349,10 @@ void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vt
   std::array<std::int64_t, mostPoints> points{};
   vtkIdType size = ids->GetNumberOfIds();
   type = ResolveCellType(type, size);
+  if (this->Used == CellPoints::All && size <= 8)
+  {
+    this->Folded += this->HasFoldedCorners(type, ids) ? 1 : 0;
+  }
   const CellShape shape = this->Used == CellPoints::Corners ? ShapeOf(type) : CellShape();
   if (shape.IsKnown() && size >= shape.NumberOfCorners)
   {

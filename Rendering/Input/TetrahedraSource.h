@@ -58,8 +58,8 @@ public:
    */
   const UnusableCells& GetUnusable() const { return this->Unusable; }
   /**
-   * Number of cells of second order whose tetrahedra overlap, because the cell is folded inside out
-   * in parts: its points on edges lie elsewhere, or are in another order than VTK's.
+   * Number of cells that are folded inside out in parts, so that their tetrahedra overlap: their
+   * points are in another order than VTK's, or those on edges lie elsewhere.
    */
   std::int64_t GetNumberOfFolded() const { return this->Folded; }
   /** True if other positions of the points could divide a cell into other tetrahedra. */

@@ -26,8 +26,8 @@ std::string DescribeFolded(std::int64_t cells)
 {
   return cells == 0 ? std::string()
                     : std::to_string(cells) +
-      " cells are folded inside out in parts, where their pieces overlap; if they are of second "
-      "order, their points may be in another order than VTK's. ";
+      " cells are folded inside out in parts, where their pieces overlap; their points may be in "
+      "another order than VTK's. ";
 }
 
 }

@@ -97,7 +97,7 @@ public:
     return place == FieldAssociation::Points && this->Divided.IsUsed() ? &this->Divided.GetPoints()
                                                                        : nullptr;
   }
-  /** Cells that are folded inside out in parts: of the division, or those of second order. */
+  /** Cells that are folded inside out in parts. */
   std::int64_t GetNumberOfFoldedCells() const { return this->FoldedCells; }
   /** Division of the cells into tetrahedra; not used unless it is adaptive. */
   const DividedCells& GetDivision() const { return this->Divided; }

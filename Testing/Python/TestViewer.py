@@ -26,7 +26,8 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersExtraction import vtkExtractUnstructuredGrid
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkIOGeometry import vtkBYUWriter
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter,
@@ -410,15 +411,20 @@ class TestCommand(unittest.TestCase):
         damaged = write(vtkXMLUnstructuredGridWriter(), damaged, self.name("damaged.vtu"))
         text = self.name("notes.txt")
         open(text, "w").close()
+        noise = self.name("noise.vtk")  # VTK's message repeats bytes that are no text
+        with open(noise, "wb") as file:
+            file.write(b"\xff\xfe" * 100)
         for arguments, message in (
                 ([self.name("absent.vtu")], "no such file"),
                 ([self.folder.name], "folder"),
                 ([text], "'.txt'"),
                 ([broken], "broken.vtu"),
+                ([noise], "noise.vtk"),
                 ([empty], "no cells"),
                 ([damaged], f"uses point 100000, but there are {(CELLS + 1) ** 3} points"),
                 ([self.water], "no cells with a volume; its cells are: 1 Quad"),
                 ([self.mesh, "--array", "q"], "has no array 'q'; it has r, z"),
+                ([self.mesh, "--array", ""], "has no array ''; it has r, z"),
                 ([self.mesh, "--colors", "q"], "no colour map 'q'; known are "),
                 ([self.mesh, "--opacity", "0.5"], "at least two numbers"),
                 ([self.mesh, "--opacity", "0", "2"], "from 0 to 1"),
@@ -441,6 +447,8 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--water", self.name("absent.stl")], "no such file"),
                 ([self.mesh, "--water", empty], "no surface"),
                 ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),
+                ([self.mesh, self.name("absent.vtu")], "absent.vtu: there is no such file"),
+                ([self.mesh, "--output", self.name("picture.jpg")], "end in '.png'"),
                 ([self.mesh, "--output", self.name("no/folder.png")], "No such file")):
             with self.subTest(arguments=arguments):
                 if "--output" not in arguments:
@@ -450,6 +458,30 @@ class TestCommand(unittest.TestCase):
                 self.assertIn(message, errors)
                 self.assertTrue(errors.startswith("meniscus: "), errors)
                 self.assertFalse(os.path.exists(self.name("none.png")))
+
+    def test_names_in_latin_1(self):
+        name = self.name("latin.vtk")
+        with open(name, "wb") as file:
+            file.write(b"# vtk DataFile Version 3.0\nT\nASCII\nDATASET STRUCTURED_POINTS\n"
+                       b"DIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\n"
+                       b"SCALARS Temp\xe9rature double 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\n")
+        scene = make_scene(make_parser().parse_args([name, "--array", "Temp\xe9rature"]))
+        self.assertEqual(scene.get_arrays(), ["Temp\xe9rature"])
+        self.assertEqual(scene.get_range(), (0, 7))
+
+    def test_surface_of_byu(self):
+        """Its ending is also that of Exodus files."""
+        name = self.name("ball.g")
+        ball = vtkSphereSource()
+        ball.Update()
+        writer = vtkBYUWriter()
+        writer.SetInputData(ball.GetOutput())
+        writer.SetGeometryFileName(name)
+        writer.Write()
+        self.assertEqual(reading.read_surface(name).GetNumberOfPolys(),
+                         ball.GetOutput().GetNumberOfPolys())
+        self.assertEqual(self.run_command(name)[0], 1)
+        self.assertIn("no cells with a volume", self.run_command(name)[1])
 
     def test_without_a_display(self):
         display = os.environ.pop("DISPLAY", None)

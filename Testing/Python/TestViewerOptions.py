@@ -124,6 +124,7 @@ class TestConfig(Case):
                 ("light = 1", "light must be true or false"),
                 ("density = true", "density must be a number or text"),
                 ("size = '3'", "--size: '3' is not a pair"),
+                ("size = '100000x9'", "--size: both sizes must be from 1 to 16384"),
                 ("mesh = 3", "mesh must be the name of a file"),
                 ("units = ['--output', 'x.png']", "units must not begin with '-'"),
                 ("a b", "Expected '='"),

@@ -11,8 +11,10 @@ namespace meniscus
 namespace
 {
 
-// Parts have at least 2^-6 of the facet's size, as in StackSearch.
-constexpr int DeepestLevel = 6;
+// Parts have at least 2^-26 of the facet's size, PatchCrossings::Border: a later surface may be
+// much smaller than a facet of the first one. Where intervals exclude all but a few parts of a
+// level, a level takes a few rays.
+constexpr int DeepestLevel = 26;
 
 // Rays to try before no further level begins. A list without a passage, most of whose parts cannot
 // be excluded, takes this many, or a few per facet.

@@ -229,6 +229,69 @@ TEST(ObjectSurfaces, ConcavePolygonsAreDividedAndTheirGlobalIdsAreNot)
   EXPECT_NE(view->GetOutput()->GetCellData()->GetGlobalIds(), nullptr) << "no cell is cut";
 }
 
+/** A frame: a square with a square hole that a bridge joins to its border. */
+vtkSmartPointer<vtkPolyData> MakeFrame(double half, double y)
+{
+  vtkSmartPointer<vtkPolyData> data = MakePoints({});
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const double size : { half, half / 3.0 })
+  {
+    for (const auto& [x, z] :
+      { std::pair{ -1.0, -1.0 }, { -1.0, 1.0 }, { 1.0, 1.0 }, { 1.0, -1.0 } })
+    {
+      points->InsertNextPoint(size * x, y, size * z);
+    }
+  }
+  data->SetPoints(points);
+  const vtkIdType corners[10] = { 0, 1, 2, 3, 0, 4, 7, 6, 5, 4 };
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell(10, corners);
+  data->SetPolys(polygons);
+  return data;
+}
+
+// Vertical sight lines keep the shape. VTK's triangulation leaves such polygons out.
+TEST(ObjectSurfaces, PolygonsThatTouchOrCrossThemselvesAreSeen)
+{
+  for (const bool all : { true, false })
+  {
+    const auto view = MakeView(MakeFrame(15.0, -20.0));
+    view->SetEyePosition(0.0, 1e6, 0.0);
+    view->SetImages(
+      all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    view->Update();
+    EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 8);
+    EXPECT_NEAR(AreaOfTriangles(view->GetOutput(), 0), 800.0, 1e-2);
+  }
+  auto crossed = MakePoints(
+    { { 0.0, -20.0, 0.0 }, { 9.0, -20.0, 9.0 }, { 9.0, -20.0, 0.0 }, { 0.0, -20.0, 9.0 } });
+  const vtkIdType corners[4] = { 0, 1, 2, 3 };
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell(4, corners);
+  crossed->SetPolys(polygons);
+  const auto view = MakeView(crossed);
+  view->Update();
+  EXPECT_GT(view->GetOutput()->GetNumberOfPolys(), 0);
+}
+
+TEST(ObjectSurfaces, MembranesWithAHoleInAPolygonRefract)
+{
+  auto points = MakePoints({ { 30.0, -20.0, 10.0 } });
+  const vtkIdType id = 0;
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell(1, &id);
+  points->SetVerts(vertices);
+  const auto view = MakeView(points);
+  view->Update();
+  ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), 1);
+  const glm::dvec3 behindWhole = PointOf(view->GetOutput(), 0);
+  view->SetMembraneData(MakeFrame(60.0, 0.0));
+  view->Update();
+  ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_LT(glm::distance(PointOf(view->GetOutput(), 0), behindWhole), 1e-6);
+}
+
 // Below flat water, a parallel camera sees a point along the direction that Snell's law gives.
 TEST(ObjectSurfaces, ParallelCamerasHaveTheirEyeAtInfinity)
 {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellIntegrator.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
@@ -25,12 +27,23 @@ namespace meniscus
 namespace test
 {
 
+namespace
+{
+
+const double Exactly[3] = { 0.0, 0.0, 0.0 };
+
+}
+
 CellIntegrator::CellIntegrator(vtkUnstructuredGrid* grid, vtkIdType cell)
   : Scalars(grid->GetPointData()->GetScalars())
 {
   grid->GetCell(cell, this->Cell);
   this->Weights.resize(static_cast<std::size_t>(this->Cell->GetNumberOfPoints()));
-  this->Corner = this->Cell->GetCellType() == VTK_HEXAHEDRON ? 0.5 : 0.25;
+  this->Start = glm::dvec3(this->Cell->GetCellType() == VTK_HEXAHEDRON ? 0.5 : 0.25);
+  this->Cell->GetPoints()->ComputeBounds();
+  vtkBoundingBox box(this->Cell->GetPoints()->GetBounds());
+  box.Inflate(0.3 * box.GetMaxLength());
+  box.GetBounds(this->Bounds);
 }
 
 glm::dvec2 CellIntegrator::Integrate(const WorldRay& ray)
@@ -94,7 +107,7 @@ void CellIntegrator::Weigh(const glm::dvec3& place)
 bool CellIntegrator::Invert(const WorldRay& ray, double s)
 {
   const glm::dvec3 target = ray.Origin + s * ray.Direction;
-  glm::dvec3 place(this->Corner);
+  glm::dvec3 place(this->Start);
   for (int i = 0; i < 60; ++i)
   {
     const glm::dvec3 miss = target - this->Position(place);
@@ -126,7 +139,8 @@ bool CellIntegrator::Invert(const WorldRay& ray, double s)
 /** Smallest distance from a side in parametric coordinates; negative outside. */
 double CellIntegrator::DepthInside(const WorldRay& ray, double s)
 {
-  if (!this->Invert(ray, s))
+  const glm::dvec3 at = ray.Origin + s * ray.Direction;
+  if (!vtkMath::PointIsWithinBounds(&at.x, this->Bounds, Exactly) || !this->Invert(ray, s))
   {
     return -1.0;
   }
@@ -150,14 +164,18 @@ double CellIntegrator::DepthInside(const WorldRay& ray, double s)
   }
 }
 
-/** The end of the stretch between a place outside and one inside. */
+/** The end of the stretch between a place outside and one inside, from which Newton begins. */
 double CellIntegrator::FindEnd(const WorldRay& ray, double outside, double inside)
 {
+  const glm::dvec3 start = this->Start;
+  EXPECT_TRUE(this->Invert(ray, inside));
+  this->Start = this->Place;
   for (int i = 0; i < 36; ++i)
   {
     const double middle = 0.5 * (outside + inside);
     (this->DepthInside(ray, middle) >= 0.0 ? inside : outside) = middle;
   }
+  this->Start = start;
   return inside;
 }
 

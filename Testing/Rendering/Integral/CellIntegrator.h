@@ -42,7 +42,10 @@ private:
   vtkDataArray* Scalars;
   vtkNew<vtkGenericCell> Cell;
   std::vector<double> Weights;
-  double Corner;
+  /** Parametric coordinates at which Newton's method begins. */
+  glm::dvec3 Start{ 0.0 };
+  /** Bounds of the cell with a margin; points outside are outside of the cell. */
+  double Bounds[6];
   glm::dvec3 Place{ 0.0 };
 };
 

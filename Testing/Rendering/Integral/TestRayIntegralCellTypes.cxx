@@ -204,3 +204,42 @@ TEST(CellTypes, FoldedCellsOfSecondOrderAreCounted)
     }
   }
 }
+
+// Points in the order of another type or program. Cells with collapsed edges, mirrored ones and
+// those with faces that are not planes are no error.
+TEST(CellTypes, FoldedLinearCellsAreCounted)
+{
+  struct Order
+  {
+    const char* Name;
+    CellCase Shape;
+    std::vector<vtkIdType> Points;
+    int Folded;
+  };
+  const CellCase hexahedron{ "", VTK_HEXAHEDRON, 8 };
+  const CellCase wedge{ "", VTK_WEDGE, 6 };
+  const CellCase pyramid{ "", VTK_PYRAMID, 5 };
+  const Order orders[] = { { "voxel", hexahedron, { 0, 1, 3, 2, 4, 5, 7, 6 }, 1 },
+    { "exchanged", hexahedron, { 0, 1, 2, 3, 4, 5, 7, 6 }, 1 },
+    { "mirrored", hexahedron, { 4, 5, 6, 7, 0, 1, 2, 3 }, 0 },
+    { "collapsed", hexahedron, { 0, 1, 2, 2, 4, 5, 6, 6 }, 0 },
+    { "hexahedron", hexahedron, { 0, 1, 2, 3, 4, 5, 6, 7 }, 0 },
+    { "exchanged wedge", wedge, { 0, 1, 2, 3, 5, 4 }, 1 },
+    { "mirrored wedge", wedge, { 0, 2, 1, 3, 5, 4 }, 0 },
+    { "crossed pyramid", pyramid, { 0, 2, 1, 3, 4 }, 1 },
+    { "mirrored pyramid", pyramid, { 0, 3, 2, 1, 4 }, 0 } };
+  for (const Order& order : orders)
+  {
+    Grid grid = MakeCell(order.Shape, 0.02, 1);
+    grid->GetCells()->ReplaceCellAtId(
+      0, static_cast<vtkIdType>(order.Points.size()), order.Points.data());
+    grid->Modified();
+    const Filter rays = MakeIntegral(grid, 8);
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(rays);
+    rays->Update();
+    EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), order.Folded) << order.Name;
+    const bool isTold = TextOf(observer).find("folded inside out") != std::string::npos;
+    EXPECT_EQ(isTold, order.Folded > 0) << order.Name << TextOf(observer);
+  }
+}

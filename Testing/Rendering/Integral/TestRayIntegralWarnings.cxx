@@ -8,6 +8,7 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
@@ -227,4 +228,36 @@ TEST(MeshWarnings, OverlappingBodiesAddUpOverTheSameRays)
     largest = std::max(largest, integrals[0][i] + integrals[1][i]);
   }
   EXPECT_NEAR(largest, outerLength + 5.0 * innerLength, 1e-5);
+}
+
+/** A surface upside down is drawn as it is seen from the medium behind it. */
+TEST(MeshWarnings, SurfacesThatTurnTheirBackToTheRays)
+{
+  for (const bool isUpsideDown : { false, true })
+  {
+    vtkNew<vtkPlaneSource> water;
+    water->SetOrigin(-9.0, -9.0, 2.0);
+    water->SetPoint1(isUpsideDown ? -9.0 : 9.0, isUpsideDown ? 9.0 : -9.0, 2.0);
+    water->SetPoint2(isUpsideDown ? 9.0 : -9.0, isUpsideDown ? -9.0 : 9.0, 2.0);
+    const Filter rays = MakeFilter(MakeLayers(2, 0.5), 4, 4);
+    rays->GetArraySelection()->EnableArray("PathLength");
+    rays->SetMembraneConnection(water->GetOutputPort());
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    ASSERT_EQ(warnings.size(), isUpsideDown ? 1u : 0u);
+    if (isUpsideDown)
+    {
+      EXPECT_NE(warnings[0].find("No facet of the membrane faces the eye"), std::string::npos)
+        << warnings[0];
+    }
+    // Once, until rays have come from the other side.
+    rays->SetImageSize(5, 5);
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
+    rays->SetDirection(0.0, 0.0, 1.0);
+    EXPECT_EQ(UpdateAndListen(rays).size(), isUpsideDown ? 0u : 1u);
+    rays->SetDirection(0.3, 0.0, -1.0);
+    EXPECT_EQ(UpdateAndListen(rays).size(), isUpsideDown ? 1u : 0u);
+    // Nothing is refracted.
+    rays->SetInteriorIndexOfRefraction(1.0);
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
+  }
 }

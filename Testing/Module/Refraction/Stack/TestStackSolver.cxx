@@ -441,6 +441,21 @@ TEST(RefractionStack, ListBeginsAtAPaneThatFewRaysPass)
 }
 
 //------------------------------------------------------------------------------
+// A sea of two facets in front of a window: no ray through a part of 2^-6 of a facet meets it.
+TEST(RefractionStack, ListBeginsAtFacetsMuchLargerThanTheNextSurface)
+{
+  for (const double half : { 300.0, 1e4, 1e6 })
+  {
+    const std::vector<Interface> list = { { MakeSurface(MakePlane(0.0, half, 1)), { 1.0, 1.333 } },
+      { MakeSurface(MakePlane(-20.0, 2.0, 3)), { 1.333, 1.5 } } };
+    StackSolver solver;
+    SetStack(solver, list, { 7.0, 80.0, 3.0 });
+    EXPECT_TRUE(solver.GetStack().HasPassage()) << half;
+    EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u) << half;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionStack, WrongOrderIsNoticed)
 {
   StackSolver solver;
