@@ -12,6 +12,7 @@
 #include "Rendering/Integral/ImagePlace.h"
 #include "Rendering/Integral/IntegralView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
+#include "Volume/Graded/GradedCellTable.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
@@ -98,6 +99,8 @@ public:
   meniscus::BoundaryTree Tree;
   std::vector<double> SquaredIndices;
   std::vector<meniscus::EdgeTerms> Terms;
+  /** Coefficients of the same field, for rays that are bent. */
+  meniscus::GradedCellTable Table;
   meniscus::IndexFaults Faults;
 
   meniscus::ParallelRectangle Rectangle;
@@ -329,6 +332,8 @@ void vtkTetrahedraSchlieren::ReadIndices(const meniscus::InputBlocks& blocks)
   internals.Tree.Build(internals.Mesh);
   internals.Terms =
     meniscus::ComputeEdgeTerms(internals.Mesh, internals.SquaredIndices, meniscus::FacetLoop);
+  internals.Table.Build(
+    internals.Mesh, internals.SquaredIndices, &internals.Terms, meniscus::ThreadedLoop);
   if (holes > 0 && internals.Mesh.GetNumberOfActiveCells() > 0)
   {
     vtkWarningMacro(<< internals.Faults.NotFinite << " points have a value that is not finite and "
@@ -389,6 +394,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   medium.Tree = &internals.Tree;
   medium.SquaredIndices = &internals.SquaredIndices;
   medium.Terms = &internals.Terms;
+  medium.Table = &internals.Table;
   medium.OutsideIndex = key.OutsideIndex;
   medium.IsStraight = key.IsStraight;
   const meniscus::GradedRayWalk walk(medium);
@@ -399,12 +405,13 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
   const auto castRow = [&](std::size_t row)
   {
+    std::vector<meniscus::GradedRay> ofRow(width);
     for (std::size_t column = 0; column < width; ++column)
     {
       const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
-      internals.Rays[row * width + column] =
-        walk.Walk(rays.GetOrigin(pixel), rays.GetDirection(pixel), ofRows[row]);
+      ofRow[column] = { rays.GetOrigin(pixel), rays.GetDirection(pixel) };
     }
+    walk.WalkAll(ofRow, ofRows[row], internals.Rays.data() + row * width);
   };
   for (std::size_t first = 0; first < height; first += RowsPerReport)
   {

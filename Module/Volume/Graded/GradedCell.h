@@ -14,6 +14,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -73,6 +74,18 @@ struct GradedCell
     const auto products = this->ApplyEdges(w);
     return linear +
       0.5 * ((w[0] * products[0] + w[1] * products[1]) + (w[2] * products[2] + w[3] * products[3]));
+  }
+  /** Derivative of the force: a symmetric matrix. */
+  glm::dmat3 GetForceDerivative() const
+  {
+    const auto& g = this->Gradients;
+    glm::dmat3 result;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      result[axis] = 0.5 *
+        this->AddGradients(this->ApplyEdges({ g[0][axis], g[1][axis], g[2][axis], g[3][axis] }));
+    }
+    return result;
   }
   /** grad(n^2) / 2 at barycentric weights. */
   glm::dvec3 GetForce(const std::array<double, 4>& weights) const

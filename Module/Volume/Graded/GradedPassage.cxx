@@ -29,9 +29,6 @@ constexpr double LargestDrop = 16.0;
  */
 constexpr double LargestGlidingWeight = 0x1p-11;
 
-/** Rounding of a sum of a few numbers, relative to the largest of them. */
-constexpr double Rounding = 0x1p-51;
-
 /** Random number of a step, the same on every machine. */
 std::uint64_t Scatter(std::int64_t step)
 {
@@ -218,15 +215,11 @@ int GradedPassage::FindExit(std::int64_t step, bool atRandom, double shortTime, 
  */
 double GradedPassage::Extend(double time)
 {
-  // Columns of A; the sum of their sizes is at least its norm.
-  glm::dvec3 columns[3];
+  // The sum of the sizes of the columns is at least the norm.
+  const glm::dmat3 columns = this->Cell.GetForceDerivative();
   double norm = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto& g = this->Cell.Gradients;
-    columns[axis] = 0.5 *
-      this->Cell.AddGradients(
-        this->Cell.ApplyEdges({ g[0][axis], g[1][axis], g[2][axis], g[3][axis] }));
     norm = std::max(norm, SizeOf(columns[axis]));
   }
   double exponent = norm * time * time;
@@ -311,8 +304,6 @@ double GradedPassage::MeanCurvature(int i, double time) const
 bool GradedPassage::Refine(int face, double& time)
 {
   constexpr int steps = 8;
-  // The error of a step is about the square of the change: this one is the last.
-  constexpr double lastChange = 0x1p-27;
   const glm::dvec3& gradient = this->Cell.Gradients[face];
   const double size = this->Begin.Weights[face] + SizeOf(gradient) * SizeOf(this->EndWay);
   double at = time;
@@ -331,7 +322,7 @@ bool GradedPassage::Refine(int face, double& time)
       return false;
     }
     this->MoveTo(at);
-    if (std::abs(change) <= lastChange * at || std::abs(rest) <= Rounding * size)
+    if (std::abs(change) <= LastChange * at || std::abs(rest) <= Rounding * size)
     {
       time = at;
       return true;

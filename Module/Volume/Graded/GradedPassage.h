@@ -42,6 +42,16 @@ public:
    */
   static constexpr double LargestExponent = 0.7;
 
+  /** Rounding of a sum of a few numbers, relative to the largest of them. */
+  static constexpr double Rounding = 0x1p-51;
+  /** The error of a step of Newton's method is about the square of the change: this one is the
+   * last, relative to the time. */
+  static constexpr double LastChange = 0x1p-27;
+  /**
+   * Longest step of a zigzag in units of the cell. Longer ones are so few that no ray has to glide.
+   */
+  static constexpr double LongestShare = 1.0 / 64.0;
+
   /**
    * @param cell, begin must outlive this object.
    * @param momentum in the direction in which the parameter rises.

@@ -4,6 +4,7 @@
 
 #include "Volume/Graded/GradedCell.h"
 #include "Volume/Graded/GradedPassage.h"
+#include "Volume/Graded/GradedRayPath.h"
 #include "Volume/Mesh/CellFaces.h"
 
 #include <glm/common.hpp>
@@ -22,11 +23,6 @@ namespace
 {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-
-/**
- * Longest step of a zigzag in units of the cell. Longer ones are so few that no ray has to glide.
- */
-constexpr double LongestShare = 1.0 / 64.0;
 
 /** Result of a step that ends in the cell. */
 constexpr int StaysInCell = 4;
@@ -56,55 +52,6 @@ bool Refract(const glm::dvec3& normal, double squaredIndex, double side, glm::dv
 }
 
 }
-
-/** State of a ray on its way. */
-struct GradedRayWalk::Path
-{
-  GradedRayResult* Result = nullptr;
-  GradedRayStatistics* Statistics = nullptr;
-  /** Outside of the mesh: a place and the direction; unit length. */
-  glm::dvec3 Origin{ 0.0 };
-  glm::dvec3 Direction{ 0.0 };
-  /** Inside: the cell, the place in it and the momentum. */
-  std::int64_t Cell = -1;
-  PlaceInCell Place;
-  glm::dvec3 Momentum{ 0.0 };
-  std::int64_t Steps = 0;
-  /** Integral of grad(n) / n along a straight ray. */
-  glm::dvec3 Deflection{ 0.0 };
-  /** Length of a straight way to a place that is looked for; infinite for a ray of light. */
-  double Limit = Infinity;
-  bool HasEntered = false;
-  /** Place at which the ray entered last. */
-  glm::dvec3 PassageBegin{ 0.0 };
-  /** Index of refraction on the way to the next entry. */
-  double IndexBefore = 1.0;
-  /** Faces by which the ray has entered without moving on since. */
-  std::vector<std::int32_t> Touched;
-  /** True if the last step is short enough for a zigzag. */
-  bool IsShort = false;
-  /** Short steps in a row, and the cell that was remembered last in their course. */
-  std::int64_t ShortSteps = 0;
-  std::int64_t Anchor = -1;
-  /** Number of faces that the ray must glide along in its next step: 0 to 2. */
-  int Constraints = 0;
-  /** Constraints that were tried last since the last step that was not short; 0 for none. */
-  int LastConstraints = 0;
-
-  bool IsSearching() const { return this->Limit < Infinity; }
-  void ForgetZigzag()
-  {
-    this->ShortSteps = 0;
-    this->Anchor = -1;
-    this->LastConstraints = 0;
-  }
-  void AddStraight(const GradedCell& cell, double length, const std::array<double, 4>& end);
-  void NoteConstraints()
-  {
-    this->LastConstraints = this->Constraints > 0 ? this->Constraints : this->LastConstraints;
-    this->Constraints = 0;
-  }
-};
 
 //------------------------------------------------------------------------------
 /** Adds the integrals along a straight piece of a length that ends at barycentric weights. */
@@ -144,6 +91,7 @@ void GradedRayStatistics::Add(const GradedRayStatistics& other)
 {
   this->Rays += other.Rays;
   this->Steps += other.Steps;
+  this->LaneSteps += other.LaneSteps;
   this->Reflections += other.Reflections;
   this->Glides += other.Glides;
   this->FlatSteps += other.FlatSteps;
@@ -169,17 +117,34 @@ GradedRayResult GradedRayWalk::Walk(
 {
   GradedRayResult result;
   Path path;
+  if (this->Begin({ origin, direction }, result, statistics, path))
+  {
+    while (this->Advance(path))
+    {
+    }
+  }
+  this->Finish(path);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+/** Follows a ray to the first cell that it meets; returns false if it meets none. */
+bool GradedRayWalk::Begin(
+  const GradedRay& ray, GradedRayResult& result, GradedRayStatistics& statistics, Path& path) const
+{
   path.Result = &result;
   path.Statistics = &statistics;
-  path.Origin = result.Entry = result.Exit = origin;
-  path.Direction = result.Direction = glm::normalize(direction);
-  if ((this->MayBeInside(origin) && this->BeginInside(path)) || this->EnterMesh(path))
-  {
-    do
-    {
-      this->CrossCells(path);
-    } while (result.State == GradedRayState::Left && this->EnterMesh(path));
-  }
+  path.Origin = result.Entry = result.Exit = ray.Origin;
+  path.Direction = result.Direction = glm::normalize(ray.Direction);
+  return (this->MayBeInside(ray.Origin) && this->BeginInside(path)) || this->EnterMesh(path);
+}
+
+//------------------------------------------------------------------------------
+/** Counts a ray that has ended. */
+void GradedRayWalk::Finish(Path& path) const
+{
+  GradedRayResult& result = *path.Result;
+  GradedRayStatistics& statistics = *path.Statistics;
   if (this->Medium.IsStraight)
   {
     const glm::dvec3 along = result.Direction;
@@ -190,7 +155,6 @@ GradedRayResult GradedRayWalk::Walk(
   statistics.Trapped += result.State == GradedRayState::Trapped ? 1 : 0;
   statistics.Lost += result.State == GradedRayState::Lost ? 1 : 0;
   statistics.Steps += path.Steps;
-  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -316,36 +280,34 @@ void GradedRayWalk::PutIn(const BoundaryCrossing& crossing, Path& path) const
 }
 
 //------------------------------------------------------------------------------
-/** Follows a ray from cell to cell until it leaves the mesh or is stopped. */
-void GradedRayWalk::CrossCells(Path& path) const
+/** Takes a ray to the next cell; returns false if it has left the mesh for good or is stopped. */
+bool GradedRayWalk::Advance(Path& path) const
 {
   GradedRayResult& result = *path.Result;
-  for (;;)
+  const bool isOver = path.Steps >= this->MaximumNumberOfSteps;
+  const int face = isOver ? -1 : this->CrossCell(path);
+  if (face == StaysInCell)
   {
-    const bool isOver = path.Steps >= this->MaximumNumberOfSteps;
-    const int face = isOver ? -1 : this->CrossCell(path);
-    if (face == StaysInCell)
-    {
-      continue;
-    }
-    if (face < 0)
-    {
-      result.State = isOver ? GradedRayState::Trapped : GradedRayState::Lost;
-      result.Exit = this->PlaceOf(path);
-      result.Direction = glm::normalize(path.Momentum);
-      return;
-    }
-    const std::int32_t link = this->CellOf(path).Links[face];
-    if (link >= 0)
-    {
-      this->PassTo(link, face, path);
-    }
-    else if (this->LeaveMesh(face, path))
-    {
-      return;
-    }
-    this->WatchForZigzag(path);
+    return true;
   }
+  if (face < 0)
+  {
+    result.State = isOver ? GradedRayState::Trapped : GradedRayState::Lost;
+    result.Exit = this->PlaceOf(path);
+    result.Direction = glm::normalize(path.Momentum);
+    return false;
+  }
+  const std::int32_t link = this->CellOf(path).Links[face];
+  if (link >= 0)
+  {
+    this->PassTo(link, face, path);
+  }
+  else if (this->LeaveMesh(face, path))
+  {
+    return this->EnterMesh(path);
+  }
+  this->WatchForZigzag(path);
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -411,9 +373,10 @@ int GradedRayWalk::CrossCell(Path& path) const
   const double passed = cell.IsFlat ? 0.0 : sign * time;
   const double height = 0.125 * passed * passed;
   constexpr double glideHeight = GradedPassage::GlideHeight;
+  constexpr double longest = GradedPassage::LongestShare;
   path.IsShort =
     height * height * glm::dot(way.GetForce(), way.GetForce()) <= glideHeight * glideHeight &&
-    passed * passed * square <= LongestShare * LongestShare * cell.SquaredSize;
+    passed * passed * square <= longest * longest * cell.SquaredSize;
   path.NoteConstraints();
   path.Statistics->Glides += glides ? 1 : 0;
   if (path.IsSearching())

@@ -26,7 +26,9 @@
 #ifndef meniscus_Volume_Graded_GradedRayWalk_h
 #define meniscus_Volume_Graded_GradedRayWalk_h
 
+#include "Simd/InstructionSets.h"
 #include "Volume/Graded/BoundaryCrossings.h"
+#include "Volume/Graded/GradedCellTable.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -49,6 +51,8 @@ struct GradedMedium
   const std::vector<double>* SquaredIndices = nullptr;
   /** Terms of ComputeEdgeTerms(), with which n^2 is quadratic; null for a linear n^2. */
   const std::vector<EdgeTerms>* Terms = nullptr;
+  /** Table of the same field, for WalkAll(); null for none. */
+  const GradedCellTable* Table = nullptr;
   /**
    * Index outside of the mesh, where Snell's law holds on the boundary. With 0, the index outside
    * is everywhere that at the boundary, and rays enter and leave in their directions: the boundary
@@ -80,6 +84,15 @@ enum class GradedRayState : std::uint8_t
   Lost
 };
 
+/** A ray of light. */
+struct GradedRay
+{
+  /** Relative to the mesh's centre, in units of its radius. */
+  glm::dvec3 Origin{ 0.0 };
+  /** Any length but 0. */
+  glm::dvec3 Direction{ 0.0 };
+};
+
 /** Result of a ray. Positions are relative to the mesh's centre, in units of its radius. */
 struct GradedRayResult
 {
@@ -100,6 +113,8 @@ struct GradedRayStatistics
   /** Rays that met the mesh. */
   std::int64_t Rays = 0;
   std::int64_t Steps = 0;
+  /** Steps of rays in lanes, which are among all steps. */
+  std::int64_t LaneSteps = 0;
   /** Total reflections at the boundary. */
   std::int64_t Reflections = 0;
   /** Steps along a face or an edge; steps in flat and inverted cells. */
@@ -125,14 +140,27 @@ public:
   GradedRayResult Walk(
     const glm::dvec3& origin, const glm::dvec3& direction, GradedRayStatistics& statistics) const;
 
+  /**
+   * Follows many rays, several at a time if the medium has a table. The results do not depend on
+   * the other rays, and differ from those of Walk() by rounding.
+   * @param results one per ray; replaced.
+   * @param set instruction set, on which the results do not depend.
+   */
+  void WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
+    GradedRayResult* results, InstructionSet set = BestInstructionSet()) const;
+
 private:
   struct Path;
+  class LaneWalk;
 
+  bool Begin(const GradedRay& ray, GradedRayResult& result, GradedRayStatistics& statistics,
+    Path& path) const;
+  void Finish(Path& path) const;
   bool MayBeInside(const glm::dvec3& place) const;
   bool BeginInside(Path& path) const;
   bool EnterMesh(Path& path) const;
   void PutIn(const BoundaryCrossing& crossing, Path& path) const;
-  void CrossCells(Path& path) const;
+  bool Advance(Path& path) const;
   void PassTo(std::int32_t link, int face, Path& path) const;
   bool LeaveMesh(int face, Path& path) const;
   int CrossCell(Path& path) const;

@@ -48,6 +48,8 @@ public:
     this->Medium.Tree = &this->Tree;
     this->Medium.SquaredIndices = &this->Squares;
     this->Medium.OutsideIndex = outsideIndex;
+    this->Table.Build(this->Mesh, this->Squares, this->Medium.Terms);
+    this->Medium.Table = &this->Table;
   }
   GradedScene(const GradedScene&) = delete;
   GradedScene& operator=(const GradedScene&) = delete;
@@ -56,18 +58,33 @@ public:
   {
     const double radius = this->Mesh.GetRadius();
     const glm::dvec3 center = this->Mesh.GetCenter();
-    GradedRayResult result =
-      GradedRayWalk(this->Medium).Walk((origin - center) / radius, direction, this->Statistics);
+    GradedRayResult result = this->Walk((origin - center) / radius, direction);
     result.Entry = center + radius * result.Entry;
     result.Exit = center + radius * result.Exit;
     result.OpticalPath *= radius;
     return result;
   }
 
+  /** The same in the units of the walk. */
+  GradedRayResult Walk(const glm::dvec3& origin, const glm::dvec3& direction)
+  {
+    const GradedRayWalk walk(this->Medium);
+    if (!this->InLanes)
+    {
+      return walk.Walk(origin, direction, this->Statistics);
+    }
+    GradedRayResult result;
+    walk.WalkAll({ { origin, direction } }, this->Statistics, &result);
+    return result;
+  }
+
+  /** True if rays are walked by WalkAll(), one in each call. */
+  bool InLanes = false;
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
   std::vector<double> Squares;
   std::vector<EdgeTerms> Terms;
+  GradedCellTable Table;
   std::int64_t Unknown = 0;
   GradedMedium Medium;
   GradedRayStatistics Statistics;

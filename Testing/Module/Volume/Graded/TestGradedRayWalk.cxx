@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -188,31 +190,46 @@ reference::GradedRayIntegrator MakeIntegrator(const GradedScene& scene)
   return reference::GradedRayIntegrator(points, cells, scene.Squares, terms);
 }
 
-class GradedRayWalkOfOrder : public testing::TestWithParam<bool>
+/** The order of n^2, and how rays are walked. */
+struct WalkKind
+{
+  bool IsQuadratic;
+  bool InLanes;
+};
+
+class GradedRayWalkOfKind : public testing::TestWithParam<WalkKind>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Squares, GradedRayWalkOfOrder, testing::Bool(),
-  [](const auto& one) { return one.param ? "Quadratic" : "Linear"; });
+INSTANTIATE_TEST_SUITE_P(Walks, GradedRayWalkOfKind,
+  testing::Values(WalkKind{ true, false }, WalkKind{ false, false }, WalkKind{ true, true },
+    WalkKind{ false, true }),
+  [](const auto& one)
+  {
+    return std::string(one.param.IsQuadratic ? "Quadratic" : "Linear") +
+      (one.param.InLanes ? "Lanes" : "");
+  });
 
-TEST_P(GradedRayWalkOfOrder, AgreesWithRungeKutta)
+TEST_P(GradedRayWalkOfKind, AgreesWithRungeKutta)
 {
   RandomNumbers random(4);
   double worst = 0.0;
   std::int64_t rays = 0;
   std::int64_t steps = 0;
+  const double contrasts[3] = { 1.0e-3, 0.05, 0.8 };
   for (int mesh = 0; mesh < 12; ++mesh)
   {
     MeshArrays arrays = KuhnGrid(3);
     JitterInside(arrays, 0.08, random);
-    GradedScene scene(arrays, RandomField(mesh % 2 == 0 ? 0.05 : 0.8, random), 0.0, GetParam());
+    GradedScene scene(
+      arrays, RandomField(contrasts[mesh % 3], random), 0.0, GetParam().IsQuadratic);
     const reference::GradedRayIntegrator integrator = MakeIntegrator(scene);
-    const GradedRayWalk walk(scene.Medium);
+    scene.InLanes = GetParam().InLanes;
     for (int i = 0; i < 40; ++i, ++rays)
     {
       const glm::dvec3 direction = random.GetDirection();
       const glm::dvec3 target = random.Uniform(0.0, 0.4) * random.GetDirection();
-      const GradedRayResult ray = walk.Walk(target - 3.0 * direction, direction, scene.Statistics);
+      const GradedRayResult ray = scene.Walk(target - 3.0 * direction, direction);
       reference::LightRay light;
       light.Position = { ray.Entry.x, ray.Entry.y, ray.Entry.z };
       const double index = std::sqrt(integrator.SquaredIndexAt(light.Position));
@@ -232,7 +249,7 @@ TEST_P(GradedRayWalkOfOrder, AgreesWithRungeKutta)
   EXPECT_GT(steps, 4 * rays);
 }
 
-TEST_P(GradedRayWalkOfOrder, RaysReturn)
+TEST_P(GradedRayWalkOfKind, RaysReturn)
 {
   RandomNumbers random(5);
   MeshArrays arrays = KuhnGrid(6);
@@ -240,7 +257,8 @@ TEST_P(GradedRayWalkOfOrder, RaysReturn)
   GradedScene scene(
     arrays,
     [](const glm::dvec3& p) { return 1.5 + 0.4 * std::sin(5.0 * p.x) * std::cos(4.0 * p.y + p.z); },
-    0.0, GetParam());
+    0.0, GetParam().IsQuadratic);
+  scene.InLanes = GetParam().InLanes;
   for (const double outside : { 0.0, 1.0 })
   {
     scene.Medium.OutsideIndex = outside;
@@ -264,7 +282,7 @@ TEST_P(GradedRayWalkOfOrder, RaysReturn)
 }
 
 // Random fields and meshes of all kinds: with inverted cells, flat cells and holes.
-TEST_P(GradedRayWalkOfOrder, NoRayIsLost)
+TEST_P(GradedRayWalkOfKind, NoRayIsLost)
 {
   RandomNumbers random(6);
   GradedRayStatistics sums;
@@ -289,8 +307,14 @@ TEST_P(GradedRayWalkOfOrder, NoRayIsLost)
           arrays.Cells.begin() + static_cast<std::ptrdiff_t>(c + 4));
       }
     }
-    GradedScene scene(arrays, RandomField(mesh % 5 == 0 ? 3.0 : 0.1, random), mesh % 2, GetParam());
+    GradedScene scene(arrays,
+      RandomField(mesh % 5 == 0 ? 3.0
+          : mesh % 2 == 0       ? 1.0e-3
+                                : 0.1,
+        random),
+      mesh % 2, GetParam().IsQuadratic);
     scene.Medium.MaximumNumberOfSteps = 4096;
+    scene.InLanes = GetParam().InLanes;
     for (int i = 0; i < 300; ++i)
     {
       const int axis = random.Below(12);
@@ -320,18 +344,22 @@ TEST(GradedRayWalk, RayGlidesAlongARidge)
   GradedScene edge(
     CenteredGrid(4, 1.0), [](const glm::dvec3& p) { return 3.0 - std::abs(p.y) - std::abs(p.z); },
     0.0, false);
-  for (GradedScene* scene : { &plane, &edge })
+  for (const bool inLanes : { false, true })
   {
-    for (const double z : { 0.0, 0.1, 0.3 })
+    for (GradedScene* scene : { &plane, &edge })
     {
-      const double place = scene == &edge ? 0.0 : z;
-      const GradedRayResult ray =
-        scene->Trace(glm::dvec3(-2.0, 0.0, place), glm::dvec3(1.0, 0.0, 0.0));
-      EXPECT_NEAR(glm::length(ray.Exit - glm::dvec3(1.0, 0.0, place)), 0.0, 1.0e-9);
-      EXPECT_NEAR(ray.OpticalPath, 2.0 * std::sqrt(3.0), 1.0e-9);
+      scene->InLanes = inLanes;
+      for (const double z : { 0.0, 0.1, 0.3 })
+      {
+        const double place = scene == &edge ? 0.0 : z;
+        const GradedRayResult ray =
+          scene->Trace(glm::dvec3(-2.0, 0.0, place), glm::dvec3(1.0, 0.0, 0.0));
+        EXPECT_NEAR(glm::length(ray.Exit - glm::dvec3(1.0, 0.0, place)), 0.0, 1.0e-9);
+        EXPECT_NEAR(ray.OpticalPath, 2.0 * std::sqrt(3.0), 1.0e-9);
+      }
+      ExpectAllThrough(scene->Statistics);
+      EXPECT_GT(scene->Statistics.Glides, 0);
     }
-    ExpectAllThrough(scene->Statistics);
-    EXPECT_GT(scene->Statistics.Glides, 0);
   }
 }
 
@@ -344,16 +372,65 @@ TEST(GradedRayWalk, PlanesOfSymmetryDoNotTrap)
       const double n = 1.0 + 0.05 * std::exp(-20.0 * glm::dot(p, p));
       return n * n;
     });
-  for (int j = 0; j < 40; ++j)
+  for (const bool inLanes : { false, true })
   {
-    for (int i = 0; i < 40; ++i)
+    lens.InLanes = inLanes;
+    for (int j = 0; j < 40; ++j)
     {
-      lens.Trace(
-        glm::dvec3((i + 0.5) / 20.0 - 1.0, (j + 0.5) / 20.0 - 1.0, 3.0), glm::dvec3(0, 0, -1.0));
+      for (int i = 0; i < 40; ++i)
+      {
+        lens.Trace(
+          glm::dvec3((i + 0.5) / 20.0 - 1.0, (j + 0.5) / 20.0 - 1.0, 3.0), glm::dvec3(0, 0, -1.0));
+      }
     }
   }
   ExpectAllThrough(lens.Statistics);
-  EXPECT_LT(lens.Statistics.Steps, 1600 * 100);
+  EXPECT_LT(lens.Statistics.Steps, 2 * 1600 * 100);
+}
+
+// A gas: each ray has the same result whatever goes on in the other lanes, with any instructions,
+// and nearly all steps are those of lanes.
+TEST(GradedRayWalk, LanesDoNotDependOnEachOther)
+{
+  RandomNumbers random(7);
+  MeshArrays arrays = KuhnGrid(6);
+  JitterInside(arrays, 0.05, random);
+  GradedScene gas(arrays,
+    [](const glm::dvec3& p)
+    { return 1.0005 + 2.0e-4 * std::sin(5.0 * p.x) * std::cos(4.0 * p.y); });
+  std::vector<GradedRay> rays;
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 direction = random.GetDirection();
+    rays.push_back(
+      { random.Uniform(0.0, 0.9) * random.GetDirection() - 2.0 * direction, direction });
+  }
+  const GradedRayWalk walk(gas.Medium);
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    GradedRayStatistics together;
+    GradedRayStatistics apart;
+    std::vector<GradedRayResult> results(rays.size());
+    walk.WalkAll(rays, together, results.data(), set);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+    {
+      GradedRayResult one;
+      walk.WalkAll({ rays[i] }, apart, &one, InstructionSet::Portable);
+      const GradedRayResult& result = results[i];
+      EXPECT_EQ(result.State, one.State);
+      EXPECT_EQ(result.Exit, one.Exit);
+      EXPECT_EQ(result.Direction, one.Direction);
+      EXPECT_EQ(result.OpticalPath, one.OpticalPath);
+      const GradedRayResult alone = walk.Walk(rays[i].Origin, rays[i].Direction, gas.Statistics);
+      EXPECT_EQ(result.State, alone.State);
+      EXPECT_NEAR(glm::length(result.Exit - alone.Exit), 0.0, 1.0e-12);
+      EXPECT_NEAR(glm::length(result.Direction - alone.Direction), 0.0, 1.0e-12);
+      EXPECT_NEAR(result.OpticalPath, alone.OpticalPath, 1.0e-12);
+    }
+    EXPECT_EQ(together.Steps, apart.Steps);
+    EXPECT_GT(together.LaneSteps, together.Steps * 4 / 5);
+    ExpectAllThrough(together);
+  }
 }
 
 TEST(GradedRayWalk, PrismRefractsAndReflectsTotally)

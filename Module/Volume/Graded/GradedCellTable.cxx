@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Graded/GradedCellTable.h"
+
+#include "Volume/Graded/GradedCell.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Sum of the sizes of a vector's components. */
+double SizeOf(const glm::dvec3& v)
+{
+  return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+GradedCellRow MakeRow(
+  const GradedCell& cell, const TetrahedralMesh::Cell& ofMesh, const glm::dvec3& first)
+{
+  using Row = GradedCellRow;
+  GradedCellRow row{};
+  auto& values = row.Values;
+  for (int i = 0; i < 4; ++i)
+  {
+    values[Row::Links + i] = ofMesh.Links[i];
+    values[Row::LargestGradient] =
+      std::max(values[Row::LargestGradient], SizeOf(cell.Gradients[i]));
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    values[Row::Gradients + i] = cell.IsFlat || cell.IsInverted
+      ? std::numeric_limits<double>::quiet_NaN()
+      : cell.Gradients[i / 3 + 1][i % 3];
+  }
+  glm::dvec3 force = cell.GetForce({ 1.0, 0.0, 0.0, 0.0 });
+  if (cell.IsCurved && !cell.IsFlat)
+  {
+    const glm::dmat3 derivative = cell.GetForceDerivative();
+    force -= derivative * first;
+    const double entries[6] = { derivative[0][0], derivative[1][1], derivative[2][2],
+      derivative[1][0], derivative[2][0], derivative[2][1] };
+    std::copy(std::begin(entries), std::end(entries), values.begin() + Row::Derivative);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      values[Row::Norm] = std::max(values[Row::Norm], SizeOf(derivative[axis]));
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    values[Row::Force + axis] = force[axis];
+  }
+  values[Row::SquaredSize] = cell.SquaredSize;
+  return row;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void GradedCellTable::Build(const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices,
+  const std::vector<EdgeTerms>* terms, const RangeLoop& loop)
+{
+  const auto& cells = mesh.GetCells();
+  this->Rows.assign(cells.size(), GradedCellRow{});
+  loop(cells.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t c = begin; c < end; ++c)
+      {
+        const auto number = static_cast<std::int64_t>(c);
+        if (mesh.IsActiveCell(number))
+        {
+          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number), cells[c],
+            mesh.GetPosition(cells[c].Vertices[0]));
+        }
+      }
+    });
+}
+
+}

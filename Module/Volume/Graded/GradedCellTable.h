@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Graded_GradedCellTable_h
+#define meniscus_Volume_Graded_GradedCellTable_h
+
+#include "Common/RangeLoop.h"
+#include "Volume/Graded/QuadraticIndex.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Coefficients of a cell's rays, in units of the mesh's radius. */
+struct GradedCellRow
+{
+  /** Places of coefficients in Values. */
+  enum Column
+  {
+    /** Gradients of the barycentric weights of vertices 1, 2 and 3; NaN for a cell without a row.
+     */
+    Gradients = 0,
+    /** grad(n^2) / 2 at the mesh's centre, if the cell's function of n^2 went on to there. */
+    Force = 9,
+    /** Derivative of the force, a symmetric matrix: xx, yy, zz, xy, xz, yz. */
+    Derivative = 12,
+    /** Squared length of the longest of the edges at the first vertex. */
+    SquaredSize = 18,
+    /** Largest sum of the sizes of a gradient's components. */
+    LargestGradient = 19,
+    /** Largest sum of the sizes of the components of a column of the derivative. */
+    Norm = 20,
+    /** TetrahedralMesh::Cell::Links. */
+    Links = 21,
+    /** A multiple of four. */
+    Size = 28
+  };
+
+  std::array<double, Size> Values;
+};
+
+/**
+ * Rows of all active cells of a mesh in a field. Flat and inverted cells have none: rays pass them
+ * one by one. A row takes 224 bytes.
+ */
+class GradedCellTable
+{
+public:
+  /** @param squaredIndices, terms those of GradedMedium; terms may be null. */
+  void Build(const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices,
+    const std::vector<EdgeTerms>* terms, const RangeLoop& loop = SerialLoop);
+
+  bool IsEmpty() const { return this->Rows.empty(); }
+  /** The numbers of a cell's row, in the order of GradedCellRow::Column. */
+  const double* GetRow(std::int64_t cell) const
+  {
+    return this->Rows[static_cast<std::size_t>(cell)].Values.data();
+  }
+
+private:
+  std::vector<GradedCellRow> Rows;
+};
+
+}
+
+#endif

@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Steps of lanes, compiled once per instruction set, by GradedLanesOfSet.cxx.in. No name of this
+ * file is seen by other files.
+ */
+#ifndef meniscus_Volume_Graded_GradedLaneKernel_h
+#define meniscus_Volume_Graded_GradedLaneKernel_h
+
+#include "Volume/Graded/GradedLanes.h"
+#include "Volume/Graded/GradedPassage.h"
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+#include <cstdint>
+#include <cstring>
+
+namespace meniscus
+{
+namespace
+{
+
+#if defined(__AVX512F__)
+constexpr int Width = 8;
+#elif defined(__AVX__)
+constexpr int Width = 4;
+#else
+constexpr int Width = 2;
+#endif
+static_assert(GradedLanes::Size % Width == 0, "no lane is left over");
+
+/** One number per lane, in the vector types of GCC and Clang, and the results of comparisons. */
+using Number = double __attribute__((vector_size(8 * Width)));
+using Mask = std::int64_t __attribute__((vector_size(8 * Width)));
+
+Number Splat(double value)
+{
+  return value - Number{};
+}
+
+Number Choose(Mask condition, Number yes, Number no)
+{
+  return condition ? yes : no;
+}
+
+Number Load(const double* from)
+{
+  Number result;
+  std::memcpy(&result, from, sizeof(result));
+  return result;
+}
+
+#if defined(__AVX__)
+/** Four numbers of each of four rows, from the k-th on. */
+void LoadFourRows(const double* const* rows, int k, __m256d (&columns)[4])
+{
+  const __m256d a = _mm256_loadu_pd(rows[0] + k);
+  const __m256d b = _mm256_loadu_pd(rows[1] + k);
+  const __m256d c = _mm256_loadu_pd(rows[2] + k);
+  const __m256d d = _mm256_loadu_pd(rows[3] + k);
+  const __m256d ab[2] = { _mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b) };
+  const __m256d cd[2] = { _mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d) };
+  for (int i = 0; i < 2; ++i)
+  {
+    columns[i] = _mm256_permute2f128_pd(ab[i], cd[i], 0x20);
+    columns[i + 2] = _mm256_permute2f128_pd(ab[i], cd[i], 0x31);
+  }
+}
+#endif
+
+/** Four numbers of each lane's row of the table, from the k-th on. */
+void LoadOfRows(const double* const* rows, int k, Number* columns)
+{
+#if defined(__AVX512F__)
+  __m256d low[4];
+  __m256d high[4];
+  LoadFourRows(rows, k, low);
+  LoadFourRows(rows + 4, k, high);
+  for (int i = 0; i < 4; ++i)
+  {
+    columns[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(low[i]), high[i], 1);
+  }
+#elif defined(__AVX__)
+  __m256d all[4];
+  LoadFourRows(rows, k, all);
+  for (int i = 0; i < 4; ++i)
+  {
+    columns[i] = all[i];
+  }
+#else
+  for (int i = 0; i < 4; ++i)
+  {
+    columns[i] = Number{ rows[0][k + i], rows[1][k + i] };
+  }
+#endif
+}
+
+void Store(double* to, Number value)
+{
+  std::memcpy(to, &value, sizeof(value));
+}
+
+Number SizeOf(Number x)
+{
+  return Choose(x < 0.0, -x, x);
+}
+
+Number SmallerOf(Number a, Number b)
+{
+  return Choose(a < b, a, b);
+}
+
+/** One vector per lane. */
+struct Vector
+{
+  Number X;
+  Number Y;
+  Number Z;
+
+  friend Vector operator+(Vector a, Vector b) { return { a.X + b.X, a.Y + b.Y, a.Z + b.Z }; }
+  friend Vector operator*(Number f, Vector a) { return { f * a.X, f * a.Y, f * a.Z }; }
+  friend Vector operator*(double f, Vector a) { return Splat(f) * a; }
+  Number Size() const { return SizeOf(this->X) + SizeOf(this->Y) + SizeOf(this->Z); }
+};
+
+Number Product(Vector a, Vector b)
+{
+  return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
+}
+
+Vector Choose(Mask condition, Vector yes, Vector no)
+{
+  return { Choose(condition, yes.X, no.X), Choose(condition, yes.Y, no.Y),
+    Choose(condition, yes.Z, no.Z) };
+}
+
+Vector LoadVector(const double (&from)[3][GradedLanes::Size], int i)
+{
+  return { Load(from[0] + i), Load(from[1] + i), Load(from[2] + i) };
+}
+
+void StoreVector(double (&to)[3][GradedLanes::Size], int i, Vector value)
+{
+  Store(to[0] + i, value.X);
+  Store(to[1] + i, value.Y);
+  Store(to[2] + i, value.Z);
+}
+
+using Row = GradedCellRow;
+
+/** Coefficients of the lanes' cells. */
+struct Coefficients
+{
+  explicit Coefficients(const double* const* rows)
+  {
+    static_assert(Row::Size % 4 == 0, "whole blocks of four");
+    for (int k = 0; k < Row::Size; k += 4)
+    {
+      LoadOfRows(rows, k, this->Values + k);
+    }
+  }
+  Number operator[](int column) const { return this->Values[column]; }
+  Vector GetVector(int column) const
+  {
+    return { this->Values[column], this->Values[column + 1], this->Values[column + 2] };
+  }
+  Vector GetGradient(int k) const { return this->GetVector(Row::Gradients + 3 * k); }
+  /** The force's derivative times a vector. */
+  Vector Derive(Vector v) const
+  {
+    const Vector diagonal = this->GetVector(Row::Derivative);
+    const Vector others = this->GetVector(Row::Derivative + 3);
+    return { diagonal.X * v.X + others.X * v.Y + others.Y * v.Z,
+      others.X * v.X + diagonal.Y * v.Y + others.Z * v.Z,
+      others.Y * v.X + others.Z * v.Y + diagonal.Z * v.Z };
+  }
+
+private:
+  Number Values[Row::Size];
+};
+
+/** The face by which a straight way leaves the cell. */
+struct Exit
+{
+  void Try(double face, Number weight, Number rate, Vector gradient, Number link)
+  {
+    const Mask isNearer = -rate * this->Weight > weight * this->Fall;
+    this->Face = Choose(isNearer, Splat(face), this->Face);
+    this->Weight = Choose(isNearer, weight, this->Weight);
+    this->Fall = Choose(isNearer, -rate, this->Fall);
+    this->Link = Choose(isNearer, link, this->Link);
+    this->Gradient = Choose(isNearer, gradient, this->Gradient);
+  }
+
+  Number Face = Splat(-1.0);
+  /**
+   * Weight at the beginning and rate of its fall: the time is their quotient, infinite at first.
+   */
+  Number Weight = Splat(1.0);
+  Number Fall = Splat(0.0);
+  Number Link = Splat(-1.0);
+  Vector Gradient = { Splat(0.0), Splat(0.0), Splat(0.0) };
+};
+
+/** The series of a ray in its cell without its first term, the momentum. */
+struct Series
+{
+  Series(const Coefficients& cell, Vector place, Vector momentum)
+    : Force(cell.GetVector(Row::Force) + cell.Derive(place))
+    , Second(0.5 * this->Force)
+    , Third(Splat(1.0 / 6.0) * cell.Derive(momentum))
+    , Fourth(Splat(1.0 / 12.0) * cell.Derive(this->Second))
+    , Fifth(Splat(1.0 / 20.0) * cell.Derive(this->Third))
+  {
+  }
+
+  /** Moves a time to the zero of the exit's weight. Returns the last change. */
+  Number Solve(const Exit& exit, Number& t) const
+  {
+    const Number c2 = Product(exit.Gradient, this->Second);
+    const Number c3 = Product(exit.Gradient, this->Third);
+    const Number c4 = Product(exit.Gradient, this->Fourth);
+    const Number c5 = Product(exit.Gradient, this->Fifth);
+    Number change = t;
+    for (int step = 0; step < 2; ++step)
+    {
+      const Number curve = t * (c2 + t * (c3 + t * (c4 + t * c5)));
+      const Number slope = t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * (5.0 * c5))));
+      change = (exit.Weight + t * (curve - exit.Fall)) / (slope - exit.Fall);
+      t = t - change;
+    }
+    return change;
+  }
+  /** Place from the beginning. */
+  Vector GetWay(Vector momentum, Number t) const
+  {
+    return t *
+      (momentum + t * (this->Second + t * (this->Third + t * (this->Fourth + t * this->Fifth))));
+  }
+  Vector GetMomentum(Vector momentum, Number t) const
+  {
+    return momentum +
+      t *
+      (this->Force + t * (3.0 * this->Third + t * (4.0 * this->Fourth + t * (5.0 * this->Fifth))));
+  }
+  /** Integral of the place without its fifth term, which counts for nothing in that of n^2. */
+  Vector Integrate(Vector momentum, Number t) const
+  {
+    return t * t *
+      (0.5 * momentum +
+        t *
+          (Splat(1.0 / 3.0) * this->Second + t * (0.25 * this->Third + t * (0.2 * this->Fourth))));
+  }
+
+  Vector Force;
+  Vector Second;
+  Vector Third;
+  Vector Fourth;
+  Vector Fifth;
+};
+
+/** Where a ray is in its cell at the beginning of a step. */
+struct Begin
+{
+  Begin(const GradedLanes& lanes, const Coefficients& cell, int i)
+    : Place(LoadVector(lanes.Place, i))
+    , Momentum(LoadVector(lanes.Momentum, i))
+  {
+    const Number entry = Load(lanes.Entry + i);
+    const Vector w = LoadVector(lanes.Weights, i);
+    const Number zero = Splat(0.0);
+    this->Weights[0] = Choose(entry == 0.0, zero, w.X);
+    this->Weights[1] = Choose(entry == 1.0, zero, Choose(entry < 1.0, w.X, w.Y));
+    this->Weights[2] = Choose(entry == 2.0, zero, Choose(entry < 2.0, w.Y, w.Z));
+    this->Weights[3] = Choose(entry == 3.0, zero, w.Z);
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Rates[k + 1] = Product(cell.GetGradient(k), this->Momentum);
+    }
+    this->Rates[0] = -(this->Rates[1] + this->Rates[2] + this->Rates[3]);
+  }
+
+  Exit FindExit(const Coefficients& cell) const
+  {
+    Exit exit;
+    exit.Try(0.0, this->Weights[0], this->Rates[0],
+      -1.0 * (cell.GetGradient(0) + cell.GetGradient(1) + cell.GetGradient(2)), cell[Row::Links]);
+    for (int k = 1; k < 4; ++k)
+    {
+      exit.Try(k, this->Weights[k], this->Rates[k], cell.GetGradient(k - 1), cell[Row::Links + k]);
+    }
+    return exit;
+  }
+
+  Vector Place;
+  Vector Momentum;
+  Number Weights[4];
+  Number Rates[4];
+};
+
+/** Steps of the lanes from i on. */
+void Step(GradedLanes& lanes, int i)
+{
+  const Coefficients cell(lanes.Rows + i);
+  const Begin begin(lanes, cell, i);
+  const Exit exit = begin.FindExit(cell);
+  const Series series(cell, begin.Place, begin.Momentum);
+  Number t = exit.Weight / exit.Fall;
+  const Number change = series.Solve(exit, t);
+  const Vector way = series.GetWay(begin.Momentum, t);
+  const Vector end = series.GetMomentum(begin.Momentum, t);
+
+  // Bounds, in sums of the sizes of components. The higher terms are at most 1 / 6 of the exponent
+  // times (1 + exponent / 20 + ...).
+  const Number exponent = cell[Row::Norm] * t * t;
+  const Number length = begin.Momentum.Size() * t;
+  const Number bend = series.Force.Size() * t * t;
+  const Number higher =
+    2.0 * cell[Row::LargestGradient] * (length + bend) * (0.2 * exponent + GradedPassage::Rounding);
+  Number ends[4] = { Splat(0.0), Product(cell.GetGradient(0), way),
+    Product(cell.GetGradient(1), way), Product(cell.GetGradient(2), way) };
+  ends[0] = -(ends[1] + ends[2] + ends[3]);
+  Number least = Splat(1.0);
+  Number excess = Splat(-1.0);
+  for (int k = 0; k < 4; ++k)
+  {
+    const Mask isExit = exit.Face == double(k);
+    ends[k] = begin.Weights[k] + ends[k];
+    const Number above = SmallerOf(ends[k], begin.Weights[k] + t * begin.Rates[k]);
+    least = Choose(isExit, least, SmallerOf(least, above - higher));
+    ends[k] = Choose(isExit, Splat(0.0), ends[k]);
+    excess = excess + ends[k];
+  }
+  // The sixth term is exponent^2 / 360 of the second, the seventh exponent^3 / 5040 of the first.
+  const Mask isExact = exponent * exponent * (exponent * length + 7.0 * bend) <=
+    5040.0 * GradedLanes::LargestRest * length;
+  const Mask isRoot =
+    (SizeOf(change) <= GradedPassage::LastChange * t) & (Product(exit.Gradient, end) < 0.0);
+  const Number square = Product(begin.Momentum, begin.Momentum);
+  constexpr double glideHeight = GradedPassage::GlideHeight;
+  constexpr double share = GradedPassage::LongestShare;
+  const Mask isLong = (t * t * square > share * share * cell[Row::SquaredSize]) |
+    (t * t * t * t * Product(series.Force, series.Force) > 64.0 * glideHeight * glideHeight);
+  const Number shortSteps = Load(lanes.ShortSteps + i);
+  const Number run = Choose(isLong, Splat(0.0), shortSteps + 1.0);
+  const Number steps = Load(lanes.Steps + i);
+  const Mask isDone = (least > 0.0) & isExact & isRoot & (t > 0.0) &
+    (SizeOf(excess) < GradedPassage::LastChange) & (run <= GradedLanes::MostShortSteps) &
+    (exit.Link >= 0.0) & (steps < Load(lanes.LastStep + i));
+
+  const Vector mean = series.Integrate(begin.Momentum, t);
+  const Number path = 0.5 * (square * t + Product(series.Force, mean) + Product(end, way));
+  const Number scale = 1.0 - excess;
+  const Vector kept = { Choose(exit.Face <= 0.0, ends[1], ends[0]),
+    Choose(exit.Face <= 1.0, ends[2], ends[1]), Choose(exit.Face <= 2.0, ends[3], ends[2]) };
+  StoreVector(lanes.Place, i, Choose(isDone, begin.Place + way, begin.Place));
+  StoreVector(lanes.Momentum, i, Choose(isDone, end, begin.Momentum));
+  StoreVector(lanes.Weights, i, Choose(isDone, scale * kept, LoadVector(lanes.Weights, i)));
+  const Number before = Load(lanes.OpticalPath + i);
+  Store(lanes.OpticalPath + i, Choose(isDone, before + path, before));
+  Store(lanes.Steps + i, Choose(isDone, steps + 1.0, steps));
+  Store(lanes.ShortSteps + i, Choose(isDone, run, shortSteps));
+  Store(lanes.Link + i, Choose(isDone, exit.Link, Splat(-1.0)));
+}
+
+/** Steps of all lanes. */
+void StepAll(GradedLanes& lanes)
+{
+  for (int i = 0; i < lanes.Count; i += Width)
+  {
+    Step(lanes, i);
+  }
+}
+
+}
+
+}
+
+#endif

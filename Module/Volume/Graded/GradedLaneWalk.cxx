@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Walk of many rays, one per lane. Steps that lanes cannot take are steps of the ray alone.
+#include "Volume/Graded/GradedRayWalk.h"
+
+#include "Volume/Graded/GradedLanes.h"
+#include "Volume/Graded/GradedRayPath.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+namespace meniscus
+{
+
+class GradedRayWalk::LaneWalk
+{
+public:
+  LaneWalk(const GradedRayWalk& walk, const std::vector<GradedRay>& rays,
+    GradedRayStatistics& statistics, GradedRayResult* results)
+    : Walk(walk)
+    , Rays(rays)
+    , Statistics(statistics)
+    , Results(results)
+  {
+  }
+
+  void Run(InstructionSet set)
+  {
+    std::fill_n(this->Lanes.Rows, GradedLanes::Size, this->Walk.Medium.Table->GetRow(0));
+    while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
+    {
+      ++this->Lanes.Count;
+    }
+    while (this->Lanes.Count > 0)
+    {
+      for (int lane = 0; lane < this->Lanes.Count; ++lane)
+      {
+        this->Lanes.Rows[lane] = this->Walk.Medium.Table->GetRow(this->Cells[lane]);
+      }
+      StepLanes(this->Lanes, set);
+      for (int lane = 0; lane < this->Lanes.Count; ++lane)
+      {
+        const auto link = static_cast<std::int32_t>(this->Lanes.Link[lane]);
+        if (link >= 0)
+        {
+          this->Cells[lane] = link / 4;
+          this->Lanes.Entry[lane] = link % 4;
+          continue;
+        }
+        this->Take(lane);
+        if (!this->GoOn(lane) && !this->BeginNext(lane))
+        {
+          // The last lane takes the place, and has its turn in it.
+          const int last = --this->Lanes.Count;
+          this->MoveLane(last, lane);
+          --lane;
+        }
+      }
+    }
+  }
+
+private:
+  /** Begins with the next ray that meets the mesh. Returns false if there is none. */
+  bool BeginNext(int lane)
+  {
+    while (this->Next < this->Rays.size())
+    {
+      Path& path = this->Paths[lane];
+      path = Path();
+      GradedRayResult& result = this->Results[this->Next];
+      result = GradedRayResult();
+      const GradedRay& ray = this->Rays[this->Next++];
+      if (!this->Walk.Begin(ray, result, this->Statistics, path))
+      {
+        this->Walk.Finish(path);
+        continue;
+      }
+      this->Lanes.ShortSteps[lane] = 0.0;
+      if (this->Settle(lane))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /** Takes a step of the ray alone. Returns false if the ray has ended. */
+  bool GoOn(int lane)
+  {
+    Path& path = this->Paths[lane];
+    double& shortSteps = this->Lanes.ShortSteps[lane];
+    // The search of a zigzag begins anew, and is not to be interrupted.
+    const bool isSearching = shortSteps >= GradedLanes::MostShortSteps;
+    do
+    {
+      if (!this->Walk.Advance(path))
+      {
+        this->Walk.Finish(path);
+        return false;
+      }
+    } while (isSearching && path.IsShort);
+    shortSteps = path.IsShort ? shortSteps + 1.0 : 0.0;
+    return this->Settle(lane);
+  }
+
+  /** Gives the path to the lane, after steps that lanes know nothing of. */
+  bool Settle(int lane)
+  {
+    Path& path = this->Paths[lane];
+    while (path.Place.Entry < 0 || path.Constraints > 0)
+    {
+      if (!this->Walk.Advance(path))
+      {
+        this->Walk.Finish(path);
+        return false;
+      }
+    }
+    GradedLanes& lanes = this->Lanes;
+    const glm::dvec3 place = this->Walk.PlaceOf(path);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Place[axis][lane] = place[axis];
+      lanes.Momentum[axis][lane] = path.Momentum[axis];
+      lanes.Weights[axis][lane] = path.Place.Weights[axis + (axis >= path.Place.Entry ? 1 : 0)];
+    }
+    lanes.Entry[lane] = path.Place.Entry;
+    lanes.OpticalPath[lane] = 0.0;
+    lanes.Steps[lane] = 0.0;
+    lanes.LastStep[lane] = static_cast<double>(this->Walk.MaximumNumberOfSteps - path.Steps);
+    this->Cells[lane] = static_cast<std::int32_t>(path.Cell);
+    return true;
+  }
+
+  /** Gives the lane's steps to its path. */
+  void Take(int lane)
+  {
+    Path& path = this->Paths[lane];
+    const GradedLanes& lanes = this->Lanes;
+    if (lanes.Steps[lane] == 0.0)
+    {
+      return;
+    }
+    path.ForgetZigzag();
+    path.Cell = this->Cells[lane];
+    path.Place.Entry = static_cast<int>(lanes.Entry[lane]);
+    path.Place.Weights.fill(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      path.Momentum[axis] = lanes.Momentum[axis][lane];
+      path.Place.Weights[axis + (axis >= path.Place.Entry ? 1 : 0)] = lanes.Weights[axis][lane];
+    }
+    path.Result->OpticalPath += lanes.OpticalPath[lane];
+    path.Steps += static_cast<std::int64_t>(lanes.Steps[lane]);
+    this->Statistics.LaneSteps += static_cast<std::int64_t>(lanes.Steps[lane]);
+  }
+
+  void MoveLane(int from, int to)
+  {
+    if (from == to)
+    {
+      return;
+    }
+    GradedLanes& lanes = this->Lanes;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Place[axis][to] = lanes.Place[axis][from];
+      lanes.Momentum[axis][to] = lanes.Momentum[axis][from];
+      lanes.Weights[axis][to] = lanes.Weights[axis][from];
+    }
+    for (double* const values :
+      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Link })
+    {
+      values[to] = values[from];
+    }
+    this->Paths[to] = this->Paths[from];
+    this->Cells[to] = this->Cells[from];
+  }
+
+  const GradedRayWalk& Walk;
+  const std::vector<GradedRay>& Rays;
+  GradedRayStatistics& Statistics;
+  GradedRayResult* Results;
+  std::size_t Next = 0;
+
+public:
+  std::int64_t Alone = 0;
+
+private:
+  GradedLanes Lanes{};
+  Path Paths[GradedLanes::Size];
+  std::int32_t Cells[GradedLanes::Size] = {};
+};
+
+//------------------------------------------------------------------------------
+void GradedRayWalk::WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
+  GradedRayResult* results, InstructionSet set) const
+{
+  if (this->Medium.Table && !this->Medium.IsStraight)
+  {
+    LaneWalk(*this, rays, statistics, results).Run(set);
+    return;
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    results[i] = this->Walk(rays[i].Origin, rays[i].Direction, statistics);
+  }
+}
+
+}
