@@ -9,12 +9,15 @@
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketJob.h"
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -114,6 +117,50 @@ void CastFrame(benchmark::State& state, InstructionSet set, const FrameKind& kin
   state.SetItemsProcessed(cells);
 }
 
+/**
+ * Rays that the density of a gas bends, one per pixel; each alone or in the lanes of a set. Items
+ * are cells crossed.
+ */
+void BendRays(benchmark::State& state, bool isAlone, InstructionSet set)
+{
+  const MeshArrays arrays = MakeArrays();
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  std::vector<double> squares;
+  for (const std::int64_t point : mesh.GetSourcePoints())
+  {
+    const glm::dvec3 at = arrays.PointAt(point);
+    const double index = 1.0005 + 2.0e-4 * std::sin(6.0 * at.x) * std::cos(5.0 * at.y + at.z);
+    squares.push_back(index * index);
+  }
+  BoundaryTree tree;
+  tree.Build(mesh);
+  const std::vector<EdgeTerms> terms = ComputeEdgeTerms(mesh, squares);
+  GradedCellTable table;
+  table.Build(mesh, squares, &terms);
+  GradedMedium medium;
+  medium.Mesh = &mesh;
+  medium.Tree = &tree;
+  medium.SquaredIndices = &squares;
+  medium.Terms = &terms;
+  medium.Table = isAlone ? nullptr : &table;
+  const GradedRayWalk walk(medium);
+  std::vector<GradedRay> rays;
+  for (int i = 0; i < Pixels * Pixels; ++i)
+  {
+    const glm::dvec2 place(i % Pixels + 0.5, i / Pixels + 0.5);
+    rays.push_back({ glm::dvec3(place * (2.0 / Pixels) - 1.0, -2.0), glm::dvec3(0.1, 0.05, 1.0) });
+  }
+  std::vector<GradedRayResult> results(rays.size());
+  GradedRayStatistics statistics;
+  for (auto step : state)
+  {
+    walk.WalkAll(rays, statistics, results.data(), set);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(statistics.Steps);
+}
+
 /** A membrane of waves with `cells` x `cells` x 2 facets, and an eye above it. */
 void SetWaves(CurvedMembraneSolver& solver, int cells)
 {
@@ -170,9 +217,14 @@ void FindAllImages(benchmark::State& state)
 
 void RegisterFrames()
 {
+  benchmark::RegisterBenchmark("BendRays/alone", BendRays, true, InstructionSet::Portable)
+    ->Unit(benchmark::kMillisecond);
   for (const InstructionSet set : GetInstructionSets())
   {
     const std::string name = std::string("CastFrame/") + NameOf(set);
+    benchmark::RegisterBenchmark(
+      (std::string("BendRays/") + NameOf(set)).c_str(), BendRays, false, set)
+      ->Unit(benchmark::kMillisecond);
     for (const FrameKind& kind : { FrameKind{ "/Translucent", BlendMode::Composite, 1.0, false },
            FrameKind{ "/Fine", BlendMode::Composite, 1.0, false, true },
            FrameKind{ "/Lit", BlendMode::Composite, 1.0, true },

@@ -56,6 +56,48 @@ TEST(Shadowgraph, LightIsConserved)
   EXPECT_NEAR(off, 0.0, 64.0 * 48.0 * 1.0e-4);
 }
 
+// The light of a lens in a coarse mesh that is missing in its image has landed beyond the image: a
+// screen with a margin catches all of it.
+TEST(Shadowgraph, MissingLightIsBeyondTheImage)
+{
+  constexpr int size = 40;
+  constexpr int margin = 10;
+  constexpr int all = size + 2 * margin;
+  for (const int cubes : { 7, 12 })
+  {
+    GradedScene lens(CenteredGrid(cubes, 1.0),
+      [](const glm::dvec3& p)
+      {
+        const double n = 1.0 + 0.05 * std::exp(-20.0 * glm::dot(p, p));
+        return n * n;
+      });
+    const auto landOn = [&](const glm::dvec2& pixel)
+    {
+      const glm::dvec2 place = (pixel + 0.5) * (2.0 / size) - 1.0;
+      const GradedRayResult ray = lens.Trace(glm::dvec3(place, 2.0), glm::dvec3(0.0, 0.0, -1.0));
+      const glm::dvec3 way = (-3.0 - ray.Exit.z) / ray.Direction.z * ray.Direction;
+      return (glm::dvec2(ray.Exit + way) + 1.0) * (0.5 * size) - 0.5;
+    };
+    const auto landings = Land(size, size, landOn);
+    const auto withMargin = Land(all, all,
+      [&](const glm::dvec2& place)
+      {
+        const glm::dvec2 pixel = place - static_cast<double>(margin);
+        const bool isLit = pixel.x >= 0 && pixel.y >= 0 && pixel.x < size && pixel.y < size;
+        return isLit ? landOn(pixel) + static_cast<double>(margin)
+                     : glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+      });
+    double off = 0.0;
+    ComputeShadowgraph(landings, size, size, SerialLoop, off);
+    double beyondMargin = 0.0;
+    ComputeShadowgraph(withMargin, all, all, SerialLoop, beyondMargin);
+    // Measured: 5.2e-4 and 4.4e-6 of the light.
+    EXPECT_NEAR(off / (size * size), cubes == 7 ? 5.2e-4 : 4.4e-6, cubes == 7 ? 1.0e-5 : 1.0e-6);
+    EXPECT_NEAR(beyondMargin / (size * size), 0.0, 1.0e-12);
+    EXPECT_EQ(lens.Statistics.Trapped + lens.Statistics.Lost, 0);
+  }
+}
+
 TEST(Shadowgraph, IrradianceIsTheInverseOfTheJacobian)
 {
   // Magnified by 2 and 0.5 about the middle: the light is as dense as before.
