@@ -68,12 +68,14 @@ def test():
     display.Membrane = water
     check_camera(view, box(3))
     display.Membrane = None
-    display.Position = [0, 0, SIDE]  # of the volume, as Transforming has it
+    # Of the volume, as Transforming has it; ParaView 5.13 has another name for it.
+    move = "Translation" if "Translation" in display.ListProperties() else "Position"
+    display.SetPropertyWithName(move, [0, 0, SIDE])
     moved = box(1)
     moved[4] += SIDE
     moved[5] += SIDE
     check_camera(view, moved)
-    display.Position = [0, 0, 0]
+    display.SetPropertyWithName(move, [0, 0, 0])
     # Another representation is measured as before.
     display.SetRepresentationType("Outline")
     simple.Render(view)
