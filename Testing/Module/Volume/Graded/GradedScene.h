@@ -48,8 +48,6 @@ public:
     this->Medium.Tree = &this->Tree;
     this->Medium.SquaredIndices = &this->Squares;
     this->Medium.OutsideIndex = outsideIndex;
-    this->Table.Build(this->Mesh, this->Squares, this->Medium.Terms);
-    this->Medium.Table = &this->Table;
   }
   GradedScene(const GradedScene&) = delete;
   GradedScene& operator=(const GradedScene&) = delete;
@@ -68,14 +66,24 @@ public:
   /** The same in the units of the walk. */
   GradedRayResult Walk(const glm::dvec3& origin, const glm::dvec3& direction)
   {
-    const GradedRayWalk walk(this->Medium);
     if (!this->InLanes)
     {
-      return walk.Walk(origin, direction, this->Statistics);
+      return GradedRayWalk(this->Medium).Walk(origin, direction, this->Statistics);
     }
+    this->PrepareLanes();
     GradedRayResult result;
-    walk.WalkAll({ { origin, direction } }, this->Statistics, &result);
+    GradedRayWalk(this->Medium).WalkAll({ { origin, direction } }, this->Statistics, &result);
     return result;
+  }
+
+  /** Builds the table of the cells for WalkAll(), once. */
+  void PrepareLanes()
+  {
+    if (!this->Medium.Table)
+    {
+      this->Table.Build(this->Mesh, this->Squares, this->Medium.Terms);
+      this->Medium.Table = &this->Table;
+    }
   }
 
   /** True if rays are walked by WalkAll(), one in each call. */

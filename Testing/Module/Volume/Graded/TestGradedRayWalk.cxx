@@ -405,6 +405,7 @@ TEST(GradedRayWalk, LanesDoNotDependOnEachOther)
     rays.push_back(
       { random.Uniform(0.0, 0.9) * random.GetDirection() - 2.0 * direction, direction });
   }
+  gas.PrepareLanes();
   const GradedRayWalk walk(gas.Medium);
   for (const InstructionSet set : GetInstructionSets())
   {
