@@ -154,8 +154,7 @@ install_packages_and_kernel()
   local kernel
   install_packages "${PACKAGES_KERNEL[@]}"
   configure kernel "${KERNEL_OPTIONS[@]}" > /dev/null
-  # Packages are unpacked one by one: whoever waits for them waits less if the compiler yields.
-  nice cmake --build --preset kernel --parallel "$JOBS" > build-kernel/build.log 2>&1 &
+  build kernel > build-kernel/build.log 2>&1 &
   kernel="$!"
   install_packages "$@"
   say "Building the kernel"
