@@ -127,6 +127,11 @@ def _text_of(number: float) -> str:
 
 def read_toml(name: str) -> dict[str, Any]:
     """The keys and values of a file. TOML is data: nothing in it is run."""
+    try:
+        with open(name, "rb") as file:
+            text = file.read()
+    except OSError as error:
+        raise ReadingError(f"{name}: {error.strerror}") from None
     for module in ("tomllib", "tomli"):  # of Python 3.11; a package
         try:
             toml = importlib.import_module(module)
@@ -136,10 +141,7 @@ def read_toml(name: str) -> dict[str, Any]:
     else:
         raise ReadingError("--config needs Python 3.11, or the package tomli: pip install tomli")
     try:
-        with open(name, "rb") as file:
-            values: dict[str, Any] = toml.load(file)
-    except OSError as error:
-        raise ReadingError(f"{name}: {error.strerror}") from None
+        values: dict[str, Any] = toml.loads(text.decode())
     except ValueError as error:  # of the syntax, or of UTF-8
         raise ReadingError(f"{name}: {error}") from None
     return values

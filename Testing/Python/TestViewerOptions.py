@@ -157,6 +157,8 @@ class TestConfig(Case):
 class TestMessages(Case):
     def test_without_toml(self):
         absent = {"tomllib": None, "tomli": None}
+        with open(self.name("x.toml"), "w") as file:
+            file.write("edges = true\n")
         with mock.patch.dict(sys.modules, absent):
             status, _, errors = self.run_command(self.mesh, "--config", self.name("x.toml"))
         self.assertEqual(status, 1)
@@ -226,9 +228,12 @@ class TestMessages(Case):
             self.assertIn(message, errors)
 
     def test_absent_file(self):
-        status, _, errors = self.run_command("--config", self.name("absent.toml"))
-        self.assertEqual(status, 1)
-        self.assertIn("absent.toml", errors)
+        """It is told whether or not there is a package that could read it."""
+        for absent in ({}, {"tomllib": None, "tomli": None}):
+            with mock.patch.dict(sys.modules, absent):
+                status, _, errors = self.run_command("--config", self.name("absent.toml"))
+            self.assertEqual(status, 1)
+            self.assertIn("absent.toml", errors)
 
     def test_options_that_do_not_go_together(self):
         for arguments, message in ((["--watch", "--output", "x.png"], "--watch goes with"),
