@@ -504,7 +504,7 @@ public:
    * up to MaximumImageSampleDistance pixels apart (default 8), in still images (less than one
    * frame per second is wanted) there is one per pixel, or more with an ImageSampleDistance below
    * 1. Default is on. If an observer of the window's AbortCheckEvent gives up a still image, the
-   * native backend keeps what is done of it, and the next frames with the same view go on.
+   * native backend keeps the tiles that it has cast; the next frames of this view cast the others.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Membrane/MembraneExtraction.h"
 
+#include "Filters/Common/TouchingPolygon.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
-#include "vtkContourTriangulator.h"
 #include "vtkDataArray.h"
-#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -177,28 +177,13 @@ private:
       iterator->GetCurrentCell(count, ids);
       if (!std::binary_search(found.begin(), found.end(), cell))
       {
-        this->AddTouching(cell, count, ids);
+        const bool isDivided = DivideTouchingPolygon(this->Surface->GetPoints(), count, ids,
+          [&](const vtkIdType* three) { this->AddTriangle(cell, three[0], three[1], three[2]); });
+        if (!isDivided)
+        {
+          this->AddTriangle(cell, ids[0], ids[0], ids[0]);
+        }
       }
-    }
-  }
-
-  /** Divides a polygon that touches itself, as along the bridge between a border and a hole. */
-  void AddTouching(vtkIdType cell, vtkIdType size, const vtkIdType* corners)
-  {
-    vtkNew<vtkIdList> polygon;
-    std::for_each(corners, corners + size, [&](vtkIdType id) { polygon->InsertNextId(id); });
-    vtkNew<vtkCellArray> triangles;
-    vtkContourTriangulator::TriangulatePolygon(polygon, this->Surface->GetPoints(), triangles);
-    for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      triangles->GetCellAtId(i, count, ids);
-      this->AddTriangle(cell, ids[0], ids[1], ids[2]);
-    }
-    if (triangles->GetNumberOfCells() == 0)
-    {
-      this->AddTriangle(cell, corners[0], corners[0], corners[0]);
     }
   }
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Object/ObjectSurface.h"
 
+#include "Filters/Common/TouchingPolygon.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
-#include "vtkContourTriangulator.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -196,33 +196,15 @@ private:
         const vtkIdType* ids = nullptr;
         iterator->GetCurrentCell(count, ids);
         const bool isConcave = std::binary_search(this->Concave.begin(), this->Concave.end(), cell);
-        if (!isConcave || !this->AddTouching(count, ids, cell))
+        if (!isConcave ||
+          !DivideTouchingPolygon(this->From->GetPoints(), count, ids,
+            [&](const vtkIdType* three) { this->Add(3, three, cell); }))
         {
           this->Add(count, ids, cell);
         }
       }
       ++cell;
     }
-  }
-
-  /**
-   * Divides a polygon that touches itself, as along the bridge between a border and a hole, which
-   * vtkTriangleFilter leaves out. Returns false if that is not possible either.
-   */
-  bool AddTouching(vtkIdType size, const vtkIdType* corners, vtkIdType cell)
-  {
-    vtkNew<vtkIdList> polygon;
-    std::for_each(corners, corners + size, [&](vtkIdType id) { polygon->InsertNextId(id); });
-    vtkNew<vtkCellArray> triangles;
-    vtkContourTriangulator::TriangulatePolygon(polygon, this->From->GetPoints(), triangles);
-    for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      triangles->GetCellAtId(i, count, ids);
-      this->Add(count, ids, cell);
-    }
-    return triangles->GetNumberOfCells() > 0;
   }
 
   void Add(vtkIdType count, const vtkIdType* ids, vtkIdType cell)

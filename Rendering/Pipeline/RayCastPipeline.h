@@ -75,8 +75,7 @@ public:
   std::int64_t GetNumberOfCasts() const { return this->Casts; }
   /** False if the application has given up the last frame, so that its image is not finished. */
   bool IsFinished() const { return this->Presenter.IsFinished(); }
-  /** Whether the last cast made all of an image, and not only what was left of it or has changed.
-   */
+  /** True if the last cast computed a whole image, false if only some of its tiles. */
   bool WasWhole() const { return this->Whole; }
 
   RayCastCounters GetCounters() const { return this->Backends.GetCounters(); }

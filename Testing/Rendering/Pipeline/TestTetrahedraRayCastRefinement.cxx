@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Still pictures that the application gives up: the window shows the last picture of the view, and
-// the next frames cast what is left, tile by tile.
+// the next frames cast the tiles that are missing.
 #include "RayCastScene.h"
 
 #include <vtkActor.h>
