@@ -80,38 +80,6 @@ void vtkTetrahedraRayCastMapper::SetInputData(vtkCompositeDataSet* input)
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::SetMembraneData(vtkPolyData* membrane)
-{
-  this->SetInputDataInternal(1, membrane);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::AddMembraneData(vtkPolyData* membrane)
-{
-  this->AddInputDataInternal(1, membrane);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane()
-{
-  return this->GetMembrane(0);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane(int i)
-{
-  return i >= 0 && i < this->GetNumberOfMembranes()
-    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::GetNumberOfMembranes()
-{
-  return this->GetNumberOfInputConnections(1);
-}
-
-//------------------------------------------------------------------------------
 /** Box of the cells that are drawn; without usable scalars, of all cells that could be. */
 meniscus::PointBox vtkTetrahedraRayCastMapper::MeasureInput()
 {

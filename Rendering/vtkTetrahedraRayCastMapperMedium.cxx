@@ -1,13 +1,47 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Medium of vtkTetrahedraRayCastMapper behind the membrane.
+// Membranes of vtkTetrahedraRayCastMapper, and the medium behind them.
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "Rendering/RayCastMapperInternals.h"
 #include "Volume/Optics/RefractionMedium.h"
 
+#include "vtkPolyData.h"
+
 #include <algorithm>
 #include <string>
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetMembraneData(vtkPolyData* membrane)
+{
+  this->SetInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::AddMembraneData(vtkPolyData* membrane)
+{
+  this->AddInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane()
+{
+  return this->GetMembrane(0);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane(int i)
+{
+  return i >= 0 && i < this->GetNumberOfMembranes()
+    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::GetNumberOfMembranes()
+{
+  return this->GetNumberOfInputConnections(1);
+}
 
 //------------------------------------------------------------------------------
 /** Takes the properties of the medium over; reports those that have no meaning. */
