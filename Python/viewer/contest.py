@@ -124,3 +124,4 @@ def show_panels(window: Any) -> None:
     interactor.AddObserver("KeyPressEvent", press)
     window.Render()
     interactor.Start()
+    window.Finalize()

@@ -288,6 +288,19 @@ class Window:
             self._apply(lambda: answer or None)
 
     def start(self):
+        """Shows the window until q is pressed or the window is closed."""
+        try:
+            self._interact()
+        finally:
+            self.close()
+
+    def close(self):
+        """Releases the graphics context now. The window and its observers refer to each other, so
+        that Python would destroy them at any later time, perhaps while another window draws."""
+        self.interactor.SetInteractorStyle(None)
+        self.window.Finalize()
+
+    def _interact(self):
         self.window.Render()
         if self.watch:
             self.interactor.Initialize()

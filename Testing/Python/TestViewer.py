@@ -517,6 +517,7 @@ class TestCommand(unittest.TestCase):
         removed = shutil.copy(self.later, self.name("removed.vtu"))
         scene = make_scene(make_parser().parse_args([self.mesh, removed]))
         window = Window(scene, (160, 120), offscreen=True)
+        self.addCleanup(window.close)
         window.window.Render()
 
         def press(key):

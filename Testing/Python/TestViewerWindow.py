@@ -78,7 +78,7 @@ class TestWindow(unittest.TestCase):
         window = Window(make_scene(make_parser().parse_args([self.mesh, *arguments])), SIZE,
                         offscreen=True)
         window.window.Render()
-        self.addCleanup(window.window.Finalize)
+        self.addCleanup(window.close)
         return window
 
     def act(self, window, name, place):
@@ -215,7 +215,7 @@ class TestWindow(unittest.TestCase):
         name = self.write_block("changing.vtu", radius)
         scene = make_scene(make_parser().parse_args([name, "--array", "r", "--clip", "x"]))
         window = Window(scene, SIZE, offscreen=True, watch=Watch(scene, period=0.0))
-        self.addCleanup(window.window.Finalize)
+        self.addCleanup(window.close)
         scene.renderer.GetActiveCamera().Azimuth(20)
         place = scene.renderer.GetActiveCamera().GetPosition()
         window.window.Render()
