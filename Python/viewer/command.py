@@ -6,6 +6,7 @@ Modules for a window, movies and comparisons are loaded when they are needed: th
 take a third of the time in which all modules are loaded.
 """
 import argparse
+import math
 import os
 import sys
 
@@ -173,6 +174,8 @@ def make_scene(options, report=lambda line: None):
     scene.set_units(*options.units)
     for name in scene.furniture.NAMES:
         scene.furniture.set(name, getattr(options, name))
+    if options.view and not 0.0 < math.hypot(*options.view) < math.inf:
+        raise ReadingError("--view {:g} {:g} {:g} is no direction".format(*options.view))
     scene.reset_camera(options.view, AXES[options.up])
     return scene
 

@@ -8,7 +8,7 @@ from typing import Any
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkGeometryFilter
 from vtkmodules.vtkFiltersSources import vtkOutlineSource
-from vtkmodules.vtkRenderingAnnotation import vtkCubeAxesActor
+from vtkmodules.vtkRenderingAnnotation import vtkCubeAxesActor2D
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 INK = (0.1, 0.1, 0.15)
@@ -48,24 +48,26 @@ class Furniture:
 
     @staticmethod
     def _make_axes(renderer: Any) -> Any:
-        axes = vtkCubeAxesActor()
+        axes = vtkCubeAxesActor2D()
         axes.SetCamera(renderer.GetActiveCamera())
         axes.SetFlyModeToOuterEdges()
-        axes.SetScreenSize(12.0)
-        axes.SetUseTextActor3D(False)
-        for number, name in enumerate("XYZ"):
-            for text in (axes.GetTitleTextProperty(number), axes.GetLabelTextProperty(number)):
-                text.SetColor(*INK)
-                text.SetFontSize(16)
-            getattr(axes, f"Set{name}Title")(name.lower())
-            getattr(axes, f"Set{name}AxisMinorTickVisibility")(False)
-            getattr(axes, f"Get{name}AxesLinesProperty")().SetColor(*_LINES)
+        axes.SetNumberOfLabels(3)  # more overlap along a short side
+        axes.SetLabelFormat("%.3g")
+        axes.SetFontFactor(1.1)
+        axes.SetCornerOffset(0.04)
+        axes.GetProperty().SetColor(*_LINES)
+        for text in axes.GetAxisTitleTextProperty(), axes.GetAxisLabelTextProperty():
+            text.SetColor(*INK)
+            text.ShadowOff()
+            text.ItalicOff()
+            text.BoldOff()
         return axes
 
     def set_unit(self, unit: str) -> None:
         """Unit of the lengths at the axes, such as "m"; empty: none."""
         for name in "XYZ":
-            getattr(self._axes, f"Set{name}Units")(unit)
+            label = f"{name.lower()} ({unit})" if unit else name.lower()
+            getattr(self._axes, f"Set{name}Label")(label)
 
     def set_data(self, data: Any, bounds: Any) -> None:
         """Goes around another mesh."""

@@ -19,7 +19,9 @@ def _draw_frames(scene, size, orbit, transparent):
     steps if orbit is None."""
     window = make_window(scene.renderer, size, offscreen=True, transparent=transparent)
     count = orbit or len(scene.series.get_times())
-    if not orbit:
+    if orbit:
+        scene.reset_camera(turns=orbit)
+    else:
         scene.set_step(0)
     yield draw_checked(scene, window, transparent)[0]
     for frame in range(1, count):

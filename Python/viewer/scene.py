@@ -88,10 +88,11 @@ class MeshScene:
         self.furniture.set_data(self.data, self.bounds)
 
     def _add_bar(self):
+        self._turns, self._reset_at = 1, None  # of reset_camera()
         self.bar = vtkScalarBarActor()
         self.bar.SetNumberOfLabels(5)
         self.bar.SetMaximumWidthInPixels(90)
-        self.renderer.AddObserver("StartEvent", lambda *_: self._place_bar())
+        self.renderer.AddObserver("StartEvent", lambda *_: self._fit_to_window())
         self.bar.SetHeight(0.8)
         self.bar.UnconstrainedFontSizeOn()
         self.bar.SetVerticalTitleSeparation(8)
@@ -103,10 +104,44 @@ class MeshScene:
             text.BoldOff()
         self.renderer.AddViewProp(self.bar)
 
-    def _place_bar(self):
-        """At the right border, with room for its labels, but in the last quarter of the window."""
-        width = max(self.renderer.GetSize()[0], 1)
-        self.bar.SetPosition(max(1.0 - BAR_ROOM / width, 0.75), 0.08)
+    def _fit_to_window(self):
+        """Before a frame: the bar at the right border, with room for its labels, but in the last
+        quarter of the window; the volume in the middle of the rest."""
+        width, height = (max(length, 1) for length in self.renderer.GetSize())
+        room = min(BAR_ROOM / width, 0.25)
+        self.bar.SetPosition(1.0 - room, 0.08)
+        camera = self.renderer.GetActiveCamera()
+        if camera.GetMTime() == self._reset_at:
+            self._set_distance((1.0 - room) * width / height)
+        if camera.GetWindowCenter() != (room, 0.0):
+            camera.SetWindowCenter(room, 0.0)
+
+    def _set_distance(self, aspect):
+        """Moves the eye so that the corners of the mesh's bounds fit into a picture of that width
+        by height, from each of the directions of reset_camera()."""
+        camera = self.renderer.GetActiveCamera()
+        fill = (0.8 if self.furniture.get("axes") else 0.94) * math.tan(
+            math.radians(0.5 * camera.GetViewAngle()))
+        corners = self._get_corners()
+        distance = 0.0
+        position = camera.GetPosition()
+        for turn in range(self._turns):
+            camera.SetPosition(position)
+            camera.Azimuth(360.0 * turn / self._turns)
+            view = camera.GetViewTransformMatrix()
+            x, y, z = ([view.GetElement(i, j) for j in range(3)] @ corners for i in range(3))
+            # A corner is within the border if |x| <= aspect fill (distance - z), and so on.
+            reach = numpy.maximum(abs(x) / aspect, abs(y)) / fill
+            distance = max(distance, (z + reach).max())
+        camera.SetPosition(position)
+        camera.Dolly(camera.GetDistance() / distance)
+        self.renderer.ResetCameraClippingRange()
+
+    def _get_corners(self):
+        """Corners of the mesh's bounds, from their middle."""
+        half = [0.5 * (self.bounds[2 * i + 1] - self.bounds[2 * i]) for i in range(3)]
+        signs = numpy.indices((2, 2, 2)).reshape(3, 8).T * 2 - 1
+        return (signs * half).T
 
     def get_arrays(self):
         """Names of the arrays that can be shown: those of points, then those of cells."""
@@ -350,9 +385,11 @@ class MeshScene:
     def has_surface(self):
         return self._has_surface
 
-    def reset_camera(self, direction=None, up=None):
+    def reset_camera(self, direction=None, up=None, turns=1):
         """Looks at the volume from a direction, given as a vector to the eye. If the upward axis is
-        parallel to it, another one is upward. Default: direction and axis of the last call."""
+        parallel to it, another one is upward. Default: direction and axis of the last call. turns:
+        number of directions around that axis from which all of the volume must fit into the
+        picture. The distance is found before the next frame, for the size of its window."""
         self.direction = direction = direction or self.direction
         self.up = up = up or self.up
         if vtkMath.AngleBetweenVectors(direction, up) in (0.0, math.pi):
@@ -363,9 +400,7 @@ class MeshScene:
         camera.SetPosition(*(center[i] + direction[i] for i in range(3)))
         camera.SetViewUp(*up)
         self.renderer.ResetCamera(self.bounds)
-        camera.Zoom(0.85 if self.furniture.get("axes") else
-                    1.0 if self.furniture.get("outline") else 1.1)
-        self.renderer.ResetCameraClippingRange()
+        self._turns, self._reset_at = turns, camera.GetMTime()
 
     def explain_empty_picture(self):
         """Reason why a picture of the scene shows nothing of the mesh."""

@@ -283,6 +283,23 @@ class TestCommand(unittest.TestCase):
         picture = self.draw("demo")
         self.assertGreater((abs(picture - picture[0]).max(axis=1) > 20).mean(), 0.1)
 
+    def test_the_view_fits_the_window_beside_the_legend(self):
+        """The outline, whose corners are those of the mesh, reaches the borders of what the legend
+        leaves in one direction at least."""
+        for size in (400, 300), (700, 200), (300, 600):
+            for view in ("1", "0.4", "0.3"), ("1", "0", "0"), ("-1", "2", "-3"):
+                with self.subTest(size=size, view=view):
+                    rows = self.draw(self.mesh, "--outline", "--view", *view,
+                                     size=f"{size[0]}x{size[1]}").reshape(size[1], size[0], 3)
+                    shown = abs(rows - rows[:, :1]).max(axis=2) > 12
+                    beside = size[0] - min(100, size[0] // 4)
+                    y, x = numpy.nonzero(shown[:, :beside])
+                    margins = x.min(), y.min(), beside - x.max(), size[1] - y.max()
+                    self.assertGreaterEqual(min(margins), 1)
+                    shares = [2 * margin / length for margin, length in
+                              zip(margins, (beside, size[1]) * 2)]
+                    self.assertLess(min(shares), 0.08)
+
     def test_labels_of_the_legend_are_not_cut_off(self):
         for width in 400, 600, 1000:
             with self.subTest(width=width):
@@ -303,10 +320,20 @@ class TestCommand(unittest.TestCase):
                                           "160x120")
         self.assertEqual((status, errors), (0, ""))
         pictures = [read_picture(name.replace(".png", f"-{k:03d}.png")) for k in range(5)]
-        plain = self.draw(self.mesh)
-        self.assertEqual(abs(pictures[0] - plain).max(), 0)
-        self.assertGreater(abs(pictures[1] - plain).max(), 20)
+        self.assertGreater(abs(pictures[1] - pictures[0]).max(), 20)
+        for picture in pictures:
+            # All of the volume is seen, and the border of the picture shows the background alone,
+            # which is a gradient along the height.
+            rows = picture.reshape(120, 160, 3)
+            self.assertLess(abs(rows[:, 1:100] - rows[:, :1])[[0, 1, -2, -1]].max(), 3)
+            self.assertGreater(abs(rows[:, 1:60] - rows[:, :1]).max(), 50)
         self.assertFalse(os.path.exists(name.replace(".png", "-005.png")))
+        # One picture is the one without an orbit.
+        status, errors = self.run_command(self.mesh, "--output", name, "--orbit", "1", "--size",
+                                          "160x120")
+        self.assertEqual((status, errors), (0, ""))
+        plain = self.draw(self.mesh)
+        self.assertEqual(abs(read_picture(name.replace(".png", "-000.png")) - plain).max(), 0)
         status, errors = self.run_command(self.mesh, "--orbit", "3")
         self.assertEqual(status, 1)
         self.assertIn("--orbit needs", errors)
@@ -437,7 +464,7 @@ class TestCommand(unittest.TestCase):
                 ([self.mesh, "--clip", "x:q"], "'q' is not a number"),
                 ([self.mesh, "--clip", "x:nan"], "finite"),
                 ([self.mesh, "--density", "inf"], "above 0"),
-                ([self.mesh, "--view", "0", "0", "0"], "shows nothing"),
+                ([self.mesh, "--view", "0", "0", "0"], "no direction"),
                 ([self.mesh, "--step", "1"], "no time step 1; the mesh has "),
                 ([self.mesh, "--isovalues", "9"], "isovalues; 'r' goes from 0 to 1.73"),
                 ([self.mesh, "--blend", "maximum", "--range", "5", "6"], "the opacity is 0"),
