@@ -90,7 +90,6 @@ class MeshScene:
     def _add_bar(self):
         self._turns, self._reset_at = 1, None  # of reset_camera()
         self.bar = vtkScalarBarActor()
-        self.bar.SetNumberOfLabels(5)
         self.bar.SetMaximumWidthInPixels(90)
         self.renderer.AddObserver("StartEvent", lambda *_: self._fit_to_window())
         self.bar.SetHeight(0.8)
@@ -223,6 +222,7 @@ class MeshScene:
         for index, value in enumerate(values):
             contours.SetValue(index, value)
         self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), low, high))
+        self.bar.SetNumberOfLabels(5 if low < high else 1)
         self.bar.SetTitle(self.get_title())
 
     def get_title(self):
