@@ -285,9 +285,9 @@ private:
   bool TurnComponents(const RangeLoop& loop);
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
-  struct ScalarRange;
-  template <typename RangeOf>
-  bool ActivateCells(RangeOf&& rangeOf, const VisibleScalars& visible, const RangeLoop& loop);
+  struct CellState;
+  template <typename StateOf>
+  bool ActivateCells(StateOf&& stateOf, const RangeLoop& loop);
   void MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop);
   void CollectBoundary(const RangeLoop& loop);
 
