@@ -274,15 +274,15 @@ private:
   void ForgetAllButTables();
   bool MeasurePoints(const PointsView& points, const RangeLoop& loop);
   void RoundPositions(const PointsView& points, const RangeLoop& loop);
-  void MeasureCells(const PointsView& points, const RangeLoop& loop);
+  void MeasureCells(const PointsView& points, const RangeLoop& loop,
+    std::vector<ComponentVolume>* volumes = nullptr);
   bool HasShortEdge(const Cell& cell, const PointsView& points) const;
   std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
   std::int32_t ComponentOf(std::size_t cell) const
   {
     return this->Components.empty() ? 0 : this->Components[cell];
   }
-  std::vector<ComponentVolume> MeasureComponents(const RangeLoop& loop) const;
-  bool TurnComponents(const RangeLoop& loop);
+  bool TurnComponents(const std::vector<ComponentVolume>& volumes, const RangeLoop& loop);
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
   struct CellState;
