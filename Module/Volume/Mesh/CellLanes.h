@@ -26,20 +26,8 @@ struct CellLanes
   /** Fixed positions of the ascending vertices: by vertex, axis and cell. */
   std::int32_t Places[4][3][Capacity] = {};
 
-  void Load(const std::vector<glm::ivec3>& positions, const TetrahedralMesh::Cell* cells, int count)
-  {
-    this->Count = count;
-    for (int i = 0; i < count; ++i)
-    {
-      for (int k = 0; k < 4; ++k)
-      {
-        const glm::ivec3& place = positions[static_cast<std::size_t>(cells[i].Vertices[k])];
-        this->Places[k][0][i] = place.x;
-        this->Places[k][1][i] = place.y;
-        this->Places[k][2][i] = place.z;
-      }
-    }
-  }
+  void Load(
+    const std::vector<glm::ivec3>& positions, const TetrahedralMesh::Cell* cells, int count);
 
   /** Component of the edge from a cell's vertex to another one, exact. */
   double GetEdge(int from, int to, int axis, int i) const

@@ -157,7 +157,7 @@ glm::vec3 GradientOf(const WeightedGradient& weighted)
   const double* sum = weighted.Values;
   const glm::dvec3 gradient = glm::dvec3(sum[0], sum[1], sum[2]) / weighted.GetWeight();
   const glm::dvec3 size = glm::abs(gradient);
-  const double largest = std::max({ size.x, size.y, size.z });
+  const double largest = std::max(std::max(size.x, size.y), size.z);
   // The length is at most sqrt(3) times the largest component.
   if (!(2.0 * largest > LongestGradient))
   {

@@ -37,6 +37,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -100,6 +101,7 @@ struct RejectedCells
   }
 };
 
+struct CellMeasures;
 struct ComponentVolume;
 class VisibleScalars;
 
@@ -276,6 +278,8 @@ private:
   void RoundPositions(const PointsView& points, const RangeLoop& loop);
   void MeasureCells(const PointsView& points, const RangeLoop& loop,
     std::vector<ComponentVolume>* volumes = nullptr);
+  void AddVolumes(const CellMeasures& cells, std::size_t first,
+    std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const;
   bool HasShortEdge(const Cell& cell, const PointsView& points) const;
   std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
   std::int32_t ComponentOf(std::size_t cell) const

@@ -42,15 +42,6 @@ struct BlockMeasure
   double SmallestSquare = std::numeric_limits<double>::infinity();
   std::int64_t Imprecise = 0;
   std::vector<ComponentRun> Runs;
-
-  void AddVolume(std::int32_t component, double volume)
-  {
-    if (this->Runs.empty() || this->Runs.back().first != component)
-    {
-      this->Runs.emplace_back(component, ComponentVolume());
-    }
-    this->Runs.back().second.Add(volume);
-  }
 };
 
 }
@@ -157,11 +148,10 @@ void TetrahedralMesh::MeasureCells(
             }
             measure.Imprecise +=
               cells.Shortest[i] < limit * limit && this->HasShortEdge(this->Cells[c], points);
-            if (volumes)
-            {
-              const double volume = cells.Volumes[i];
-              measure.AddVolume(this->ComponentOf(c), this->IsPositive[c] ? volume : -volume);
-            }
+          }
+          if (volumes)
+          {
+            this->AddVolumes(cells, begin, measure.Runs);
           }
         });
       blocks[block] = std::move(measure);
@@ -178,6 +168,34 @@ void TetrahedralMesh::MeasureCells(
     }
   }
   this->SmallestCell = std::isfinite(least) ? PositionUnit * std::sqrt(least) : 1.0;
+}
+
+//------------------------------------------------------------------------------
+/** Adds the volumes of measured cells to those of the cells before them. */
+void TetrahedralMesh::AddVolumes(const CellMeasures& cells, std::size_t first,
+  std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const
+{
+  // A table, since no branch predicts the orientations.
+  static constexpr double signs[2] = { -1.0, 1.0 };
+  std::int32_t component = this->ComponentOf(first);
+  ComponentVolume sum;
+  if (!runs.empty() && runs.back().first == component)
+  {
+    sum = runs.back().second;
+    runs.pop_back();
+  }
+  for (int i = 0; i < cells.Count; ++i)
+  {
+    const std::size_t c = first + static_cast<std::size_t>(i);
+    if (this->ComponentOf(c) != component)
+    {
+      runs.push_back(ComponentRun(component, sum));
+      component = this->ComponentOf(c);
+      sum = ComponentVolume();
+    }
+    sum.Add(signs[this->IsPositive[c] ? 1 : 0] * cells.Volumes[i]);
+  }
+  runs.push_back(ComponentRun(component, sum));
 }
 
 //------------------------------------------------------------------------------
