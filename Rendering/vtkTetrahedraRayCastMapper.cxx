@@ -91,7 +91,8 @@ meniscus::PointBox vtkTetrahedraRayCastMapper::MeasureInput()
   meniscus::InputBlocks parts;
   meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
   return this->Internals->Bounds.Update(
-    parts.Parts.empty() ? meniscus::CollectGrids(this->GetDataObjectInput()) : parts);
+    parts.Parts.empty() ? meniscus::CollectGrids(this->GetDataObjectInput()) : parts,
+    this->Internals->Input.GetDigests());
 }
 
 //------------------------------------------------------------------------------

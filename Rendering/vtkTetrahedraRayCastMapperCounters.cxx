@@ -122,6 +122,8 @@ vtkTetrahedraRayCastMapper::vtkInternals::List()
       meniscus::RayCastTables::ListStatistics(),
       [](Self& self) -> meniscus::RayCastTables& { return *self.Internals; },
       {
+        { "NumberOfBoundsBuilds", "boxes around the drawn cells: other points or cells",
+          [](Self& self) { return double(self.Internals->Bounds.GetNumberOfBuilds()); } },
         { "NumberOfGradientBuilds", "computations of vertex gradients",
           [](Self& self)
           { return double(self.Internals->VertexGradients.GetVersion().GetChanges()); } },

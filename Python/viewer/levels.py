@@ -216,7 +216,7 @@ class Levels:
                 found = _measure(leaf, name, association, component, drawn)
                 for column, part in zip((lows, highs, volumes), found):
                     column.append(part[chosen])
-        joined = [numpy.concatenate(parts) if parts else numpy.empty(0)
+        joined = [parts[0] if len(parts) == 1 else numpy.concatenate([numpy.empty(0), *parts])
                   for parts in (lows, highs, volumes)]
         finite = numpy.isfinite(joined[0]) & numpy.isfinite(joined[1])
         self._collect(*(joined if finite.all() else [part[finite] for part in joined]))
@@ -230,21 +230,21 @@ class Levels:
         self.volumes = numpy.zeros(BINS)
         if not lows.size or width <= 0.0:
             return
-        # First bins of the cells, then the bins after their last ones; and the changes there.
-        bins = numpy.empty((2, lows.size), int)
-        changes = numpy.empty((2, lows.size))
+        # Changes of the areas and the volumes by bin, of each block.
+        found = {}
 
         def count(begin, end):
-            block = slice(begin, end)
-            for side, values in enumerate((lows, highs)):
-                bins[side, block] = side + numpy.clip(
-                    (values[block] - self.low) / width, 0, BINS - 1).astype(int)
-            changes[0, block] = volumes[block] ** (2.0 / 3.0)
-            changes[1, block] = -changes[0, block]
+            sizes = volumes[begin:end]
+            areas = sizes ** (2.0 / 3.0)
+            first, last = (
+                numpy.clip((values[begin:end] - self.low) / width, 0, BINS - 1).astype(int)
+                for values in (lows, highs))
+            changes = (numpy.bincount(first, areas, BINS + 1)
+                       - numpy.bincount(last + 1, areas, BINS + 1))
+            found[begin] = changes, numpy.bincount((first + last) // 2, sizes, BINS)
         run_blocks(count, lows.size, _BLOCK_SIZE)
-        sums = numpy.bincount(bins.ravel(), changes.ravel(), BINS + 1)
-        self.areas = numpy.maximum(numpy.cumsum(sums)[:-1], 0.0)
-        self.volumes = numpy.bincount((bins[0] + bins[1] - 1) // 2, volumes, BINS)
+        changes, self.volumes = map(sum, zip(*(found[begin] for begin in sorted(found))))
+        self.areas = numpy.maximum(numpy.cumsum(changes)[:-1], 0.0)
 
     def get_opacity(self):
         """Attenuation coefficients as pairs (scalar, coefficient), per diagonal of the mesh.

@@ -3,6 +3,8 @@
 #ifndef meniscus_Rendering_Common_ContentWatch_h
 #define meniscus_Rendering_Common_ContentWatch_h
 
+#include "Common/ByteDigest.h"
+
 #include "vtkType.h"
 
 #include <cstddef>
@@ -36,19 +38,19 @@ struct ObjectVersion
  * A digest of values, computed in parallel and independent of the number of threads. Values are
  * compared bit by bit.
  *
- * The values are coefficients of polynomials over the field of 2^61 - 1 elements, which are
- * evaluated at fixed places (J. L. Carter, M. N. Wegman, "Universal Classes of Hash Functions",
- * 1979). Two polynomials of degree n agree in at most n places of the field. So do two contents,
- * whatever their difference is: at n / 2^61 of the places, where n is the number of coefficients of
- * a chain in a block or of the blocks, some 10^4. That is 10^-14 at most. Values are not kept for
- * an exact comparison: it would hold arrays in memory whose owners may overwrite or free it.
+ * The digests of blocks (DigestBytes()) are coefficients of a polynomial (PolynomialSum; J. L.
+ * Carter, M. N. Wegman, "Universal Classes of Hash Functions", 1979). Whatever the difference of
+ * two contents is, they have the same digest at n / 2^61 of the places at which the polynomials are
+ * evaluated, where n is the number of coefficients of a block or of all blocks, some 10^4. That is
+ * 10^-14 at most. Values are not kept for an exact comparison: it would hold arrays in memory whose
+ * owners may overwrite or free it.
  */
 class ContentDigest
 {
 public:
   /** Adds the size, type and values of an array; for null, adds that there is none. */
   void Add(vtkDataArray* array);
-  void Add(std::uint64_t word);
+  void Add(std::uint64_t word) { this->Sum.AddWord(word); }
   void AddBytes(const unsigned char* bytes, std::size_t count);
   /**
    * Adds the values computed by valueOf(i), 0 <= i < count.
@@ -57,16 +59,17 @@ public:
   template <typename Function>
   void AddValues(std::size_t count, Function&& valueOf);
 
-  std::uint64_t GetValue() const;
+  std::uint64_t GetValue() const { return this->Sum.GetValue(); }
 
 private:
+  /** The third 61 bits after the point of pi. */
+  static constexpr std::uint64_t PlaceOfAll = 0x0252049c1114cf98u;
+
   /** Adds digest(first, last) of each block of [0, count). */
   void AddBlocks(std::size_t count,
     const std::function<std::uint64_t(std::size_t first, std::size_t last)>& digest);
-  static std::uint64_t DigestBytes(const unsigned char* bytes, std::size_t size);
 
-  /** Not zero, so that zeros count. */
-  std::uint64_t State = 1;
+  PolynomialSum Sum{ PlaceOfAll };
 };
 
 /**

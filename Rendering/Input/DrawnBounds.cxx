@@ -6,7 +6,6 @@
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/GridLayout.h"
-#include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/PointsSource.h"
 
 #include "vtkCellType.h"
@@ -281,24 +280,23 @@ PointBox BoxOf(vtkDataSet* grid)
 }
 
 //------------------------------------------------------------------------------
-const PointBox& DrawnBounds::Update(const InputBlocks& input)
+const PointBox& DrawnBounds::Update(const InputBlocks& input, InputDigests& digests)
 {
-  std::vector<ObjectVersion> versions = CellVersions(input);
-  for (const ObjectVersion& version : PointVersions(input))
-  {
-    versions.push_back(version);
-  }
-  if (versions == this->Versions)
+  const bool newCells =
+    this->CellWatch.HasChanged(CellVersions(input), [&]() { return digests.OfCells(input); });
+  const bool newPoints =
+    this->PointWatch.HasChanged(PointVersions(input), [&]() { return digests.OfPoints(input); });
+  if (!newCells && !newPoints)
   {
     return this->Box;
   }
-  this->Versions = std::move(versions);
   std::vector<PointBox> boxes;
   for (const InputPart& part : input.Parts)
   {
     boxes.push_back(BoxOf(part.Grid));
   }
   this->Box = Enclose(boxes);
+  ++this->Builds;
   return this->Box;
 }
 

@@ -5,9 +5,10 @@
 
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
+#include "Rendering/Input/InputContent.h"
 #include "Volume/Mesh/PointBox.h"
 
-#include <vector>
+#include <cstdint>
 
 namespace meniscus
 {
@@ -20,14 +21,18 @@ class DrawnBounds
 {
 public:
   /**
-   * Box of the data sets of an input; empty if they have no such cells. It is kept until an object
-   * is modified that stores their points or cells.
+   * Box of the data sets of an input; empty if they have no such cells. It is kept until their
+   * points or cells change.
    */
-  const PointBox& Update(const InputBlocks& input);
+  const PointBox& Update(const InputBlocks& input, InputDigests& digests);
+  /** Times that the box was computed. */
+  std::int64_t GetNumberOfBuilds() const { return this->Builds; }
 
 private:
-  std::vector<ObjectVersion> Versions;
+  ContentWatch CellWatch;
+  ContentWatch PointWatch;
   PointBox Box;
+  std::int64_t Builds = 0;
 };
 
 }

@@ -21,6 +21,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cstring>
+#include <utility>
 
 namespace meniscus
 {
@@ -231,6 +232,28 @@ std::uint64_t DigestPoints(const InputBlocks& input)
     AddStorage(PointStorageOf(part.Grid), part.Grid, digest);
   }
   return digest.GetValue();
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t InputDigests::OfCells(const InputBlocks& input)
+{
+  std::vector<ObjectVersion> versions = CellVersions(input);
+  if (versions != this->Cells.Versions)
+  {
+    this->Cells = { std::move(versions), DigestCells(input) };
+  }
+  return this->Cells.Value;
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t InputDigests::OfPoints(const InputBlocks& input)
+{
+  std::vector<ObjectVersion> versions = PointVersions(input);
+  if (versions != this->Points.Versions)
+  {
+    this->Points = { std::move(versions), DigestPoints(input) };
+  }
+  return this->Points.Value;
 }
 
 //------------------------------------------------------------------------------

@@ -27,6 +27,23 @@ std::vector<ObjectVersion> PointVersions(const InputBlocks& input);
 /** Digest of the positions of the points. */
 std::uint64_t DigestPoints(const InputBlocks& input);
 
+/** The digests of the cells and the points, each computed once for the versions of the objects. */
+class InputDigests
+{
+public:
+  std::uint64_t OfCells(const InputBlocks& input);
+  std::uint64_t OfPoints(const InputBlocks& input);
+
+private:
+  struct KnownDigest
+  {
+    std::vector<ObjectVersion> Versions;
+    std::uint64_t Value = 0;
+  };
+  KnownDigest Cells;
+  KnownDigest Points;
+};
+
 /** Versions of the objects that may receive Modified() after an edit of the scalars. */
 std::vector<ObjectVersion> ScalarVersions(const InputBlocks& input);
 /** Digest of all components of the scalars. */

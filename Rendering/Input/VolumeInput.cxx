@@ -5,7 +5,6 @@
 #include "Common/BlockLoop.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Input/ConcatenatedArray.h"
-#include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/TetrahedraSource.h"
 #include "Volume/Mesh/InvertedCells.h"
 #include "Volume/Mesh/SourceCells.h"
@@ -43,9 +42,9 @@ InputReport VolumeInput::UpdateMesh(const InputBlocks& input,
     return report;
   }
   const bool newCells =
-    this->CellWatch.HasChanged(CellVersions(input), [&input]() { return DigestCells(input); });
-  const bool newPoints =
-    this->PointWatch.HasChanged(PointVersions(input), [&input]() { return DigestPoints(input); });
+    this->CellWatch.HasChanged(CellVersions(input), [&]() { return this->Digests.OfCells(input); });
+  const bool newPoints = this->PointWatch.HasChanged(
+    PointVersions(input), [&]() { return this->Digests.OfPoints(input); });
   const bool newFields = this->HasNewFields(division);
   const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
   const bool newDivision = this->IsNewDivision(division.Settings);

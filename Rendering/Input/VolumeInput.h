@@ -8,6 +8,7 @@
 #include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/DividedCells.h"
 #include "Rendering/Input/InputBlocks.h"
+#include "Rendering/Input/InputContent.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -72,6 +73,9 @@ public:
   };
   /** As above, with values besides the scalars: a cell is visited if one of them can be seen. */
   void UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others);
+
+  /** Digests of the input, which others may need before UpdateMesh() does. */
+  InputDigests& GetDigests() { return this->Digests; }
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
   /** Number of the input's cells that are left out because they cannot be used. */
@@ -192,6 +196,7 @@ private:
   TableVersion DividedFunction;
   ContentWatch FieldWatch;
 
+  InputDigests Digests;
   ContentWatch CellWatch;
   ContentWatch PointWatch;
   ContentWatch ScalarWatch;

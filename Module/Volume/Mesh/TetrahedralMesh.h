@@ -37,6 +37,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -100,6 +101,7 @@ struct RejectedCells
   }
 };
 
+struct CellMeasures;
 struct ComponentVolume;
 class VisibleScalars;
 
@@ -274,20 +276,22 @@ private:
   void ForgetAllButTables();
   bool MeasurePoints(const PointsView& points, const RangeLoop& loop);
   void RoundPositions(const PointsView& points, const RangeLoop& loop);
-  void MeasureCells(const PointsView& points, const RangeLoop& loop);
+  void MeasureCells(const PointsView& points, const RangeLoop& loop,
+    std::vector<ComponentVolume>* volumes = nullptr);
+  void AddVolumes(const CellMeasures& cells, std::size_t first,
+    std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const;
   bool HasShortEdge(const Cell& cell, const PointsView& points) const;
   std::vector<std::int32_t> FindCoincident(const PointsView& points, const RangeLoop& loop) const;
   std::int32_t ComponentOf(std::size_t cell) const
   {
     return this->Components.empty() ? 0 : this->Components[cell];
   }
-  std::vector<ComponentVolume> MeasureComponents(const RangeLoop& loop) const;
-  bool TurnComponents(const RangeLoop& loop);
+  bool TurnComponents(const std::vector<ComponentVolume>& volumes, const RangeLoop& loop);
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
-  struct ScalarRange;
-  template <typename RangeOf>
-  bool ActivateCells(RangeOf&& rangeOf, const VisibleScalars& visible, const RangeLoop& loop);
+  struct CellState;
+  template <typename StateOf>
+  bool ActivateCells(StateOf&& stateOf, const RangeLoop& loop);
   void MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop);
   void CollectBoundary(const RangeLoop& loop);
 

@@ -4,6 +4,7 @@
 #include "Common/BlockLoop.h"
 #include "Volume/Mesh/CellFaces.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/VisibleRanks.h"
 #include "Volume/Optics/VisibleScalars.h"
 
 #include <algorithm>
@@ -26,29 +27,35 @@ struct BlockCount
 
 }
 
-/** Range of the scalars that a cell can show. */
-struct TetrahedralMesh::ScalarRange
+/** Whether a cell has scalars, and whether they can be seen. */
+struct TetrahedralMesh::CellState
 {
-  float Lowest;
-  float Highest;
-  bool Known;
+  bool IsKnown;
+  bool IsSeen;
 };
 
 //------------------------------------------------------------------------------
 bool TetrahedralMesh::UpdateActiveCells(
   const std::vector<float>& scalars, const VisibleScalars& visible, const RangeLoop& loop)
 {
+  const VisibleRanks seen(visible);
+  if (this->ActiveCells == this->GetNumberOfCells() && seen.MeetsAll(scalars, loop))
+  {
+    this->UnknownCells = 0;
+    return false;
+  }
+  const std::vector<VisibleRanks::Rank> ranks = seen.RanksOf(scalars, loop);
   return this->ActivateCells(
-    [this, &scalars](std::size_t c)
+    [this, &seen, &ranks](std::size_t c)
     {
       const auto& v = this->Cells[c].Vertices;
-      const float s[4] = { scalars[v[0]], scalars[v[1]], scalars[v[2]], scalars[v[3]] };
-      // The sum of the scalars is NaN if one of them is.
-      return ScalarRange{ std::min(std::min(s[0], s[1]), std::min(s[2], s[3])),
-        std::max(std::max(s[0], s[1]), std::max(s[2], s[3])),
-        !std::isnan(s[0] + s[1] + s[2] + s[3]) };
+      const VisibleRanks::Rank of[4] = { ranks[v[0]], ranks[v[1]], ranks[v[2]], ranks[v[3]] };
+      const auto highest = std::max(std::max(of[0], of[1]), std::max(of[2], of[3]));
+      const bool isKnown = highest != VisibleRanks::Unknown;
+      return CellState{ isKnown,
+        isKnown && seen.Meets(std::min(std::min(of[0], of[1]), std::min(of[2], of[3])), highest) };
     },
-    visible, loop);
+    loop);
 }
 
 //------------------------------------------------------------------------------
@@ -56,32 +63,29 @@ bool TetrahedralMesh::UpdateActiveCells(const std::vector<float>& cellScalars, C
   const VisibleScalars& visible, const RangeLoop& loop)
 {
   return this->ActivateCells(
-    [this, &cellScalars, jumps](std::size_t c)
+    [this, &cellScalars, jumps, &visible](std::size_t c)
     {
-      ScalarRange range{ cellScalars[c], cellScalars[c], !std::isnan(cellScalars[c]) };
-      if (jumps == CellJumps::Hidden || !range.Known)
-      {
-        return range;
-      }
+      float lowest = cellScalars[c];
+      float highest = lowest;
+      const bool isKnown = !std::isnan(lowest);
       for (const std::int32_t link : this->Cells[c].Links)
       {
-        if (link != NoNeighbor)
+        if (isKnown && jumps == CellJumps::Visible && link != NoNeighbor)
         {
           // fmin and fmax ignore a NaN: there is no jump to a cell without a value.
           const float across = cellScalars[(link < NoNeighbor ? MarkedLink(link) : link) / 4];
-          range.Lowest = std::fmin(range.Lowest, across);
-          range.Highest = std::fmax(range.Highest, across);
+          lowest = std::fmin(lowest, across);
+          highest = std::fmax(highest, across);
         }
       }
-      return range;
+      return CellState{ isKnown, isKnown && visible.Meets(lowest, highest) };
     },
-    visible, loop);
+    loop);
 }
 
 //------------------------------------------------------------------------------
-template <typename RangeOf>
-bool TetrahedralMesh::ActivateCells(
-  RangeOf&& rangeOf, const VisibleScalars& visible, const RangeLoop& loop)
+template <typename StateOf>
+bool TetrahedralMesh::ActivateCells(StateOf&& stateOf, const RangeLoop& loop)
 {
   std::vector<std::uint8_t> active(this->Cells.size());
   std::vector<BlockCount> counts(NumberOfBlocks(this->Cells.size()));
@@ -91,11 +95,11 @@ bool TetrahedralMesh::ActivateCells(
       BlockCount count;
       for (std::size_t c = first; c < last; ++c)
       {
-        const ScalarRange range = rangeOf(c);
-        active[c] = range.Known && visible.Meets(range.Lowest, range.Highest);
-        count.Active += active[c];
-        count.Unknown += !range.Known;
-        count.Changed += (active[c] != 0) != this->IsActive[c];
+        const CellState state = stateOf(c);
+        active[c] = state.IsSeen;
+        count.Active += state.IsSeen;
+        count.Unknown += !state.IsKnown;
+        count.Changed += state.IsSeen != this->IsActive[c];
       }
       counts[block] = count;
     });

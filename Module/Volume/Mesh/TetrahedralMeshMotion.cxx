@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Positions of a TetrahedralMesh's vertices, and their motion.
 #include "Common/BlockLoop.h"
+#include "Volume/Mesh/CellMeasures.h"
 #include "Volume/Mesh/ComponentVolume.h"
 #include "Volume/Mesh/DuplicateCells.h"
 #include "Volume/Mesh/PointBox.h"
@@ -24,33 +25,24 @@ namespace meniscus
 namespace
 {
 
-/** Squares of the lengths of a cell's edges, in units of positions. */
-struct EdgeSquares
+/** std::round() of a number below 2^31, without a call. */
+std::int32_t Rounded(double number)
 {
-  double Longest = 0.0;
-  double Shortest = std::numeric_limits<double>::infinity();
-};
-
-EdgeSquares MeasureEdges(
-  const std::vector<glm::ivec3>& positions, const std::array<std::int32_t, 4>& vertices)
-{
-  EdgeSquares edges;
-  for (int i = 0; i < 4; ++i)
-  {
-    for (int j = i + 1; j < 4; ++j)
-    {
-      const glm::dvec3 edge =
-        glm::dvec3(positions[vertices[j]]) - glm::dvec3(positions[vertices[i]]);
-      const double square = glm::dot(edge, edge);
-      edges.Longest = std::max(edges.Longest, square);
-      edges.Shortest = std::min(edges.Shortest, square);
-    }
-  }
-  return edges;
+  const auto whole = static_cast<std::int32_t>(number);
+  const double rest = number - whole; // exact
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
 /** Volume of the cells of one component that follow one another in the table. */
 using ComponentRun = std::pair<std::int32_t, ComponentVolume>;
+
+/** Contribution of a block of cells to the measures of a mesh. */
+struct BlockMeasure
+{
+  double SmallestSquare = std::numeric_limits<double>::infinity();
+  std::int64_t Imprecise = 0;
+  std::vector<ComponentRun> Runs;
+};
 
 }
 
@@ -66,8 +58,9 @@ bool TetrahedralMesh::MovePoints(const PointsView& points, const RangeLoop& loop
     return false;
   }
   this->RoundPositions(points, loop);
-  this->MeasureCells(points, loop);
-  return this->TurnComponents(loop);
+  std::vector<ComponentVolume> volumes(static_cast<std::size_t>(this->NumberOfComponents));
+  this->MeasureCells(points, loop, &volumes);
+  return this->TurnComponents(volumes, loop);
 }
 
 //------------------------------------------------------------------------------
@@ -122,39 +115,87 @@ void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& 
     {
       for (std::size_t v = first; v < last; ++v)
       {
-        this->Positions[v] = glm::round((points[this->SourcePoints[v]] - this->Center) * scale);
+        const glm::dvec3 place = (points[this->SourcePoints[v]] - this->Center) * scale;
+        this->Positions[v] = { Rounded(place.x), Rounded(place.y), Rounded(place.z) };
       }
     });
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::MeasureCells(const PointsView& points, const RangeLoop& loop)
+/** @param volumes sums for each component, to which the cells are added; null for none. */
+void TetrahedralMesh::MeasureCells(
+  const PointsView& points, const RangeLoop& loop, std::vector<ComponentVolume>* volumes)
 {
   constexpr double limit = ShortestPreciseEdge / PositionUnit;
-  std::vector<double> smallest(
-    NumberOfBlocks(this->Cells.size()), std::numeric_limits<double>::infinity());
-  std::vector<std::int64_t> imprecise(smallest.size(), 0);
+  const InstructionSet set = BestInstructionSet();
+  std::vector<BlockMeasure> blocks(NumberOfBlocks(this->Cells.size()));
   ForEachBlock(this->Cells.size(), loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      double least = smallest[block];
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const EdgeSquares edges = MeasureEdges(this->Positions, this->Cells[c].Vertices);
-        // Cells without volume are never crossed, so their size does not matter.
-        if (edges.Longest < least && SignedVolume(this->Positions, this->Cells[c]) != 0.0)
+      BlockMeasure measure;
+      CellMeasures lanes;
+      ForEachGroup(*this, first, last, lanes,
+        [&](CellMeasures& cells, std::size_t begin)
         {
-          least = edges.Longest;
-        }
-        imprecise[block] +=
-          edges.Shortest < limit * limit && this->HasShortEdge(this->Cells[c], points);
-      }
-      smallest[block] = least;
+          MeasureLanes(set, cells);
+          for (int i = 0; i < cells.Count; ++i)
+          {
+            const std::size_t c = begin + static_cast<std::size_t>(i);
+            // Cells without volume are never crossed, so their size does not matter.
+            if (cells.Longest[i] < measure.SmallestSquare && cells.Volumes[i] != 0.0)
+            {
+              measure.SmallestSquare = cells.Longest[i];
+            }
+            measure.Imprecise +=
+              cells.Shortest[i] < limit * limit && this->HasShortEdge(this->Cells[c], points);
+          }
+          if (volumes)
+          {
+            this->AddVolumes(cells, begin, measure.Runs);
+          }
+        });
+      blocks[block] = std::move(measure);
     });
-  const auto least = std::min_element(smallest.begin(), smallest.end());
-  this->SmallestCell =
-    least != smallest.end() && std::isfinite(*least) ? PositionUnit * std::sqrt(*least) : 1.0;
-  this->ImpreciseCells = std::accumulate(imprecise.begin(), imprecise.end(), std::int64_t{ 0 });
+  double least = std::numeric_limits<double>::infinity();
+  this->ImpreciseCells = 0;
+  for (const BlockMeasure& block : blocks)
+  {
+    least = std::min(least, block.SmallestSquare);
+    this->ImpreciseCells += block.Imprecise;
+    for (const ComponentRun& run : block.Runs)
+    {
+      (*volumes)[static_cast<std::size_t>(run.first)].Add(run.second, 1);
+    }
+  }
+  this->SmallestCell = std::isfinite(least) ? PositionUnit * std::sqrt(least) : 1.0;
+}
+
+//------------------------------------------------------------------------------
+/** Adds the volumes of measured cells to those of the cells before them. */
+void TetrahedralMesh::AddVolumes(const CellMeasures& cells, std::size_t first,
+  std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const
+{
+  // A table, since no branch predicts the orientations.
+  static constexpr double signs[2] = { -1.0, 1.0 };
+  std::int32_t component = this->ComponentOf(first);
+  ComponentVolume sum;
+  if (!runs.empty() && runs.back().first == component)
+  {
+    sum = runs.back().second;
+    runs.pop_back();
+  }
+  for (int i = 0; i < cells.Count; ++i)
+  {
+    const std::size_t c = first + static_cast<std::size_t>(i);
+    if (this->ComponentOf(c) != component)
+    {
+      runs.push_back(ComponentRun(component, sum));
+      component = this->ComponentOf(c);
+      sum = ComponentVolume();
+    }
+    sum.Add(signs[this->IsPositive[c] ? 1 : 0] * cells.Volumes[i]);
+  }
+  runs.push_back(ComponentRun(component, sum));
 }
 
 //------------------------------------------------------------------------------
@@ -186,44 +227,13 @@ std::vector<std::int32_t> TetrahedralMesh::FindCoincident(
 }
 
 //------------------------------------------------------------------------------
-/** Volume of each connected component. */
-std::vector<ComponentVolume> TetrahedralMesh::MeasureComponents(const RangeLoop& loop) const
-{
-  std::vector<std::vector<ComponentRun>> runs(NumberOfBlocks(this->Cells.size()));
-  ForEachBlock(this->Cells.size(), loop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
-    {
-      std::vector<ComponentRun>& ofBlock = runs[block];
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const std::int32_t component = this->ComponentOf(c);
-        if (ofBlock.empty() || ofBlock.back().first != component)
-        {
-          ofBlock.emplace_back(component, ComponentVolume());
-        }
-        const double volume = SignedVolume(this->Positions, this->Cells[c]);
-        ofBlock.back().second.Add(this->IsPositive[c] ? volume : -volume);
-      }
-    });
-  std::vector<ComponentVolume> volumes(static_cast<std::size_t>(this->NumberOfComponents));
-  for (const std::vector<ComponentRun>& ofBlock : runs)
-  {
-    for (const ComponentRun& run : ofBlock)
-    {
-      volumes[run.first].Add(run.second, 1);
-    }
-  }
-  return volumes;
-}
-
-//------------------------------------------------------------------------------
 /**
  * Makes the volume of every component positive again: the motion may have mirrored it. Returns
  * false if the volumes of a component cancel. A component without volume stays as it is.
  */
-bool TetrahedralMesh::TurnComponents(const RangeLoop& loop)
+bool TetrahedralMesh::TurnComponents(
+  const std::vector<ComponentVolume>& volumes, const RangeLoop& loop)
 {
-  const std::vector<ComponentVolume> volumes = this->MeasureComponents(loop);
   // Sums in another order differ by less than NegligibleVolume, so that Build() finds no volumes
   // that cancel beyond twice that.
   if (std::any_of(volumes.begin(), volumes.end(),

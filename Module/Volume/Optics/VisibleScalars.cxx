@@ -3,6 +3,7 @@
 #include "Volume/Optics/VisibleScalars.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -109,6 +110,25 @@ void VisibleScalars::Add(const Span& span)
   const auto before = [](const Span& a, const Span& b)
   { return a.Lower != b.Lower ? a.Lower < b.Lower : a.Upper < b.Upper; };
   this->Spans.insert(std::upper_bound(this->Spans.begin(), this->Spans.end(), span, before), span);
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> VisibleScalars::ListEnds() const
+{
+  std::vector<float> ends;
+  for (const Span& span : this->Spans)
+  {
+    for (const float end : { span.Lower, span.Upper })
+    {
+      if (!std::isnan(end))
+      {
+        ends.push_back(end);
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
 }
 
 //------------------------------------------------------------------------------

@@ -40,6 +40,21 @@ public:
    */
   bool Meets(float lowest, float highest) const;
 
+  /** Ends of the visible ranges, ascending, each once. */
+  std::vector<float> ListEnds() const;
+  /** The same ranges with other ends. @param endOf an increasing function. */
+  template <typename Function>
+  VisibleScalars Mapped(const Function& endOf) const
+  {
+    VisibleScalars mapped = *this;
+    for (Span& span : mapped.Spans)
+    {
+      span.Lower = endOf(span.Lower);
+      span.Upper = endOf(span.Upper);
+    }
+    return mapped;
+  }
+
   bool operator==(const VisibleScalars& other) const { return this->Spans == other.Spans; }
   bool operator!=(const VisibleScalars& other) const { return !(*this == other); }
 

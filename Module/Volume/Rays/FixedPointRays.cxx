@@ -121,14 +121,6 @@ FixedPointRays::FixedPointRays(
 }
 
 //------------------------------------------------------------------------------
-glm::ivec3 FixedPointRays::Place(const glm::ivec3& position) const
-{
-  const glm::dvec3 place = this->ToGrid * glm::dvec3(position);
-  return { static_cast<int>(std::lrint(place.x)), static_cast<int>(std::lrint(place.y)),
-    static_cast<int>(std::lrint(place.z)) };
-}
-
-//------------------------------------------------------------------------------
 bool FixedPointRays::SeesAs(const FixedPointRays& other) const
 {
   const auto same = [](const AffinePixelMap& a, const AffinePixelMap& b)

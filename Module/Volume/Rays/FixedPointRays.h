@@ -103,7 +103,12 @@ public:
    * Position of a vertex in the grid.
    * @param position TetrahedralMesh::GetFixedPositions().
    */
-  glm::ivec3 Place(const glm::ivec3& position) const;
+  glm::ivec3 Place(const glm::ivec3& position) const
+  {
+    const glm::dvec3 place = this->ToGrid * glm::dvec3(position);
+    return { static_cast<int>(std::lrint(place.x)), static_cast<int>(std::lrint(place.y)),
+      static_cast<int>(std::lrint(place.z)) };
+  }
   /** True if Place() is the same function for both. */
   bool PlacesAs(const FixedPointRays& other) const { return this->ToGrid == other.ToGrid; }
   /**

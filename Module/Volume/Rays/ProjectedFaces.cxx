@@ -19,6 +19,12 @@ namespace
 static_assert(
   4.0 * FixedPointRays::RoundingOfRay * 2147483650.0 < ProjectedFaces::Margin, "rounding of rays");
 
+/**
+ * More than the rounding of a pixel's number, which is below 1e9, in double arithmetic: a few times
+ * 1e9 * 2^-53. The errors of u and v that it is computed from are far below those of rays.
+ */
+constexpr double RoundingOfPixel = 1.0 / 1024.0;
+
 /** u or v of a vertex as an affine function of the pixel. */
 glm::dvec3 Coefficients(
   const AffinePixelMap& offset, const AffinePixelMap& slope, int axis, const PacketVertex& vertex)
@@ -154,15 +160,15 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
   {
     return { { 0, 0, 0, 0 }, 0.0 };
   }
-  const auto clamped = [](double value, int size)
-  { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
-  const glm::dvec2 center(0.5 * whole.Right, 0.5 * whole.Top);
-  // Pixel p has its centre at p + 0.5; one more pixel on each side covers rounding.
-  const double reach = 1.5 + pixelError;
-  return { { clamped(lower.x + center.x - reach, whole.Right),
-             clamped(upper.x + center.x + reach, whole.Right),
-             clamped(lower.y + center.y - reach, whole.Top),
-             clamped(upper.y + center.y + reach, whole.Top) },
+  // The centre of pixel p is at p + 1/2.
+  const glm::dvec2 zero = 0.5 * glm::dvec2(whole.Right, whole.Top) - 0.5;
+  const double reach = pixelError + RoundingOfPixel;
+  const auto from = [reach](double value, int size)
+  { return static_cast<int>(std::clamp(std::ceil(value - reach), 0.0, double(size))); };
+  const auto to = [reach](double value, int size)
+  { return static_cast<int>(std::clamp(std::floor(value + reach) + 1.0, 0.0, double(size))); };
+  return { { from(lower.x + zero.x, whole.Right), to(upper.x + zero.x, whole.Right),
+             from(lower.y + zero.y, whole.Top), to(upper.y + zero.y, whole.Top) },
     pixelError };
 }
 

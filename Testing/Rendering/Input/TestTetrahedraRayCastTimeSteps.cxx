@@ -48,12 +48,14 @@ struct Work
   vtkTypeInt64 Builds;
   vtkTypeInt64 Points;
   vtkTypeInt64 Scalars;
+  vtkTypeInt64 Bounds;
   vtkTypeInt64 Bytes;
 
   explicit Work(vtkTetrahedraRayCastMapper* mapper)
     : Builds(mapper->GetNumberOfMeshBuilds())
     , Points(mapper->GetStatistic("NumberOfPointUpdates"))
     , Scalars(mapper->GetNumberOfScalarUpdates())
+    , Bounds(mapper->GetStatistic("NumberOfBoundsBuilds"))
     , Bytes(mapper->GetUploadedBytes())
   {
   }
@@ -238,6 +240,7 @@ TEST_F(TetrahedraRayCastTimeSteps, FilesOfAReaderCostScalars)
     EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
     EXPECT_EQ(mapper->GetStatistic("NumberOfPointUpdates"), 0);
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), step + 1);
+    EXPECT_EQ(mapper->GetStatistic("NumberOfBoundsBuilds"), 1);
     if (step % 5 == 4)
     {
       EXPECT_EQ(picture.Rgba, this->DrawAnew(Copy(reader->GetOutput())).Rgba);
@@ -283,6 +286,7 @@ TEST_F(TetrahedraRayCastTimeSteps, MovedPointsKeepTheCells)
     EXPECT_EQ(after.Builds, 1);
     EXPECT_EQ(after.Points, step);
     EXPECT_EQ(after.Scalars, 1);
+    EXPECT_EQ(after.Bounds, before.Bounds + 1);
     EXPECT_GT(after.Bytes, before.Bytes);
     EXPECT_LT(after.Bytes - before.Bytes, cells);
     EXPECT_EQ(mapper->GetNumberOfActiveSetBuilds(), 1);

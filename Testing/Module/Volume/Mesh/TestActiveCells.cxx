@@ -4,6 +4,7 @@
 #include "KernelMeshes.h"
 #include "KernelPicture.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Optics/VisibleRanks.h"
 #include "Volume/Optics/VisibleScalars.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +217,69 @@ TEST(VisibleScalars, AgreesWithSamplingOfManyFunctions)
         << "trial " << trial << " cell " << cell;
     }
   }
+}
+
+TEST(VisibleRanks, AgreeWithTheRanges)
+{
+  std::srand(7);
+  const auto random = [] { return std::rand() % 21 / 10.0f - 1.0f; };
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    std::vector<std::pair<double, double>> points;
+    for (int i = 0; i < trial % 7; ++i)
+    {
+      points.emplace_back(random(), std::max(0.0f, random()));
+    }
+    std::sort(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    VisibleScalars visible = trial % 5 == 0 ? VisibleScalars::All() : VisibleThrough(points);
+    for (int i = 0; i < trial % 3; ++i)
+    {
+      visible.AddIsovalue(random());
+    }
+    const VisibleRanks ranks(visible);
+    std::vector<float> scalars{ -std::numeric_limits<float>::infinity(), -1.0f, 1.0f,
+      std::numeric_limits<float>::infinity() };
+    for (int i = 0; i < 40; ++i)
+    {
+      scalars.push_back(i % 2 == 0 ? random() : random() + 0.05f);
+    }
+    bool all = true;
+    for (const float a : scalars)
+    {
+      for (const float b : scalars)
+      {
+        const float lowest = std::min(a, b);
+        const float highest = std::max(a, b);
+        const bool seen = visible.Meets(lowest, highest);
+        ASSERT_EQ(ranks.Meets(ranks.RankOf(lowest), ranks.RankOf(highest)), seen)
+          << "trial " << trial << ": " << lowest << ", " << highest;
+        all = all && seen;
+      }
+    }
+    // Between the least and the greatest scalar there may be others that cannot be seen.
+    EXPECT_LE(ranks.MeetsAll(scalars, SerialLoop), all) << trial;
+    EXPECT_TRUE(trial % 5 != 0 || ranks.MeetsAll({ -1.0f, 1.0f }, SerialLoop)) << trial;
+    EXPECT_FALSE(ranks.MeetsAll({ -1.0f, Nan, 1.0f }, SerialLoop)) << trial;
+  }
+  EXPECT_EQ(VisibleRanks(VisibleScalars()).RankOf(Nan), VisibleRanks::Unknown);
+}
+
+TEST(ActiveCells, CellsThatAreAllSeenStaySo)
+{
+  Block block;
+  const VisibleScalars constant = VisibleThrough({ { 0.0, 1.0 } });
+  EXPECT_FALSE(block.Mesh.UpdateActiveCells(block.Scalars, constant));
+  // Another step, with a scalar that is not known, and one without.
+  block.Scalars[100] = Nan;
+  EXPECT_TRUE(block.Mesh.UpdateActiveCells(block.Scalars, constant));
+  EXPECT_GT(block.Mesh.GetNumberOfUnknownCells(), 0);
+  block.Scalars[100] = 0.5f;
+  EXPECT_TRUE(block.Mesh.UpdateActiveCells(block.Scalars, constant));
+  EXPECT_FALSE(block.Mesh.UpdateActiveCells(block.Scalars, constant));
+  EXPECT_EQ(block.Mesh.GetNumberOfUnknownCells(), 0);
+  ExpectActive(
+    block.Mesh, std::vector<bool>(static_cast<std::size_t>(block.Mesh.GetNumberOfCells()), true));
 }
 
 TEST(ActiveCells, LinksAndBoundaryAreThoseOfTheVisibleCells)

@@ -3,6 +3,7 @@
 // Gradients of the scalar at vertices and in cells.
 #include "KernelMeshes.h"
 
+#include "Simd/InstructionSets.h"
 #include "Volume/Mesh/ScalarGradients.h"
 
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 using namespace meniscus;
@@ -170,6 +172,33 @@ TEST(VertexGradients, DoNotDependOnTheLoop)
     ComputeVertexGradients(mesh, scalars, 1.0, backwards));
   EXPECT_EQ(
     ComputeCellGradients(mesh, scalars, 1.0), ComputeCellGradients(mesh, scalars, 1.0, backwards));
+}
+
+TEST(VertexGradients, AreTheSameWithAllInstructionSets)
+{
+  MeshArrays arrays = KuhnGrid(7);
+  Jitter(arrays, 0.05, 7);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  auto scalars = Evaluate(mesh, [](const glm::dvec3& p) { return std::sin(3.0 * p.x) * p.y; });
+  scalars[17] = std::numeric_limits<double>::quiet_NaN();
+  constexpr const char* variable = "MENISCUS_INSTRUCTION_SET";
+  std::vector<std::vector<glm::vec3>> ofSets[2];
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    setenv(variable, NameOf(set), 1);
+    ofSets[0].push_back(ComputeVertexGradients(mesh, scalars, 1.0));
+    ofSets[1].push_back(ComputeCellGradients(mesh, scalars, 1.0));
+  }
+  unsetenv(variable);
+  for (const auto& gradients : ofSets)
+  {
+    EXPECT_GT(glm::length(gradients.front().back()), 0.0f);
+    for (const auto& others : gradients)
+    {
+      EXPECT_EQ(others, gradients.front());
+    }
+  }
 }
 
 TEST(VertexGradients, CellsWithoutVolumeOrScalarDoNotCount)

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Mesh_CellMeasures_h
+#define meniscus_Volume_Mesh_CellMeasures_h
+
+#include "Volume/Mesh/CellLanes.h"
+
+namespace meniscus
+{
+
+/** Edges and volumes of consecutive cells, in units of positions. */
+struct CellMeasures : CellLanes
+{
+  /** Squares of the lengths of the longest and the shortest edge. */
+  double Longest[Capacity] = {};
+  double Shortest[Capacity] = {};
+  /** SignedVolume() to the last bit. */
+  double Volumes[Capacity] = {};
+};
+
+/** Computes the measures of the loaded cells. */
+void MeasureLanes(InstructionSet set, CellMeasures& cells);
+
+}
+
+#endif
