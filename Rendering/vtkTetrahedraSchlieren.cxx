@@ -288,6 +288,7 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
     meniscus::DivisionRequest division;
     division.Fields = blocks;
     division.Component = 0;
+    internals.Input.SetHasSingleDepths(false);
     const meniscus::InputReport ofMesh = internals.Input.UpdateMesh(blocks, goOn, division);
     report.Error = ofMesh.Error;
     report.Warning += ofMesh.Warning;
@@ -478,7 +479,11 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
   const meniscus::SchlierenRays rays(internals.View, this->ImageSize);
-  meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output);
+  if (!meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output))
+  {
+    vtkWarningMacro(<< "The knife edge cuts off all light, of all pixels; KnifeCutOff is "
+                    << this->KnifeCutOff << ".");
+  }
   output->GetPointData()->SetActiveScalars("Schlieren");
   this->UpdateProgress(1.0);
 }
