@@ -47,6 +47,8 @@ constexpr double ShareOfMedium = 0.3;
 constexpr double ShareOfRays = 0.6;
 /** Rows of the image that are cast between two reports of the progress. */
 constexpr std::size_t RowsPerReport = 32;
+/** Rows of a block of rays. */
+constexpr std::size_t RowsPerBlock = 8;
 
 /** Everything that the index of refraction at the vertices depends on but the input's values. */
 struct MediumKey
@@ -286,6 +288,7 @@ bool vtkTetrahedraSchlieren::UpdateMedium(vtkDataObject* input)
     meniscus::DivisionRequest division;
     division.Fields = blocks;
     division.Component = 0;
+    internals.Input.SetHasSingleDepths(false);
     const meniscus::InputReport ofMesh = internals.Input.UpdateMesh(blocks, goOn, division);
     report.Error = ofMesh.Error;
     report.Warning += ofMesh.Warning;
@@ -403,25 +406,37 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   const auto height = static_cast<std::size_t>(this->ImageSize[1]);
   internals.Rays.assign(width * height, {});
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
-  const auto castRow = [&](std::size_t row)
+  // Rays that go on at the same time are those of a block of pixels, which are in the same cells.
+  const auto castBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
-    std::vector<meniscus::GradedRay> ofRow(width);
+    std::vector<meniscus::GradedRay> ofBlock;
+    std::vector<std::size_t> pixels;
     for (std::size_t column = 0; column < width; ++column)
     {
-      const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
-      ofRow[column] = { rays.GetOrigin(pixel), rays.GetDirection(pixel) };
+      for (std::size_t row = firstRow; row < endRow; ++row)
+      {
+        const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
+        ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
+        pixels.push_back(row * width + column);
+      }
     }
-    walk.WalkAll(ofRow, ofRows[row], internals.Rays.data() + row * width);
+    std::vector<meniscus::GradedRayResult> results(ofBlock.size());
+    walk.WalkAll(ofBlock, ofRows[firstRow], results.data());
+    for (std::size_t i = 0; i < results.size(); ++i)
+    {
+      internals.Rays[pixels[i]] = results[i];
+    }
   };
   for (std::size_t first = 0; first < height; first += RowsPerReport)
   {
     const std::size_t rows = std::min(RowsPerReport, height - first);
-    meniscus::ThreadedRanges(rows, 1,
+    meniscus::ThreadedRanges((rows + RowsPerBlock - 1) / RowsPerBlock, 1,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t row = begin; row < end; ++row)
+        for (std::size_t block = begin; block < end; ++block)
         {
-          castRow(first + row);
+          const std::size_t row = first + block * RowsPerBlock;
+          castBlock(row, std::min(row + RowsPerBlock, first + rows));
         }
       });
     this->UpdateProgress(ShareOfMedium +
@@ -464,7 +479,11 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
   const meniscus::SchlierenRays rays(internals.View, this->ImageSize);
-  meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output);
+  if (!meniscus::WriteImages(rays, internals.Rays, internals.Mesh, instruments, output))
+  {
+    vtkWarningMacro(<< "The knife edge cuts off all light, of all pixels; KnifeCutOff is "
+                    << this->KnifeCutOff << ".");
+  }
   output->GetPointData()->SetActiveScalars("Schlieren");
   this->UpdateProgress(1.0);
 }

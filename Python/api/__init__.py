@@ -12,6 +12,7 @@ MODULES = {
     "radiograph": "rays",
     "integral": "rays",
     "schlieren": "schlieren",
+    "zernike": "schlieren",
     "refracted": "refraction",
     "true_positions": "points",
     "triangulate": "points",

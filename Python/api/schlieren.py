@@ -3,6 +3,7 @@
 """Schlieren images, shadowgraphs and interferograms of a mesh, as arrays; needs no PyVista."""
 from __future__ import annotations
 
+from math import factorial
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -95,3 +96,63 @@ def schlieren(
         values = vtk_to_numpy(points.GetArray(array))
         found[name] = values.reshape((size[1], size[0]) + values.shape[1:])
     return found[image] if isinstance(image, str) else found
+
+
+def _find_orders(term):
+    """Radial and azimuthal order of one of Noll's terms, from 1; negative for a sine."""
+    radial = 0
+    while (radial + 1) * (radial + 2) // 2 < term:
+        radial += 1
+    place = term - radial * (radial + 1) // 2
+    azimuthal = 2 * (place // 2) if radial % 2 == 0 else 2 * ((place - 1) // 2) + 1
+    return radial, azimuthal if term % 2 == 0 else -azimuthal
+
+
+def _evaluate_zernike(term, radius, angle):
+    """One of Noll's polynomials, whose mean square in the unit circle is 1."""
+    n, azimuthal = _find_orders(term)
+    m = abs(azimuthal)
+    values = sum(
+        (-1) ** s * factorial(n - s)
+        / (factorial(s) * factorial((n + m) // 2 - s) * factorial((n - m) // 2 - s))
+        * radius ** (n - 2 * s) for s in range((n - m) // 2 + 1))
+    if m == 0:
+        return (n + 1) ** 0.5 * values
+    wave = numpy.cos if azimuthal > 0 else numpy.sin
+    return (2 * (n + 1)) ** 0.5 * values * wave(m * angle)
+
+
+def zernike(path: Any, terms: int = 15, *, pupil: Sequence[float] | None = None) -> Any:
+    """Zernike coefficients of a wave front: piston, tilts, defocus, astigmatism, coma and so on.
+
+    path: optical path differences, an array of two dimensions such as schlieren(mesh,
+        image="optical_path_difference"). Pixels that are NaN have no part.
+    terms: number of coefficients.
+    pupil: column and row of the centre of a circle and its radius, in pixels, whose centres are at
+        whole numbers; default: the largest circle in the image.
+
+    Returns an array of coefficients in the unit of the path, by least squares over the pixels in
+    the circle. Numbering and norm are those of R. J. Noll, "Zernike polynomials and atmospheric
+    turbulence", J. Opt. Soc. Am. 66, 207-211 (1976); the first entry is term 1, the piston. The
+    polynomials have a mean square of 1 in the circle: the root of the sum of squares of all
+    coefficients but the first is the RMS wave front error. Raises ValueError for a circle with
+    fewer pixels than terms.
+    """
+    path = numpy.asarray(path, dtype=float)
+    if path.ndim != 2:
+        raise ValueError("A wave front has two dimensions, not %d" % path.ndim)
+    if terms < 1:
+        raise ValueError("The number of terms must be at least 1, not %d" % terms)
+    rows, columns = path.shape
+    column, row, reach = pupil or ((columns - 1) / 2, (rows - 1) / 2, min(columns, rows) / 2)
+    if not reach > 0:
+        raise ValueError("The radius of the pupil must be positive, not %g" % reach)
+    y, x = numpy.mgrid[:rows, :columns]
+    radius = numpy.hypot(x - column, y - row) / reach
+    inside = (radius <= 1.0) & numpy.isfinite(path)
+    if numpy.count_nonzero(inside) < terms:
+        raise ValueError("The pupil has %d pixels, fewer than %d terms"
+                         % (numpy.count_nonzero(inside), terms))
+    angle = numpy.arctan2(y - row, x - column)[inside]
+    shapes = [_evaluate_zernike(term, radius[inside], angle) for term in range(1, terms + 1)]
+    return numpy.linalg.lstsq(numpy.column_stack(shapes), path[inside], rcond=None)[0]

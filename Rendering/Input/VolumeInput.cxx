@@ -295,7 +295,7 @@ std::string VolumeInput::DescribeRejected(std::int64_t cells) const
 std::string VolumeInput::DescribeImprecise() const
 {
   const std::int64_t cells = this->Mesh.GetNumberOfImpreciseCells();
-  if (cells == 0)
+  if (cells == 0 || !this->HasSingleDepths)
   {
     return std::string();
   }

@@ -32,6 +32,12 @@ class VolumeInput
 {
 public:
   /**
+   * Tells whether rays measure depths in single precision, so that the next mesh warns of short
+   * edges. Default is true.
+   */
+  void SetHasSingleDepths(bool has) { this->HasSingleDepths = has; }
+
+  /**
    * Updates the mesh of an input, with all parts in one. An input with equal points and cells
    * counts as the same; if only points have moved, the cells and their links are kept. Scalars of
    * cells need 4 more bytes per cell, which are kept from then on; a mesh without them is built
@@ -203,6 +209,7 @@ private:
   FieldAssociation BuiltPlace = FieldAssociation::Points;
   int BuiltComponent = 0;
   TableVersion BuiltFeatures;
+  bool HasSingleDepths = true;
   bool KeepsSourceCells = false;
   /** True if other positions may divide the input's cells into other tetrahedra. */
   bool SplitsByPosition = false;

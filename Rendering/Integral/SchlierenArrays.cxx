@@ -143,8 +143,11 @@ void WriteShadows(const std::vector<LightOfPixel>& light, vtkImageData* output)
   }
 }
 
-/** @param knife with a range of 0, twice the largest deflection is its range. */
-void WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImageData* output)
+/**
+ * Returns false if no light passes.
+ * @param knife with a range of 0, twice the largest deflection is its range.
+ */
+bool WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImageData* output)
 {
   vtkFloatArray* knives = AddArray(output, "Schlieren", 1);
   if (!(knife.Range > 0.0))
@@ -156,11 +159,14 @@ void WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImag
     }
     knife.Range = largest > 0.0 ? 2.0 * largest : 1.0;
   }
+  bool passes = false;
   for (std::size_t i = 0; i < light.size(); ++i)
   {
-    knives->SetValue(
-      static_cast<vtkIdType>(i), static_cast<float>(knife.Transmit(light[i].Deflection)));
+    const double share = knife.Transmit(light[i].Deflection);
+    knives->SetValue(static_cast<vtkIdType>(i), static_cast<float>(share));
+    passes |= share > 0.0;
   }
+  return passes;
 }
 
 void WriteFringes(
@@ -265,7 +271,7 @@ glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, double depth) const
 }
 
 //------------------------------------------------------------------------------
-void WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
+bool WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
   const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output)
 {
   const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();
@@ -284,9 +290,10 @@ void WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& 
   }
   WriteMeasures(light, output);
   WriteShadows(light, output);
-  WriteKnife(light, instruments.Knife, output);
+  const bool passes = WriteKnife(light, instruments.Knife, output);
   WriteFringes(light, instruments.Meter, output);
   WriteShifts(light, instruments.Background, output);
+  return passes;
 }
 
 }

@@ -61,10 +61,10 @@ struct Instruments
 };
 
 /**
- * Adds the arrays of all instruments to an image.
+ * Adds the arrays of all instruments to an image. Returns false if the knife cuts off all light.
  * @param results of the image's rays, row by row.
  */
-void WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
+bool WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& results,
   const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output);
 
 }

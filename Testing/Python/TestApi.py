@@ -217,6 +217,37 @@ class TestRays(unittest.TestCase):
             with self.assertRaises(ValueError):
                 meniscus.schlieren(self.block, "density", **wrong)
 
+    def test_zernike(self):
+        """A wave front of known terms, by their formulas in Cartesian coordinates."""
+        y, x = numpy.mgrid[:60, :80]
+        x, y = (x - 41.0) / 25.0, (y - 29.5) / 25.0
+        squares = x * x + y * y
+        wave = (0.3 + 0.5 * 2 * x - 0.2 * 2 * y + 0.7 * 3 ** 0.5 * (2 * squares - 1)
+                + 0.4 * 6 ** 0.5 * 2 * x * y - 0.6 * 6 ** 0.5 * (x * x - y * y)
+                + 0.25 * 8 ** 0.5 * (3 * squares - 2) * y
+                - 0.35 * 8 ** 0.5 * (3 * squares - 2) * x
+                + 0.15 * 5 ** 0.5 * (6 * squares ** 2 - 6 * squares + 1))
+        wave[squares > 1.0] = 1e6
+        wave[29, 41] = numpy.nan
+        found = meniscus.zernike(wave, 15, pupil=(41.0, 29.5, 25.0))
+        expected = [0.3, 0.5, -0.2, 0.7, 0.4, -0.6, 0.25, -0.35, 0, 0, 0.15, 0, 0, 0, 0]
+        numpy.testing.assert_allclose(found, expected, atol=1e-12)
+        # The norm: without piston, the mean square in the circle, up to the size of pixels.
+        inside = (squares <= 1.0) & numpy.isfinite(wave)
+        self.assertAlmostEqual(numpy.var(wave[inside]), (found[1:] ** 2).sum(), delta=0.02)
+        # In a mesh with a linear index: a tilt.
+        path = meniscus.schlieren(self.block, "density", "optical_path_difference", size=(40, 40),
+                                  direction=(0, -1, 0), up=(0, 0, 1), GladstoneDale=1e-4)
+        path[path == 0.0] = numpy.nan  # beside the mesh
+        tilt = meniscus.zernike(path, 6)
+        self.assertGreater(abs(tilt[2]), 1e-6)
+        self.assertLess(abs(tilt[3:]).max(), 1e-3 * abs(tilt[2]))
+        for wrong in ({"terms": 0}, {"pupil": (5, 5, 1.0)}, {"pupil": (5, 5, 0.0)}):
+            with self.assertRaises(ValueError):
+                meniscus.zernike(wave, **wrong)
+        with self.assertRaisesRegex(ValueError, "two dimensions"):
+            meniscus.zernike(wave[0])
+
     def test_radiograph(self):
         one = meniscus.radiograph(self.block, "density", 0.1, intensity=2.0, size=(4, 2))
         numpy.testing.assert_allclose(one, numpy.full((2, 4), 2 * numpy.exp(-0.75)), rtol=1e-6)

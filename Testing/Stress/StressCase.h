@@ -36,7 +36,8 @@ enum class StressRule
 struct StressCase
 {
   std::string Name;
-  Grid Mesh; ///< tetrahedra with point scalars; null: not available, the case is skipped
+  int Number = 0; ///< in its family
+  Grid Mesh;      ///< tetrahedra with point scalars; null: not available, the case is skipped
   VolumeFunction Function;
   std::vector<VolumeView> Views;
   StressRule Rule = StressRule::Reference;

@@ -54,7 +54,7 @@ public:
   void Take(const StressCase& stress) override
   {
     this->Size = stress.Size;
-    this->BuildMesh(stress.Mesh);
+    BuildKernelMesh(stress.Mesh, this->Mesh);
     vtkDataArray* scalars = stress.Mesh->GetPointData()->GetScalars();
     double range[2];
     scalars->GetFiniteRange(range);
@@ -121,25 +121,6 @@ private:
   // The mapper's default.
   static constexpr float Transmittance = 1.0f / 131072.0f;
 
-  void BuildMesh(vtkUnstructuredGrid* grid)
-  {
-    std::vector<double> points;
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-    {
-      const double* x = grid->GetPoint(p);
-      points.insert(points.end(), x, x + 3);
-    }
-    std::vector<std::int64_t> cells;
-    vtkNew<vtkIdList> ids;
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-    {
-      grid->GetCellPoints(c, ids);
-      cells.insert(cells.end(), ids->begin(), ids->end());
-    }
-    this->Mesh.Build({ points.data(), grid->GetNumberOfPoints(), cells.data(),
-      static_cast<std::int64_t>(cells.size() / 4) });
-  }
-
   int Size = 0;
   TetrahedralMesh Mesh;
   PacketTables Tables;
@@ -185,6 +166,26 @@ private:
 };
 
 } // anonymous namespace
+
+//------------------------------------------------------------------------------
+void BuildKernelMesh(vtkUnstructuredGrid* grid, TetrahedralMesh& mesh)
+{
+  std::vector<double> points;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    const double* x = grid->GetPoint(p);
+    points.insert(points.end(), x, x + 3);
+  }
+  std::vector<std::int64_t> cells;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    grid->GetCellPoints(c, ids);
+    cells.insert(cells.end(), ids->begin(), ids->end());
+  }
+  mesh.Build({ points.data(), grid->GetNumberOfPoints(), cells.data(),
+    static_cast<std::int64_t>(cells.size() / 4) });
+}
 
 //------------------------------------------------------------------------------
 std::unique_ptr<StressCaster> MakeStressCaster(const std::string& name)

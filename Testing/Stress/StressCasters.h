@@ -11,10 +11,18 @@
 #include <memory>
 #include <string>
 
+class vtkUnstructuredGrid;
+
 namespace meniscus
 {
+
+class TetrahedralMesh;
+
 namespace test
 {
+
+/** Builds the kernel's mesh of tetrahedra. */
+void BuildKernelMesh(vtkUnstructuredGrid* grid, TetrahedralMesh& mesh);
 
 struct StressImage
 {

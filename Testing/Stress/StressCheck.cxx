@@ -135,6 +135,7 @@ void StressTally::Add(const StressTally& other)
   this->Rays += other.Rays;
   this->Steps += other.Steps;
   this->Lost += other.Lost;
+  this->Stopped += other.Stopped;
   this->Wrong += other.Wrong;
   this->Rounding += other.Rounding;
   this->Silhouettes += other.Silhouettes;

@@ -22,10 +22,13 @@ struct StressTally
   std::int64_t Steps = 0;
   /** Rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
+  /** Bent rays that were stopped in the mesh after their largest number of steps. */
+  std::int64_t Stopped = 0;
   /**
    * Pixels with an error of more than FloatTolerance and more than the change of the exact result
    * when the ray moves by RoundingDistance, or drawn where there is nothing; silhouettes are not
-   * included. With StressRule::Bounds, pixels out of bounds.
+   * included. With StressRule::Bounds, pixels out of bounds; bent rays with a
+   * piece that is no path of light.
    */
   std::int64_t Wrong = 0;
   /**

@@ -58,7 +58,9 @@ public:
       {
         CaseSeed seed{ index % variants, index / variants,
           RandomNumbers(stream ^ (static_cast<std::uint64_t>(index) << 32)) };
-        return make(seed);
+        StressCase stress = make(seed);
+        stress.Number = index;
+        return stress;
       } });
   }
 

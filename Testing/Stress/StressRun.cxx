@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StressRun.h"
 
+#include "StressBentRays.h"
+
 #include <vtkUnstructuredGrid.h>
 
 #include <limits>
@@ -22,8 +24,8 @@ std::string Encode(bool skipped, const StressTally& t)
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
   line << skipped << ' ' << t.Views << ' ' << t.Rays << ' ' << t.Steps << ' ' << t.Lost << ' '
-       << t.Wrong << ' ' << t.Rounding << ' ' << t.Silhouettes << ' ' << t.Largest << ' ' << t.Rms
-       << ' ' << t.FirstWrong;
+       << t.Stopped << ' ' << t.Wrong << ' ' << t.Rounding << ' ' << t.Silhouettes << ' '
+       << t.Largest << ' ' << t.Rms << ' ' << t.FirstWrong;
   return line.str();
 }
 
@@ -32,7 +34,7 @@ void Decode(int index, const std::string& text, FamilyResult& result)
   std::istringstream line(text);
   StressTally t;
   bool skipped = false;
-  line >> skipped >> t.Views >> t.Rays >> t.Steps >> t.Lost >> t.Wrong >> t.Rounding >>
+  line >> skipped >> t.Views >> t.Rays >> t.Steps >> t.Lost >> t.Stopped >> t.Wrong >> t.Rounding >>
     t.Silhouettes >> t.Largest >> t.Rms;
   line.ignore(1);
   std::getline(line, t.FirstWrong);
@@ -53,6 +55,14 @@ FamilyResult RunFamily(
   FamilyResult result;
   const auto start = [&family, &caster]() -> CaseWork
   {
+    if (caster == "bent")
+    {
+      return [&family](int index)
+      {
+        const StressCase stress = family.Make(index);
+        return Encode(!stress.Mesh, CheckBentRays(stress));
+      };
+    }
     const std::shared_ptr<StressCaster> shared = MakeStressCaster(caster);
     return [&family, shared](int index)
     {

@@ -27,13 +27,15 @@ const char* const Usage =
   "beside the sources.\n"
   "  --family TEXT      only families whose names contain the text\n"
   "  --intensity X      1 (default) takes about a minute, 100 includes 10,000 random meshes\n"
-  "  --casters LIST     of kernel, opengl, native (the mapper's backends); default all; the last\n"
-  "                     two take part of the cases and are left out without a display\n"
+  "  --casters LIST     of kernel, bent (rays bent by fields of refractive indices), opengl, "
+  "native\n"
+  "                     (the mapper's backends); default all; the last two take part of the cases\n"
+  "                     and are left out without a display\n"
   "  --every N          every N-th case through the mapper (default 5)\n";
 
 struct Options : ProgrammeOptions
 {
-  std::string Casters = "kernel,opengl,native";
+  std::string Casters = "kernel,bent,opengl,native";
   int Every = 5;
 };
 
@@ -44,12 +46,12 @@ std::vector<std::string> CastersOf(const Options& options, std::ostream& out)
   std::istringstream list(options.Casters);
   for (std::string name; std::getline(list, name, ',');)
   {
-    if (name != "kernel" && name != "opengl" && name != "native")
+    if (name != "kernel" && name != "bent" && name != "opengl" && name != "native")
     {
       std::cerr << "no such caster: " << name << '\n';
       std::exit(EXIT_FAILURE);
     }
-    if (name != "kernel" && !HasDisplay())
+    if (name != "kernel" && name != "bent" && !HasDisplay())
     {
       out << name << ": skipped, no display (run under xvfb-run)\n";
       continue;
@@ -62,9 +64,10 @@ std::vector<std::string> CastersOf(const Options& options, std::ostream& out)
 //------------------------------------------------------------------------------
 void PrintHead(std::ostream& out)
 {
-  out << "| caster | family | cases | rays | steps | lost | stuck | crashed | wrong | rounding | "
+  out << "| caster | family | cases | rays | steps | lost | stopped | stuck | crashed | wrong | "
+         "rounding | "
          "silhouettes | max error | RMS | s |\n"
-      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 //------------------------------------------------------------------------------
@@ -78,8 +81,9 @@ void PrintRow(
     row << " (" << r.Skipped << " skipped)";
   }
   const StressTally& t = r.Tally;
-  row << " | " << t.Rays << " | " << t.Steps << " | " << t.Lost << " | " << r.Stuck << " | "
-      << r.Crashed << " | " << t.Wrong << " | " << t.Rounding << " | " << t.Silhouettes << " | ";
+  row << " | " << t.Rays << " | " << t.Steps << " | " << t.Lost << " | " << t.Stopped << " | "
+      << r.Stuck << " | " << r.Crashed << " | " << t.Wrong << " | " << t.Rounding << " | "
+      << t.Silhouettes << " | ";
   if (t.Largest > 0.0)
   {
     row << std::scientific << std::setprecision(1) << t.Largest << " | " << t.Rms;
@@ -114,7 +118,8 @@ bool RunAll(const Options& options, std::ostream& out)
       {
         continue;
       }
-      const int stride = caster == "kernel" || options.Case >= 0 ? 1 : options.Every;
+      const int stride =
+        caster == "kernel" || caster == "bent" || options.Case >= 0 ? 1 : options.Every;
       const FamilyResult result =
         RunFamily(options.Case < 0 ? family : OnlyCase(family, options.Case), caster, stride,
           options.Seconds);

@@ -5,13 +5,12 @@ import colorsys
 import math
 
 import numpy
-from meniscus import vtkTetrahedraSchlieren
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from .mirage import make_image, mix, refine
+from .mirage import make_image, mix, refine, trace
 
 WALL = 1.35  # distance of the wall behind the middle of the ball, whose radius is 1
 EYE = 9.0
@@ -56,17 +55,9 @@ def see_through(mesh, index, size):
     camera.SetPosition(0.0, 0.0, EYE)
     camera.SetFocalPoint(0.0, 0.0, 0.0)
     camera.SetViewAngle(math.degrees(2.0 * math.atan(HALF)))
-    light = vtkTetrahedraSchlieren()
-    light.SetInputData(mesh)
-    light.SetQuantityToRefractiveIndex()
-    light.SetCamera(camera)
-    light.SetImageSize(*size)
-    light.SetBackgroundDistance(WALL - 1.0)  # behind the box of the ball
-    light.Update()
-    shifts = vtk_to_numpy(light.GetOutput().GetPointData().GetArray("Displacement"))
-    pixels = numpy.stack(numpy.meshgrid(numpy.arange(size[0]), numpy.arange(size[1])), axis=-1)
-    step = 2.0 * HALF / size[1] * (EYE + WALL)
-    return step * (pixels + shifts.reshape(size[1], size[0], 2) - 0.5 * (numpy.array(size) - 1.0))
+    # The mesh's box is around the ball.
+    pixels, shifts, _ = trace(mesh, camera, size, WALL - 1.0)
+    return 2.0 * HALF / size[1] * (EYE + WALL) * (pixels + shifts)
 
 
 def paint_wall(places):

@@ -54,6 +54,28 @@ def refine(values, size):
     return values
 
 
+def trace(mesh, camera, size, distance):
+    """Rays of a camera through a mesh with indices of refraction, a distance behind it.
+
+    Returns arrays of the pixels' places from the middle of the image, of their shifts in pixels,
+    and of the changes of their slopes.
+    """
+    light = vtkTetrahedraSchlieren()
+    light.SetInputData(mesh)
+    light.SetQuantityToRefractiveIndex()
+    light.SetCamera(camera)
+    light.SetImageSize(*size)
+    light.SetBackgroundDistance(distance)
+    light.Update()
+    found = light.GetOutput().GetPointData()
+
+    def read(name):
+        return vtk_to_numpy(found.GetArray(name)).reshape(size[1], size[0], 2).astype(float)
+
+    pixels = numpy.stack(numpy.meshgrid(numpy.arange(size[0]), numpy.arange(size[1])), axis=-1)
+    return pixels - 0.5 * (numpy.array(size) - 1.0), read("Displacement"), read("Deflection")
+
+
 class BentRays:
     """Rays of a camera behind a medium: a place y, z in the plane x = `end`, and their slopes."""
 
@@ -63,26 +85,14 @@ class BentRays:
         camera.SetFocalPoint(1.0, 0.0, EYE)
         camera.SetViewUp(0.0, 0.0, 1.0)
         camera.SetViewAngle(numpy.degrees(2.0 * numpy.arctan(HALF)))
-        light = vtkTetrahedraSchlieren()
-        light.SetInputData(mesh)
-        light.SetQuantityToRefractiveIndex()
-        light.SetCamera(camera)
-        light.SetImageSize(*size)
-        light.SetBackgroundDistance(0.0)  # the far side of the mesh
-        light.Update()
-        found = light.GetOutput().GetPointData()
-
-        def read(name):
-            return vtk_to_numpy(found.GetArray(name)).reshape(size[1], size[0], 2).astype(float)
-
+        # To the far side of the mesh.
+        pixels, shifts, turns = trace(mesh, camera, size, 0.0)
         step = 2.0 * HALF / size[1]
-        pixels = numpy.stack(numpy.meshgrid(numpy.arange(size[0]), numpy.arange(size[1])), axis=-1)
-        middle = 0.5 * (numpy.array(size) - 1)
         # Images have their first axis to the right, against the y axis.
         mirror = numpy.array([-1.0, 1.0])
         self.end = end
-        self.places = mirror * step * (pixels + read("Displacement") - middle) * end + (0.0, EYE)
-        self.slopes = mirror * (step * (pixels - middle) + read("Deflection"))
+        self.places = mirror * step * (pixels + shifts) * end + (0.0, EYE)
+        self.slopes = mirror * (step * pixels + turns)
 
     def refine(self, size):
         """Interpolates the rays of a larger image between those of this one."""

@@ -75,6 +75,16 @@ struct GradedCell
     return linear +
       0.5 * ((w[0] * products[0] + w[1] * products[1]) + (w[2] * products[2] + w[3] * products[3]));
   }
+  /** Longest of the gradients: in a flat cell, the normal of its plane, or 0 if it has no area. */
+  glm::dvec3 GetWidestNormal() const
+  {
+    glm::dvec3 widest = this->Gradients[0];
+    for (const glm::dvec3& gradient : this->Gradients)
+    {
+      widest = glm::dot(gradient, gradient) > glm::dot(widest, widest) ? gradient : widest;
+    }
+    return widest;
+  }
   /** Derivative of the force: a symmetric matrix. */
   glm::dmat3 GetForceDerivative() const
   {

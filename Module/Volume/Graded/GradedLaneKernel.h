@@ -336,8 +336,11 @@ void Step(GradedLanes& lanes, int i)
   // The sixth term is exponent^2 / 360 of the second, the seventh exponent^3 / 5040 of the first.
   const Mask isExact = exponent * exponent * (exponent * length + 7.0 * bend) <=
     5040.0 * GradedLanes::LargestRest * length;
-  const Mask isRoot =
-    (SizeOf(change) <= GradedPassage::LastChange * t) & (Product(exit.Gradient, end) < 0.0);
+  // The weight of the exit falls all the way (GradedPassage::IsFirst).
+  const Number endFall = -Product(exit.Gradient, end);
+  const Mask isRoot = (SizeOf(change) <= GradedPassage::LastChange * t) &
+    (t * SmallerOf(exit.Fall, endFall) >
+      1.2 * cell[Row::LargestGradient] * (length + bend) * exponent);
   const Number square = Product(begin.Momentum, begin.Momentum);
   constexpr double glideHeight = GradedPassage::GlideHeight;
   constexpr double share = GradedPassage::LongestShare;

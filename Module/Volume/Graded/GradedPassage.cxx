@@ -69,6 +69,76 @@ struct Inverses
 };
 constexpr Inverses Inverse;
 
+/** Coefficients in Bernstein's basis of a polynomial on [begin, begin + length], and its degree. */
+struct BernsteinPart
+{
+  std::array<double, GradedPassage::HighestOrder + 1> Values;
+  double Begin;
+  double Length;
+};
+
+/** The first half; the part becomes the second one (de Casteljau). */
+BernsteinPart Split(BernsteinPart& part, int degree)
+{
+  BernsteinPart first = part;
+  for (int k = 1; k <= degree; ++k)
+  {
+    for (int j = degree; j >= k; --j)
+    {
+      first.Values[j] = 0.5 * (first.Values[j - 1] + first.Values[j]);
+    }
+    part.Values[degree - k] = first.Values[degree];
+  }
+  first.Length = part.Length *= 0.5;
+  part.Begin += part.Length;
+  return first;
+}
+
+/**
+ * Smallest number in [0, 1) from which on a polynomial is below 0; 1 if there is none. A polynomial
+ * is between the smallest and the largest of its coefficients in Bernstein's basis.
+ * @param coefficients of the powers, the first of which is >= 0.
+ */
+double FirstFall(const double* coefficients, int degree)
+{
+  // Halves of the interval down to the rounding of its end.
+  constexpr int depth = 52;
+  std::array<BernsteinPart, depth + 1> parts;
+  BernsteinPart& whole = parts[0];
+  whole.Begin = 0.0;
+  whole.Length = 1.0;
+  whole.Values.fill(0.0);
+  for (int j = 0; j <= degree; ++j)
+  {
+    // binomial(j, k) / binomial(degree, k)
+    double ratio = 1.0;
+    for (int k = 0; k <= j; ++k)
+    {
+      whole.Values[j] += ratio * coefficients[k];
+      ratio *= static_cast<double>(j - k) / (degree - k);
+    }
+  }
+  for (int last = 0; last >= 0; --last)
+  {
+    while (true)
+    {
+      BernsteinPart& part = parts[last];
+      const auto end = part.Values.begin() + degree + 1;
+      if (std::all_of(part.Values.begin(), end, [](double value) { return value >= 0.0; }))
+      {
+        break;
+      }
+      if (part.Values[0] < 0.0 || last == depth)
+      {
+        return part.Begin;
+      }
+      const BernsteinPart first = Split(part, degree);
+      parts[++last] = first;
+    }
+  }
+  return 1.0;
+}
+
 /** Sum of the sizes of a vector's components. */
 double SizeOf(const glm::dvec3& v)
 {
@@ -92,6 +162,11 @@ GradedPassage::GradedPassage(
 //------------------------------------------------------------------------------
 void GradedPassage::SetRates()
 {
+  if (this->Cell.IsFlat)
+  {
+    this->SetFlatRates();
+    return;
+  }
   for (int i = 0; i < 4; ++i)
   {
     this->Rates[i] = this->IsHeld[i] ? 0.0 : glm::dot(this->Cell.Gradients[i], this->Momentum);
@@ -103,6 +178,26 @@ void GradedPassage::SetRates()
   {
     double& rate = this->Rates[static_cast<std::size_t>(this->Begin.Entry)];
     rate = std::max(rate, 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Sets the rates in a flat cell, which is passed at one place: to its other side or, for a ray that
+ * begins in it, to that ahead. The areas of the faces alone count, not the angle to the cell's
+ * plane, which may be 0.
+ */
+void GradedPassage::SetFlatRates()
+{
+  const auto& normals = this->Cell.Gradients;
+  const glm::dvec3 normal = this->Cell.GetWidestNormal();
+  const double onward = this->Begin.Entry >= 0 ? glm::dot(normals[this->Begin.Entry], normal) : 0.0;
+  const double side = onward != 0.0 ? onward : glm::dot(this->Momentum, normal);
+  const double size = std::copysign(glm::dot(normal, normal), side);
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Rates[i] = size != 0.0 ? glm::dot(normals[i], normal) / size : 0.0;
+    this->HalfCurvatures[i] = 0.0;
   }
 }
 
@@ -191,10 +286,16 @@ int GradedPassage::ChooseExit(
       best = rank;
     }
   }
-  if (face < 0 && this->Cell.IsFlat)
+  if (face < 0 && (this->Cell.IsFlat || !this->IsCurved))
   {
-    // The ray is in the cell's plane, or the cell has no area: any way out is as good.
-    face = static_cast<int>(Scatter(step) % 4);
+    // The cell has no area, or its rates are rounding: any face at which the ray is leads on.
+    const int first = static_cast<int>(Scatter(step) % 4);
+    face = first;
+    for (int i = 1; i < 4; ++i)
+    {
+      const int other = (first + i) % 4;
+      face = weights[other] < weights[face] ? other : face;
+    }
     time = 0.0;
   }
   return face;
@@ -205,7 +306,8 @@ int GradedPassage::FindExit(std::int64_t step, bool atRandom, double shortTime, 
 {
   time = Infinity;
   const int face = this->ChooseExit(step, atRandom, shortTime, time);
-  return this->IsCurved && time > 0.0 ? this->FollowCurve(face, time) : face;
+  const bool isRandom = atRandom && time <= shortTime;
+  return this->IsCurved && time > 0.0 && !isRandom ? this->FollowCurve(face, time) : face;
 }
 
 //------------------------------------------------------------------------------
@@ -222,6 +324,7 @@ double GradedPassage::Extend(double time)
   {
     norm = std::max(norm, SizeOf(columns[axis]));
   }
+  this->Norm = norm;
   double exponent = norm * time * time;
   if (exponent > LargestExponent)
   {
@@ -275,25 +378,65 @@ double GradedPassage::WeightOfWay(int i) const
 }
 
 //------------------------------------------------------------------------------
-/** True if the ray has passed a face, by more than rounding. */
-bool GradedPassage::IsBeyond(int i) const
+/**
+ * True if it is certain that no weight falls below 0 before a time at which that of a face does.
+ *
+ * Without its terms from the third order on, a weight is above the smaller of its tangent and its
+ * chord, which both begin at 0 or above; its rate is between that at the beginning and that at the
+ * end. Those terms change a weight by at most E / 6 (1 + E / 20 + ...) times gradient and way,
+ * where E is the exponent of the series, at most 0.7, and a rate by at most E / 2 (1 + E / 12 +
+ * ...).
+ */
+bool GradedPassage::IsFirst(int face, double time) const
 {
-  const double weight = this->WeightOfWay(i);
-  return weight < 0.0 &&
-    weight <
-    -Rounding * (this->Begin.Weights[i] + SizeOf(this->Cell.Gradients[i]) * SizeOf(this->EndWay));
+  const double way = (SizeOf(this->Momentum) + time * SizeOf(this->Force)) * time;
+  const double exponent = this->Norm * time * time;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double size = SizeOf(this->Cell.Gradients[i]) * way;
+    const double begin = this->Begin.Weights[i];
+    if (i == face)
+    {
+      const double rate = time * glm::dot(this->Cell.Gradients[i], this->EndMomentum);
+      if (std::max(time * this->Rates[i], rate) > -size * (1.2 * exponent + Rounding))
+      {
+        return false;
+      }
+    }
+    else if (std::min(begin + time * this->Rates[i], this->WeightOfWay(i)) <
+      size * (0.4 * exponent + Rounding))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
-/** Curvature of the parabola that begins alike and has the same weight after a time. */
-double GradedPassage::MeanCurvature(int i, double time) const
+/** Searches the first face that the power series passes before a time, which is lowered. */
+int GradedPassage::SearchExit(double& time) const
 {
-  glm::dvec3 sum(0.0);
-  for (int k = this->Order; k > 2; --k)
+  int face = -1;
+  for (int i = 0; i < 4; ++i)
   {
-    sum = time * (sum + this->Terms[static_cast<std::size_t>(k)]);
+    std::array<double, HighestOrder + 1> weight{};
+    weight[0] = this->Begin.Weights[i];
+    weight[1] = time * this->Rates[i];
+    weight[2] = time * time * this->HalfCurvatures[i];
+    double power = time * time;
+    for (int k = 3; k <= this->Order; ++k)
+    {
+      power *= time;
+      weight[k] = power * glm::dot(this->Cell.Gradients[i], this->Terms[k]);
+    }
+    const double share = FirstFall(weight.data(), this->Order);
+    if (share < 1.0)
+    {
+      time *= share;
+      face = i;
+    }
   }
-  return 2.0 * glm::dot(this->Cell.Gradients[i], 0.5 * this->Force + sum);
+  return face;
 }
 
 //------------------------------------------------------------------------------
@@ -333,49 +476,25 @@ bool GradedPassage::Refine(int face, double& time)
 
 //------------------------------------------------------------------------------
 /**
- * Moves from the exit of the parabola to that of the power series: by Newton's method or, if the
- * parabola has led to another face, by parabolas that come nearer.
+ * Moves from the exit of the parabola to that of the power series: by Newton's method or, if it is
+ * not certain that no face was passed before, by a search for the first one.
  */
 int GradedPassage::FollowCurve(int face, double& time)
 {
-  constexpr int attempts = 24;
-  if (face < 0)
-  {
-    time = 2.0 * std::sqrt(this->Cell.SquaredSize / glm::dot(this->Momentum, this->Momentum));
-  }
-  const double reach = this->Extend(time);
-  if (reach < time)
-  {
-    time = reach;
-    face = -1;
-  }
-  for (int attempt = 0; attempt < attempts && time > 0.0; ++attempt)
+  const double reach = this->Extend(1.5 *
+    (face < 0 ? 2.0 * std::sqrt(this->Cell.SquaredSize / glm::dot(this->Momentum, this->Momentum))
+              : time));
+  if (face >= 0 && time < reach)
   {
     this->MoveTo(time);
-    bool isFound = face < 0 || this->Refine(face, time);
-    for (int i = 0; i < 4 && isFound; ++i)
+    if (this->Refine(face, time) && time <= reach && this->IsFirst(face, time))
     {
-      isFound = i == face || !this->IsBeyond(i);
+      return face;
     }
-    if (isFound)
-    {
-      break;
-    }
-    double nearest = reach;
-    int next = -1;
-    for (int i = 0; i < 4; ++i)
-    {
-      const double reached =
-        TimeToZero(this->Begin.Weights[i], this->Rates[i], this->MeanCurvature(i, time));
-      if (reached < nearest)
-      {
-        nearest = reached;
-        next = i;
-      }
-    }
-    face = next;
-    time = nearest;
   }
+  time = reach;
+  face = this->SearchExit(time);
+  this->MoveTo(time);
   return face;
 }
 

@@ -97,11 +97,12 @@ public:
 
 private:
   void SetRates();
+  void SetFlatRates();
   int ChooseExit(std::int64_t step, bool atRandom, double shortTime, double& time) const;
   double Extend(double time);
   double WeightOfWay(int i) const;
-  bool IsBeyond(int i) const;
-  double MeanCurvature(int i, double time) const;
+  bool IsFirst(int face, double time) const;
+  int SearchExit(double& time) const;
   bool Refine(int face, double& time);
   int FollowCurve(int face, double& time);
 
@@ -117,6 +118,8 @@ private:
   std::array<double, 4> Rates;
   std::array<double, 4> HalfCurvatures;
   int Order = 2;
+  /** At least the norm of the force's derivative. */
+  double Norm = 0.0;
   /** Coefficients of the place from the third order on. */
   std::array<glm::dvec3, HighestOrder + 1> Terms;
   /** End of the way: the time, -1 before the first move, the place from the beginning and the

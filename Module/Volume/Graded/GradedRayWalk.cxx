@@ -33,9 +33,9 @@ constexpr double TimeAtVertex = 0x1p-40;
 /**
  * Refracts a momentum at a face by Snell's law, or reflects it if it is totally reflected, which
  * returns false.
- * @param normal outward normal of the mesh; 0 for none, which refracts nothing.
+ * @param normal unit normal, that of the mesh outwards; 0 for none, which refracts nothing.
  * @param squaredIndex that of the medium beyond.
- * @param side 1 for a ray that leaves, -1 for one that enters.
+ * @param side 1 for a ray that goes along the normal, as one that leaves, -1 for one against it.
  */
 bool Refract(const glm::dvec3& normal, double squaredIndex, double side, glm::dvec3& momentum)
 {
@@ -49,6 +49,21 @@ bool Refract(const glm::dvec3& normal, double squaredIndex, double side, glm::dv
   }
   momentum = along + side * std::sqrt(std::max(rest, 0.0)) * normal;
   return true;
+}
+
+/**
+ * Refracts a momentum by Snell's law in a flat cell in which n^2 differs between the ray's places
+ * on its two sides: a jump of the index. Returns false for a total reflection.
+ */
+bool PassFlatCell(const GradedCell& cell, const std::array<double, 4>& end, glm::dvec3& momentum)
+{
+  const glm::dvec3 normal = cell.GetWidestNormal();
+  const double length = glm::length(normal);
+  const double square = cell.GetSquaredIndex(end);
+  const bool passes = !(length > 0.0) ||
+    Refract(normal / length, square, std::copysign(1.0, glm::dot(momentum, normal)), momentum);
+  momentum *= passes ? std::sqrt(square / glm::dot(momentum, momentum)) : 1.0;
+  return passes;
 }
 
 }
@@ -395,10 +410,18 @@ int GradedRayWalk::CrossCell(Path& path) const
   {
     path.AddStraight(cell, passed, end);
   }
+  else if (!isStraight && cell.IsFlat)
+  {
+    if (!PassFlatCell(cell, end, path.Momentum) && path.Place.Entry >= 0)
+    {
+      ++path.Statistics->Reflections;
+      return path.Place.Entry;
+    }
+  }
   else if (!isStraight)
   {
-    path.Result->OpticalPath += cell.IsFlat ? 0.0 : sign * way.IntegrateSquare(square);
-    const glm::dvec3 momentum = sign * (cell.IsFlat ? sign * path.Momentum : way.GetMomentum());
+    path.Result->OpticalPath += sign * way.IntegrateSquare(square);
+    const glm::dvec3 momentum = sign * way.GetMomentum();
     // |p| = n holds along the way but for rounding, which must not add up.
     path.Momentum = std::sqrt(cell.GetSquaredIndex(end) / glm::dot(momentum, momentum)) * momentum;
   }

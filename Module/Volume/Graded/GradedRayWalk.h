@@ -12,7 +12,9 @@
  *    of exactly 0 for the vertex that is new, so that no rounding puts a ray outside of its cell.
  *    A ray that has entered by a face moves away from it or along it, never back at once.
  * 3. n^2 is continuous across linked faces, and so is the momentum p, |p| = n.
- * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays.
+ * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays. If n^2
+ * differs between the two sides of a flat cell, a jump of the index, Snell's law holds at its
+ * plane.
  * 5. Outside of the mesh, rays are straight. They enter it as often as they meet its boundary.
  *
  * A ray can glide along a face to which n^2 rises from both sides, or along an edge. Its zigzag has

@@ -3,6 +3,7 @@
 #include "Volume/Graded/QuadraticIndex.h"
 
 #include "Common/GroupedItems.h"
+#include "Volume/Graded/GradedCell.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -29,19 +30,23 @@ constexpr std::size_t Terms = 9;
  */
 constexpr double IndependentShare = 1.0 / 16.0;
 
-/** Neighbours of a vertex: cells around each vertex, and the vertices of these. */
+/**
+ * Neighbours of a vertex: cells around each vertex, and the vertices of these. Flat cells join no
+ * neighbours: the field may jump in them.
+ */
 class Neighbourhoods
 {
 public:
-  explicit Neighbourhoods(const TetrahedralMesh& mesh)
+  Neighbourhoods(const TetrahedralMesh& mesh, const std::vector<double>& values)
     : Mesh(mesh)
   {
     this->Cells.Set(static_cast<std::size_t>(mesh.GetNumberOfVertices()),
-      [&mesh](const auto& visit)
+      [&mesh, &values](const auto& visit)
       {
         for (std::size_t c = 0; c < mesh.GetCells().size(); ++c)
         {
-          if (mesh.IsActiveCell(static_cast<std::int64_t>(c)))
+          const auto number = static_cast<std::int64_t>(c);
+          if (mesh.IsActiveCell(number) && !MakeGradedCell(mesh, values, nullptr, number).IsFlat)
           {
             for (const std::int32_t vertex : mesh.GetCells()[c].Vertices)
             {
@@ -88,10 +93,14 @@ public:
     this->Right.clear();
     const glm::dvec3 middle = mesh.GetPosition(vertex);
     double squaredSize = 0.0;
+    this->Spread = 0.0;
+    const double value = values[static_cast<std::size_t>(vertex)];
     for (const std::int32_t other : ring)
     {
       const glm::dvec3 way = mesh.GetPosition(other) - middle;
       squaredSize = std::max(squaredSize, glm::dot(way, way));
+      this->Spread =
+        std::max(this->Spread, std::abs(values[static_cast<std::size_t>(other)] - value));
     }
     this->Scale = squaredSize > 0.0 ? 1.0 / std::sqrt(squaredSize) : 0.0;
     for (const std::int32_t other : ring)
@@ -109,11 +118,12 @@ public:
       {
         this->Columns[k].push_back(row[k] / length);
       }
-      this->Right.push_back(
-        (values[static_cast<std::size_t>(other)] - values[static_cast<std::size_t>(vertex)]) /
-        length);
+      this->Right.push_back((values[static_cast<std::size_t>(other)] - value) / length);
     }
   }
+
+  /** Largest difference of a value from that at the vertex. */
+  double GetSpread() const { return this->Spread; }
 
   /**
    * Computes the gradient, by the method of Gram and Schmidt. Columns that depend on those before
@@ -200,14 +210,24 @@ private:
   std::array<std::vector<double>, Terms> Columns;
   std::vector<double> Right;
   double Scale = 0.0;
+  double Spread = 0.0;
 };
 
-/** Gradient of the values at each vertex; not a number where they do not determine it. */
-std::vector<glm::dvec3> FitGradients(
+/** Values around a vertex. */
+struct Surroundings
+{
+  /** Not a number where the values do not determine it. */
+  glm::dvec3 Gradient;
+  /** Largest difference of one of them from that at the vertex. */
+  double Spread;
+};
+
+/** Fits gradients to the values around each vertex. */
+std::vector<Surroundings> FitGradients(
   const TetrahedralMesh& mesh, const std::vector<double>& values, const RangeLoop& loop)
 {
-  const Neighbourhoods neighbourhoods(mesh);
-  std::vector<glm::dvec3> gradients(values.size());
+  const Neighbourhoods neighbourhoods(mesh, values);
+  std::vector<Surroundings> fits(values.size());
   loop(values.size(),
     [&](std::size_t begin, std::size_t end)
     {
@@ -221,7 +241,9 @@ std::vector<glm::dvec3> FitGradients(
         neighbourhoods.AddRing(vertex, ring);
         RemoveRepetitions(ring);
         fit.Read(mesh, values, vertex, ring);
-        if (fit.Solve(gradients[v]) == static_cast<int>(Terms))
+        const bool isWhole = fit.Solve(fits[v].Gradient) == static_cast<int>(Terms);
+        fits[v].Spread = fit.GetSpread();
+        if (isWhole)
         {
           continue;
         }
@@ -233,10 +255,11 @@ std::vector<glm::dvec3> FitGradients(
         }
         RemoveRepetitions(rings);
         fit.Read(mesh, values, vertex, rings);
-        fit.Solve(gradients[v]);
+        fit.Solve(fits[v].Gradient);
+        fits[v].Spread = fit.GetSpread();
       }
     });
-  return gradients;
+  return fits;
 }
 
 /** The smaller of two numbers of the same sign; otherwise 0. */
@@ -255,7 +278,7 @@ double SmallerOf(double a, double b)
 std::vector<EdgeTerms> ComputeEdgeTerms(
   const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices, const RangeLoop& loop)
 {
-  const std::vector<glm::dvec3> gradients = FitGradients(mesh, squaredIndices, loop);
+  const std::vector<Surroundings> fits = FitGradients(mesh, squaredIndices, loop);
   const auto& cells = mesh.GetCells();
   std::vector<EdgeTerms> terms(cells.size(), EdgeTerms{});
   const auto termOf = [&](std::int32_t a, std::int32_t b)
@@ -264,10 +287,14 @@ std::vector<EdgeTerms> ComputeEdgeTerms(
     const auto second = static_cast<std::size_t>(b);
     const glm::dvec3 edge = mesh.GetPosition(b) - mesh.GetPosition(a);
     const double change = squaredIndices[second] - squaredIndices[first];
-    const double term = SmallerOf(
-      glm::dot(gradients[first], edge) - change, change - glm::dot(gradients[second], edge));
-    return static_cast<float>(
-      std::max(term, -std::min(squaredIndices[first], squaredIndices[second])));
+    const double term = SmallerOf(glm::dot(fits[first].Gradient, edge) - change,
+      change - glm::dot(fits[second].Gradient, edge));
+    // In cells that are much longer than thick, a gradient that is hardly wrong across them is far
+    // off along an edge. A quadratic function on an edge from a vertex at which it is stationary
+    // differs from its chord by a quarter of its change, which is a term as large as the change.
+    const double most = std::min(fits[first].Spread, fits[second].Spread);
+    return static_cast<float>(std::max(std::max(std::min(term, most), -most),
+      -std::min(squaredIndices[first], squaredIndices[second])));
   };
   loop(cells.size(),
     [&](std::size_t begin, std::size_t end)

@@ -16,7 +16,8 @@
  *    slope of the edge. The smaller one is taken if both have the same sign; otherwise 0, which
  *    leaves n^2 linear. The ends differ in sign at jumps and kinks of the field, which stay as they
  *    are in the cells.
- * 3. No term is below -min(f_i, f_j), so that n^2 is at least half the linear one.
+ * 3. No term is larger than the difference of n^2 between either end and the vertices around it.
+ * 4. No term is below -min(f_i, f_j), so that n^2 is at least half the linear one.
  */
 #ifndef meniscus_Volume_Graded_QuadraticIndex_h
 #define meniscus_Volume_Graded_QuadraticIndex_h

@@ -102,6 +102,10 @@ public:
   /** Spreads light evenly over a triangle. */
   void Add(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double light)
   {
+    if (this->AddWhole(a, b, c, light))
+    {
+      return;
+    }
     Polygon triangle;
     triangle.Corners = { a, b, c };
     triangle.Size = 3;
@@ -124,6 +128,23 @@ public:
   }
 
 private:
+  /** Adds the light of a triangle in one pixel, with or without its border. */
+  bool AddWhole(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double light)
+  {
+    const glm::dvec2 middle = glm::floor((a + b + c) / 3.0 + 0.5);
+    const glm::dvec2 far =
+      glm::max(glm::max(glm::abs(a - middle), glm::abs(b - middle)), glm::abs(c - middle));
+    if (!(std::max(far.x, far.y) <= 0.5))
+    {
+      return false;
+    }
+    if (middle.x >= 0.0 && middle.x < this->Width && middle.y >= this->First &&
+      middle.y < this->Last)
+    {
+      this->At(static_cast<int>(middle.x), static_cast<int>(middle.y)) += light;
+    }
+    return true;
+  }
   void AddStrip(const Polygon& strip, int row, double density)
   {
     const int right = std::min(PixelAt(strip.GetMost(0), 0, this->Width), this->Width - 1);

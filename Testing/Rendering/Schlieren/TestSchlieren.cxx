@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Images of a medium that bends light: closed forms, pipeline, input that cannot be used.
+#include "HardMeshes.h"
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 
@@ -231,6 +232,64 @@ TEST(Schlieren, CameraHasItsOwnRays)
   EXPECT_NEAR(path, std::sqrt(Base + Slope * 0.1) - 1.0, 2.0e-3);
 }
 
+// A mirage: the air's n^2 rises with the height, 100 units of it from one end to the other. Rays
+// that go down turn, and come up again, on parabolas.
+TEST(Schlieren, MirageIsAParabola)
+{
+  constexpr double half = 50.0;
+  constexpr double eye = 60.0;
+  constexpr double rise = 2.4e-4;
+  constexpr double tangent = 6.0e-3;
+  const Grid air =
+    MakeBlock(5, [](double, double y, double) { return std::sqrt(Base + rise * y); });
+  MapPoints(air, [](const glm::dvec3& p) { return glm::dvec3(p.x, p.y, half * p.z); });
+  Filter filter = MakeFilter(air);
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(0.0, 0.0, eye);
+  camera->SetViewAngle(2.0 * std::atan(tangent) * 180.0 / M_PI);
+  filter->SetCamera(camera);
+  filter->SetBackgroundDistance(0.0);
+  filter->Update();
+  int turned = 0;
+  for (int row = 0; row < Size; ++row)
+  {
+    const double slope = tangent * (2.0 * (row + 0.5) / Size - 1.0);
+    const double aside = tangent * (1.0 / Size);
+    const double height = slope * (eye - half);
+    const double index = std::sqrt(Base + rise * height);
+    const double onward = index / std::sqrt(1.0 + slope * slope + aside * aside);
+    const double time = 2.0 * half / onward;
+    const double end = height + time * (slope * onward + 0.25 * rise * time);
+    const double endSlope = slope + 0.5 * rise * time / onward;
+    if (std::abs(end) > 0.95)
+    {
+      continue;
+    }
+    turned += slope < 0.0 && endSlope > 0.0 ? 1 : 0;
+    const double pixel = tangent * 2.0 / Size * (eye + half);
+    const int column = Size / 2;
+    // Positions of the mesh are rounded to 5e-8.
+    EXPECT_NEAR(ValueAt(filter, "Deflection", column, row, 1), endSlope - slope, 1.0e-8);
+    EXPECT_NEAR(
+      ValueAt(filter, "Displacement", column, row, 1) * pixel, end - slope * (eye + half), 2.0e-7);
+    EXPECT_NEAR(ValueAt(filter, "Displacement", column, row, 0), 0.0, 1.0e-4);
+  }
+  EXPECT_GT(turned, Size / 4);
+}
+
+// Layers of 1e-6: depths in double precision need no warning.
+TEST(Schlieren, ShortEdgesAreNoMatter)
+{
+  const Grid layers = MakeLayeredBlock(4, 1.0e-6);
+  layers->GetPointData()->GetScalars()->Fill(1.3);
+  Filter filter = MakeFilter(layers);
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(filter);
+  filter->Update();
+  EXPECT_EQ(observer->Warnings.size(), 0u);
+  EXPECT_GT(filter->GetStatistic("NumberOfRays"), 0);
+}
+
 TEST(Schlieren, ThreadsDoNotMatter)
 {
   std::vector<double> first;
@@ -364,6 +423,43 @@ TEST(Schlieren, UnusableValuesAreHolesWithAWarning)
     EXPECT_EQ(filter->GetStatistic("NumberOfLostRays"), 0);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
   }
+}
+
+TEST(Schlieren, OddSettingsAreWarnings)
+{
+  // Below the index of a vacuum, and a knife edge in front of all light.
+  for (const double cutOff : { 0.5, 1.0 })
+  {
+    Filter filter = MakeFilter(MakeBlock(3, ConstantField(cutOff < 1.0 ? 0.9 : 1.3)));
+    filter->SetKnifeCutOff(cutOff);
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(filter);
+    filter->Update();
+    EXPECT_EQ(observer->Errors.size(), 0u);
+    ASSERT_EQ(observer->Warnings.size(), 1u) << cutOff;
+    const char* const text = cutOff < 1.0 ? "below 1" : "cuts off all light";
+    EXPECT_NE(observer->Warnings[0].find(text), std::string::npos) << observer->Warnings[0];
+    EXPECT_EQ(ValueAt(filter, "Schlieren", 3, 4), static_cast<float>(1.0 - cutOff));
+  }
+}
+
+TEST(Schlieren, RaysThatStayAreStoppedWithAWarning)
+{
+  // A cube of glass with the camera in it: all sides are met beyond the critical angle.
+  Filter filter = MakeFilter(MakeBlock(2, ConstantField(3.0)));
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(0.1, 0.15, 0.3);
+  camera->SetFocalPoint(1.1, 1.25, -0.9);
+  camera->SetViewAngle(2.0);
+  filter->SetCamera(camera);
+  filter->SetImageSize(2, 2);
+  filter->SetOutsideIndex(1.0);
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(filter);
+  filter->Update();
+  ASSERT_EQ(observer->Warnings.size(), 1u);
+  EXPECT_NE(observer->Warnings[0].find("4 rays were stopped"), std::string::npos);
+  EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
 }
 
 TEST(Schlieren, BadInputIsAnError)

@@ -454,6 +454,49 @@ TEST(GradedRayWalk, PrismRefractsAndReflectsTotally)
   ExpectAllThrough(glass.Statistics);
 }
 
+// A shock: two blocks of different n^2, joined by a layer of flat cells.
+TEST(GradedRayWalk, JumpRefractsAndReflectsTotally)
+{
+  MeshArrays arrays = KuhnBlock(3, 2, 2, 1.0);
+  std::vector<bool> isBehind;
+  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
+  {
+    isBehind.push_back(arrays.Points[p] > 1.5);
+    arrays.Points[p] -= arrays.Points[p] > 1.5 ? 1.0 : 0.0;
+  }
+  for (const bool isQuadratic : { false, true })
+  {
+    std::size_t point = 0;
+    GradedScene shock(
+      arrays, [](const glm::dvec3&) { return 1.0; }, 0.0, isQuadratic);
+    for (const std::int32_t source : shock.Mesh.GetSourcePoints())
+    {
+      shock.Squares[point++] = isBehind[static_cast<std::size_t>(source)] ? 2.25 : 1.0;
+    }
+    if (isQuadratic)
+    {
+      shock.Terms = ComputeEdgeTerms(shock.Mesh, shock.Squares);
+    }
+    shock.InLanes = isQuadratic;
+    const glm::dvec3 slanted = glm::normalize(glm::dvec3(1.0, 0.3, 0.1));
+    const GradedRayResult in = shock.Trace(glm::dvec3(-0.5, 0.83, 0.71), slanted);
+    const glm::dvec3 along = glm::dvec3(0.0, 1.0, 1.0) * slanted / 1.5;
+    const glm::dvec3 refracted = along + glm::dvec3(std::sqrt(1.0 - glm::dot(along, along)), 0, 0);
+    EXPECT_NEAR(glm::length(in.Direction - refracted), 0.0, 1.0e-9) << isQuadratic;
+    EXPECT_NEAR(in.OpticalPath, 1.0 / slanted.x + 1.5 / refracted.x, 1.0e-8);
+    // And back.
+    const GradedRayResult out = shock.Trace(in.Exit + 0.5 * in.Direction, -in.Direction);
+    EXPECT_NEAR(glm::length(out.Direction + slanted), 0.0, 1.0e-9);
+    // Beyond the critical angle.
+    const GradedRayResult reflected = shock.Trace(
+      glm::dvec3(2.0, 0.2, 0.71) + glm::dvec3(0.3, -0.4, 0.0), glm::dvec3(-0.6, 0.8, 0.0));
+    EXPECT_NEAR(glm::length(reflected.Direction - glm::dvec3(0.6, 0.8, 0.0)), 0.0, 1.0e-9);
+    EXPECT_EQ(shock.Statistics.Reflections, 1);
+    EXPECT_GT(shock.Statistics.FlatSteps, 0);
+    ExpectAllThrough(shock.Statistics);
+  }
+}
+
 TEST(GradedRayWalk, RayIsStoppedAfterItsSteps)
 {
   // A ray from inside of a dense cube meets all sides beyond the critical angle, for ever.

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Stress_StressBentRays_h
+#define meniscus_Testing_Stress_StressBentRays_h
+
+#include "StressCase.h"
+#include "StressCheck.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+/**
+ * Bends rays through the mesh of a case in random fields of n^2, and judges their paths piece by
+ * piece (GradedPathCheck.h). Fields and rays follow from the number of the case.
+ */
+StressTally CheckBentRays(const StressCase& stress);
+
+} // namespace test
+} // namespace meniscus
+
+#endif
