@@ -42,9 +42,11 @@ def write_settings(paraview, home, version, library):
                '\\"%s\\" auto_load=\\"1\\" />\\n</Plugins>\\n' % library)
     folder = os.path.join(home, ".config", "ParaView")
     os.makedirs(folder)
-    with open(os.path.join(folder, "ParaView%s.ini" % version), "w") as file:
-        file.write('[General]\nGeneralSettings.ShowWelcomeDialog=0\n\n[PluginsList]\n'
-                   'Local%%3A%s="%s"\n' % (paraview.replace("/", "\\"), plugins))
+    # Up to 5.13 the name has the version.
+    for name in "ParaView%s.ini" % version, "ParaView.ini":
+        with open(os.path.join(folder, name), "w") as file:
+            file.write('[General]\nGeneralSettings.ShowWelcomeDialog=0\n\n[PluginsList]\n'
+                       'Local%%3A%s="%s"\n' % (paraview.replace("/", "\\"), plugins))
 
 
 def draw(command, environment, folder, picture):
