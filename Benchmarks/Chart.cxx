@@ -41,6 +41,9 @@ constexpr int Height = 620;
 constexpr int Markers[] = { vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND,
   vtkPlotPoints::CROSS, vtkPlotPoints::PLUS };
 
+/** Curves of more points have no markers, and their names in the middle. */
+constexpr std::size_t ManyPoints = 20;
+
 struct Range
 {
   double Low = 1e300;
@@ -52,13 +55,14 @@ struct Range
   }
 };
 
-ChartSeries OnlyPositive(const ChartSeries& series)
+/** The points that have a place in the chart. */
+ChartSeries OnlyShown(const ChartSeries& series, ChartScale scale)
 {
   ChartSeries result;
   result.Label = series.Label;
   for (const auto& point : series.Points)
   {
-    if (point.first > 0.0 && point.second > 0.0)
+    if (scale == ChartScale::Linear || (point.first > 0.0 && point.second > 0.0))
     {
       result.Points.push_back(point);
     }
@@ -87,28 +91,37 @@ void AddPlot(vtkChartXY* chart, const ChartSeries& series, std::size_t number, b
   const auto& color = Colors[number % 8];
   plot->SetColor(color[0], color[1], color[2], 255);
   plot->GetPen()->SetWidth(2.0f);
-  plot->SetMarkerStyle(Markers[number % 5]);
+  plot->SetMarkerStyle(
+    series.Points.size() > ManyPoints ? int{ vtkPlotPoints::NONE } : Markers[number % 5]);
   plot->SetMarkerSize(14.0f);
 }
 
-// A logarithmic axis over whole decades around the values.
-void SetAxis(vtkAxis* axis, const std::string& title, const Range& range)
+// An axis over whole decades around the values, or from zero to a little more than the values.
+void SetAxis(vtkAxis* axis, const std::string& title, const Range& range, ChartScale scale)
 {
   axis->SetTitle(title);
   axis->GetTitleProperties()->SetFontSize(18);
-  axis->GetLabelProperties()->SetFontSize(15);
-  axis->SetLogScale(true);
+  // Of sizes of 14 to 17, VTK 9.1 draws digits of 15 and 16 with faults at their edges.
+  axis->GetLabelProperties()->SetFontSize(17);
   axis->SetBehavior(vtkAxis::FIXED);
+  if (scale == ChartScale::Linear)
+  {
+    axis->SetUnscaledRange(0.0, 1.1 * range.High);
+    return;
+  }
+  axis->SetLogScale(true);
   axis->SetUnscaledRange(std::pow(10.0, std::floor(std::log10(range.Low))),
     std::pow(10.0, std::ceil(std::log10(range.High))));
 }
 
-// Place of a value on a logarithmic axis, in pixels of the picture.
+// Place of a value on an axis, in pixels of the picture.
 double PixelOf(vtkAxis* axis, int direction, double value)
 {
   double range[2];
   axis->GetUnscaledRange(range);
-  const double part = std::log(value / range[0]) / std::log(range[1] / range[0]);
+  const double part = axis->GetLogScale()
+    ? std::log(value / range[0]) / std::log(range[1] / range[0])
+    : (value - range[0]) / (range[1] - range[0]);
   const double first = axis->GetPoint1()[direction];
   return first + part * (axis->GetPoint2()[direction] - first);
 }
@@ -161,35 +174,46 @@ bool FindPlace(
   return false;
 }
 
-// Writes the name of each curve in its colour next to one of its points, the last ones first, where
-// no other name and no curve is.
-void LabelCurves(vtkChartXY* chart, const std::vector<ChartSeries>& all, vtkRenderer* renderer)
+// Writes the name of each curve in its colour next to one of its points, where no other name and no
+// curve is: the last ones first, or those from the middle on.
+void LabelCurves(
+  vtkChartXY* chart, const std::vector<ChartSeries>& all, ChartScale scale, vtkRenderer* renderer)
 {
   constexpr int few = 4;
   constexpr int many = 40;
-  std::vector<Box> taken;
-  std::vector<ChartSeries> positive;
+  // The numbers of the axes.
+  const auto left = static_cast<double>(chart->GetAxis(vtkAxis::LEFT)->GetPoint1()[0]);
+  const auto bottom = static_cast<double>(chart->GetAxis(vtkAxis::BOTTOM)->GetPoint1()[1]);
+  std::vector<Box> taken{ { 0.0, left, 0.0, Height }, { 0.0, Width, 0.0, bottom } };
+  std::vector<ChartSeries> shown;
   for (const ChartSeries& series : all)
   {
-    positive.push_back(OnlyPositive(series));
-    TakePlaces(chart, positive.back(), taken);
+    shown.push_back(OnlyShown(series, scale));
+    TakePlaces(chart, shown.back(), taken);
   }
-  for (std::size_t i = 0; i < positive.size(); ++i)
+  for (std::size_t i = 0; i < shown.size(); ++i)
   {
-    std::vector<std::pair<double, double>> points = positive[i].Points;
+    std::vector<std::pair<double, double>> points = shown[i].Points;
     if (points.empty())
     {
       continue;
     }
     const auto& color = Colors[i % 8];
     vtkNew<vtkTextActor> label;
-    label->SetInput(positive[i].Label.c_str());
+    label->SetInput(shown[i].Label.c_str());
     label->GetTextProperty()->SetFontSize(16);
     label->GetTextProperty()->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
     label->GetTextProperty()->SetVerticalJustificationToCentered();
     double size[2];
     label->GetSize(renderer, size);
-    std::reverse(points.begin(), points.end());
+    if (points.size() > ManyPoints)
+    {
+      std::rotate(points.begin(), points.begin() + points.size() / 2, points.end());
+    }
+    else
+    {
+      std::reverse(points.begin(), points.end());
+    }
     points.push_back(points.front()); // at last the last point again, with many steps
     Box box{};
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -211,20 +235,20 @@ void LabelCurves(vtkChartXY* chart, const std::vector<ChartSeries>& all, vtkRend
 
 //------------------------------------------------------------------------------
 bool WriteChart(const std::string& file, const std::string& title, const std::string& xTitle,
-  const std::string& yTitle, const std::vector<ChartSeries>& series)
+  const std::string& yTitle, const std::vector<ChartSeries>& series, ChartScale scale)
 {
   vtkNew<vtkChartXY> chart;
   Range x;
   Range y;
   for (std::size_t i = 0; i < series.size(); ++i)
   {
-    const ChartSeries positive = OnlyPositive(series[i]);
-    if (positive.Points.empty())
+    const ChartSeries shown = OnlyShown(series[i], scale);
+    if (shown.Points.empty())
     {
       continue;
     }
-    AddPlot(chart, positive, i, positive.Points.size() > 1);
-    for (const auto& point : positive.Points)
+    AddPlot(chart, shown, i, shown.Points.size() > 1);
+    for (const auto& point : shown.Points)
     {
       x.Add(point.first);
       y.Add(point.second);
@@ -236,8 +260,8 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   }
   chart->SetTitle(title);
   chart->GetTitleProperties()->SetFontSize(18);
-  SetAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x);
-  SetAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y);
+  SetAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x, scale);
+  SetAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y, scale);
 
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
@@ -251,7 +275,7 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   window->SetSize(Width, Height);
   window->AddRenderer(renderer);
   window->Render(); // places the axes
-  LabelCurves(chart, series, renderer);
+  LabelCurves(chart, series, scale, renderer);
   window->Render();
   vtkNew<vtkWindowToImageFilter> picture;
   picture->SetInput(window);

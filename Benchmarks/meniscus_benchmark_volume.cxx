@@ -9,6 +9,7 @@
 #include "Volume/VolumeDevice.h"
 #include "Volume/VolumeOptions.h"
 #include "Volume/VolumeOutput.h"
+#include "Volume/VolumePaper.h"
 #include "Volume/VolumeProbe.h"
 #include "Volume/VolumeReport.h"
 #include "Volume/VolumeSteps.h"
@@ -220,6 +221,10 @@ int main(int argc, char* argv[])
   {
     PrintSteps(std::cout, options);
     return EXIT_SUCCESS;
+  }
+  if (!options.Paper.empty())
+  {
+    return DrawPaper(std::cout, options) ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   return CompareAll(options);
 }

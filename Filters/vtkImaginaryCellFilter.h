@@ -45,8 +45,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the file name of the program that runs TetGen. Null, the default, stands for
-   * meniscus_tetgen of the build or the installation to which this library belongs.
+   * Set/Get the file name of the program that runs TetGen. Null, the default, and an empty
+   * name stand for meniscus_tetgen of the build or the installation of this library.
    */
   vtkSetFilePathMacro(MesherProgram);
   vtkGetFilePathMacro(MesherProgram);

@@ -58,7 +58,7 @@ Contestant MakeZSweep()
       mapper->AutoAdjustSampleDistancesOff();
       return MapperPointer(mapper);
     },
-    false };
+    false, test::FunctionKind::Smooth, false };
 }
 
 // Points along the longest side of images that the mesh is resampled to.

@@ -33,6 +33,8 @@ struct Contestant
   bool HasFloat = false;
   /** Transfer function that it draws; the error is measured for that of the run only. */
   test::FunctionKind Function = test::FunctionKind::Smooth;
+  /** False if the mapper crashes when it gets a larger mesh, as Z sweep does in VTK 9.1. */
+  bool CanChangeMesh = true;
 };
 
 /**

@@ -45,7 +45,10 @@ const char* const VolumeUsage =
   "                     (default: the widest of the processor)\n"
   "  --threads N        threads of vtkSMPTools, of VTK's ray cast mapper and of llvmpipe\n"
   "  --json FILE        write the figures to a file\n"
-  "  --plot FILE.png    draw time against error, one point per mapper\n"
+  "  --plot FILE.png    draw time against error, a curve per way to draw\n"
+  "  --paper FOLDER     charts like Figs. 7 and 8 of Weiler et al.: time and steps over views, "
+  "rays\n"
+  "                     that still walk after each step\n"
   "  --picture START    write the first view of every mapper to START-MAPPER.png\n"
   "  --rows FILE        append a row per mapper, times, to a table in Markdown\n"
   "  --error-rows FILE  the same, errors\n"
@@ -127,7 +130,7 @@ bool ReadValue(const std::string& key, const std::string& value, VolumeOptions& 
     { "--json", &options.Json }, { "--plot", &options.Plot }, { "--function", &options.Function },
     { "--row", &options.Row }, { "--probe", &options.Probe }, { "--picture", &options.Picture },
     { "--rows", &options.TimeRows }, { "--error-rows", &options.ErrorRows },
-    { "--instructions", &options.Instructions } };
+    { "--instructions", &options.Instructions }, { "--paper", &options.Paper } };
   const auto number = numbers.find(key);
   if (number != numbers.end())
   {

@@ -37,6 +37,7 @@ struct VolumeOptions
   int SetUpRepetitions = 3;
   bool Bandwidth = false;
   bool Device = false;  // names of the graphics device instead of a comparison
+  std::string Paper;    // folder of the charts like the paper's
   std::string Picture;  // first part of the names of pictures
   std::string TimeRows; // file to which rows of a Markdown table are appended
   std::string ErrorRows;

@@ -46,8 +46,9 @@ bool AppendErrorRows(const std::string& file, const VolumeOptions& options,
   const RunDescription& description, const std::vector<Figures>& all);
 
 /**
- * Plots milliseconds per frame against the RMS error of an image, both logarithmic: 8-bit and float
- * images of every mapper.
+ * Plots milliseconds of processor time per frame against the RMS error of an image, both
+ * logarithmic: a curve per way to draw, the sizes of tables and images along it. Errors are those
+ * of float images where the mapper makes them, of 8-bit images otherwise.
  */
 bool WritePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);

@@ -154,7 +154,7 @@ int RunProbe(const Contestant& contestant, const VolumeOptions& options)
   // A small mesh comes first: shaders, framebuffers and threads are not part of the cost of a mesh.
   const test::Grid small = MakeCubeOfFive(RadialField());
   VolumeScene scene(options.Width, options.Height);
-  const MapperPointer mapper = contestant.Make();
+  MapperPointer mapper = contestant.Make();
   mapper->SetInputDataObject(small);
   scene.SetMapper(mapper);
   double range[2];
@@ -164,6 +164,11 @@ int RunProbe(const Contestant& contestant, const VolumeOptions& options)
   scene.SetProperty(property);
   LookAt(scene.GetRenderer(), small->GetBounds(), 20.0, 30.0);
   scene.GetWindow()->Render();
+  if (!contestant.CanChangeMesh)
+  {
+    mapper = contestant.Make();
+    scene.SetMapper(mapper);
+  }
   const double before = ResidentBytes();
   mapper->SetInputDataObject(grid);
   for (int view = 0; view < options.Views; ++view)

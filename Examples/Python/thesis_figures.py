@@ -32,6 +32,11 @@ BACKGROUND, FILL, DIFFERENT = (0.09, 0.12, 0.17), (0.55, 0.75, 0.95), (255, 90, 
 def make_disc(rings, height, slope):
     """The thesis's disc: ring k has 2^(k+1) vertices. `height` and its derivative `slope` are
     functions of the distance from the axis."""
+    return make_rings([2**(k + 1) for k in range(1, rings + 1)], height, slope)
+
+
+def make_rings(numbers, height, slope):
+    """A disc of rings with these numbers of vertices."""
     points, normals, triangles = vtkPoints(), vtkDoubleArray(), vtkCellArray()
     points.SetDataTypeToDouble()
     normals.SetNumberOfComponents(3)
@@ -43,25 +48,22 @@ def make_disc(rings, height, slope):
         normals.InsertNextTuple3(-slope(radius) * math.cos(angle) / length, 1.0 / length,
                                  -slope(radius) * math.sin(angle) / length)
 
-    def connect(*ids):
-        triangles.InsertNextCell(3, ids)
-
     add(0.0, 0.0)
     first, count = 0, 1
-    for ring in range(1, rings + 1):
-        outer, number = first + count, 4 if ring == 1 else 2 * count
+    for ring, number in enumerate(numbers, 1):
+        outer = first + count
         for k in range(number):
-            add(DISC * ring / rings, 2.0 * math.pi * k / number)
-        for k in range(count):
-            a, b = first + k, first + (k + 1) % count
-            if ring == 1:
-                for i in range(number):
-                    connect(0, outer + (i + 1) % number, outer + i)
-                continue
-            c, d, e = (outer + (2 * k + i) % number for i in range(3))
-            connect(a, d, c)
-            connect(a, b, d)
-            connect(b, e, d)
+            add(DISC * ring / len(numbers), 2.0 * math.pi * k / number)
+        # From one spoke to the next, on the ring whose next vertex comes first.
+        i = j = 0
+        while j < number or (count > 1 and i < count):
+            a, d = first + i % count, outer + j % number
+            if count == 1 or (2 * j + 1) * count < (2 * i + 1) * number:
+                triangles.InsertNextCell(3, (a, outer + (j + 1) % number, d))
+                j += 1
+            else:
+                triangles.InsertNextCell(3, (a, first + (i + 1) % count, d))
+                i += 1
         first, count = outer, number
     disc = vtkPolyData()
     disc.SetPoints(points)
@@ -70,9 +72,17 @@ def make_disc(rings, height, slope):
     return disc
 
 
+SPHERICAL = (lambda r: SPHERE - math.sqrt(SPHERE**2 - r * r),
+             lambda r: r / math.sqrt(SPHERE**2 - r * r))
+
+
 def make_bowl(rings):
-    return make_disc(rings, lambda r: SPHERE - math.sqrt(SPHERE**2 - r * r),
-                     lambda r: r / math.sqrt(SPHERE**2 - r * r))
+    return make_disc(rings, *SPHERICAL)
+
+
+def make_fine_bowl():
+    """A bowl of even rings with as many facets as the thesis's fine one, 3,279."""
+    return make_rings([round(6.2 * ring) for ring in range(1, 24)], *SPHERICAL)
 
 
 def get_corners():
@@ -213,7 +223,7 @@ def draw_resolutions(size):
     """Top: flat facets and 2, 3, 5 and 8 vertices per side. Bottom: 22 vertices, 8 vertices and
     more facets, the plain triangle with all images, and traced rays. Pixels that differ from those
     are marked."""
-    coarse, fine = make_bowl(5), make_bowl(8)
+    coarse, fine = make_bowl(5), make_fine_bowl()
     traced = trace(size)
     truth = get_covered(traced)
     panels = []

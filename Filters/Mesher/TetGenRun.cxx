@@ -16,7 +16,7 @@ namespace meniscus
 //------------------------------------------------------------------------------
 std::string ChooseTetGenProgram(const char* set)
 {
-  return set ? std::string(set) : FindTetGenProgram();
+  return set && *set ? std::string(set) : FindTetGenProgram();
 }
 
 //------------------------------------------------------------------------------

@@ -25,6 +25,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <vtksys/SystemTools.hxx>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -35,6 +37,19 @@ namespace meniscus
 {
 namespace test
 {
+
+namespace
+{
+
+/** Folder of the baseline that the argument -V names; empty without it. */
+std::string FolderOfBaselines(int argc, char* argv[])
+{
+  char** const end = argv + argc;
+  char** const option = std::find(argv, end, std::string("-V"));
+  return end - option > 1 ? vtksys::SystemTools::GetFilenamePath(option[1]) : std::string();
+}
+
+}
 
 //------------------------------------------------------------------------------
 int Finish(int argc, char* argv[], VolumeScene& scene, int result)
@@ -49,8 +64,8 @@ int Finish(int argc, char* argv[], VolumeScene& scene, int result)
   if (result == vtkRegressionTester::PASSED &&
     std::find(argv, argv + argc, std::string("--strict")) != argv + argc)
   {
-    const BaselineResult strict =
-      CompareToBaseline(ReadBytes(scene.GetWindow()), argv[0], threshold);
+    const BaselineResult strict = CompareToBaseline(
+      ReadBytes(scene.GetWindow()), argv[0], threshold, FolderOfBaselines(argc, argv));
     std::cout << strict.Message << "\n";
     return strict.Passed ? EXIT_SUCCESS : EXIT_FAILURE;
   }

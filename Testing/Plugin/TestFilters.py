@@ -29,7 +29,9 @@ FILTERS = {
         "KnifeAngle": 90, "KnifeCutOff": 0.5, "KnifeRange": 0, "ScreenDistance": 1,
         "Wavelength": 589.3e-9, "Fringes": [0, 0], "BackgroundDistance": 1},
     "TetrahedralizeSurface": {"Mesher": "Automatic", "MaximumRadiusEdgeRatio": 2,
-                              "MaximumVolume": 0, "PreserveSurface": 0, "TimeLimit": 300},
+                              "MaximumVolume": 0, "PreserveSurface": 0, "MesherProgram": "",
+                              "TimeLimit": 300},
+    "ImaginaryCells": {"MesherProgram": "", "TimeLimit": 300},
     "TriangulatedPosition": {**SURFACES, "EyeArrayName": "Eye", "PointIdArrayName": "PointId"},
     "TruePosition": {**SURFACES, "Depth": "Apparent", "EyeArrayName": "", "FollowCamera": 0},
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ThesisTables.h"
 
-#include "AnalyticMembrane.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 
@@ -26,9 +24,6 @@ constexpr double SquareSide = 200.0;
 // Samples of the error volume: 40 along a side, 20 units apart.
 constexpr int Samples = 40;
 constexpr double Spacing = 20.0;
-
-// Distance of walls, in barycentric coordinates, at which two cells count as several answers.
-constexpr double Wall = 1e-7;
 
 // Fraction of the radius of the flat disc beyond which sight points have no exact point. The thesis
 // does not say so, but its numbers of points imply it.
@@ -94,57 +89,6 @@ const std::vector<ThesisRow> Rows = {
   { "4.5", Square, 15, 1.0, 150.0, 0.0, 1.0, 1.51, 0.1449, 0.1006, 0 },
 };
 
-MembraneMesh MakeMesh(const ThesisRow& row)
-{
-  const double sphereRadius = row.SphereRatio * DiscRadius;
-  return row.Shape == Disc ? MakeDisc(DiscRadius, 5, sphereRadius)
-                           : MakeSquare(SquareSide, row.SquareCells, sphereRadius);
-}
-
-glm::dvec3 GetEye(const ThesisRow& row)
-{
-  return { row.EyeOffset, row.EyeHeight, 0.0 };
-}
-
-/** `solve(point, vertex)` returns true if the single image of a point was found. */
-template <typename Solve>
-ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
-{
-  const AnalyticMembrane exact{ row.SphereRatio * DiscRadius, row.Exterior, row.Interior };
-  const bool flatDisc = row.Shape == Disc && row.SphereRatio == 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
-  ErrorStatistics result;
-  for (int i = 0; i < Samples * Samples * Samples; ++i)
-  {
-    const int ix = i % Samples;
-    const int iy = i / Samples % Samples;
-    const int iz = i / (Samples * Samples);
-    const glm::dvec3 point(
-      Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2));
-    VirtualVertex vertex;
-    if (!solve(point, vertex) ||
-      (flatDisc && glm::length(vertex.SightPoint) > FlatDiscPart * DiscRadius))
-    {
-      continue;
-    }
-    const auto computed = exact.FindTruePoint(GetEye(row), vertex.Position);
-    if (computed)
-    {
-      const double error = glm::length(*computed - point);
-      sum += error;
-      squares += error * error;
-      result.Largest = std::max(result.Largest, error);
-      ++result.Points;
-    }
-  }
-  const auto count = static_cast<double>(result.Points);
-  result.Mean = result.Points > 0 ? sum / count : 0.0;
-  result.Deviation =
-    result.Points > 0 ? std::sqrt(std::max(squares / count - result.Mean * result.Mean, 0.0)) : 0.0;
-  return result;
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -160,20 +104,81 @@ bool IsReproducible(const ThesisRow& row)
 }
 
 //------------------------------------------------------------------------------
+MembraneMesh MakeThesisMesh(const ThesisRow& row)
+{
+  const double sphereRadius = row.SphereRatio * DiscRadius;
+  return row.Shape == Disc ? MakeDisc(DiscRadius, 5, sphereRadius)
+                           : MakeSquare(SquareSide, row.SquareCells, sphereRadius);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 GetThesisEye(const ThesisRow& row)
+{
+  return { row.EyeOffset, row.EyeHeight, 0.0 };
+}
+
+//------------------------------------------------------------------------------
+AnalyticMembrane GetThesisSurface(const ThesisRow& row)
+{
+  return { row.SphereRatio * DiscRadius, row.Exterior, row.Interior };
+}
+
+//------------------------------------------------------------------------------
+std::optional<double> FindThesisError(
+  const ThesisRow& row, const glm::dvec3& point, const VirtualVertex& vertex)
+{
+  const bool flatDisc = row.Shape == Disc && row.SphereRatio == 0.0;
+  if (flatDisc && glm::length(vertex.SightPoint) > FlatDiscPart * DiscRadius)
+  {
+    return {};
+  }
+  const auto computed = GetThesisSurface(row).FindTruePoint(GetThesisEye(row), vertex.Position);
+  return computed ? std::optional<double>(glm::length(*computed - point)) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+ErrorStatistics MeasureErrors(const ErrorFunction& errorAt)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  ErrorStatistics result;
+  for (int i = 0; i < Samples * Samples * Samples; ++i)
+  {
+    const int ix = i % Samples;
+    const int iy = i / Samples % Samples;
+    const int iz = i / (Samples * Samples);
+    const auto error =
+      errorAt({ Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2) });
+    if (error)
+    {
+      sum += *error;
+      squares += *error * *error;
+      result.Largest = std::max(result.Largest, *error);
+      ++result.Points;
+    }
+  }
+  const auto count = static_cast<double>(result.Points);
+  result.Mean = result.Points > 0 ? sum / count : 0.0;
+  result.Deviation =
+    result.Points > 0 ? std::sqrt(std::max(squares / count - result.Mean * result.Mean, 0.0)) : 0.0;
+  return result;
+}
+
+//------------------------------------------------------------------------------
 ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 {
   FlatMembraneSolver geometry;
-  geometry.SetMembrane(MakeMesh(row).AsInput());
-  geometry.SetEye(GetEye(row), row.Exterior, row.Interior);
-  return MeasureRow(row,
-    [&geometry](const glm::dvec3& point, VirtualVertex& vertex)
+  geometry.SetMembrane(MakeThesisMesh(row).AsInput());
+  geometry.SetEye(GetThesisEye(row), row.Exterior, row.Interior);
+  return MeasureErrors(
+    [&geometry, &row](const glm::dvec3& point) -> std::optional<double>
     {
-      if (!geometry.HasOneCell(point, Wall))
+      if (!geometry.HasOneCell(point, ThesisWall))
       {
-        return false;
+        return {};
       }
-      vertex = geometry.SolvePoint(point);
-      return vertex.State == ImageState::Found;
+      const VirtualVertex vertex = geometry.SolvePoint(point);
+      return vertex.State == ImageState::Found ? FindThesisError(row, point, vertex) : std::nullopt;
     });
 }
 
@@ -181,19 +186,14 @@ ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row)
 {
   CurvedMembraneSolver geometry;
-  geometry.SetMembrane(MakeMesh(row).AsInput());
-  geometry.SetEye(GetEye(row), row.Exterior, row.Interior);
+  geometry.SetMembrane(MakeThesisMesh(row).AsInput());
+  geometry.SetEye(GetThesisEye(row), row.Exterior, row.Interior);
   std::vector<VirtualVertex> images;
-  return MeasureRow(row,
-    [&geometry, &images](const glm::dvec3& point, VirtualVertex& vertex)
+  return MeasureErrors(
+    [&geometry, &images, &row](const glm::dvec3& point) -> std::optional<double>
     {
       geometry.FindImages(point, images);
-      if (images.size() != 1)
-      {
-        return false;
-      }
-      vertex = images.front();
-      return true;
+      return images.size() == 1 ? FindThesisError(row, point, images.front()) : std::nullopt;
     });
 }
 

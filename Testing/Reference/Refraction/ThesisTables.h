@@ -7,7 +7,13 @@
 #ifndef meniscus_Testing_Reference_Refraction_ThesisTables_h
 #define meniscus_Testing_Reference_Refraction_ThesisTables_h
 
+#include "AnalyticMembrane.h"
+#include "MembraneMeshes.h"
+#include "Refraction/Sight/VirtualVertex.h"
+
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace meniscus::reference
@@ -50,6 +56,24 @@ const std::vector<ThesisRow>& GetThesisRows();
  * True if a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, whose 46 rows are used for the acceptance.
  */
 bool IsReproducible(const ThesisRow& row);
+
+/** Membrane, eye and exact surface of a row. */
+MembraneMesh MakeThesisMesh(const ThesisRow& row);
+glm::dvec3 GetThesisEye(const ThesisRow& row);
+AnalyticMembrane GetThesisSurface(const ThesisRow& row);
+
+/** Distance of walls, in barycentric coordinates, at which two cells count as several answers. */
+constexpr double ThesisWall = 1e-7;
+
+/** Distance of a point from the exact point behind its image; nothing if it does not count. */
+std::optional<double> FindThesisError(
+  const ThesisRow& row, const glm::dvec3& point, const VirtualVertex& vertex);
+
+/** Error of a point; nothing if it does not count. */
+using ErrorFunction = std::function<std::optional<double>(const glm::dvec3& point)>;
+
+/** The samples of the error volume. */
+ErrorStatistics MeasureErrors(const ErrorFunction& errorAt);
 
 /**
  * Samples the error volume of a row: the distance between each true point and the exact point that
