@@ -101,7 +101,7 @@ void SetAxis(vtkAxis* axis, const std::string& title, const Range& range, ChartS
 {
   axis->SetTitle(title);
   axis->GetTitleProperties()->SetFontSize(18);
-  // Of sizes of 14 to 17, VTK 9.1 draws digits of 15 and 16 with faults at their edges.
+  // VTK 9.1 draws digits of sizes 15 and 16 with faults at their edges, of 14 and 17 without.
   axis->GetLabelProperties()->SetFontSize(17);
   axis->SetBehavior(vtkAxis::FIXED);
   if (scale == ChartScale::Linear)
