@@ -35,7 +35,7 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ data integrals names pyvista rivals threads
+  __main__ arguments data integrals names pyvista rivals threads
   api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
   api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types api/volumes
   viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/contest
@@ -68,6 +68,7 @@ install(
   FILES
     "${_meniscus_package}/__init__.py"
     "${_meniscus_package}/__main__.py"
+    "${_meniscus_package}/arguments.py"
     "${_meniscus_package}/integrals.py"
     "${_meniscus_package}/data.py"
     "${_meniscus_package}/names.py"

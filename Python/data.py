@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Data sets of composite data, components of their arrays, and messages of filters."""
+import numbers
 import warnings
 
 from vtkmodules.util.misc import calldata_type
@@ -39,7 +40,10 @@ def with_array(leaf, name, in_points, values):
 def check_component(name, count, component):
     """Raises a ValueError unless a component of an array is a number below count or "magnitude";
     None is allowed if there is only one."""
-    if component in ("magnitude", *range(count)) or (component is None and count == 1):
+    is_number = isinstance(component, numbers.Integral) and not isinstance(component, bool)
+    if (is_number or isinstance(component, str)) and component in ("magnitude", *range(count)):
+        return
+    if component is None and count == 1:
         return
     problem = ("has %d components" % count if component is None
                else "has no component %r" % component)

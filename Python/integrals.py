@@ -1,8 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Integrals along rays through a mesh, as arrays."""
+import numbers
+
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
+from .arguments import check_dataset, check_name, check_names, check_numbers
 from .data import check_component, leaves_of, run
 from .names import set_properties
 from .vtkMeniscus import vtkTetrahedraRayIntegral
@@ -84,7 +87,14 @@ def ray_integral(mesh, arrays="Integral", *, scalars=None, component=None, size=
     components), with rows from below: a numpy array or, without numpy, a memoryview. For several
     arrays, returns a dictionary of these by name. Input that cannot be used is a ValueError.
     """
-    names = [arrays] if isinstance(arrays, str) else list(arrays)
+    check_dataset("mesh", mesh)
+    check_name("scalars", scalars)
+    check_numbers("size", size, 2, numbers.Integral)
+    size = tuple(map(int, size))
+    for name in ("Direction", "ViewUp"):
+        check_numbers({"Direction": "direction", "ViewUp": "up"}[name],
+                      properties.get(name, (0, 0, 0)), 3)
+    names = check_names("arrays", arrays)
     for name in names:
         if name not in ARRAYS:
             raise ValueError("There is no array '%s'; the arrays are %s" % (

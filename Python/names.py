@@ -29,7 +29,7 @@ ISOSURFACE_OPACITY = 0.4
 def choose(kind, name, known):
     """The value of a name in a dictionary; a name that is not in it is a ValueError that lists the
     names. kind: what is named, such as "blend mode"."""
-    if name not in known:
+    if not isinstance(name, str) or name not in known:
         raise ValueError("There is no %s '%s'; known are %s" % (kind, name, ", ".join(known)))
     return known[name]
 

@@ -517,6 +517,7 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
   output->SetSpacing(place.Spacing);
   output->SetDirectionMatrix(place.Direction);
   arrays.AddTo(output);
+  this->Tell({ "", arrays.WarnOfPrecision(internals.Input.GetDistribution()) });
   return true;
 }
 

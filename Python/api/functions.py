@@ -10,6 +10,8 @@ from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
 
+from ..arguments import refuse
+
 # Nodes of the functions of a logarithmic table. Between two nodes, functions are linear in the
 # value instead of its logarithm: for a ratio r of their values, off by up to ln(r) / 8 of the step
 # between them, 0.5 % for four decades.
@@ -19,6 +21,8 @@ _LOGARITHMIC_NODES = 256
 def check_color_map(cmap):
     """Raises a ValueError for the name of a colour map that neither PyVista nor matplotlib,
     cmocean or colorcet have; it lists names and says which packages are not installed."""
+    if isinstance(cmap, (bytes, int, float)):
+        refuse("cmap", "the name of a colour map, a str, or a colour map", cmap)
     if not isinstance(cmap, str):
         return
     try:

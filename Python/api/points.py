@@ -11,6 +11,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from ..arguments import refuse
 from ..data import run
 from ..names import choose
 from ..vtkMeniscus import vtkTriangulatedPositionFilter, vtkTruePositionFilter
@@ -40,8 +41,15 @@ class Triangulation(NamedTuple):
     states: Array
 
 
+def _as_floats(values, name):
+    try:
+        return numpy.ascontiguousarray(values, float)
+    except (TypeError, ValueError):
+        refuse(name, "an array of numbers", values)
+
+
 def _as_coordinates(values, name):
-    array = numpy.ascontiguousarray(values, float)
+    array = _as_floats(values, name)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError("%s must have the shape (n, 3), not %s" % (name, array.shape))
     return array
@@ -62,7 +70,7 @@ def _make_input(points, eyes):
 
 def _as_eyes(eyes, points):
     """One eye, (3,), or one per point."""
-    eyes = numpy.ascontiguousarray(eyes, float)
+    eyes = _as_floats(eyes, "eyes")
     if eyes.shape not in ((3,), points.shape):
         raise ValueError("eyes must have the shape (3,) or %s, not %s" % (
             points.shape, eyes.shape))
@@ -92,7 +100,7 @@ def true_positions(
     Raises ValueError for wrong shapes, indices and surfaces; a surface that no eye sees from its
     front is a RuntimeWarning.
     """
-    seen = numpy.asarray(points, float)
+    seen = _as_floats(points, "points")
     single = seen.shape == (3,)
     seen = _as_coordinates(seen[None] if single else seen, "points")
     eyes = _as_eyes(eyes, seen)
@@ -135,7 +143,7 @@ def triangulate(
     Raises ValueError for wrong shapes, indices and surfaces.
     """
     if ids is None:
-        rays, cameras = numpy.asarray(points, float), numpy.asarray(eyes, float)
+        rays, cameras = _as_floats(points, "points"), _as_floats(eyes, "eyes")
         if rays.ndim != 3 or rays.shape[2] != 3 or cameras.shape != (len(rays), 3):
             raise ValueError("Without ids, points must have the shape (cameras, n, 3) and eyes "
                              "(cameras, 3), not %s and %s" % (rays.shape, cameras.shape))
@@ -144,7 +152,7 @@ def triangulate(
         rays = numpy.ascontiguousarray(rays.reshape(-1, 3))
     else:
         rays = _as_coordinates(points, "points")
-        observers, numbers = numpy.ascontiguousarray(eyes, float), numpy.asarray(ids)
+        observers, numbers = _as_floats(eyes, "eyes"), numpy.asarray(ids)
         if observers.shape != rays.shape or numbers.shape != (len(rays),):
             raise ValueError("With ids, points and eyes must have the shape (m, 3) and ids (m,), "
                              "not %s, %s and %s" % (rays.shape, observers.shape, numbers.shape))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import check_names
 from ..integrals import ARRAYS, ray_integral
 from ..names import choose
 
@@ -55,7 +56,7 @@ def integral(
     that miss the mesh have 0, or NaN for depths, minimum and maximum. Lengths are in the mesh's
     unit. Raises ValueError for names that do not exist and input that cannot be used.
     """
-    names = [quantity] if isinstance(quantity, str) else list(quantity)
+    names = check_names("quantity", quantity)
     arrays = [choose("quantity", name, _QUANTITIES) for name in names]
     found = _measure(mesh, arrays, scalars, component, size, direction, up, camera, surfaces,
                      indices, **properties)

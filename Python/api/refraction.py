@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pyvista
 
+from ..arguments import check_dataset, check_numbers
 from ..data import run
 from ..names import choose, set_properties
 from ..vtkMeniscus import vtkRefractedGeometryFilter
@@ -62,6 +63,9 @@ def refracted(
     ValueError for surfaces and indices that do not fit together, and for surfaces that cannot be
     used.
     """
+    check_dataset("mesh", mesh)
+    if not hasattr(eye, "add_mesh"):
+        check_numbers("eye", getattr(eye, "position", eye), 3)
     properties = {key: arguments.pop(key) for key in list(arguments) if key[0].isupper()}
     refraction = _make_filter(
         mesh, surfaces, indices if index is None else index, images, properties)

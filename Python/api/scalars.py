@@ -6,6 +6,7 @@ import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
+from ..arguments import check_name, check_values, refuse
 from ..data import check_component, with_array
 from ..viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of
 from ..viewer.files import ReadingError
@@ -46,6 +47,7 @@ class Scalars:
     is_mixed = False
 
     def __init__(self, mesh, scalars, preference, component, rgba=False):
+        check_values("scalars", scalars)
         self.title = scalars if scalars is None or isinstance(scalars, str) else ""
         try:
             check_drawable(mesh)
@@ -91,7 +93,7 @@ class Scalars:
                                  "scalars=" % found)
             scalars = names.pop()
         elif not isinstance(scalars, str):
-            raise TypeError("The scalars of a MultiBlock are the name of an array")
+            refuse("scalars of a MultiBlock", "the name of an array, a str", scalars)
         self.mesh, self.name = blocks, scalars
         for self.in_points in (preference == "point", preference != "point"):
             self._take_arrays(leaves)
@@ -143,6 +145,7 @@ class Scalars:
 
     def add_opacity(self, name, component, limits):
         """Takes the opacity from another array of points, whose range is limits or its own."""
+        check_name("opacity_array", name)
         other = Scalars(self.mesh, name, "point" if self.in_points else "cell", component)
         if other.in_points != self.in_points:
             raise ValueError("The arrays '%s' and '%s' must both belong to points" % (

@@ -3,6 +3,7 @@
 """Schlieren images, shadowgraphs and interferograms of a mesh, as arrays; needs no PyVista."""
 from __future__ import annotations
 
+import numbers
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 
+from ..arguments import check_dataset, check_name, check_names, check_numbers
 from ..data import run
 from ..names import choose, set_properties
 from ..vtkMeniscus import vtkTetrahedraSchlieren
@@ -70,7 +72,12 @@ def schlieren(
     dictionary by name. Lengths are in the mesh's unit. Raises ValueError for names that do not
     exist and input that cannot be used.
     """
-    names = [image] if isinstance(image, str) else list(image)
+    check_dataset("mesh", mesh)
+    check_name("scalars", scalars)
+    check_numbers("size", size, 2, numbers.Integral)
+    check_numbers("direction", direction, 3)
+    check_numbers("up", up, 3)
+    names = check_names("image", image)
     arrays = [choose("image", name, _IMAGES) for name in names]
     if "background" in names and background is None:
         raise ValueError("The image 'background' needs a background")

@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkPolyData)
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
+from ..arguments import check_numbers
 from ..vtkMeniscus import vtkRefractingInterface, vtkRefractingInterfaceCollection
 
 
@@ -69,7 +70,11 @@ def pair_indices(indices, count, before=1.0):
     media, the eye's first; or a pair per surface. before: index of the eye's medium, if it is not
     among them.
     """
-    indices = list(indices) if hasattr(indices, "__len__") else [indices]
+    is_list = hasattr(indices, "__len__") and not isinstance(indices, (str, bytes))
+    indices = list(indices) if is_list else [indices]
+    for each in indices:
+        check_numbers("indices", each if hasattr(each, "__len__") else [each],
+                      len(each) if hasattr(each, "__len__") else 1)
     if all(hasattr(each, "__len__") for each in indices):
         pairs = [tuple(map(float, each)) for each in indices]
     else:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -11,6 +12,7 @@ import pyvista
 from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
+from ..arguments import check_numbers, refuse
 from ..names import ISOSURFACE_OPACITY, MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
@@ -108,6 +110,8 @@ def _choose_blending(blending, isovalues, scalars):
     """Name of the blend mode, of which isovalues select isosurfaces if none is given."""
     if blending is None:
         blending = "composite" if isovalues is None else "isosurface"
+    if not isinstance(blending, (str, int)):
+        refuse("blending", "the name of a blend mode", blending)
     if blending == "isosurfaces":
         blending = "isosurface"
     if isovalues is not None and blending != "isosurface":
@@ -119,14 +123,30 @@ def _choose_blending(blending, isovalues, scalars):
 
 def _set_isovalues(look, isovalues, limits):
     """isovalues: values, or the number of values at equal distances inside limits."""
+    if isinstance(isovalues, (bytes, str)):
+        refuse("isovalues", "a whole number, or a list of values", isovalues)
     if not hasattr(isovalues, "__len__"):
+        if not isinstance(isovalues, numbers.Integral):
+            refuse("isovalues", "a whole number, or a list of values", isovalues)
         if isovalues < 1:
             raise ValueError("The number of isovalues must be at least 1")
         isovalues = numpy.linspace(*limits, isovalues + 2)[1:-1]
+    check_numbers("isovalues", isovalues, len(isovalues))
     contours = look.GetIsoSurfaceValues()
     contours.SetNumberOfContours(len(isovalues))
     for index, value in enumerate(isovalues):
         contours.SetValue(index, value)
+
+
+def _wrap(mesh):
+    """A mesh of any library as PyVista's."""
+    try:
+        wrapped = pyvista.wrap(mesh)
+    except NotImplementedError:
+        wrapped = None
+    if wrapped is None:
+        refuse("mesh", "a dataset", mesh)
+    return wrapped
 
 
 def add_to(
@@ -180,7 +200,9 @@ def add_to(
     scalars that are missing or not finite, and for names of modes and colour maps that do not exist
     (the message lists those that do); KeyError for the name of an array that does not exist.
     """
-    source, mesh = mesh, pyvista.wrap(mesh)
+    source, mesh = mesh, _wrap(mesh)
+    if not hasattr(plotter, "add_volume"):
+        refuse("plotter", "a pyvista.Plotter", plotter)
     if multi_colors and isinstance(mesh, pyvista.MultiBlock):
         return _add_blocks(plotter, mesh, scalars, name, dict(
             arguments, component=component, rgba=rgba, opacity_array=opacity_array,

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 namespace meniscus
 {
@@ -184,6 +186,46 @@ void IntegralArrays::AddTo(vtkImageData* image)
     }
   }
   this->Events.AddTo(image);
+}
+
+//------------------------------------------------------------------------------
+// The scalars are held if floats, which have 24 binary digits, tell 255 levels of their range
+// apart.
+std::string IntegralArrays::WarnOfPrecision(const ScalarDistribution& scalars) const
+{
+  using Float = std::numeric_limits<float>;
+  constexpr double levels = 255.0;
+  const bool isWanted = this->Values[static_cast<std::size_t>(IntegralArray::Integral)] ||
+    this->Values[static_cast<std::size_t>(IntegralArray::Minimum)] ||
+    this->Values[static_cast<std::size_t>(IntegralArray::Maximum)];
+  if (!isWanted || scalars.IsEmpty())
+  {
+    return std::string();
+  }
+  const double low = scalars.GetLowest();
+  const double high = scalars.GetHighest();
+  const double largest = std::max(std::abs(low), std::abs(high));
+  std::ostringstream text;
+  const auto describe = [&](const char* fault, const char* cure)
+  {
+    text << "The scalars, from " << std::setprecision(12) << low << " to " << high << ", are "
+         << fault << " (32-bit floats): " << cure << ", for example with vtkArrayCalculator.";
+    return text.str();
+  };
+  if (this->TooLarge > 0)
+  {
+    text << this->TooLarge << " numbers of the output are infinite. ";
+    return describe("beyond the range of the output", "divide them by a constant");
+  }
+  if (largest > 0.0 && largest < levels * static_cast<double>(Float::min()))
+  {
+    return describe("below the range of the output", "multiply them by a constant");
+  }
+  if (high > low && largest * static_cast<double>(Float::epsilon()) * levels > high - low)
+  {
+    return describe("too close together for the output", "subtract a constant");
+  }
+  return std::string();
 }
 
 }

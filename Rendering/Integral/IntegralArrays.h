@@ -12,8 +12,11 @@
 #include "vtkNew.h"
 
 #include <array>
+#include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -97,6 +100,12 @@ public:
   /** Adds the arrays to the points of an image; the first one becomes the active scalars. */
   void AddTo(vtkImageData* image);
 
+  /**
+   * Warning that floats do not hold the integrals or extremes of the scalars: numbers are beyond
+   * their range, or differences are lost next to a common offset. Empty if they do.
+   */
+  std::string WarnOfPrecision(const ScalarDistribution& scalars) const;
+
   EventArrays Events;
 
 private:
@@ -104,7 +113,15 @@ private:
   {
     if (float* values = this->Values[static_cast<std::size_t>(array)])
     {
-      values[pixel] = static_cast<float>(value);
+      using Float = std::numeric_limits<float>;
+      const bool isTooLarge = std::abs(value) > static_cast<double>(Float::max());
+      values[pixel] = !isTooLarge ? static_cast<float>(value)
+        : value > 0.0             ? Float::infinity()
+                                  : -Float::infinity();
+      if (isTooLarge)
+      {
+        ++this->TooLarge;
+      }
     }
   }
 
@@ -113,6 +130,7 @@ private:
   std::array<float*, NumberOfIntegralArrays> Values{};
   std::vector<EnergyBin> Bins;
   bool HasBinArrays;
+  std::atomic<std::int64_t> TooLarge{ 0 }; ///< numbers beyond the range of floats
 };
 
 }

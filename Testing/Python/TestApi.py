@@ -3,6 +3,7 @@
 """Functions of the package that need no PyVista: true positions, ray integrals, threads, errors."""
 import importlib.util
 import os
+import pathlib
 import subprocess
 import sys
 import unittest
@@ -259,6 +260,53 @@ class TestRays(unittest.TestCase):
         for attenuation, intensity in (([], 1.0), ([0.1, 0.2], [1.0])):
             with self.assertRaisesRegex(ValueError, "as many intensities or one"):
                 meniscus.radiograph(self.block, "density", attenuation, intensity=intensity)
+
+
+class TestArguments(unittest.TestCase):
+    """Arguments of a wrong type are TypeErrors that name them; those of numpy are right."""
+
+    def test_rays(self):
+        block = make_block()
+        for scalars in (b"density", numpy.bytes_(b"density"), pathlib.Path("density"), 0, True,
+                        1.5, ["density"], {}):
+            for function in (meniscus.integral, meniscus.schlieren):
+                with self.assertRaisesRegex(TypeError, "^scalars must be the name of an array"):
+                    function(block, scalars, size=(2, 2))
+        for mesh in (None, b"mesh.vtu", "mesh.vtu", pathlib.Path("mesh.vtu"), 3, [block]):
+            for function in (meniscus.integral, meniscus.schlieren):
+                with self.assertRaisesRegex(TypeError, "^mesh must be a dataset, not "):
+                    function(mesh, "density", size=(2, 2))
+        with self.assertRaisesRegex(TypeError, r"not str \(pyvista.read\(\) reads a file\)"):
+            meniscus.integral("mesh.vtu")
+        for name, wrong in {"size": (None, 3, (2,), (2.5, 2), b"ab", "ab", (2, 2, 2)),
+                            "direction": (None, 3, (0, 1), "abc", b"abc", (0, 1, "z")),
+                            "up": (None, 3, (0, 1), "abc", b"abc", (0, 1, None))}.items():
+            for value in wrong:
+                for function in (meniscus.integral, meniscus.schlieren):
+                    with self.assertRaisesRegex(TypeError, "^%s must be [23] " % name):
+                        function(block, "density", **{name: value})
+        for quantity in (None, 3, b"integral", [b"integral"], {"integral"}):
+            with self.assertRaisesRegex(TypeError, "^quantity must be a name or a list of names"):
+                meniscus.integral(block, "density", quantity)
+        for component in (1.0, True, b"magnitude", [0], -1):
+            with self.assertRaisesRegex(ValueError, "has no component"):
+                meniscus.integral(block, "density", component=component)
+        numpy.testing.assert_allclose(
+            meniscus.integral(block, numpy.str_("density"), size=numpy.array([4, 2]),
+                              direction=numpy.array([0, 0, -1], numpy.float32),
+                              component=numpy.int64(0)), numpy.full((2, 4), 7.5), rtol=1e-6)
+
+    def test_points(self):
+        points = numpy.array([[0.0, 0.0, -1.0]])
+        for wrong in (b"abc", "abc", pathlib.Path("abc"), object()):
+            with self.assertRaisesRegex(TypeError, "^points must be an array of numbers"):
+                meniscus.true_positions(wrong, (0, 0, 2), SQUARE)
+            with self.assertRaisesRegex(TypeError, "^eyes must be an array of numbers"):
+                meniscus.true_positions(points, wrong, SQUARE)
+            with self.assertRaisesRegex(TypeError, "^indices must be "):
+                meniscus.true_positions(points, (0, 0, 2), SQUARE, wrong)
+            with self.assertRaisesRegex(TypeError, "^A surface is a dataset or a pair of arrays"):
+                meniscus.true_positions(points, (0, 0, 2), wrong)
 
 
 class TestTables(unittest.TestCase):

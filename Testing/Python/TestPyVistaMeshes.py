@@ -8,6 +8,7 @@ The exit status is then 125, which CTest counts as skipped.
 import csv
 import itertools
 import os
+import pathlib
 import sys
 import unittest
 
@@ -148,6 +149,37 @@ class TestComponents(unittest.TestCase):
                 plotter.close()
             numpy.testing.assert_array_equal(picture_of(cube, "U", component=component),
                                              picture_of(cube, str(component)))
+
+
+class TestArguments(unittest.TestCase):
+    """Arguments of a wrong type are TypeErrors that name them, not those of VTK or NumPy."""
+
+    def test_volumes(self):
+        cube = make_cube()
+        name = cube.array_names[0]
+        plotter = pyvista.Plotter(off_screen=True)
+        self.addCleanup(plotter.close)
+        for wrong in (name.encode(), pathlib.Path(name), 3, True, [name], {}, object()):
+            for mesh in (cube, pyvista.MultiBlock([cube])):
+                with self.assertRaisesRegex(TypeError, "^scalars must be the name of an array"):
+                    add_volume(plotter, mesh, wrong)
+            with self.assertRaisesRegex(TypeError, "^opacity_array must be the name of an array"):
+                add_volume(plotter, cube, name, opacity_array=wrong)
+        for wrong in (None, "mesh.vtu", b"mesh.vtu", pathlib.Path("mesh.vtu"), 3, []):
+            with self.assertRaisesRegex(TypeError, "^mesh must be a dataset, not "):
+                add_volume(plotter, wrong)
+            with self.assertRaisesRegex(TypeError, "^plotter must be a pyvista.Plotter, not "):
+                add_volume(wrong, cube, name)
+            with self.assertRaisesRegex(TypeError, "^eye must be 3 numbers"):
+                refracted(cube, cube, wrong)
+        for argument, wrong in {"blending": (b"composite", ["composite"]),
+                                "isovalues": (b"abc", "abc", 2.5, [b"a"]),
+                                "cmap": (b"viridis", 3)}.items():
+            for value in wrong:
+                others = {"blending": "isosurface"} if argument == "isovalues" else {}
+                with self.assertRaisesRegex(TypeError, "^%s must be " % argument):
+                    add_volume(plotter, cube, name, **{argument: value}, **others)
+        add_volume(plotter, cube, numpy.str_(name))
 
 
 class TestLogarithms(unittest.TestCase):

@@ -50,8 +50,26 @@ const glm::dvec2 BeamPlaces[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0
   { 0.0, 0.5 }, { 0.5, 0.0 } };
 
 //------------------------------------------------------------------------------
+// The distance from the eye to the place is at least a third of a part around it that the eye is
+// at, so that such a part is divided further.
+int BeamDivision::CountNearLevels(
+  const RefractionStack& stack, const CurvedPatch& patch, const glm::dvec2& b)
+{
+  const RefractionStack::Link& first = stack.GetLinks().front();
+  const double distance = glm::length(patch.Evaluate(b).Position + first.Shift - stack.GetEye());
+  double size = patch.GetSize();
+  int levels = 0;
+  while (levels < MostNearLevels && size > distance)
+  {
+    size *= 0.5;
+    ++levels;
+  }
+  return levels;
+}
+
+//------------------------------------------------------------------------------
 int BeamDivision::CountCoarseLevels(
-  const RefractionStack& stack, std::int32_t facet, std::size_t interfaces)
+  const RefractionStack& stack, double size, int near, std::size_t interfaces)
 {
   const std::vector<RefractionStack::Link>& links = stack.GetLinks();
   double smallest = std::numeric_limits<double>::max();
@@ -59,9 +77,8 @@ int BeamDivision::CountCoarseLevels(
   {
     smallest = std::min(smallest, links[k].Surface->GetWidth());
   }
-  const double size = links[0].Surface->GetPatches().GetPatch(facet).GetSize();
-  int levels = 0;
-  while (levels < MostCoarseLevels && std::ldexp(size, -levels) > smallest)
+  int levels = near;
+  while (levels < near + MostCoarseLevels && std::ldexp(size, -levels) > smallest)
   {
     ++levels;
   }
@@ -100,11 +117,9 @@ public:
     : Stack(stack)
     , Result(result)
     , Links(result.Links)
+    , Patch(stack.GetLinks().front().Surface->GetPatches().GetPatch(result.Facet))
+    , Size(this->Patch.GetSize())
   {
-    for (std::size_t count = 1; count <= this->Links; ++count)
-    {
-      this->CoarseLevels.push_back(BeamDivision::CountCoarseLevels(stack, result.Facet, count));
-    }
   }
 
   void Run()
@@ -228,7 +243,10 @@ private:
 
   int GetDeepest(const Part& part, std::size_t count) const
   {
-    return this->CoarseLevels[count - 1] +
+    const PatchTriangle corners = this->GetCorners(part);
+    const int near = BeamDivision::CountNearLevels(
+      this->Stack, this->Patch, (corners[0] + corners[1] + corners[2]) / 3.0);
+    return BeamDivision::CountCoarseLevels(this->Stack, this->Size, near, count) +
       (this->CountPassing(part, count) == 0 ? BeamDivision::DeepestBlind
                                             : BeamDivision::DeepestLevel);
   }
@@ -342,9 +360,10 @@ private:
   const RefractionStack& Stack;
   StackBeamParts& Result;
   std::size_t Links;
-  std::vector<int> CoarseLevels; ///< by the number of interfaces, less one
-  std::vector<RayJet> Jets;      ///< per sample and interface
-  std::vector<bool> IsCut;       ///< per part
+  CurvedPatch Patch;
+  double Size;              ///< of the patch
+  std::vector<RayJet> Jets; ///< per sample and interface
+  std::vector<bool> IsCut;  ///< per part
   std::unordered_map<std::uint64_t, std::int32_t> Middles;
   std::size_t Divisions = 0;
   StackPath Path;

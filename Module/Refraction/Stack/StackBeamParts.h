@@ -22,10 +22,10 @@ namespace meniscus
 struct BeamDivision
 {
   /**
-   * Divisions of a part that is as wide as the smallest later surface. Along a border or a critical
-   * angle the number of parts doubles with each level. Parts none of whose rays passes the list are
-   * divided less often: they are most of the parts where surfaces cross, or where most rays are
-   * totally reflected.
+   * Divisions of a part that is as wide as the smallest later surface and no wider than its
+   * distance from the eye. Along a border or a critical angle the number of parts doubles with each
+   * level. Parts none of whose rays passes the list are divided less often: they are most of the
+   * parts where surfaces cross, or where most rays are totally reflected.
    */
   static constexpr int DeepestLevel = 6;
   static constexpr int DeepestBlind = 4;
@@ -35,6 +35,17 @@ struct BeamDivision
    * of less than 2^-6 of a facet's size the search would take too long.
    */
   static constexpr int MostCoarseLevels = 6;
+
+  /**
+   * Largest number of levels up to a part that is no wider than its distance from the eye: a sea of
+   * two facets may be a million times as wide as the eye is high. On each of them only the few
+   * parts are divided that are wider than their distance from the eye. PatchCrossings::Border, 1e-8
+   * of a facet, is the resolution of places.
+   */
+  static constexpr int MostNearLevels = 26;
+
+  /** Largest number of divisions down to a part. */
+  static constexpr int MostLevels = MostNearLevels + MostCoarseLevels + DeepestLevel;
 
   /**
    * As in PatchRoots: size of the part of second degree, relative to the linear part, above which
@@ -55,9 +66,15 @@ struct BeamDivision
    */
   static constexpr double FarthestRoot = 4.0;
 
-  /** Levels down to a part of a patch that is no wider than the smallest of the next surfaces. */
+  /**
+   * Levels down to a part of a patch of the first surface, at a place, that is no wider than its
+   * distance from the eye.
+   */
+  static int CountNearLevels(
+    const RefractionStack& stack, const CurvedPatch& patch, const glm::dvec2& b);
+  /** Then levels down to one that is no wider than the smallest of the next surfaces either. */
   static int CountCoarseLevels(
-    const RefractionStack& stack, std::int32_t facet, std::size_t interfaces);
+    const RefractionStack& stack, double size, int near, std::size_t interfaces);
 };
 
 /** Places of six rays in a patch: corners, then the middles of the opposite edges. */
@@ -152,7 +169,7 @@ void StackBeamParts::Visit(
   const std::size_t leg = count - 1;
   const AxisBox box{ point - slack, point + slack };
   // A part has at most four children, each of which leaves at most three more on the stack.
-  std::array<std::int32_t, 64> open;
+  std::array<std::int32_t, 3 * BeamDivision::MostLevels + 4> open;
   std::size_t depth = 0;
   open[depth++] = 0;
   while (depth > 0)

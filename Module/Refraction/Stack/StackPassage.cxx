@@ -82,7 +82,7 @@ bool StackPassage::TryParts(std::vector<Part>& parts)
   std::vector<Part> quarters;
   for (const Part& part : parts)
   {
-    if (!MayMeetLast(this->Stack, part.Facet, part.Corners))
+    if (!MayMeet(this->Stack, part.Facet, part.Corners, this->Stack.GetLinks().size() - 1))
     {
       continue;
     }

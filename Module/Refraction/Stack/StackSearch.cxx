@@ -20,7 +20,8 @@ constexpr int MostDivisions = 2000;
 constexpr int DeepestOfAll = 14;
 
 // As in PatchRoots: distance, in units of the part, beyond which a root is no evidence about it,
-// and distance of two roots, in units of the facet, below which they are one.
+// and distance of two roots below which they are one, in units of the facet or of its distance from
+// the eye.
 constexpr double FarthestEvidence = 0.5;
 constexpr double SameRoot = 1e-5;
 
@@ -34,7 +35,9 @@ void StackSearch::Begin(std::int32_t facet)
 {
   this->Facet = facet;
   this->Divisions = this->Images ? this->Divisions : 0;
-  this->CoarseLevels = BeamDivision::CountCoarseLevels(this->Stack, facet, this->Target.Count);
+  this->Patch = this->Stack.GetLinks()[0].Surface->GetPatches().GetPatch(facet);
+  this->Size = this->Patch.GetSize();
+  this->CoarseLevels = this->CountCoarseLevels(0);
 }
 
 //------------------------------------------------------------------------------
@@ -117,9 +120,30 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
 }
 
 //------------------------------------------------------------------------------
-int StackSearch::GetDeepest() const
+int StackSearch::CountCoarseLevels(int near) const
 {
-  return this->Images ? DeepestOfAll : BeamDivision::DeepestLevel + this->CoarseLevels;
+  return BeamDivision::CountCoarseLevels(this->Stack, this->Size, near, this->Target.Count);
+}
+
+//------------------------------------------------------------------------------
+// True if a part has been divided often enough: `levels` times since it was coarse, or since it was
+// wider than its distance from the eye.
+bool StackSearch::IsDeepest(const Part& part, int depth, int levels, bool fromCoarse) const
+{
+  if (depth < levels + (fromCoarse ? this->CoarseLevels : 0))
+  {
+    return false;
+  }
+  const int near = BeamDivision::CountNearLevels(
+    this->Stack, this->Patch, (part[0].B + part[1].B + part[2].B) / 3.0);
+  return depth >= levels + (fromCoarse ? this->CountCoarseLevels(near) : near);
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::IsDeepest(const Part& part, int depth) const
+{
+  return this->Images ? this->IsDeepest(part, depth, DeepestOfAll, false)
+                      : this->IsDeepest(part, depth, BeamDivision::DeepestLevel, true);
 }
 
 //------------------------------------------------------------------------------
@@ -161,8 +185,7 @@ StackSearch::Shot StackSearch::Judge(const Part& part, const StackPath& path) co
   const CurvedPatches& patches = this->Stack.GetLinks()[0].Surface->GetPatches();
   const glm::dvec2 b = root.Facet == this->Facet
     ? root.B
-    : patches.GetPatch(this->Facet)
-        .ProjectToFacet(patches.GetPatch(root.Facet).GetFlatPoint(root.B));
+    : this->Patch.ProjectToFacet(patches.GetPatch(root.Facet).GetFlatPoint(root.B));
   const glm::dvec2 u = part[1].B - part[0].B;
   const glm::dvec2 v = part[2].B - part[0].B;
   const glm::dvec2 inside =
@@ -176,7 +199,7 @@ void StackSearch::Add(const StackPath& path)
 {
   const PathPoint& first = path.Points[0];
   const double same =
-    SameRoot * this->Stack.GetLinks()[0].Surface->GetPatches().GetPatch(this->Facet).GetSize();
+    SameRoot * std::min(this->Size, glm::length(first.Ray.Origin - this->Stack.GetEye()));
   const bool isKnown = std::any_of(this->Images->begin(), this->Images->end(),
     [&first, same](const StackPath& other)
     { return glm::length(other.Points[0].Ray.Origin - first.Ray.Origin) < same; });
@@ -250,7 +273,8 @@ bool StackSearch::SearchWhole(
                  [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })
                  ->Footprint,
       -depth);
-  const bool isDeepest = depth == this->GetDeepest() || this->Divisions >= MostDivisions;
+  const bool isLast = this->IsDeepest(part, depth);
+  const bool isDeepest = isLast || this->Divisions >= MostDivisions;
   if (footprint > LargestFootprint && !isDeepest)
   {
     return this->DivideWhere(part, depth, path);
@@ -279,8 +303,7 @@ bool StackSearch::SearchWhole(
     return this->Divide(part, depth, path);
   }
   // In the smallest parts two images are one; larger ones that are left may have any number.
-  this->Complete = this->Complete && shot != Shot::Failed &&
-    (!this->Images || isCertain || depth == this->GetDeepest());
+  this->Complete = this->Complete && shot != Shot::Failed && (!this->Images || isCertain || isLast);
   return false;
 }
 
@@ -307,14 +330,14 @@ bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 {
   const bool isBlind =
     std::none_of(part.begin(), part.end(), [](const Sample& s) { return s.IsValid; });
-  const int deepest =
-    this->CoarseLevels + (isBlind ? BeamDivision::DeepestBlind : BeamDivision::DeepestLevel);
-  if (depth < deepest && this->Divisions < MostDivisions)
+  const bool isDeepest = this->IsDeepest(
+    part, depth, isBlind ? BeamDivision::DeepestBlind : BeamDivision::DeepestLevel, true);
+  if (!isDeepest && this->Divisions < MostDivisions)
   {
     return this->DivideWhere(part, depth, path);
   }
   // Larger parts that are left may have any number of images.
-  this->Complete = this->Complete && (!this->Images || depth >= deepest);
+  this->Complete = this->Complete && (!this->Images || isDeepest);
   const double size = std::ldexp(1.0, -depth);
   for (const Sample& sample : part)
   {

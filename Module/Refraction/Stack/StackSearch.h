@@ -30,9 +30,9 @@ namespace meniscus
  *
  * Six rays tell nothing about a part if some or all of them do not pass the stack, or if they go to
  * all sides: next to borders and critical angles, or if the surfaces behind are small. Such parts
- * are divided down to 2^-6 of the patch or of the smallest surface behind it, whichever is smaller,
- * and down to 2^-4 if none of the rays passes, unless interval arithmetic on all of their rays
- * excludes them.
+ * are divided down to 2^-6 of the patch, of its distance from the eye, or of the smallest surface
+ * behind it, whichever is smallest, and down to 2^-4 if none of the rays passes, unless interval
+ * arithmetic on all of their rays excludes them.
  */
 class StackSearch
 {
@@ -90,15 +90,19 @@ private:
   bool TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot);
   Shot Judge(const Part& part, const StackPath& path) const;
   void Add(const StackPath& path);
-  int GetDeepest() const;
+  int CountCoarseLevels(int near) const;
+  bool IsDeepest(const Part& part, int depth, int levels, bool fromCoarse) const;
+  bool IsDeepest(const Part& part, int depth) const;
 
   const RefractionStack& Stack;
   const StackBeams& Beams;
   const StackTarget& Target;
   std::vector<StackPath>* Images = nullptr; ///< null in a search for one image
   std::int32_t Facet = CurvedPatches::NoFacet;
+  CurvedPatch Patch; ///< of the facet
+  double Size = 0.0; ///< of the patch
   int Divisions = 0;
-  /** Levels after which a part is no wider than the smallest later surface. */
+  /** Levels after which a part far from the eye is no wider than the smallest later surface. */
   int CoarseLevels = 0;
   bool Complete = true;
 };

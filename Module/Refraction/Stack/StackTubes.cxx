@@ -267,20 +267,20 @@ TubeBounds BoundStackRays(
 }
 
 //------------------------------------------------------------------------------
-bool MayMeetLast(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners)
+bool MayMeet(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners,
+  std::size_t surface)
 {
-  const std::size_t last = stack.GetLinks().size() - 1;
-  if (last == 0)
+  if (surface == 0)
   {
     const SeenTriangle seen = BoundSeenTriangle(stack, facet, corners);
     return BoundCosine(seen.Sights, seen.Normals).Least < 0.0;
   }
-  TubeBounds tube = BoundStackRays(stack, facet, corners, last);
+  TubeBounds tube = BoundStackRays(stack, facet, corners, surface);
   if (!tube.IsValid())
   {
     return false;
   }
-  const RefractionStack::Link& link = stack.GetLinks()[last];
+  const RefractionStack::Link& link = stack.GetLinks()[surface];
   const DirectionBox sight = MakeDirectionBox(tube);
   Move(tube, -link.Shift);
   bool meets = false;

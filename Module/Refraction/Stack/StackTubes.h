@@ -40,10 +40,11 @@ TubeBounds BoundStackRays(const RefractionStack& stack, std::int32_t facet,
   const PatchTriangle& corners, std::size_t count);
 
 /**
- * False if interval arithmetic proves that no ray to the triangle passes all interfaces but the
- * last one and meets that one from the right side.
+ * False if interval arithmetic proves that no ray to the triangle passes the interfaces before
+ * `surface`, counted from 0, and meets that one from the right side.
  */
-bool MayMeetLast(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners);
+bool MayMeet(const RefractionStack& stack, std::int32_t facet, const PatchTriangle& corners,
+  std::size_t surface);
 
 /**
  * False if interval arithmetic proves that no ray to the triangle passes `count` interfaces, at

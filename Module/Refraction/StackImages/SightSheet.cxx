@@ -15,14 +15,23 @@ namespace meniscus
 namespace
 {
 
-// As in SubCellDivision: lengths of sides, in facets, below which they are not divided further,
-// and bisections of a limit, so that places of nodes have at most 24 binary digits.
+// As in SubCellDivision: lengths of sides, in facets and as angles at the eye, below which they are
+// not divided further: facets may be much larger than their distance from the eye.
 constexpr double ShortestSide = 1.0 / 32.0;
 constexpr double ShortestChord = 1.0 / 256.0;
+
+// Sides that are longer than their distance from the eye are divided in the middle, as if the
+// surface had smaller facets, but not below the resolution of places.
+constexpr double WidestSide = 1.0;
+const double ShortestWideSide = std::ldexp(1.0, -BeamDivision::MostNearLevels);
+
+// Bisections of a limit. Places of nodes have at most 24 binary digits, and one more for each
+// division of a side that is too long; middles of sides are exact.
 constexpr int LimitSteps = 16;
 
-// Cells of which some rays do not pass are divided down to this level where interval arithmetic
-// allows for other rays between them.
+// Cells of which some rays do not pass are divided down to this level, counted from cells that are
+// no wider than their distance from the eye, where interval arithmetic allows for other rays
+// between them.
 constexpr int DeepestBlind = 5;
 
 // Levels to which a side is tested where it passes over many patches of a later surface.
@@ -32,6 +41,11 @@ constexpr int DeepestTest = 6;
 // silhouette an error e of the place changes the distance by sqrt(e); e is at most
 // PatchCrossings::Border, 1e-8.
 constexpr double SameCrossing = 1e-3;
+
+// Cells of a patch, a hundred times as many as a patch with borders and critical angles usually
+// has. Where facets are so large that rounding is seen as an angle, limits are found in wrong
+// order, and cells next to them would be divided without end.
+constexpr std::size_t MostCells = 1 << 17;
 
 const double Pi = std::acos(-1.0);
 
@@ -161,6 +175,10 @@ private:
   // The node that divides a side, or NotSplit.
   std::int32_t FindSplit(std::int32_t a, std::int32_t b)
   {
+    if (this->IsWide(a, b))
+    {
+      return this->Add(0.5 * (this->Get(a).B + this->Get(b).B));
+    }
     const int legsA = this->GetLegs(a, b);
     const int legsB = this->GetLegs(b, a);
     if (legsA != legsB)
@@ -175,8 +193,7 @@ private:
     const Node first = this->Get(a);
     const Node second = this->Get(b);
     const bool isChord = first.IsAtLimit && second.IsAtLimit && first.Beyond == second.Beyond;
-    const double length = GetLength(first.B, second.B);
-    if (legsA < 0 || !(length > (isChord ? ShortestChord : ShortestSide)))
+    if (legsA < 0 || !this->IsLong(first.B, second.B, isChord ? ShortestChord : ShortestSide))
     {
       return NotSplit;
     }
@@ -186,6 +203,29 @@ private:
     const bool isSplit = isChord ? this->IsOffLimit(a, b, 0.5, first.Legs)
                                  : legs != legsA || this->IsBent(a, b, 0.0, 1.0, path, legs, 0);
     return isSplit ? this->Add(middle, path, legs) : NotSplit;
+  }
+
+  // Length of a side over the distance of its middle from the eye.
+  double GetAngle(const glm::dvec2& a, const glm::dvec2& b) const
+  {
+    const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
+    const glm::dvec3 from = this->Result.Surface.Evaluate(a).Position;
+    const glm::dvec3 to = this->Result.Surface.Evaluate(b).Position;
+    return glm::length(to - from) / glm::length(0.5 * (from + to) - eye);
+  }
+
+  bool IsLong(const glm::dvec2& a, const glm::dvec2& b, double least) const
+  {
+    return GetLength(a, b) > least || this->GetAngle(a, b) > least;
+  }
+
+  // True if a side is longer than its distance from the eye.
+  bool IsWide(std::int32_t a, std::int32_t b) const
+  {
+    const glm::dvec2& first = this->Get(a).B;
+    const glm::dvec2& second = this->Get(b).B;
+    return GetLength(first, second) > ShortestWideSide &&
+      this->GetAngle(first, second) > WidestSide;
   }
 
   RefractedPoint GetFrom(std::int32_t node, std::size_t leg) const
@@ -465,14 +505,25 @@ private:
   {
     const int least = std::min({ this->Get(cell.Nodes[0]).Legs, this->Get(cell.Nodes[1]).Legs,
       this->Get(cell.Nodes[2]).Legs });
-    return depth < DeepestBlind && least < this->Links &&
-      this->Sheet.Solver.GetBeams().MayPass(this->Facet,
-        { this->Get(cell.Nodes[0]).B, this->Get(cell.Nodes[1]).B, this->Get(cell.Nodes[2]).B },
-        static_cast<std::size_t>(std::max(least, 0) + 1));
+    if (least >= this->Links || depth >= DeepestBlind)
+    {
+      return false;
+    }
+    const PatchTriangle corners{ this->Get(cell.Nodes[0]).B, this->Get(cell.Nodes[1]).B,
+      this->Get(cell.Nodes[2]).B };
+    // A leg is seen where rays meet the surface at its end; the last one where they pass.
+    const auto next = static_cast<std::size_t>(least + 1);
+    return next < this->Sheet.Links
+      ? MayMeet(this->Stack, this->Facet, corners, next)
+      : this->Sheet.Solver.GetBeams().MayPass(this->Facet, corners, next);
   }
 
   void Divide(std::size_t index, int depth)
   {
+    if (this->Result.Cells.size() > MostCells)
+    {
+      return;
+    }
     const Cell cell = this->Result.Cells[index];
     std::array<std::int32_t, 3> middle{ NotSplit, NotSplit, NotSplit }; // opposite the corners
     int count = 0;
@@ -501,7 +552,10 @@ private:
     }
     if (count > 0)
     {
-      this->AddChildren(index, ListChildren(cell.Nodes, middle, count), depth);
+      // Divisions of wide cells do not count.
+      const bool isWide = this->IsWide(cell.Nodes[0], cell.Nodes[1]) ||
+        this->IsWide(cell.Nodes[1], cell.Nodes[2]) || this->IsWide(cell.Nodes[2], cell.Nodes[0]);
+      this->AddChildren(index, ListChildren(cell.Nodes, middle, count), isWide ? depth - 1 : depth);
     }
   }
 

@@ -75,11 +75,15 @@ public:
 private:
   /**
    * Divisions of a cell, each at a side that has at most half of its length before, at a limit, or
-   * at a border; next to the middle of the side or of the cell, if there are many.
+   * at a border; next to the middle of the side or of the cell, if there are many. Divisions of
+   * cells that are wider than their distance from the eye are not counted.
    */
   static constexpr int DeepestCell = 24;
-  /** Each division leaves at most three more cells to visit. */
-  static constexpr std::size_t StackSize = 3 * DeepestCell + 4;
+  /**
+   * Each division leaves at most three more cells to visit, and one if a single side is divided: a
+   * wide cell has three of them.
+   */
+  static constexpr std::size_t StackSize = 3 * (DeepestCell + 3 * BeamDivision::MostNearLevels) + 4;
 
   struct Node
   {

@@ -20,7 +20,7 @@ namespace
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 
 // Places in a patch from which Newton's method starts again, so that its result does not depend on
-// the first guess.
+// the first guess: so many along a side of a part that is no wider than its distance from the eye.
 constexpr double Grid = 1024.0;
 
 // Error of a sum of areas, for thousands of parts with some roundings each.
@@ -493,7 +493,9 @@ StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, s
 bool StackMapper::ShootAgain(const StackTarget& target, StackPath& path) const
 {
   StackPlace place = path.Points[0].Place;
-  place.B = glm::round(Grid * place.B) / Grid;
+  const CurvedPatch patch = this->Stack.GetLinks()[0].Surface->GetPatches().GetPatch(place.Facet);
+  const double grid = std::ldexp(Grid, BeamDivision::CountNearLevels(this->Stack, patch, place.B));
+  place.B = glm::round(grid * place.B) / grid;
   return this->Stack.Trace(place, target.Count, true, path) == PathEnd::Passed &&
     Shoot(this->Stack, target, place, ShotSteps, path) == ShotEnd::Converged;
 }

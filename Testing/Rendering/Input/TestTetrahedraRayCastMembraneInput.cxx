@@ -430,3 +430,51 @@ TEST(TetrahedraRayCastMembraneInput, EyeOnTheMembrane)
   EXPECT_FALSE(IsEmpty(scene.RenderFloat()));
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
 }
+
+/** A membrane whose normals point away from the eye: told once, until the eye has been in front. */
+TEST(TetrahedraRayCastMembraneInput, EyeBehindIsTold)
+{
+  for (const bool isUpsideDown : { false, true })
+  {
+    vtkNew<vtkPlaneSource> water;
+    water->SetOrigin(-9.0, -9.0, 2.0);
+    water->SetPoint1(isUpsideDown ? -9.0 : 9.0, isUpsideDown ? 9.0 : -9.0, 2.0);
+    water->SetPoint2(isUpsideDown ? 9.0 : -9.0, isUpsideDown ? -9.0 : 9.0, 2.0);
+    const double range[2] = { -1.0, 1.0 };
+    RayCastScene scene(
+      MakeBlock(2, WavyField(3.0)), MakeProperty(FunctionKind::Smooth, range, 3.4), 16, 16);
+    vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+    mapper->SetMembraneConnection(water->GetOutputPort());
+    const auto listen = [&scene, mapper](double height)
+    {
+      vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
+      camera->SetFocalPoint(0.0, 0.0, 0.0);
+      camera->SetViewUp(0.0, 1.0, 0.0);
+      camera->SetPosition(0.0, 0.5, height);
+      scene.GetRenderer()->ResetCameraClippingRange();
+      vtkNew<ErrorObserver> observer;
+      observer->Observe(mapper);
+      scene.GetWindow()->Render();
+      scene.GetWindow()->Render();
+      mapper->RemoveObserver(observer);
+      EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
+      return observer->Warnings;
+    };
+    for (const double height : { 8.0, -8.0, 8.0 })
+    {
+      const bool isBehind = isUpsideDown == (height > 0.0);
+      const std::vector<std::string> warnings = listen(height);
+      ASSERT_EQ(warnings.size(), isBehind ? 1u : 0u) << isUpsideDown << ", from " << height;
+      if (isBehind)
+      {
+        EXPECT_NE(warnings[0].find("No facet of the membrane faces the eye"), std::string::npos)
+          << warnings[0];
+      }
+    }
+    EXPECT_TRUE(listen(-9.0).size() == (isUpsideDown ? 0u : 1u));
+    EXPECT_TRUE(listen(-10.0).empty());
+    // Nothing is refracted.
+    mapper->SetInteriorIndexOfRefraction(1.0);
+    EXPECT_TRUE(listen(isUpsideDown ? 8.0 : -8.0).empty());
+  }
+}

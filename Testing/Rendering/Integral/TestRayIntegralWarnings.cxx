@@ -261,3 +261,47 @@ TEST(MeshWarnings, SurfacesThatTurnTheirBackToTheRays)
     EXPECT_TRUE(UpdateAndListen(rays).empty());
   }
 }
+
+/** Scalars that 32-bit floats do not hold are told, with the cure; others are integrated. */
+TEST(MeshWarnings, ScalarsThatFloatsDoNotHold)
+{
+  struct Scalars
+  {
+    double Offset;
+    double Width;
+    const char* Fault;
+  };
+  for (const Scalars& scalars :
+    { Scalars{ 1.0, 1.0, nullptr }, { 0.0, 1e37, nullptr }, { 1e30, 1e37, nullptr },
+      { -1e300, 2e300, "beyond the range" }, { 1e300, 0.0, "beyond the range" },
+      { -1e39, 1e30, "beyond the range" }, { 0.0, 1e-30, nullptr },
+      { 0.0, 1e-40, "below the range" }, { 0.0, 1e-300, "below the range" },
+      { 1e9, 1.0, "too close together" }, { 1e3, 1.0, nullptr },
+      { 1e15, 1.0, "too close together" }, { 1e9, 0.0, nullptr }, { 0.0, 0.0, nullptr } })
+  {
+    const std::string what = std::to_string(scalars.Offset) + ", " + std::to_string(scalars.Width);
+    const Grid grid = MakeLayers(2, 0.5);
+    vtkDataArray* values = grid->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    {
+      values->SetComponent(i, 0, scalars.Offset + scalars.Width * grid->GetPoint(i)[2]);
+    }
+    const Filter rays = MakeFilter(grid, 4, 4);
+    rays->GetArraySelection()->EnableArray("Integral");
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    ASSERT_EQ(warnings.size(), scalars.Fault ? 1u : 0u) << what;
+    if (scalars.Fault)
+    {
+      EXPECT_NE(warnings[0].find(scalars.Fault), std::string::npos) << what << ": " << warnings[0];
+    }
+    else
+    {
+      const double right = scalars.Offset + 0.5 * scalars.Width;
+      EXPECT_NEAR(ValuesOf(rays, "Integral")[5], right, 2e-5 * right) << what;
+    }
+    // Lengths do not depend on the scalars.
+    rays->GetArraySelection()->DisableArray("Integral");
+    rays->GetArraySelection()->EnableArray("PathLength");
+    EXPECT_TRUE(UpdateAndListen(rays).empty()) << what;
+  }
+}

@@ -229,3 +229,118 @@ TEST(RefractionStackCells, TriangleBehindAGapIsCut)
   EXPECT_GT(result.Hits, 100);
   EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
 }
+
+namespace
+{
+
+/** Two flat layers below an eye at a height of 2: a sea, and a window in it at a depth of 0.5. */
+struct Layers
+{
+  static constexpr double Height = 2.0;
+  static constexpr double Window = 0.5;
+  static constexpr double Floor = 1.0;
+
+  /** Distance of a point on the floor from the eye's foot, for a sine of the sight ray. */
+  static double GetReach(double sine)
+  {
+    const auto tangent = [](double s) { return s / std::sqrt(1.0 - s * s); };
+    return Height * tangent(sine) + Window * tangent(sine / 1.333) +
+      (Floor - Window) * tangent(sine / 1.5);
+  }
+
+  /** Where the eye over (0, 0) sees a point of the floor in the sea. */
+  static glm::dvec2 See(const glm::dvec2& point)
+  {
+    const double reach = glm::length(point);
+    double low = 0.0;
+    double high = 1.0;
+    for (int i = 0; i < 60; ++i)
+    {
+      const double sine = 0.5 * (low + high);
+      (GetReach(sine) < reach ? low : high) = sine;
+    }
+    const double seen = Height * low / std::sqrt(1.0 - low * low);
+    return reach > 0.0 ? (seen / reach) * point : point;
+  }
+};
+
+/** Area in the sea, seen from `eye`, of pieces of the image that keep or lose the object's points.
+ */
+double GetSeenArea(const Object& object, const glm::dvec3& eye, double unit)
+{
+  double sum = 0.0;
+  for (const Piece& piece : ListPieces(object, eye))
+  {
+    const auto place = [&](std::size_t k)
+    {
+      const glm::dvec3& way = piece.Corners[k];
+      return glm::dvec2(way.x, way.z) * (-eye.y / way.y / unit);
+    };
+    double area = 0.0;
+    for (std::size_t k = 1; k + 1 < piece.Corners.size(); ++k)
+    {
+      const glm::dvec2 u = place(k) - place(0);
+      const glm::dvec2 v = place(k + 1) - place(0);
+      area += 0.5 * (u.x * v.y - u.y * v.x);
+    }
+    sum += std::fabs(area);
+  }
+  return sum;
+}
+
+}
+
+//------------------------------------------------------------------------------
+// Of a sea of two facets any size, the eye sees the floor in a small part through a window. The
+// scene has any unit of length. The sides of the image are off by the tolerance at most, each way.
+TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
+{
+  constexpr double tolerance = 1e-4;
+  constexpr int samples = 1000;
+  const glm::dvec2 corners[4] = { { -0.6, -0.5 }, { 0.4, -0.5 }, { 0.4, 0.5 }, { -0.6, 0.5 } };
+  double area = 0.0;
+  double border = 0.0;
+  for (int i = 0; i < 4 * samples; ++i)
+  {
+    const auto at = [&corners](int k)
+    {
+      const double s = static_cast<double>(k % samples) / samples;
+      return Layers::See((1.0 - s) * corners[k / samples % 4] + s * corners[(k / samples + 1) % 4]);
+    };
+    const glm::dvec2 a = at(i);
+    const glm::dvec2 b = at(i + 1);
+    area += 0.5 * (a.x * b.y - a.y * b.x);
+    border += glm::length(b - a);
+  }
+  // No place of the sea is farther than 2.2 from the eye, nor seen at a cosine below 0.9.
+  const double largest = border * tolerance * 2.2 / 0.9;
+  for (const double half : { 1.0, 1e2, 1e4, 1e6 })
+  {
+    for (const double unit : { 1.0, 1e-6, 1e2, 1e4, 1e6 })
+    {
+      const glm::dvec3 eye(0.0, Layers::Height * unit, 0.0);
+      for (const double shift : { 0.1, 0.37 })
+      {
+        // Coordinates about the middle of the sea leave few digits at its rim.
+        if (half * shift > 2e5)
+        {
+          continue;
+        }
+        MembraneMesh sea = MakePlane(0.0, 2.0 * half * unit, 1);
+        sea.Translate(shift * half * unit * glm::dvec3(1.0, 0.0, 1.0));
+        StackSolver solver;
+        SetStack(solver,
+          { { MakeSurface(sea), { 1.0, 1.333 } },
+            { MakeSurface(MakePlane(-Layers::Window * unit, 4.0 * unit, 1)), { 1.333, 1.5 } } },
+          eye);
+        Object object;
+        object.AddQuad({ -0.6 * unit, -Layers::Floor * unit, -0.5 * unit }, { unit, 0.0, 0.0 },
+          { 0.0, 0.0, unit });
+        object.Map(solver, tolerance);
+        EXPECT_NEAR(GetSeenArea(object, eye, unit), area, largest)
+          << "half width " << half << " in units of " << unit << ", shift " << shift;
+        ExpectExactPoints(solver, object, 1e-8 * unit);
+      }
+    }
+  }
+}
