@@ -48,6 +48,8 @@ public:
    * @param facets is set to the facets of each interface that the rays may meet.
    */
   bool MayShowMesh(const CornerRays& rays, BundleFacets& facets) const;
+  /** False if these rays, on straight ways, do not reach the bounds of the mesh. */
+  bool MayShowMeshUnrefracted(const CornerRays& rays) const;
   /**
    * The same for a part of these rays behind the first interface.
    * @param rays beginnings, and directions of unit length.
