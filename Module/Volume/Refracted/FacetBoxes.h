@@ -106,7 +106,7 @@ void VisitBoxesNearFirst(
 class BundleFacets
 {
 public:
-  /** Forgets all facets. The next list is that of interface `first`. */
+  /** Forgets all facets. The next list belongs to interface `first`. */
   void Clear(std::size_t first = 0)
   {
     this->First = first;
