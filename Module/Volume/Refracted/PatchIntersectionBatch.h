@@ -37,10 +37,9 @@ struct FacetPlane
     /** Component of the direction along the normal. */
     double Along;
     double Depth;
-    /** Barycentric coordinates, and the smallest of the three. */
+    /** Barycentric coordinates. */
     double X;
     double Y;
-    double Least;
   };
   Meeting Meet(const glm::dvec3& start, const glm::dvec3& direction) const
   {
@@ -51,7 +50,6 @@ struct FacetPlane
     const glm::dvec3 inPlane = meeting.Depth * direction - toCorner;
     meeting.X = glm::dot(inPlane, this->ByX);
     meeting.Y = glm::dot(inPlane, this->ByY);
-    meeting.Least = std::min(std::min(meeting.X, meeting.Y), 1.0 - meeting.X - meeting.Y);
     return meeting;
   }
 };

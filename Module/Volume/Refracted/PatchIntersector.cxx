@@ -20,27 +20,6 @@ constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 }
 
 //------------------------------------------------------------------------------
-bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
-{
-  double first = 0.0;
-  const auto constrain = [&first, &last](double offset, double rate)
-  {
-    // offset + t rate >= 0
-    first = rate > 0.0 ? std::max(first, -offset / rate) : first;
-    last = rate < 0.0 ? std::min(last, -offset / rate) : last;
-    last = rate == 0.0 && offset < 0.0 ? -1.0 : last;
-  };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    constrain(
-      tube.StartHigh[axis] + this->Half[axis] - this->Center[axis], tube.DirectionHigh[axis]);
-    constrain(
-      this->Center[axis] - tube.StartLow[axis] + this->Half[axis], -tube.DirectionLow[axis]);
-  }
-  return first <= last;
-}
-
-//------------------------------------------------------------------------------
 PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, InstructionSet set)
   : Patch(patch)
   , Set(set)
@@ -57,9 +36,9 @@ PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, I
   // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
-  this->Bulge = BoundBulge(patch);
-  this->IsFlat = this->Bulge <= FlatBulge * this->Size;
-  this->Overhang = this->IsFlat ? 0.0 : this->Bulge * steepest;
+  const double bulge = BoundBulge(patch);
+  this->IsFlat = bulge <= FlatBulge * this->Size;
+  this->Overhang = this->IsFlat ? 0.0 : bulge * steepest;
   this->LargestSlant = this->IsFlat ? std::numeric_limits<double>::infinity()
                                     : PatchCrossings::BoundLargestSlant(patch);
 }

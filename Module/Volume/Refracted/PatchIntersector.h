@@ -22,32 +22,6 @@
 namespace meniscus
 {
 
-/**
- * Factor larger than the relative change of a distance by rounding, in any view that shows a part
- * of the ball.
- */
-constexpr double SightMargin = 1.0 + 1e-6;
-
-/**
- * Rays at the corners of a rectangle of pixels, in order around it; directions per unit of depth.
- */
-struct CornerRays
-{
-  glm::dvec3 Starts[4];
-  glm::dvec3 Directions[4];
-};
-
-/** Bounds of the visible geometry. */
-struct VisibilityBounds
-{
-  /** Centre and half extents of a box along the world's axes. */
-  glm::dvec3 Center{ 0.0 };
-  glm::dvec3 Half{ 0.0 };
-
-  /** True if the box meets the tube up to the parameter `last`. */
-  bool Meets(const TubeBounds& tube, double last = std::numeric_limits<double>::infinity()) const;
-};
-
 /** Intersection of a ray with a patch. */
 struct MembraneHit
 {
@@ -122,7 +96,6 @@ private:
   double Size;
   /** Depth along a ray of about the size of the facet. */
   double Scale;
-  double Bulge;
   double Overhang;
   /**
    * Rays with at most this slant do not meet the patch twice: a cheap bound first, then the best

@@ -44,6 +44,27 @@ DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
 }
 
 //------------------------------------------------------------------------------
+bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
+{
+  double first = 0.0;
+  const auto constrain = [&first, &last](double offset, double rate)
+  {
+    // offset + t rate >= 0
+    first = rate > 0.0 ? std::max(first, -offset / rate) : first;
+    last = rate < 0.0 ? std::min(last, -offset / rate) : last;
+    last = rate == 0.0 && offset < 0.0 ? -1.0 : last;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    constrain(
+      tube.StartHigh[axis] + this->Half[axis] - this->Center[axis], tube.DirectionHigh[axis]);
+    constrain(
+      this->Center[axis] - tube.StartLow[axis] + this->Half[axis], -tube.DirectionLow[axis]);
+  }
+  return first <= last;
+}
+
+//------------------------------------------------------------------------------
 /**
  * @param facing 1 if rays only meet the surface along its normals, -1 if only against them, 0 if
  *   from both sides.
