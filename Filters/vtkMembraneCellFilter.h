@@ -25,7 +25,7 @@
  *
  * A facet has no cells if a corner faces away from the eye or a ray is totally reflected there.
  * Where a ray is totally reflected at a later interface, or misses it, the cells of that leg and of
- * those behind it are left out. These facets are counted.
+ * all legs behind it are left out. These facets are counted.
  *
  * @sa vtkSightRayFilter vtkRefractedGeometryFilter
  */

@@ -249,15 +249,15 @@ public:
    * With several interfaces, the medium behind each is the medium in front of the next one; a ray
    * takes the side of a surface by its direction against the normals, so that a closed body may be
    * listed twice, entered and left. Rays that miss a later surface, or are totally reflected at it,
-   * show nothing. Points between interfaces are refracted by those in front of them, and an eye
-   * between interfaces looks through those behind it. Interfaces with equal indices are left out.
-   * MembraneModel must be CURVED, and the light of VirtualNormals at the eye; ViewCulling has no
-   * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
-   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight
-   * point. Point arrays added: `LegLengths` (a length behind each refracting interface),
-   * `LastSightPoint` (3 doubles, world), `Transmittance` (share of unpolarised light, with the
-   * reflections between the interfaces as parallel plates have them) and `InnerReflectance`
-   * (1 minus Transmittance / (1 - Reflectance)).
+   * show nothing. Points between interfaces are refracted by the interfaces in front of them, and
+   * an eye between interfaces looks through the interfaces behind it. Interfaces with equal indices
+   * are left out. MembraneModel must be CURVED, and the light of VirtualNormals at the eye;
+   * ViewCulling has no effect. With ALL_IMAGES, the part of a cell in front of all interfaces is
+   * limited to what is seen through the first one. RefractionDepth is the sum of the legs behind
+   * the first sight point. Point arrays added: `LegLengths` (a length behind each refracting
+   * interface), `LastSightPoint` (3 doubles, world), `Transmittance` (share of unpolarised light,
+   * with the reflections between the interfaces as parallel plates have them) and
+   * `InnerReflectance` (1 minus Transmittance / (1 - Reflectance)).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

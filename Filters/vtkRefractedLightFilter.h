@@ -90,7 +90,7 @@ public:
    * Set/Get whether cells and points also get the arrays `RefractionLightVector` (3 floats) and
    * `RefractionLightPath` (1 float). The vector is the light that passes an area across the rays,
    * in the units of the irradiance, times the unit vector back along the ray, summed over all rays
-   * that reach the cell: its product with a unit normal is the irradiance of a surface with that
+   * that reach the cell: its product with a unit normal is the irradiance of a surface with this
    * normal. The path is the mean length of the rays behind the membrane, weighted by their light.
    * vtkRefractionPass lights objects by them. Default is off.
    */

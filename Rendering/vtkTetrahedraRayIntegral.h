@@ -5,7 +5,7 @@
  * @brief   integrals along rays through a mesh, as an image of numbers
  *
  * Casts one ray per pixel through a mesh and writes what it measures as float arrays of a
- * vtkImageData. It needs neither a window nor OpenGL. The rays are those of the native backend of
+ * vtkImageData. It needs neither a window nor OpenGL. The rays are cast as by the native backend of
  * vtkTetrahedraRayCastMapper: the scalar is linear in each tetrahedron (constant for cell data),
  * and there is no sampling distance.
  *

@@ -15,7 +15,7 @@
  * density, or values of n (REFRACTIVE_INDEX). Input port 1, optional, is a vtkImageData with a
  * background picture: the first component of its active point scalars, its lowest slice.
  *
- * Rays are parallel along Direction, around the mesh's bounding box, or those of Camera. The
+ * Rays are parallel along Direction, around the mesh's bounding box, or come from Camera. The
  * output has ImageSize points, one per pixel, and these point arrays of 32-bit floats. Brackets
  * name the values of rays that miss the mesh or were stopped in it:
  * - `Deflection`, 2 components: change of the slope of the ray, tangents along the image's axes
@@ -25,7 +25,7 @@
  *   a medium. Light that reaches a pixel on several ways adds up, as in caustics; light of stopped
  *   rays is missing;
  * - `Schlieren`: share of the light that passes a knife edge, from 0 to 1 [1 - KnifeCutOff];
- * - `Interferogram`: intensity of the light with that of a plane reference wave, from 0 to 1;
+ * - `Interferogram`: intensity of the light superposed with a plane reference wave, from 0 to 1;
  * - `Displacement`, 2 components: shift of a background BackgroundDistance behind the mesh as seen
  *   through it, in pixels [0];
  * - `Background`: the background picture as seen through the mesh; only with input port 1. The

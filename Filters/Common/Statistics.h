@@ -35,7 +35,7 @@ struct MeasuredStatistic
   double Value;
 };
 
-/** Statistics of a part of an owner, which `get` returns, before those of the owner itself. */
+/** Statistics of a part of an owner, which `get` returns, followed by the owner's own. */
 template <typename Owner, typename Part>
 std::vector<Statistic<Owner>> JoinStatistics(const std::vector<Statistic<Part>>& ofPart,
   Part& (*get)(Owner& owner), const std::vector<Statistic<Owner>>& own)

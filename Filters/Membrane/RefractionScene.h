@@ -124,7 +124,7 @@ public:
   void PrepareCrossings();
   /** False if the eye is known to see no side from which rays pass the surfaces. */
   bool SeesSurface() const { return this->Sees; }
-  /** The first surface in front of the eye that refracts; that of the list if there is none. */
+  /** The first refracting surface in front of the eye; without one, the list's first surface. */
   const Membrane& GetFirstMembrane() const;
 
   /** Calls `body` with the solver of the surfaces and returns its result. */

@@ -18,9 +18,9 @@ class KeptOutput
 {
 public:
   /**
-   * Replaces points, cells and arrays of `output`, and keeps the result. Those of `owned` that the
-   * output still has afterwards are copied: consumers must not see them, since they may write to
-   * the output in place.
+   * Replaces points, cells and arrays of `output`, and keeps the result. Objects of `owned` that
+   * the output still has afterwards are copied: consumers must not see them, since they may write
+   * to the output in place.
    */
   void Reuse(vtkPolyData* output, vtkPolyData* owned = nullptr);
 

@@ -47,7 +47,7 @@ struct OutputOptions
   bool operator==(const OutputOptions& other) const;
 };
 
-/** Type of the output's points: that of the input's, or the requested precision. */
+/** Type of the output's points: the type of the input's points, or the requested precision. */
 int GetPointType(vtkPolyData* input, int precision);
 
 /**

@@ -28,8 +28,8 @@ struct VirtualPolyDataReport
 
 /**
  * Fills `output` with the cells of `input` at the virtual points, and with the arrays of
- * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; those in `selection`
- * have been solved with `membrane`.
+ * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; the points in
+ * `selection` have been solved with `membrane`.
  */
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
   const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,

@@ -13,7 +13,7 @@ namespace meniscus
 /**
  * Continues values of points harmonically to other points of a mesh: linear finite elements for
  * Laplace's equation, so that a linear field is continued exactly. The values stay between the
- * smallest and the largest given ones, as those of harmonic functions do.
+ * smallest and the largest given values, as in harmonic functions.
  */
 class HarmonicField
 {

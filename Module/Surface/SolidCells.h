@@ -16,7 +16,7 @@ namespace meniscus
 
 using Tetrahedron = std::array<int, 4>;
 
-/** Tetrahedra, the first points of which are those of a surface. */
+/** Tetrahedra; their first points are the points of a surface. */
 struct TetrahedronCells
 {
   std::vector<glm::dvec3> Points;
@@ -32,7 +32,7 @@ enum class SolidFault
   LostFacets,  ///< triangles of the surface that are no faces of cells
   Nesting,     ///< a region that the surface encloses more than once, or inside out
   FlatCells,   ///< cells without volume
-  WrongVolume, ///< cells whose volume is not that of the surface
+  WrongVolume, ///< cells whose volume is not the volume of the surface
 };
 
 /**

@@ -26,7 +26,7 @@ class vtkInformationVector;
 
 /**
  * Defines the methods of a class with the member `meniscus::InterfaceTable Table`, whose superclass
- * has a list of interfaces. The two indices are those of a filter without a table; they do not
+ * has a list of interfaces. The two indices count for a filter without a table; they do not
  * change the table.
  */
 #define meniscusInterfaceTableMacro(className)                                                     \
@@ -85,7 +85,7 @@ public:
 
   /** The interface that is used without rows. */
   vtkRefractingInterface* GetSingle();
-  /** List of the rows' interfaces; that of the single one if there are no rows. */
+  /** List of the rows' interfaces; of the single interface if there are no rows. */
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** List of the interface that is used without rows. */
   vtkRefractingInterfaceCollection* GetSingleList() { return this->Single; }
@@ -94,9 +94,9 @@ public:
   int GetFirstRowOfSurface(int row) const;
 
   /**
-   * Surfaces of a port, with the parts of all ranks, in the order of the rows; in that of the
-   * connections without rows. Null, with the text of an error, if the ranks cannot exchange their
-   * parts or the rows do not fit the number of surfaces. An optional port may be empty.
+   * Surfaces of a port, with the parts of all ranks, in the order of the rows; without rows,
+   * in the order of the connections. Null, with the text of an error, if the ranks cannot exchange
+   * their parts or the rows do not fit the number of surfaces. An optional port may be empty.
    */
   vtkSmartPointer<vtkInformationVector> GatherSurfaces(
     vtkInformationVector* port, bool isOptional, std::string& fault) const;

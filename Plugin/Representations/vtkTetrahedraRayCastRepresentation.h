@@ -23,7 +23,7 @@
  * of it. Several of them, and closed bodies, need a table of interfaces (SetInterfaceRow()), which
  * numbers those that are set from 0, in the order of the ports. The parts of all ranks are gathered
  * and delivered to every process that renders. Images of several ranks are composited in the order
- * of straight rays, which is also that of rays refracted at planes across an axis; any other
+ * of straight rays, which is also right for rays refracted at planes across an axis; any other
  * membrane causes a warning, once for each change of it. See Documentation/parallel.md.
  *
  * When a view resets its camera, it shows all cells that have a volume, and the membranes. Points

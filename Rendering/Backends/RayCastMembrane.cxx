@@ -149,8 +149,7 @@ bool RayCastMembrane::Trace(RefractedRayStack::View view, VolumeInput& input)
     this->View = view;
     for (Shape& shape : this->Shapes)
     {
-      shape.Source.GetSurface()->Prepare(
-        RefractedRayStack::GetNeededParts(this->Used.size()), ThreadedLoop);
+      shape.Source.GetSurface()->Prepare(RefractedRayStack::NeededParts, ThreadedLoop);
     }
     this->Rays.Build(this->Used, view, ThreadedLoop);
     this->SightOf = this->Used;

@@ -84,7 +84,7 @@ public:
   /**
    * @param times versions of all objects that may receive Modified() after an edit.
    * @param digest computes the digest of the values.
-   * @return true if the values differ from those of the previous call, and at the first call.
+   * @return true if the values differ from the values of the previous call, and at the first call.
    */
   bool HasChanged(std::vector<ObjectVersion> times, const std::function<std::uint64_t()>& digest);
   /** Makes the next values count as changed. */

@@ -31,7 +31,7 @@ public:
     const InputBlocks& input, int component, const WeightedPoints* points = nullptr);
 
   double operator()(std::int32_t number) const;
-  /** A component of a tuple of the arrays; 0 beyond those of its part. */
+  /** A component of a tuple of the arrays; 0 beyond the components of its part. */
   double GetComponent(std::int32_t number, int component) const;
 
 private:

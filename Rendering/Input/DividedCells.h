@@ -36,7 +36,7 @@ struct DivisionSettings
    * is 1024 pixels long.
    */
   double Tolerance = 1.0 / 256.0;
-  /** Budget of tetrahedra; 0 stands for a multiple of those of the fixed division. */
+  /** Budget of tetrahedra; 0 stands for a multiple of the number by the fixed division. */
   std::int64_t MostPieces = 0;
 
   /** Reason why the settings cannot be used; empty if they can. */
@@ -74,7 +74,7 @@ public:
 
   /** Tetrahedra of the last division; valid until the tables are freed. */
   TetrahedraView GetView() const;
-  /** Frees the tables of the view, but keeps those of the other methods. */
+  /** Frees the tables of the view, but keeps the tables of the other methods. */
   void FreeView();
   /** True if other positions could divide a linear cell into other tetrahedra. */
   bool SplitsByPosition() const { return this->PositionsDecide; }

@@ -43,7 +43,7 @@ public:
   EnergyBinTables Bins;
 
 private:
-  /** Processes a tile; the statistics are those of its rays. */
+  /** Processes a tile; the statistics count its rays. */
   using TileBody =
     std::function<RayStatistics(const TileCaster&, int tile, TileCaster::Workspace&)>;
 

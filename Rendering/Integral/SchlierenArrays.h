@@ -30,7 +30,7 @@ public:
   glm::dvec3 GetDirection(const glm::dvec2& pixel) const;
   /** Depth in the frame at a distance in world coordinates behind a box about the centre. */
   double GetDepthBehind(const glm::dvec3& half, double distance) const;
-  /** Change of a direction's slope against that of the pixel's ray; NaN for a ray that returns. */
+  /** Change of a direction's slope from the pixel's ray; NaN for a ray that returns. */
   glm::dvec2 Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const;
   /**
    * Pixel whose undisturbed ray reaches the place at a depth that this ray reaches; NaN for a ray

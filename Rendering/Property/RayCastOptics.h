@@ -28,7 +28,7 @@ namespace meniscus
 struct RayCastOptics
 {
   BlendMode Blending = BlendMode::Composite;
-  /** True: one scalar per cell, instead of those of the vertices. */
+  /** True: one scalar per cell instead of one per vertex. */
   bool CellScalars = false;
   /** None unless the blend mode shows a medium. */
   ComponentMixture Components = ComponentMixture::None;

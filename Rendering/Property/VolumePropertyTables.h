@@ -92,7 +92,7 @@ private:
   void NormalizeTables(
     const ScalarNormalization& normalization, const VolumeComponents& components);
 
-  /** Function of the main scalar, and those of the other components that are scalars. */
+  /** Functions of the main scalar, and of the other components that are scalars. */
   PropertyPoints Main;
   std::vector<PropertyPoints> Others;
   std::vector<TransferFunctionPoint> GradientPoints;

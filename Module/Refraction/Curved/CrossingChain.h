@@ -14,8 +14,9 @@ namespace meniscus
 {
 
 /**
- * Crossing of a surface of curved patches with the last of a chain of neighbouring rays, from which
- * that of the next ray is found without a search. Positions are relative to the membrane's origin.
+ * Crossing of a surface of curved patches with the last of a chain of neighbouring rays. The
+ * crossing of the next ray is found from it without a search. Positions are relative to the
+ * membrane's origin.
  */
 class CrossingChain
 {

@@ -68,8 +68,9 @@ public:
 
   /**
    * Fits the tree to an eye in world coordinates. Solving is allowed only if the result is `Ready`.
-   * With `reflects`, virtual points are those of a mirror: of points on the eye's side, as far
-   * behind their sight points as they are in front of them. The indices give the reflectance only.
+   * With `reflects`, the membrane is a mirror: virtual points belong to points on the eye's side
+   * and are as far behind their sight points as the points are in front of them. The indices give
+   * the reflectance only.
    */
   EyeStatus SetEye(const glm::dvec3& eye, double exterior, double interior,
     const RangeLoop& loop = SerialLoop, bool reflects = false);
@@ -80,7 +81,7 @@ public:
    * image of the previous point; at the start of a chain, and where this continuation ends, it is
    * the first one that the tree yields. A step more than a tenth longer than one at which a
    * continuation ended, earlier in the chain, is not continued. With `isAsked`, which has a value
-   * for each of the points, those with 0 are left out of their chains.
+   * for each point, points with 0 are left out of their chains.
    */
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     const unsigned char* isAsked = nullptr) const;
@@ -97,7 +98,7 @@ public:
    */
   std::int64_t GetNumberOfUndecidedSearches() const { return this->UndecidedSearches; }
 
-  /** State of a chain of points: the last answer and the steps from the one before it. */
+  /** State of a chain of points: the last answer and its steps from the answer before it. */
   struct Memory
   {
     SightPlace Place;

@@ -8,7 +8,7 @@
  * with the surface's point S and height h over the place u of the flat facets, and the ray's slope
  * m. If the symmetric part of its derivative is positive definite along the straight line from u to
  * v, then (v - u).(F_z(v) - F_z(u)) > 0, so u and v do not see the same point. The condition holds
- * for depths smaller than those of the first caustic and for a good part of those behind it. It is
+ * at all depths in front of the first caustic and at many depths behind it. It is
  * concave in z: if it holds at two heights, it holds between them.
  *
  * It is tested per patch by a Bezier triangle of second degree from six rays, with a margin for the

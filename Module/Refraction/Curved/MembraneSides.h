@@ -26,8 +26,8 @@ namespace meniscus
  * the exact crossings (PatchCrossings).
  *
  * A line that touches a patch, or runs along it, decides nothing. In that case the straight way to
- * a place nearby is examined, in a direction across the first: the side is that of the nearest
- * patch on this way, or the side of the place itself if no patch is on it. All such ways are
+ * a place nearby is examined, in a direction across the first: the result is the side
+ * of the nearest patch on this way, or of the place itself if no patch is on it. All such ways are
  * equally valid. A point for which none of a dozen ways decides is counted and is not in front.
  */
 class MembraneSides

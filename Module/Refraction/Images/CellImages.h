@@ -46,8 +46,8 @@ struct CellReport
 struct Seam;
 
 /**
- * Images of the points and cells of an object, behind one interface or several. Holds those of the
- * points; derived classes solve them and map the cells.
+ * Images of the points and cells of an object, behind one interface or several. Holds the images of
+ * the points; derived classes solve them and map the cells.
  */
 class CellImages
 {
@@ -89,7 +89,7 @@ public:
 
   /** State of a point; NotAsked if it has never been wanted. */
   ImageState GetState(std::size_t point) const { return this->States[point]; }
-  /** Images of all points, those of the same point in sequence. */
+  /** Images of all points; images of the same point follow each other. */
   const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
   std::size_t GetNumberOfImages(std::size_t point) const
   {
@@ -98,7 +98,7 @@ public:
 
   /**
    * Adds the images of the cells [begin, end), whose ids are in `names`. Cells that keep their
-   * points go to `whole`, which has no points of its own but refers to those of GetPointImages();
+   * points go to `whole`, which has no points of its own but refers to GetPointImages();
    * others go to `pieces`. `isMapped[i]` becomes 1 if polygon i has been mapped from the membrane,
    * otherwise 0.
    */

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Part of a triangle in front of the membrane, as polygons between the triangle's sides and the
- * curve along which the triangle meets the membrane. The pieces of the curve are the ones at which
- * the refracted part ends, so the two parts meet bit by bit and have the same resolution.
+ * curve along which the triangle meets the membrane. The refracted part ends at the same pieces of
+ * the curve, so the two parts meet bit by bit and have the same resolution.
  */
 #ifndef meniscus_Refraction_Images_FrontOutline_h
 #define meniscus_Refraction_Images_FrontOutline_h
@@ -25,7 +25,7 @@ public:
   /** Corners, with the winding of the triangle. */
   using Polygon = std::vector<TrianglePoint>;
 
-  /** `corners` are those of the triangle; `isFront` marks the corners in front of the membrane. */
+  /** `corners` of the triangle; `isFront` marks the corners in front of the membrane. */
   FrontOutline(const std::vector<WaterlinePiece>& waterline,
     const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 

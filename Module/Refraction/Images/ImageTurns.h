@@ -12,7 +12,7 @@ namespace meniscus
  *
  * Such a curve f of the sight direction differs from its chord by at most |f'''| angle^3 / 125. The
  * third derivative is taken to be 100 per square radian: refraction that changes within a tenth of
- * a radian. Shorter sides, which are most sides of a mesh, need no test but that of their middle.
+ * a radian. Of shorter sides, which are most sides of a mesh, only the middle is tested.
  */
 constexpr bool MayTurnTwice(double angle, double tolerance)
 {

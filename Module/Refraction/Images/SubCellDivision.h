@@ -55,7 +55,7 @@ public:
     double farthest, SharedNodes& shared);
 
   /**
-   * Calls `map(patch, nodes)` for each sub-cell of a patch. Those with rays for which
+   * Calls `map(patch, nodes)` for each sub-cell of a patch. Sub-cells for whose rays
    * `isOutside(nodes)` is true are left out before they are divided further.
    */
   template <typename IsOutside, typename Map>

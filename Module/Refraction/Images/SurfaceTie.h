@@ -39,10 +39,10 @@ SurfaceTie FindSurfaceTie(const ObjectPrimitive& primitive,
   const std::array<glm::dvec3, 3>& side, double slack);
 
 /**
- * Resolves the tie of a primitive with the surface at one end of a leg, whose constraint is that of
- * number `constraint`: 0 at the beginning of the leg, PrimitiveConstraints at its end. The surface
- * gets the value 0, which clips nothing, at the cell's corners `whole`. Returns false if the leg
- * does not show the primitive in the cell.
+ * Resolves the tie of a primitive with the surface at one end of a leg. `constraint` is the number
+ * of the surface's constraint: 0 at the beginning of the leg, PrimitiveConstraints at its end. The
+ * surface gets the value 0, which clips nothing, at the cell's corners `whole`. Returns false if
+ * the leg does not show the primitive in the cell.
  */
 template <typename Corner>
 bool ResolveSurfaceTie(const ObjectPrimitive& primitive, const std::array<glm::dvec3, 3>& corners,

@@ -55,7 +55,7 @@ private:
   double Height = 0.0; ///< coordinate of the target along the axis
   glm::dvec2 Origin{ 0.0 };
   glm::dvec2 Slope{ 0.0 };
-  /** Corners of the facet; before it is read, those of the facet before. */
+  /** Corners of the facet; until it is read, corners of the facet before. */
   std::int32_t Vertex[3] = {};
   glm::dvec2 Corner[3] = {};
   bool IsRead = false;

@@ -20,9 +20,9 @@ namespace meniscus
  * normals of the neighbours are continued; see NormalFit. The border of a crease is not continued:
  * there the normal is the sum over the facets.
  *
- * Borders and neighbours are those of an OpenMesh half-edge mesh. A facet that would make the mesh
- * non-manifold is added with its own copies of its corners; it still contributes to the normals of
- * its vertices.
+ * Borders and neighbours are taken from an OpenMesh half-edge mesh. A facet that would make the
+ * mesh non-manifold is added with its own copies of its corners; it still contributes to the
+ * normals of its vertices.
  *
  * Half-edges exist only on oriented, manifold meshes. OrientFacets() and JoinCoincidentEdges() work
  * on facets before they are oriented, and a membrane keeps facets whose edge three or more of them

@@ -50,7 +50,7 @@ MismatchedNormals FindMismatchedNormals(const std::vector<glm::dvec3>& positions
  * if more than half of the normals are wild, at vertices that facets surround: nothing says that
  * the others are better.
  *
- * The parameters are those of FindMismatchedNormals().
+ * The parameters have the same meanings as in FindMismatchedNormals().
  */
 std::vector<std::int32_t> FindWildNormals(const std::vector<glm::dvec3>& positions,
   const std::vector<std::array<std::int32_t, 3>>& facets, const std::vector<glm::dvec3>& normals,

@@ -3,7 +3,7 @@
 // Twin: Rendering/glsl/vtkPlateTransmittance.glsl (reflectance)
 /**
  * Refraction and reflection of one ray at one point of a surface. Directions and normals are unit
- * vectors; a normal points to the side that the ray comes from. Equation numbers are those of the
+ * vectors; a normal points to the side that the ray comes from. Equation numbers refer to the
  * thesis "Refraction by geometric transforms", which Documentation/refraction-method.md summarises.
  */
 #ifndef meniscus_Refraction_Membrane_Optics_h

@@ -4,7 +4,7 @@
  * Normals for the lighting of virtual geometry. Diffuse light is N.w, with w the direction to the
  * light at the true point; highlights also depend on N.v, with v the direction to the viewer. At
  * the true point, both are directions of refracted rays. At the virtual point the corresponding
- * directions w' and v' are those of straight rays, so a normal n with n.w' = N.w and n.v' = N.v
+ * directions w' and v' belong to straight rays, so a normal n with n.w' = N.w and n.v' = N.v
  * receives the same lighting as the true one.
  */
 #ifndef meniscus_Refraction_Membrane_VirtualNormal_h

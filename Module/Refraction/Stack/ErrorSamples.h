@@ -72,8 +72,8 @@ class ErrorSampler
 {
 public:
   /**
-   * `eye` and `links` are those of the solvers under test, and `exact` has the surfaces of the
-   * links; the latter two must outlive this object. Angles are measured if `angles` is set.
+   * `eye` and `links` of the solvers under test, and `exact` surfaces of the links. `links` and
+   * `exact` must outlive this object. Angles are measured if `angles` is set.
    */
   ErrorSampler(const glm::dvec3& eye, const std::vector<RefractionStack::Link>& links,
     const StackSurfaces& exact, bool angles = false)

@@ -20,7 +20,7 @@ struct ImageOutput
   VirtualVertex* Vertices;
   StackDetail* Details;
   double* Legs;             ///< one per interface and point
-  std::size_t LegsPerPoint; ///< number of interfaces, also of those behind the eye
+  std::size_t LegsPerPoint; ///< number of interfaces, including interfaces behind the eye
 };
 
 /**

@@ -116,14 +116,14 @@ inline RayKind Refract(
   const double root = std::sqrt(radicand);
   const double g = -ratio * c - root;
   const double gByCosine = -ratio - ratio * ratio * c / root;
-  // Derivatives of N are perLength (normalBy - N along), those of c are cBy.
+  // The derivatives of N are perLength (normalBy - N along), the derivatives of c are cBy.
   const NumberBy along = Dot(n, normalBy);
   const NumberBy cBy =
     Dot(n, ray.DirectionBy) + perLength * (Dot(ray.Direction, normalBy) - c * along);
   const double turn = g * perLength;
   ray.DirectionBy =
     ratio * ray.DirectionBy + turn * normalBy + n * (gByCosine * cBy - turn * along);
-  // The length is 1 within rounding, as are those of the vectors that it is made of.
+  // The vectors in this sum have unit length within rounding, and so has the result.
   ray.Direction = ratio * ray.Direction + g * n;
   cosine = -c;
   return RayKind::Refracted;

@@ -86,7 +86,7 @@ public:
   {
     std::shared_ptr<const RefractingSurface> Surface;
     InterfacePassage Passage;
-    glm::dvec3 Shift;  ///< origin of the surface, relative to that of the stack
+    glm::dvec3 Shift;  ///< origin of the surface, relative to the stack's origin
     std::size_t Index; ///< in the list
     double Ratio;      ///< of the indices before and behind
 
@@ -100,8 +100,9 @@ public:
   };
 
   /**
-   * Sets the interfaces; the crossings of their surfaces are ready. Those with equal indices are
-   * left out, after the media have been compared. If the result has a fault, the stack is empty.
+   * Sets the interfaces; the crossings of their surfaces are ready. Interfaces with equal indices
+   * are left out, after the media have been compared. If the result has a fault, the stack is
+   * empty.
    */
   MediaChain SetInterfaces(const std::vector<Interface>& list);
 
@@ -119,13 +120,13 @@ public:
   const glm::dvec3& GetOrigin() const { return this->Origin; }
   /** Eye, relative to the origin. */
   const glm::dvec3& GetEye() const { return this->Eye; }
-  /** Number of refracting interfaces in the list, also of those behind the eye. */
+  /** Number of refracting interfaces in the list, including interfaces behind the eye. */
   std::size_t GetNumberOfInterfaces() const { return this->NumberOfInterfaces; }
 
   /**
    * Traces the path through the first `count` interfaces, at least one, from a place in the first
-   * surface. With `follows`, it looks for each next place near that of the path's last trace, and
-   * does not test whether the ray crosses the surface before it: see IsFirstCrossing.
+   * surface. With `follows`, it looks for each next place near the place in the path's last trace,
+   * and does not test whether the ray crosses the surface before it: see IsFirstCrossing.
    */
   PathEnd Trace(const StackPlace& first, std::size_t count, bool follows, StackPath& path) const;
 

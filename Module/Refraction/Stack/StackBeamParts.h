@@ -54,9 +54,9 @@ struct BeamDivision
   static constexpr double LargestDeflection = 0.5;
 
   /**
-   * Assumed part of higher degree relative to that of second degree. It is four times that of one
-   * surface (PatchRoots), because each surface adds parts of higher degree: with half as much,
-   * pairs of images next to caustics behind three surfaces were missed.
+   * Assumed part of higher degree relative to the part of second degree. It is four times as large
+   * as for one surface (PatchRoots), because each surface adds parts of higher degree: with half as
+   * much, pairs of images next to caustics behind three surfaces were missed.
    */
   static constexpr double HigherDegree = 2.0;
 
@@ -82,9 +82,9 @@ extern const glm::dvec2 BeamPlaces[6];
 
 /**
  * Box of the control points of a map of second degree with the given values at the places of six
- * rays, widened by its part of higher degree: `higherDegree` times that of second degree, or as
- * much as for one surface (PatchRoots) if the interpolant is only a guess. Returns false if it is
- * one, unless the part of second degree is below `least`.
+ * rays, widened by its part of higher degree: `higherDegree` times the part of second degree, or as
+ * much as for one surface (PatchRoots) if the interpolant is only a guess. Returns false if it is a
+ * guess and its part of second degree is not below `least`.
  */
 bool BoundBeamMap(
   const std::array<glm::dvec3, 6>& f, double least, double higherDegree, AxisBox& box);

@@ -54,7 +54,7 @@ struct CellLight
   double Path = 0.0;
 
   /**
-   * Adds a beam. `cosine` is that of the angle with the cell's normal, of either sign. Beams that
+   * Adds a beam. `cosine` of its angle with the cell's normal, of either sign. Beams that
    * graze the cell count in Vector as if they had the least cosine: their share of the light is
    * then below half a step of a colour of 8 bits.
    */

@@ -64,7 +64,8 @@ constexpr int ShotSteps = 16;
 
 /**
  * Newton's method from `place` with at most `steps` steps. Crossings with later surfaces are
- * looked for near those of the path. If it converges in the surface, the path ends at the target.
+ * looked for near the crossings of the path. If it converges in the surface, the path ends at the
+ * target.
  * It need not be an image: see IsImage.
  */
 ShotEnd Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,

@@ -19,7 +19,7 @@
 namespace meniscus
 {
 
-/** The surfaces that the rays of a stack meet: those of its links, or others close to them. */
+/** The surfaces that the rays of a stack meet: its links' surfaces, or others close to them. */
 class StackSurfaces
 {
 public:
@@ -46,9 +46,9 @@ class StackPatches : public StackSurfaces
 public:
   /**
    * `links` are relative to `origin` in world coordinates, and must outlive this object. With a
-   * `chain`, which is empty at first and must outlive this object too, intersections near those of
-   * the ray before need no search, and the last bits of the results depend on the rays before. A
-   * chain serves one list of interfaces, with any eyes.
+   * `chain`, which is empty at first and must outlive this object too, intersections near the last
+   * ray's intersections need no search, and the last bits of the results depend on the rays before.
+   * A chain serves one list of interfaces, with any eyes.
    */
   StackPatches(const std::vector<RefractionStack::Link>& links, const glm::dvec3& origin,
     StackChain* chain = nullptr);

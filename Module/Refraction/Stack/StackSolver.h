@@ -47,7 +47,7 @@ struct StackDetail
   std::int32_t Passed = 0;          ///< number of interfaces in front of the point
 };
 
-/** Image of a point through a stack; SightPoint and Facet are those on the first interface. */
+/** Image of a point through a stack; SightPoint and Facet are on the first interface. */
 struct StackVertex
   : VirtualVertex
   , StackDetail

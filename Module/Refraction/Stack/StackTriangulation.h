@@ -33,8 +33,8 @@ struct TriangulatedPoint
 /**
  * The point with the least sum of squared distances from sight rays of one stack, whose eyes may be
  * on different sides of an interface. The point lies in one medium: for each medium that all rays
- * reach, the point nearest to the lines of the legs there is computed; that with the least
- * distances from the legs themselves is the result, of two that are equal the one farther along the
+ * reach, the point nearest to the lines of the legs there is computed. The result is the point with
+ * the least distances from the legs themselves; of two equal points, the point farther along the
  * first ray. Legs are in the same medium if they touch the same side of an interface. A leg that
  * misses the next surface shows nothing.
  */

@@ -29,7 +29,7 @@ inline bool Overlap(const AxisBox& a, const AxisBox& b)
 /** Corners of a triangle in a patch. */
 using PatchTriangle = std::array<glm::dvec2, 3>;
 
-/** Bounds of the rays behind an interface, from those of the rays before it. */
+/** Bounds of the rays behind an interface, from bounds of the rays before it. */
 TubeBounds BoundNextLeg(const RefractionStack::Link& link, const TubeBounds& before);
 
 /**

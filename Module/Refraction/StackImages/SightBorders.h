@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Borders of the second surface of a list and of those behind it, where the number of legs of a
- * sight ray changes. A cell of the sheet cannot tell from the rays at its corners that a border
+ * Borders of the second and later surfaces of a list, where the number of legs of a sight ray
+ * changes. A cell of the sheet cannot tell from the rays at its corners that a border
  * enters and leaves it through the same side, or bends within it.
  */
 #ifndef meniscus_Refraction_StackImages_SightBorders_h

@@ -4,8 +4,8 @@
  * All images of a triangle or a line through several interfaces: PrimitiveMapper for a stack.
  *
  * The cells of a SightSheet are intersected with the primitive's plane, leg by leg, and the result
- * is clipped by the primitive and by the two surfaces at the ends of the leg. The part in front of
- * all interfaces is that of leg 0, which passes unchanged. Corners are computed from the two
+ * is clipped by the primitive and by the two surfaces at the ends of the leg. The part on
+ * leg 0, in front of all interfaces, passes unchanged. Corners are computed from the two
  * features that meet there alone, so that pieces meet bit by bit, on both sides of an interface as
  * well.
  */

@@ -35,7 +35,7 @@ enum class MediaFault
 {
   None,
   BadIndex, ///< an index of refraction is not positive and finite
-  NoMatch   ///< no side of an interface has the medium behind the one before it
+  NoMatch   ///< no side of an interface has the medium behind the interface before it
 };
 
 /**

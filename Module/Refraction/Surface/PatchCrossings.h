@@ -32,9 +32,9 @@ struct PatchCrossing
  *
  * - X differs by at most some E from the linear interpolant of the part's corners. If the place is
  *   farther than E from the interpolant's triangle, the part has no root.
- * - If the derivatives of X differ from those of the facet, or from those in the middle of the
- *   part, by less than these as matrices, X is injective on the part and within Reach of it.
- *   Newton's method then finds the only root there.
+ * - Let D be the derivatives of the facet's linear map, or of X in the middle of the part. If the
+ *   derivatives of X differ from D by less than D as matrices, X is injective on the part and
+ * within Reach of it. Newton's method then finds the only root there.
  *
  * E and the bounds on the derivatives follow from bounds of q, n and |n| (CurvedPatch) and their
  * derivatives over the part: control points of polynomials and the product rule.

@@ -73,7 +73,7 @@ public:
     return range;
   }
 
-  /** Bounds of the beginnings, and reciprocals of those of the directions, which are not 0. */
+  /** Bounds of the beginnings, and reciprocals of the bounds of directions, which are not 0. */
   const glm::dvec3& GetLow() const { return this->Low; }
   const glm::dvec3& GetHigh() const { return this->High; }
   const glm::dvec3& GetInverseLow() const { return this->InverseLow; }

@@ -56,7 +56,7 @@ public:
   static bool IsInReach(const glm::dvec3& point, double unit);
 
   /**
-   * Facets are identified by their index; `centroids` are those of all facets in local units.
+   * Facets are identified by their index; `centroids` of all facets are in local units.
    * `unit` is the length that becomes 1 inside the tree.
    */
   void Build(const std::vector<glm::dvec3>& centroids, double unit);

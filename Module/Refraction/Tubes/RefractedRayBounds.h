@@ -16,7 +16,7 @@ namespace meniscus
 /** Control points of a patch's normal, which is a Bezier triangle of second degree. */
 std::array<glm::dvec3, 6> ComputeNormalControls(const CurvedPatch& patch);
 
-/** Bound of the distance between the points of a patch and those of its facet. */
+/** Bound of the distance between a point of a patch and the same point of its facet. */
 double BoundBulge(const CurvedPatch& patch);
 
 /**

@@ -53,9 +53,9 @@ public:
   {
     return this->Steps[static_cast<std::size_t>(pixel)];
   }
-  /** Joins the values of a leg to those of the legs in front of it. */
+  /** Joins the values of a leg to the values of the legs in front of it. */
   void Join(const LegBatch::Origin& origin, BlendMode mode, const PacketResult& result);
-  /** Sets the end to that of a leg. A line that was cut off tells nothing about the sight point. */
+  /** Sets the ray's end to a leg's end. A line that was cut off leaves the sight point unknown. */
   void EndAt(const LegBatch::Origin& origin, const PacketResult& result)
   {
     this->SetEnd(origin.Pixel, origin.ReachesInterface ? result.End : PacketResult::Somewhere);

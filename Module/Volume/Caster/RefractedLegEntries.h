@@ -114,7 +114,7 @@ public:
     };
     std::array<std::array<Group, NumberOfGroups>, NumberOfFrames> Frames;
 
-    /** Legs of a square of the tile, and those of them in one group. */
+    /** Legs of a square of the tile, and its legs in one group. */
     LegBlock Legs;
     LegBlock Chosen;
     /**

@@ -49,8 +49,7 @@ public:
      */
     const float* CellScalars = nullptr;
     BlendMode Blending = BlendMode::Composite;
-    /** Quantities that Measure() measures; the other members that it reads are those of a picture.
-     */
+    /** Quantities that Measure() measures. It reads the same other members as a picture does. */
     RayMeasuring Measuring = RayMeasuring::None;
     /** True if bins have an attenuation and an emission, instead of three values. */
     bool Emitting = false;
@@ -115,7 +114,7 @@ public:
   TileCaster(const TileCaster&) = delete;
   TileCaster& operator=(const TileCaster&) = delete;
 
-  /** Sets the mesh and the tables that map scalars to colours, except for those of a LegFrame. */
+  /** Sets the mesh and the tables that map scalars to colours, except the tables of LegFrame. */
   static void SetOptics(const Scene& scene, PacketJob& job);
 
   int GetNumberOfTiles() const { return this->Legs.GetNumberOfTiles(); }

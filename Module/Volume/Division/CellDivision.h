@@ -60,8 +60,8 @@ struct DivisionCounts
  *
  * The threshold is the tolerance if the budget allows. Otherwise it is an error for which the
  * budget is likely to be enough, and is lowered until the budget is spent. If the last threshold is
- * not reached everywhere, the largest errors are divided, or the result is that of the threshold
- * before it.
+ * not reached everywhere, the largest errors are divided, or the threshold before it gives the
+ * result.
  *
  * The result does not depend on the number of threads.
  */

@@ -22,7 +22,7 @@ struct PointWeights
 };
 
 /**
- * Points with values interpolated from those of the input, in compressed rows. They are numbered
+ * Points with values interpolated from the input's points, in compressed rows. They are numbered
  * after the points of the input.
  */
 class WeightedPoints

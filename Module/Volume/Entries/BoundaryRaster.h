@@ -73,7 +73,7 @@ public:
     std::vector<float> Fractions;
     std::vector<float> SlopeRests;
   };
-  /** Sets the line of a ray to that of the tile whose entries were collected last. */
+  /** Sets the line of a ray as in the tile whose entries were collected last. */
   static void SetLine(const Workspace& workspace, std::size_t pixel, PacketRay& ray)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)

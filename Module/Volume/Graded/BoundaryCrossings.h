@@ -53,7 +53,7 @@ public:
   }
 
   /**
-   * Finds the nearest crossing; of equal ones, that of the lowest number.
+   * Finds the nearest crossing; of equally near crossings, the crossing of the lowest number.
    * @param origin relative to the mesh's centre, in units of its radius.
    * @param direction unit vector.
    * @param leavingToo true if faces by which the ray leaves the mesh count, too.

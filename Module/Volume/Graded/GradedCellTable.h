@@ -50,7 +50,7 @@ struct GradedCellRow
 class GradedCellTable
 {
 public:
-  /** @param squaredIndices, terms those of GradedMedium; terms may be null. */
+  /** @param squaredIndices, terms as in GradedMedium; terms may be null. */
   void Build(const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices,
     const std::vector<EdgeTerms>* terms, const RangeLoop& loop = SerialLoop);
 

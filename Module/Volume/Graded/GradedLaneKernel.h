@@ -245,7 +245,7 @@ struct Series
       t *
       (this->Force + t * (3.0 * this->Third + t * (4.0 * this->Fourth + t * (5.0 * this->Fifth))));
   }
-  /** Integral of the place without its fifth term, which counts for nothing in that of n^2. */
+  /** Integral of the place without its fifth term, which does not change the integral of n^2. */
   Vector Integrate(Vector momentum, Number t) const
   {
     return t * t *

@@ -75,18 +75,19 @@ public:
   bool Hold(int constraints);
 
   /**
-   * Chooses the face by which the ray leaves the cell and the time: that whose weight is the first
-   * to fall below 0; of equal ones, that of the lowest rank. If the power series does not reach so
-   * far, -1 with the time that it reaches; without any way out, -1 with an infinite time.
+   * Chooses the face by which the ray leaves the cell, and the time: the face whose weight is the
+   * first to fall below 0; of several at the same time, the face of the lowest rank. If the power
+   * series does not reach so far, -1 with the time that it reaches; without any way out, -1 with an
+   * infinite time.
    * @param step number of the ray's step, a seed.
    * @param atRandom choose among the faces that are reached within the short time: a ray that goes
    *   in circles about an edge or a vertex, without a zigzag, finds its way out so.
    */
   int FindExit(std::int64_t step, bool atRandom, double shortTime, double& time);
 
-  /** Moves to a time: that of FindExit(), or any for a straight way. */
+  /** Moves to the time that FindExit() has found, or to any time on a straight way. */
   void MoveTo(double time);
-  /** Weights where the ray has moved to; that of the face (-1 for none) is 0. */
+  /** Weights where the ray has moved to; the weight of the face (-1 for none) is 0. */
   std::array<double, 4> GetWeights(int face) const;
   /** Momentum there. */
   const glm::dvec3& GetMomentum() const { return this->EndMomentum; }

@@ -57,8 +57,8 @@ struct GradedMedium
   const GradedCellTable* Table = nullptr;
   /**
    * Index outside of the mesh, where Snell's law holds on the boundary. With 0, the index outside
-   * is everywhere that at the boundary, and rays enter and leave in their directions: the boundary
-   * is the end of the data, not of the medium.
+   * equals the index at the boundary everywhere, and rays enter and leave in their directions: the
+   * boundary is the end of the data, not of the medium.
    */
   double OutsideIndex = 0.0;
   /**
@@ -144,7 +144,7 @@ public:
 
   /**
    * Follows many rays, several at a time if the medium has a table. The results do not depend on
-   * the other rays, and differ from those of Walk() by rounding.
+   * the other rays, and differ from the results of Walk() by rounding.
    * @param results one per ray; replaced.
    * @param set instruction set, on which the results do not depend.
    */

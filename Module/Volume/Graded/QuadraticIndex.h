@@ -8,8 +8,8 @@
  * continuous across faces.
  *
  * Method:
- * 1. The gradient at each vertex is that of the quadratic function that fits the values around the
- *    vertex best (Zhang and Naga, "A new finite element gradient recovery method", SIAM J. Sci.
+ * 1. The gradient at each vertex is taken from the quadratic function that fits the values around
+ *    the vertex best (Zhang and Naga, "A new finite element gradient recovery method", SIAM J. Sci.
  *    Comput. 26, 2005). It is exact for quadratic fields and off by the square of the cells' size
  *    for smooth ones.
  * 2. Each end of an edge tells a term, by the difference of its gradient along the edge from the

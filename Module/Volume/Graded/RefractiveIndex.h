@@ -25,7 +25,7 @@ constexpr double GladstoneDaleOfAir = 2.26157e-4;
 /** Numbers of vertices whose index of refraction is unusable or unusual. */
 struct IndexFaults
 {
-  /** The value is NaN or infinite, as is its square. Cells with such a vertex are left out. */
+  /** The value or its square is NaN or infinite. Cells with a vertex of this kind are left out. */
   std::int64_t NotFinite = 0;
   /** The index is 0 or negative, or the density is negative. Cells with it are left out. */
   std::int64_t NotPositive = 0;

@@ -50,9 +50,9 @@ struct Interferometer
 
 /**
  * Irradiance on a screen, 1 without a medium. The light of each pixel goes to the quadrangle
- * between the landing points at its corners, which are means of those of the pixels around. Where
- * quadrangles overlap, behind a caustic, their light adds up. No light is lost but beyond the edges
- * of the image.
+ * between the landing points at its corners, which are means of the landing points of the pixels
+ * around. Where quadrangles overlap, behind a caustic, their light adds up. No light is lost but
+ * beyond the edges of the image.
  * @param landings place of each pixel's ray on the screen in pixels, (0, 0) for the centre of the
  *   first one; NaN for a ray that does not land, whose light is missing.
  * @param offScreen replaced by the light that falls beyond the image, in pixels.
@@ -61,8 +61,8 @@ std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, 
   int height, const RangeLoop& loop, double& offScreen);
 
 /**
- * A picture at a place in pixels, linearly interpolated; beyond its edges, that at the nearest
- * place on them.
+ * Value of a picture at a place in pixels, linearly interpolated; beyond its edges, the value at
+ * the nearest place on them.
  * @param picture one value per pixel, row by row.
  * @param place (0, 0) for the centre of the first pixel.
  */

@@ -20,7 +20,7 @@ namespace meniscus
 /**
  * Lines from the vertices of a mesh to a light, in frames whose depth grows towards the light: one
  * frame, along the light, if the light is at infinity; otherwise the frames along and against the
- * axes of a cube that lines need. Places in the base frame are those of `base`.
+ * axes of a cube that lines need. `base` has the places in the base frame.
  */
 class LightFrames
 {

@@ -16,14 +16,15 @@
  *    part of the boundary on all sides, and rays cross it as a gap of length zero.
  * 4. Orientation is combinatorial: a flood fill over linked faces, not the sign of each volume. A
  *    link that contradicts the flood fill (a non-orientable ring of cells) is cut. The sign of a
- *    component is that of the sum of its volumes; one whose volumes cancel, a region filled twice
- *    with different cells of the same points, is taken apart into cells on opposite sides of faces.
+ *    component is the sign of the sum of its volumes. A component whose volumes cancel, a region
+ *    filled twice with different cells of the same points, is taken apart into cells on opposite
+ *    sides of faces.
  *
  * Points can move: MovePoints() places the vertices anew and keeps their order, the cells and the
  * links, none of which depends on positions but in the cases that it reports.
  *
  * Cells that cannot be seen can be made inactive: links to them read as negative, like the
- * boundary, and GetBoundary() is that of the active cells, so rays enter and leave the mesh there.
+ * boundary. GetBoundary() is the boundary of the active cells, where rays enter and leave the mesh.
  */
 #ifndef meniscus_Volume_Mesh_TetrahedralMesh_h
 #define meniscus_Volume_Mesh_TetrahedralMesh_h

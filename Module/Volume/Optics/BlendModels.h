@@ -51,7 +51,7 @@ enum class VisibleBy
 /** Result that a ray keeps of a part of its way, and how the results of two parts are joined. */
 enum class KeptResult
 {
-  /** Colour and transmittance; the part in front hides the one behind. */
+  /** Colour and transmittance; the part in front hides the part behind it. */
   Color,
   /** A number and the length of the part; the largest, smallest or summed number counts. */
   Largest,

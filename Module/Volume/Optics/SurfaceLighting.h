@@ -37,7 +37,7 @@ struct SurfaceLighting
   /**
    * Global illumination of a medium: the share, in [0, 1], of its light that it scatters instead of
    * reflecting it at its gradient, by Henyey and Greenstein's phase function of this anisotropy;
-   * and the light whose transmittance is known apart from that of the others.
+   * and the light whose transmittance is known apart from the transmittance of the other lights.
    */
   double Scattering = 0.0;
   double Anisotropy = 0.0;

@@ -13,15 +13,15 @@ namespace meniscus
 {
 
 /**
- * Coordinates about a ray and signs of edges for one ray: the same numbers, to the last bit, as
- * those of the packets. It is a template so that each instruction set gets its own code (see
+ * Coordinates about a ray and signs of edges for one ray: to the last bit the numbers that packets
+ * compute. It is a template so that each instruction set gets its own code (see
  * PacketJob.h).
  *
  * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay). Whoever
- * needs them computes the same floats, so that all decisions about a ray are those of one plane
- * drawing, however the numbers were rounded.
+ * needs them computes the same floats, so that all decisions about a ray fit one plane drawing,
+ * however the numbers were rounded.
  *
- * The sign of an edge is that of the determinant p.u q.v - p.v q.u of these floats, which is exact
+ * The sign of an edge is the sign of the determinant p.u q.v - p.v q.u of these floats. It is exact
  * by Kahan's method with fused multiply-adds: its error is at most 2 units in the last place of the
  * result (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of Kahan's algorithm for
  * the accurate computation of 2x2 determinants", 2013), unless a product under- or overflows.

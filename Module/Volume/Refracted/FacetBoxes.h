@@ -20,7 +20,8 @@ namespace meniscus
 /** Boxes around the patches of some facets, as arrays. */
 struct FacetBoxes
 {
-  static constexpr int Size = 128;
+  /** Most facets of a list: two rays of a tile per facet. Longer lists are not kept. */
+  static constexpr int Size = 512;
 
   int Count = 0;
   /** True if there was no room for a facet. */
@@ -105,7 +106,7 @@ void VisitBoxesNearFirst(
 class BundleFacets
 {
 public:
-  /** Forgets all facets. The next list is that of interface `first`. */
+  /** Forgets all facets. The next list belongs to interface `first`. */
   void Clear(std::size_t first = 0)
   {
     this->First = first;

@@ -17,24 +17,6 @@ namespace
 {
 
 /** Loop bodies, for one lane each. */
-struct PlaneKernel
-{
-  FacetPlane Plane;
-  SightRays Rays;
-  double NormalLength;
-
-  void operator()(PatchIntersectionBatch& lanes, int i) const
-  {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
-    const FacetPlane::Meeting meeting = this->Plane.Meet(this->Rays.StartOf(lanes, i), direction);
-    lanes.Depth[i] = meeting.Depth;
-    lanes.X[i] = meeting.X;
-    lanes.Y[i] = meeting.Y;
-    lanes.Least[i] = meeting.Least;
-    lanes.Slant[i] = this->NormalLength * glm::length(direction) / std::fabs(meeting.Along);
-  }
-};
-
 struct NormalKernel
 {
   CurvedPatch Patch;
@@ -49,16 +31,14 @@ struct NormalKernel
   }
 };
 
-template <class RayType>
 struct StartKernel
 {
   PatchStart Start;
-  RayType Rays;
 
-  void operator()(typename RayType::Batch& lanes, int i) const
+  void operator()(PatchIntersectionBatch& lanes, int i) const
   {
     const PatchStart& start = this->Start;
-    const glm::vec3 direction(this->Rays.DirectionOf(lanes, i));
+    const glm::vec3 direction(lanes.GetDirection(i));
     // Per height above the plane; lengths are in units of the facet's size.
     const float perHeight = 1.0f / glm::dot(start.Up, direction);
     const float rayByX = perHeight * glm::dot(start.ByX, direction);
@@ -94,17 +74,15 @@ struct StartKernel
   static constexpr float Farthest = 0.25f;
 };
 
-template <class RayType>
 struct PatchKernel
 {
   CurvedPatch Patch;
-  RayType Rays;
   double Scale;
 
-  void operator()(typename RayType::Batch& lanes, int i) const
+  void operator()(PatchIntersectionBatch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
-    const glm::dvec3 start = this->Rays.StartOf(lanes, i);
+    const glm::dvec3 direction = lanes.GetDirection(i);
+    const glm::dvec3 start = lanes.GetStart(i);
     PatchJet jet;
     this->Patch.Evaluate(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i]), jet);
     // Cramer's rule for by0 x + by1 y - direction l = rest.
@@ -150,15 +128,13 @@ struct SearchKernel
   }
 };
 
-template <class RayType>
 struct RefractKernel
 {
-  RayType Rays;
   double Ratio;
 
-  void operator()(typename RayType::Batch& lanes, int i) const
+  void operator()(PatchIntersectionBatch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
+    const glm::dvec3 direction = lanes.GetDirection(i);
     const double length = glm::length(direction);
     const glm::dvec3 sight = direction / length;
     const glm::dvec3 normal =
@@ -186,28 +162,12 @@ struct RefractKernel
 void PatchIntersectionBatch::Copy(int to, int from)
 {
   this->Index[to] = this->Index[from];
-  for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Least,
-         this->Slant, this->PatchX, this->PatchY, this->Behind })
+  for (double* of : { this->Start[0], this->Start[1], this->Start[2], this->Direction[0],
+         this->Direction[1], this->Direction[2], this->Depth, this->X, this->Y, this->Slant,
+         this->PatchX, this->PatchY, this->Behind })
   {
     of[to] = of[from];
   }
-}
-
-//------------------------------------------------------------------------------
-void FreeRayBatch::CopyRay(int to, int from)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Start[axis][to] = this->Start[axis][from];
-    this->Direction[axis][to] = this->Direction[axis][from];
-  }
-}
-
-//------------------------------------------------------------------------------
-void MeetPlane(
-  const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
-{
-  RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -244,19 +204,16 @@ PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double
 }
 
 //------------------------------------------------------------------------------
-template <class Rays>
-void StartNearPatch(
-  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
+void StartNearPatch(const PatchStart& start, InstructionSet set, PatchIntersectionBatch& lanes)
 {
-  RunLanes(StartKernel<Rays>{ start, rays }, set, lanes);
+  RunLanes(StartKernel{ start }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
-template <class Rays>
-void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
-  typename Rays::Batch& lanes)
+void StepToPatch(
+  const CurvedPatch& patch, double scale, InstructionSet set, PatchIntersectionBatch& lanes)
 {
-  RunLanes(PatchKernel<Rays>{ patch, rays, scale }, set, lanes);
+  RunLanes(PatchKernel{ patch, scale }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -267,20 +224,9 @@ void FindStates(
 }
 
 //------------------------------------------------------------------------------
-template <class Rays>
-void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::Batch& lanes)
+void Refract(double ratio, InstructionSet set, PatchIntersectionBatch& lanes)
 {
-  RunLanes(RefractKernel<Rays>{ rays, ratio }, set, lanes);
+  RunLanes(RefractKernel{ ratio }, set, lanes);
 }
-
-template void StartNearPatch(
-  const PatchStart&, const SightRays&, InstructionSet, PatchIntersectionBatch&);
-template void StartNearPatch(const PatchStart&, const FreeRays&, InstructionSet, FreeRayBatch&);
-template void StepToPatch(
-  const CurvedPatch&, const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
-template void StepToPatch(
-  const CurvedPatch&, const FreeRays&, double, InstructionSet, FreeRayBatch&);
-template void Refract(const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
-template void Refract(const FreeRays&, double, InstructionSet, FreeRayBatch&);
 
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Intersection of pixels' rays with one curved patch, and Snell's law, for many rays at once: plain
- * loops over arrays, compiled per instruction set. Every lane performs the same operations in the
+ * Intersection of rays with one curved patch, and Snell's law, for many rays at once: plain loops
+ * over arrays, compiled per instruction set. Every lane performs the same operations in the
  * same order in every set, so the results are the same to the last bit.
  */
 #ifndef meniscus_Volume_Refracted_PatchIntersectionBatch_h
@@ -21,56 +21,6 @@
 namespace meniscus
 {
 
-struct PatchIntersectionBatch;
-struct FreeRayBatch;
-
-/** Origins and directions (per unit of depth) of pixels' rays: constant, per column, per row. */
-struct SightRays
-{
-  using Batch = PatchIntersectionBatch;
-
-  glm::dvec3 Start[3];
-  glm::dvec3 Direction[3];
-
-  /** @param column, row counted from the image's centre. */
-  glm::dvec3 StartOf(double column, double row) const
-  {
-    return this->Start[0] + column * this->Start[1] + row * this->Start[2];
-  }
-  glm::dvec3 DirectionOf(double column, double row) const
-  {
-    return this->Direction[0] + column * this->Direction[1] + row * this->Direction[2];
-  }
-  /** Ray of a lane. */
-  template <class Lanes>
-  glm::dvec3 StartOf(const Lanes& lanes, int i) const
-  {
-    return this->StartOf(lanes.Column[i], lanes.Row[i]);
-  }
-  template <class Lanes>
-  glm::dvec3 DirectionOf(const Lanes& lanes, int i) const
-  {
-    return this->DirectionOf(lanes.Column[i], lanes.Row[i]);
-  }
-};
-
-/** Rays in any directions, which the lanes hold themselves. */
-struct FreeRays
-{
-  using Batch = FreeRayBatch;
-
-  template <class Lanes>
-  glm::dvec3 StartOf(const Lanes& lanes, int i) const
-  {
-    return { lanes.Start[0][i], lanes.Start[1][i], lanes.Start[2][i] };
-  }
-  template <class Lanes>
-  glm::dvec3 DirectionOf(const Lanes& lanes, int i) const
-  {
-    return { lanes.Direction[0][i], lanes.Direction[1][i], lanes.Direction[2][i] };
-  }
-};
-
 /** Plane of a facet. */
 struct FacetPlane
 {
@@ -87,10 +37,9 @@ struct FacetPlane
     /** Component of the direction along the normal. */
     double Along;
     double Depth;
-    /** Barycentric coordinates, and the smallest of the three. */
+    /** Barycentric coordinates. */
     double X;
     double Y;
-    double Least;
   };
   Meeting Meet(const glm::dvec3& start, const glm::dvec3& direction) const
   {
@@ -101,7 +50,6 @@ struct FacetPlane
     const glm::dvec3 inPlane = meeting.Depth * direction - toCorner;
     meeting.X = glm::dot(inPlane, this->ByX);
     meeting.Y = glm::dot(inPlane, this->ByY);
-    meeting.Least = std::min(std::min(meeting.X, meeting.Y), 1.0 - meeting.X - meeting.Y);
     return meeting;
   }
 };
@@ -134,7 +82,7 @@ struct PatchSearchLimits
   double Reach;
 };
 
-/** Arrays of the data of each ray. */
+/** Arrays of the data of each ray. Directions are per unit of depth. */
 struct PatchIntersectionBatch
 {
   static constexpr int Size = 64;
@@ -142,14 +90,12 @@ struct PatchIntersectionBatch
   int Count = 0;
   /** Number by which the caller identifies the ray. */
   std::int32_t Index[Size];
-  double Column[Size];
-  double Row[Size];
+  double Start[3][Size];
+  double Direction[3][Size];
   /** Intersection of the ray with the plane: depth, and barycentric coordinates in the facet. */
   double Depth[Size];
   double X[Size];
   double Y[Size];
-  /** Smallest of the three barycentric coordinates. */
-  double Least[Size];
   /** Length of the ray's direction over its component along the plane's normal. */
   double Slant[Size];
   /**
@@ -171,32 +117,14 @@ struct PatchIntersectionBatch
   /** 0 if the ray is totally reflected, otherwise 1 against the normal and -1 along it. */
   double Refracted[Size];
 
-  void Add(std::int32_t index, double column, double row)
+  glm::dvec3 GetStart(int i) const
   {
-    this->Index[this->Count] = index;
-    this->Column[this->Count] = column;
-    this->Row[this->Count] = row;
-    ++this->Count;
+    return { this->Start[0][i], this->Start[1][i], this->Start[2][i] };
   }
-  /** Copies lane `from` to lane `to`, except for Move and the members after it. */
-  void Keep(int to, int from)
+  glm::dvec3 GetDirection(int i) const
   {
-    if (to != from)
-    {
-      this->Copy(to, from);
-    }
+    return { this->Direction[0][i], this->Direction[1][i], this->Direction[2][i] };
   }
-
-protected:
-  void Copy(int to, int from);
-};
-
-/** Lanes of rays in any directions; a direction is per unit of depth. */
-struct FreeRayBatch : PatchIntersectionBatch
-{
-  double Start[3][Size];
-  double Direction[3][Size];
-
   void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
   {
     for (int axis = 0; axis < 3; ++axis)
@@ -204,7 +132,8 @@ struct FreeRayBatch : PatchIntersectionBatch
       this->Start[axis][this->Count] = start[axis];
       this->Direction[axis][this->Count] = direction[axis];
     }
-    this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
+    this->Index[this->Count] = index;
+    ++this->Count;
   }
   /** Sets lanes 0 to `count` - 1 to rays of the same numbers. */
   void Take(int count, const double (&starts)[3][Size], const double (&directions)[3][Size])
@@ -217,26 +146,18 @@ struct FreeRayBatch : PatchIntersectionBatch
     std::iota(this->Index, this->Index + count, 0);
     this->Count = count;
   }
-  /** As for the base, with the ray. */
+  /** Copies lane `from` to lane `to`, except for Move and the members after it. */
   void Keep(int to, int from)
   {
     if (to != from)
     {
       this->Copy(to, from);
-      this->CopyRay(to, from);
     }
   }
 
 private:
-  void CopyRay(int to, int from);
+  void Copy(int to, int from);
 };
-
-/**
- * Computes Depth, X, Y, Least and Slant.
- * @pre GetInstructionSets() has the set
- */
-void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
-  PatchIntersectionBatch& lanes);
 
 /** Sets Normal to the patch's normal at X and Y. */
 void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionBatch& lanes);
@@ -281,20 +202,18 @@ struct PatchStart
 
 /**
  * Sets PatchX, PatchY and Behind to places near the intersections of the rays and the patch, from X
- * and Y. Rays is SightRays or FreeRays.
+ * and Y.
+ * @pre GetInstructionSets() has the set
  */
-template <class Rays>
-void StartNearPatch(
-  const PatchStart& start, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
+void StartNearPatch(const PatchStart& start, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
- * the patch; also computes Move and Normal. Rays is SightRays or FreeRays.
+ * the patch; also computes Move and Normal.
  * @param scale a depth of about the size of the facet.
  */
-template <class Rays>
-void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
-  typename Rays::Batch& lanes);
+void StepToPatch(
+  const CurvedPatch& patch, double scale, InstructionSet set, PatchIntersectionBatch& lanes);
 
 /**
  * Computes State after a step of Newton's method.
@@ -308,8 +227,7 @@ void FindStates(
  * per unit of depth along the ray (the inverse of the thesis's Eq. 2.4), in the rays' space.
  * @param ratio n1 / n2, for rays against the normals.
  */
-template <class Rays>
-void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::Batch& lanes);
+void Refract(double ratio, InstructionSet set, PatchIntersectionBatch& lanes);
 
 }
 

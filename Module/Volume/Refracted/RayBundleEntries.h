@@ -36,8 +36,8 @@ BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view);
  * Boundary faces by which straight lines of a frame enter the mesh. At each depth, all lines of a
  * bundle are in a rectangle that changes linearly with the depth. The tree of the boundary is
  * searched with the rectangles of all lines of a tile, and the faces that are found are tested with
- * those of its blocks. The remaining faces are tested with every line of a block by the signs and
- * the tie rule of the walk.
+ * the rectangles of its blocks. The remaining faces are tested with every line of a block by the
+ * signs and the tie rule of the walk.
  */
 class RayBundleEntries
 {

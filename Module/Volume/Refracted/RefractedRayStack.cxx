@@ -25,6 +25,11 @@ glm::ivec2 FirstOfBlock(int number)
   return { RefractedRayTiles::ColumnOfSquare(number), RefractedRayTiles::RowOfSquare(number) };
 }
 
+bool operator==(const AffinePixelMap& a, const AffinePixelMap& b)
+{
+  return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow;
+}
+
 /** True if a product of a ray's direction and the normal has the sign, or if that is 0. */
 bool HasSign(double product, double sign)
 {
@@ -34,9 +39,20 @@ bool HasSign(double product, double sign)
 }
 
 //------------------------------------------------------------------------------
+bool RefractedRayStack::View::operator==(const View& o) const
+{
+  const RayFrame& a = this->Frame;
+  const RayFrame& b = o.Frame;
+  return a.RowX == b.RowX && a.RowY == b.RowY && a.RowDepth == b.RowDepth && a.Origin == b.Origin &&
+    a.Slope == b.Slope && a.ViewToWorld == b.ViewToWorld && this->Width == o.Width &&
+    this->Height == o.Height && this->Center == o.Center && this->EyeDepth == o.EyeDepth &&
+    this->Mesh == o.Mesh;
+}
+
+//------------------------------------------------------------------------------
 std::int64_t RefractedRayStack::GetBytes() const
 {
-  std::int64_t bytes = this->Field.GetBytes();
+  std::int64_t bytes = 0;
   for (const RefractedRayTiles& tiles : this->Rays)
   {
     bytes += tiles.GetBytes();
@@ -57,29 +73,6 @@ void RefractedRayStack::Build(
   this->Rays.resize(interfaces.size());
   this->Untraced.clear();
   this->Sums = Counts();
-  if (interfaces.size() == 1)
-  {
-    this->BuildOne(interfaces.front(), loop);
-  }
-  else
-  {
-    this->BuildAll(loop);
-  }
-}
-
-//------------------------------------------------------------------------------
-void RefractedRayStack::BuildOne(const Interface& interface, const RangeLoop& loop)
-{
-  this->Field.Build(interface, this->Of, this->Rays.front(), loop);
-  this->MeanDirection = this->Field.GetMeanDirection();
-  this->StepBounds = this->Field.GetStepBounds();
-  this->Sums.Undecided = this->Field.GetNumberOfUndecidedRays();
-}
-
-//------------------------------------------------------------------------------
-void RefractedRayStack::BuildAll(const RangeLoop& loop)
-{
-  const View& view = this->Of;
   this->Columns = (view.Width + TileSize - 1) / TileSize;
   const int rows = (view.Height + TileSize - 1) / TileSize;
   const glm::dmat3& toWorld = view.Frame.ViewToWorld;
@@ -185,12 +178,31 @@ void RefractedRayStack::PrepareTile(int tile, bool mayShow)
 }
 
 //------------------------------------------------------------------------------
+/** Leaves out the rays of a tile, which show nothing of the mesh, refracted or not. */
+void RefractedRayStack::HideTile(int tile)
+{
+  for (RefractedRayTiles& rays : this->Rays)
+  {
+    rays.ChangeTile(tile) = std::vector<RefractedRay>();
+    rays.SetSquares(tile, 0, 0);
+  }
+  constexpr TileSquares all = static_cast<TileSquares>((1u << BlocksOfTile) - 1u);
+  this->Untraced[static_cast<std::size_t>(tile)] = all;
+}
+
+//------------------------------------------------------------------------------
 RefractedRayStack::TileSum RefractedRayStack::TraceTile(
   int tile, const StackVisibility& sight, StackBlock& block)
 {
   TileSum sum;
   const glm::ivec2 first = this->FirstPixel(tile);
-  const bool mayShow = sight.MayShowMesh(this->CornersOf(first, TileSize), block.OfTile);
+  const CornerRays corners = this->CornersOf(first, TileSize);
+  const bool mayShow = sight.MayShowMesh(corners, block.OfTile);
+  if (!mayShow && !sight.MayShowMeshUnrefracted(corners))
+  {
+    this->HideTile(tile);
+    return sum;
+  }
   this->PrepareTile(tile, mayShow);
   for (int number = 0; number < BlocksOfTile; ++number)
   {

@@ -6,7 +6,8 @@
 #include "Common/RangeLoop.h"
 #include "Refraction/Surface/Interface.h"
 #include "Simd/InstructionSets.h"
-#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Rays/BoundsInFrame.h"
+#include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
 #include "Volume/Refracted/StackBlock.h"
 #include "Volume/Refracted/StackVisibility.h"
@@ -32,28 +33,42 @@ namespace meniscus
  * at the one before, where nothing is known about its further way; rays that miss the first
  * interface are straight. A ray also ends at an interface behind which it does not reach the mesh.
  *
- * Blocks of rays that show nothing of the mesh by their bounds (StackVisibility) are not traced
- * behind the first interface.
- *
- * Rays through one interface are those of RefractedRayField, which sorts patches by their
- * projections for the eye. Those of several interfaces have any directions: blocks of them descend
- * trees of the patches.
+ * Blocks of rays descend the trees of boxes around the patches. Those that show nothing of the mesh
+ * by their bounds (StackVisibility) are not traced behind the first interface. Tiles of the image
+ * in which the mesh is not seen either way, refracted or not, are left out: their rays are
+ * straight.
  */
 class RefractedRayStack
 {
 public:
-  using View = RefractedRayField::View;
+  struct View
+  {
+    RayFrame Frame;
+    int Width = 0;
+    int Height = 0;
+    /** Origin of the frame, in world coordinates. */
+    glm::dvec3 Center{ 0.0 };
+    /** Depth of the eye: geometry at smaller depths is not seen. */
+    double EyeDepth = 0.0;
+    /** Bounds of the mesh. The refraction of rays that miss it is not computed. */
+    BoundsInFrame Mesh;
+
+    bool operator==(const View& other) const;
+  };
 
   /** Numbers of rays of an image. */
   struct Counts
   {
     /** Rays that were refracted at an interface and miss the next one. */
     std::int64_t Missing = 0;
-    /** Those of them that are in a medium which the next interface does not have. */
+    /** Missing rays that are in a medium which the next interface does not have. */
     std::int64_t Mismatched = 0;
     /** Rays that are totally reflected at the second interface or a later one. */
     std::int64_t Reflected = 0;
-    /** As RefractedRayField::GetNumberOfUndecidedRays(). */
+    /**
+     * Pairs of a ray and a patch that it touches, or runs along, within rounding, such as an
+     * outline hit exactly: the ray counts as passing the patch there. 0 for nearly all views.
+     */
     std::int64_t Undecided = 0;
 
     void Add(const Counts& other)
@@ -65,11 +80,8 @@ public:
     }
   };
 
-  /** Parts of the surfaces that Build() needs for a number of interfaces. */
-  static SurfaceParts GetNeededParts(std::size_t interfaces)
-  {
-    return interfaces > 1 ? SurfaceParts::Boxes : SurfaceParts::Patches;
-  }
+  /** Parts of the surfaces that Build() needs. */
+  static constexpr SurfaceParts NeededParts = SurfaceParts::Boxes;
 
   /** Traces the rays. Media of an interface differ, unless it is the only one. */
   void Build(
@@ -77,7 +89,7 @@ public:
 
   /** Rays behind each interface: legs 1 and following (RayLegs). */
   const std::vector<RefractedRayTiles>& GetRays() const { return this->Rays; }
-  /** True if any ray meets the first interface. */
+  /** True if any ray that may show the mesh, refracted or not, meets the first interface. */
   bool IsSeen() const { return !this->Rays.empty() && this->Rays.front().HasRays(); }
   /** Mean direction of all legs in the frame of the view; a unit vector, or 0 without any. */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
@@ -104,17 +116,16 @@ private:
     Counts Rays;
   };
 
-  void BuildOne(const Interface& interface, const RangeLoop& loop);
-  void BuildAll(const RangeLoop& loop);
   TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
   void PrepareTile(int tile, bool mayShow);
+  void HideTile(int tile);
   /** First pixel of a tile. */
   glm::ivec2 FirstPixel(int tile) const
   {
     return RefractedRayTiles::TileSize * glm::ivec2(tile % this->Columns, tile / this->Columns);
   }
   CornerRays CornersOf(const glm::ivec2& first, int size) const;
-  /** The view's origin, from that of the surface of an interface. */
+  /** The view's origin, relative to the origin of an interface's surface. */
   glm::dvec3 ToSurface(std::size_t number) const
   {
     return this->Of.Center - this->Interfaces[number].Surface->GetMembrane().GetOrigin();
@@ -127,8 +138,6 @@ private:
   void StoreBlock(const StackBlock& block, int tile, int number, TileSum& sum);
   void StoreSights(const StackBlock& block, int tile, int number);
 
-  /** Rays through one interface. */
-  RefractedRayField Field;
   std::vector<Interface> Interfaces;
   View Of;
   int Columns = 0;

@@ -16,7 +16,7 @@ namespace meniscus
 /**
  * Data that a shader needs about one refracted leg of a pixel's ray, in two texels of integers.
  * Like the sight ray it is a line in a grid: the grid of one of the RefractionFrames instead of
- * that of the view.
+ * the view's grid.
  */
 struct RefractedRayLine
 {
@@ -48,7 +48,7 @@ struct RefractedRayLine
 };
 
 /**
- * Computes the lines of all refracted legs: for each of them, from leg 1 on, those of all pixels in
+ * Computes the lines of all refracted legs: for each leg, from leg 1 on, the lines of all pixels in
  * rows from the bottom. Replaces `lines`.
  * @pre frames.Turn()
  */

@@ -87,8 +87,8 @@ public:
     return this->Tiles[static_cast<std::size_t>(tile)];
   }
   /**
-   * Sets the squares of a tile in which a ray goes on behind the interface, and those in which the
-   * leg behind it may meet the mesh. In a new tile these are all squares.
+   * Sets the squares of a tile in which a ray goes on behind the interface, and the squares in
+   * which the leg behind it may meet the mesh. A new tile has all squares in both.
    */
   void SetSquares(int tile, TileSquares goingOn, TileSquares showing)
   {

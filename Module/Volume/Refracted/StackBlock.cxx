@@ -86,7 +86,7 @@ struct LaneKernel
  * Rays at an interface. Place and Drawn are those of the legs in front of it, and then of those
  * behind it, whose steps are in Normal.
  */
-struct PassingLegs : FreeRayBatch
+struct PassingLegs : PatchIntersectionBatch
 {
   double Place[3][Size];
   double Drawn[Size];
@@ -282,9 +282,8 @@ void StackBlock::Refract(std::size_t number, const Interface& interface)
   std::copy_n(before.Depth, Size, rays.Drawn);
   std::copy_n(lanes.Last, Size, rays.Last);
   std::copy_n(lanes.Medium, Size, rays.Medium);
-  FreeRayBatch& batch = rays;
-  meniscus::Refract(
-    FreeRays(), interface.Media.Exterior / interface.Media.Interior, this->Set, batch);
+  PatchIntersectionBatch& batch = rays;
+  meniscus::Refract(interface.Media.Exterior / interface.Media.Interior, this->Set, batch);
   RunLanes(NextKernel{ interface.Media }, this->Set, rays);
   std::copy_n(rays.Place[0], 3 * Size, behind.Place[0]);
   std::copy_n(rays.Normal[0], 3 * Size, behind.Step[0]);

@@ -26,12 +26,42 @@ AxisBox BoundPart(const TubeBounds& tube, const TubeRange& range)
   return box;
 }
 
+/** Tube around the rays of a rectangle of pixels. */
+TubeBounds BoundSight(const CornerRays& rays)
+{
+  const auto& along = rays.Directions;
+  const DirectionBox sight =
+    BoundDirections(0.25 * (along[0] + along[1] + along[2] + along[3]), along, 4, 0.0);
+  return BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
+}
+
 /** Unit vectors in a box. */
 DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
 {
   return { 0.5 * (low + high), 0.5 * (high - low) };
 }
 
+}
+
+//------------------------------------------------------------------------------
+bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
+{
+  double first = 0.0;
+  const auto constrain = [&first, &last](double offset, double rate)
+  {
+    // offset + t rate >= 0
+    first = rate > 0.0 ? std::max(first, -offset / rate) : first;
+    last = rate < 0.0 ? std::min(last, -offset / rate) : last;
+    last = rate == 0.0 && offset < 0.0 ? -1.0 : last;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    constrain(
+      tube.StartHigh[axis] + this->Half[axis] - this->Center[axis], tube.DirectionHigh[axis]);
+    constrain(
+      this->Center[axis] - tube.StartLow[axis] + this->Half[axis], -tube.DirectionLow[axis]);
+  }
+  return first <= last;
 }
 
 //------------------------------------------------------------------------------
@@ -83,13 +113,14 @@ StackVisibility::Meeting StackVisibility::Meet(const Interface& interface, const
 //------------------------------------------------------------------------------
 bool StackVisibility::MayShowMesh(const CornerRays& rays, BundleFacets& facets) const
 {
-  const auto& along = rays.Directions;
-  const DirectionBox sight =
-    BoundDirections(0.25 * (along[0] + along[1] + along[2] + along[3]), along, 4, 0.0);
-  const TubeBounds tube =
-    BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
   BundleFacets all;
-  return this->FollowLegs(0, tube, 0.0, all, facets);
+  return this->FollowLegs(0, BoundSight(rays), 0.0, all, facets);
+}
+
+//------------------------------------------------------------------------------
+bool StackVisibility::MayShowMeshUnrefracted(const CornerRays& rays) const
+{
+  return this->Mesh.Meets(BoundSight(rays));
 }
 
 //------------------------------------------------------------------------------

@@ -13,10 +13,37 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace meniscus
 {
+
+/**
+ * Factor larger than the relative change of a distance by rounding, in any view that shows a part
+ * of the ball.
+ */
+constexpr double SightMargin = 1.0 + 1e-6;
+
+/**
+ * Rays at the corners of a rectangle of pixels, in order around it; directions per unit of depth.
+ */
+struct CornerRays
+{
+  glm::dvec3 Starts[4];
+  glm::dvec3 Directions[4];
+};
+
+/** Bounds of the visible geometry. */
+struct VisibilityBounds
+{
+  /** Centre and half extents of a box along the world's axes. */
+  glm::dvec3 Center{ 0.0 };
+  glm::dvec3 Half{ 0.0 };
+
+  /** True if the box meets the tube up to the parameter `last`. */
+  bool Meets(const TubeBounds& tube, double last = std::numeric_limits<double>::infinity()) const;
+};
 
 /**
  * Finds bundles of rays that show nothing of a mesh behind the first interface of a list. The legs
@@ -29,7 +56,7 @@ class StackVisibility
 public:
   /**
    * `interfaces` must outlive this object.
-   * @param mesh bounds of the mesh, relative to `origin`; the ratio is not used.
+   * @param mesh bounds of the mesh, relative to `origin`.
    * @param origin place in world coordinates that sight rays are relative to.
    */
   StackVisibility(const std::vector<Interface>& interfaces, const VisibilityBounds& mesh,
@@ -48,6 +75,8 @@ public:
    * @param facets is set to the facets of each interface that the rays may meet.
    */
   bool MayShowMesh(const CornerRays& rays, BundleFacets& facets) const;
+  /** False if these rays, on straight ways, do not reach the bounds of the mesh. */
+  bool MayShowMeshUnrefracted(const CornerRays& rays) const;
   /**
    * The same for a part of these rays behind the first interface.
    * @param rays beginnings, and directions of unit length.

@@ -52,7 +52,7 @@ private:
   void BoundFilled(const TileCaster& caster);
 
   std::vector<float> Pixels;
-  /** Nonzero for each pixel at an edge, in this image and in the one before. */
+  /** Nonzero for each pixel at an edge, in this image and in the image before it. */
   std::vector<std::uint8_t> Edges;
   std::vector<std::uint8_t> EdgesBefore;
   std::vector<RayStatistics> OfTile;

@@ -21,7 +21,7 @@ class TilesToCast
 public:
   /**
    * Begins a frame.
-   * @param goesOn true if the frame has the image of the one before, but for depths.
+   * @param goesOn true if the frame has the image of the frame before it, but for depths.
    * @param isKept true for a tile that need not be cast again if it is done.
    */
   void Begin(int numberOfTiles, bool goesOn, const std::function<bool(int)>& isKept);

@@ -112,7 +112,7 @@ private:
   std::string UploadProperty(const VolumePropertyTables& tables);
   /** A line per pixel and refracted leg. */
   std::string UploadRefractedRays(const RayCastMembrane& membrane);
-  /** All tables but those of pre-integration and of refracted lines. */
+  /** All tables except for pre-integration and refracted lines. */
   std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);

@@ -92,7 +92,7 @@ struct PacketJob
   std::int32_t NumberOfRays;
   const PacketEntry* Entries;
   /**
-   * True if results are the model's values, to be joined with those of the other legs of the ray
+   * True if results are the model's values, to be joined with the values of the ray's other legs
    * (JoinValues()) and converted by FinishValues(): see KeptResult.
    */
   bool KeepsValues;

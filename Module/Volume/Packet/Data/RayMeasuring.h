@@ -25,8 +25,8 @@ enum class RayMeasuring
   /** Places at which something is seen, by the blend mode (RayEventKind). */
   Events,
   /**
-   * The optical depth alone, of a medium of one scalar without gradients, up to that of
-   * PacketJob::TerminationTransmittance: the first value of the result.
+   * The optical depth alone, of a medium of one scalar without gradients, up to the depth at which
+   * PacketJob::TerminationTransmittance is reached: the first value of the result.
    */
   OpticalDepth
 };

@@ -67,7 +67,7 @@ private:
 
 /**
  * Optical depth of a medium of one scalar along rays (RayMeasuring::OpticalDepth). A ray ends where
- * its transmittance is that of the job's termination. The same interface as CompositeModel.
+ * it has the job's termination transmittance. The same interface as CompositeModel.
  *
  * The sum is not compensated: N terms have an error of at most N 2^-24 of the depth, which changes
  * the transmittance by at most N 2^-24 / e: 2e-5 for 1,000 cells.

@@ -41,7 +41,7 @@ public:
 /**
  * Effects of gradients on the segments of composite blending: light that multiplies the colour,
  * light that is added to it, and a factor of the attenuation; computed at the ends of a segment and
- * linear in between. Gradients are interpolated between vertices, or those of the cells. With
+ * linear in between. Gradients are interpolated between vertices, or constant in each cell. With
  * Shadowed, the transmittances of PacketJob::VertexLight weaken the light.
  */
 template <class Simd, bool OfVertices, bool Shadowed = false>

@@ -13,13 +13,14 @@ namespace meniscus
 {
 
 /**
- * Places on rays at which something is seen (RayEventKind). The walk is that of packets; segments
- * are processed one by one in double precision (AddToEvents), and the events of a ray stand in
- * PacketJob::Events, which the caller keeps from leg to leg. The same interface as CompositeModel.
+ * Places on rays at which something is seen (RayEventKind). Packets walk as for other models, but
+ * segments are processed one by one in double precision (AddToEvents), and the events of a ray
+ * stand in PacketJob::Events, which the caller keeps from leg to leg. The same interface as
+ * CompositeModel.
  *
  * Triples: number of vectors per vertex that are interpolated, as PacketWalk gathers them:
- * gradients where the medium has those of vertices, then components. CellGradients: those of cells
- * are used. Surfaces: isosurfaces, which see the jumps of cells' scalars.
+ * gradients where the medium has gradients at vertices, then components. CellGradients: gradients
+ * of cells are used. Surfaces: isosurfaces, which see the jumps of cells' scalars.
  */
 template <class Simd, int Triples, bool CellGradients, bool Surfaces>
 class RayEventModel

@@ -79,8 +79,8 @@ struct FaceTurnTable
  *
  * Cells and faces order vertices in the same way, so the ranks of A, B and C in the face, a
  * permutation of 0, 1, 2, and the place of X in the cell give the places of A, B and C in the cell:
- * ranks from that of X on are one higher. A permutation is one number of six: 2 times the rank of
- * A, plus 1 if B is behind C.
+ * ranks from the rank of X on are one higher. A permutation is one number of six: 2 times the rank
+ * of A, plus 1 if B is behind C.
  */
 template <class Simd>
 struct FaceTurns

@@ -19,7 +19,7 @@ namespace meniscus
  *
  * A vertex has coordinates (u, v) relative to a ray: floats that are the same function of vertex
  * and ray wherever they are needed (PacketRay). The sign of an edge, which tells the side on which
- * the ray passes, is that of a cross product of these floats, which is exact (ExactEdgeTest). A ray
+ * the ray passes, is the sign of a cross product of these floats, and exact (ExactEdgeTest). A ray
  * through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e, and
  * edges whose ends coincide are ordered by vertex. Therefore every cell that is entered has exactly
  * one face by which to leave, every face and side can be reached in one way only, and a walk that
@@ -454,7 +454,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   if (this->Job.CellScalars)
   {
-    // The scalar is that of the last integrated cell.
+    // The scalar of the last integrated cell.
     const Mask known =
       SegmentsOf<Simd>(lanes, from, to, length) | Simd::AndNot(lanes, depth > this->StartDepth);
     exit.Scalar = Simd::Select(known, crossed.CellScalar, faceScalar);

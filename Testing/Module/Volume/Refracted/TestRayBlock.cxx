@@ -240,9 +240,9 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
 {
   const Sheet sheet(Waves, 3);
   Random random(5);
-  FreeRayBatch lanes;
+  PatchIntersectionBatch lanes;
   RayBlock rays;
-  for (int i = 0; i < FreeRayBatch::Size - 3; ++i)
+  for (int i = 0; i < PatchIntersectionBatch::Size - 3; ++i)
   {
     const glm::dvec3 start = random.Point(glm::dvec3(-0.4, -0.4, 1.0), glm::dvec3(0.4, 0.4, 2.0));
     const glm::dvec3 direction =
@@ -263,10 +263,10 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
     RayBlock block = rays;
     CompleteRays(set, block);
     MeetPatchReach(reach, set, block);
-    FreeRayBatch result = lanes;
+    PatchIntersectionBatch result = lanes;
     for (int i = 0; i < result.Count; ++i)
     {
-      result.Least[i] = static_cast<double>(block.Meets[i]);
+      result.Index[i] = static_cast<std::int32_t>(block.Meets[i]);
       result.Slant[i] = block.Slant[i];
       result.Depth[i] = block.Depth[i];
       result.X[i] = block.X[i];
@@ -275,18 +275,18 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
       result.PatchY[i] = block.Y[i];
       result.Behind[i] = 0.0;
     }
-    StepToPatch(patch, FreeRays(), 0.5, set, result);
+    StepToPatch(patch, 0.5, set, result);
     FindStates({ 0.1, 1e-8, 0.1 }, 0.5, set, result);
-    Refract(FreeRays(), 1.5, set, result); // some beyond the critical angle
+    Refract(1.5, set, result); // some beyond the critical angle
     return result;
   };
-  const FreeRayBatch expected = run(InstructionSet::Portable);
+  const PatchIntersectionBatch expected = run(InstructionSet::Portable);
   for (const InstructionSet set : GetInstructionSets())
   {
-    const FreeRayBatch result = run(set);
+    const PatchIntersectionBatch result = run(set);
     for (int i = 0; i < lanes.Count; ++i)
     {
-      EXPECT_EQ(result.Least[i], expected.Least[i]) << NameOf(set);
+      EXPECT_EQ(result.Index[i], expected.Index[i]) << NameOf(set);
       EXPECT_EQ(result.Slant[i], expected.Slant[i]);
       EXPECT_EQ(result.Depth[i], expected.Depth[i]);
       EXPECT_EQ(result.PatchX[i], expected.PatchX[i]);

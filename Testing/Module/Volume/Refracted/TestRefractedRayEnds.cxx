@@ -60,7 +60,12 @@ struct EndedRays
         this->Ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
         this->Wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
       }
-      this->Wrong += rayOf(all, 0).Depth != rayOf(some, 0).Depth ? 1 : 0;
+      // Only rays that do not come to the mesh straight on may miss the first interface.
+      const WorldRay sight = LegOf(legs, view, pixel % Size, pixel / Size, 0);
+      const glm::dvec3 eye = sight.Start + view.EyeDepth * sight.Direction;
+      this->Wrong +=
+        rayOf(all, 0).Depth != rayOf(some, 0).Depth && box.Meets(eye, sight.Direction, 1e30) ? 1
+                                                                                             : 0;
     }
   }
 };
