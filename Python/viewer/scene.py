@@ -133,8 +133,9 @@ class MeshScene:
             reach = numpy.maximum(abs(x) / aspect, abs(y)) / fill
             distance = max(distance, (z + reach).max())
         camera.SetPosition(position)
-        camera.Dolly(camera.GetDistance() / distance)
-        self.renderer.ResetCameraClippingRange()
+        if 0.0 < distance < math.inf:  # bounds may be too large for their differences
+            camera.Dolly(camera.GetDistance() / distance)
+            self.renderer.ResetCameraClippingRange()
 
     def _get_corners(self):
         """Corners of the mesh's bounds, from their middle."""
