@@ -260,6 +260,7 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   }
   chart->SetTitle(title);
   chart->GetTitleProperties()->SetFontSize(18);
+  chart->SetHiddenAxisBorder(40); // half of the last label of the axis below, in pixels
   SetAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x, scale);
   SetAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y, scale);
 

@@ -85,6 +85,10 @@ public:
     whole.Nodes = { this->Add({ 0.0, 0.0 }), this->Add({ 1.0, 0.0 }), this->Add({ 0.0, 1.0 }) };
     this->Result.Cells.push_back(whole);
     this->Divide(0, 0);
+    if (this->Result.Cells.size() > MostCells)
+    {
+      this->Sheet.Solver.CountUndecided(); // cells that are left whole may hide an image
+    }
     this->BoundCells();
   }
 

@@ -321,8 +321,9 @@ TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
       const glm::dvec3 eye(0.0, Layers::Height * unit, 0.0);
       for (const double shift : { 0.1, 0.37 })
       {
-        // Coordinates about the middle of the sea leave few digits at its rim.
-        if (half * shift > 2e5)
+        // Coordinates about the middle of the sea leave few digits at its rim: told, not right.
+        const bool isTold = half * shift > 2e5;
+        if (isTold && unit != 1.0)
         {
           continue;
         }
@@ -337,6 +338,11 @@ TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
         object.AddQuad({ -0.6 * unit, -Layers::Floor * unit, -0.5 * unit }, { unit, 0.0, 0.0 },
           { 0.0, 0.0, unit });
         object.Map(solver, tolerance);
+        if (isTold)
+        {
+          EXPECT_GT(solver.GetNumberOfUndecidedSearches(), 0);
+          continue;
+        }
         EXPECT_NEAR(GetSeenArea(object, eye, unit), area, largest)
           << "half width " << half << " in units of " << unit << ", shift " << shift;
         ExpectExactPoints(solver, object, 1e-8 * unit);
