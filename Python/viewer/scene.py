@@ -90,6 +90,7 @@ class MeshScene:
     def _add_bar(self):
         self._turns, self._reset_at = 1, None  # of reset_camera()
         self.bar = vtkScalarBarActor()
+        self.bar.SetLabelFormat("%.3g")
         self.bar.SetMaximumWidthInPixels(90)
         self.renderer.AddObserver("StartEvent", lambda *_: self._fit_to_window())
         self.bar.SetHeight(0.8)
