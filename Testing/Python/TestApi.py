@@ -239,7 +239,7 @@ class TestRays(unittest.TestCase):
         # In a mesh with a linear index: a tilt.
         path = meniscus.schlieren(self.block, "density", "optical_path_difference", size=(40, 40),
                                   direction=(0, -1, 0), up=(0, 0, 1), GladstoneDale=1e-4)
-        path[path == 0.0] = numpy.nan  # beside the mesh
+        path[path == 0.0] = numpy.nan  # rays that miss the mesh
         tilt = meniscus.zernike(path, 6)
         self.assertGreater(abs(tilt[2]), 1e-6)
         self.assertLess(abs(tilt[3:]).max(), 1e-3 * abs(tilt[2]))

@@ -231,7 +231,7 @@ def draw_mirage(_, size):
     haze = numpy.clip((x - 150.0) / 1500.0, 0.0, 0.6)
     picture = numpy.where(ground[..., None], mix(paint_ground(x, y), (0.80, 0.82, 0.84), haze),
                           picture)
-    # The car covers what is behind it, except where its rays meet the road first.
+    # A pixel shows the car if its ray meets the car before the road.
     seen, colors = make_car().see(until)
     seen &= ~until.meet_ground()[0]
     picture = numpy.where(seen[..., None], colors, picture)

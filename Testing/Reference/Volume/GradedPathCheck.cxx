@@ -265,7 +265,7 @@ GradedPathCheck::Cell GradedPathCheck::MakeCell(std::size_t number) const
       widest = Length(normal);
       cell.Normal = Unit(normal);
     }
-    // As flat as can be told in double precision (GradedCell.h).
+    // The limit of GradedCell.h: a smaller volume may be the rounding error of a flat cell.
     cell.IsFlat = cell.IsFlat || std::abs(volume) <= 0x1p-49L * longest * longest * longest;
     cell.Gradients[i] = Sum(Vector{}, 1.0L / volume, normal);
     cell.Steepness[i] = Length(cell.Gradients[i]);

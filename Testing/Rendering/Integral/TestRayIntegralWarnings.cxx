@@ -262,7 +262,7 @@ TEST(MeshWarnings, SurfacesThatTurnTheirBackToTheRays)
   }
 }
 
-/** Scalars that 32-bit floats do not hold are told, with the cure; others are integrated. */
+/** Scalars that 32-bit floats cannot represent cause a warning with the cure. */
 TEST(MeshWarnings, ScalarsThatFloatsDoNotHold)
 {
   struct Scalars

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the thesis says of its figures and of its choices, besides the tables.
+// The thesis's statements about its figures and about its choices of parameters; its tables have
+// tests of their own.
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/Optics.h"

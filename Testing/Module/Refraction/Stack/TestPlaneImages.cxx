@@ -122,9 +122,10 @@ double BisectTangent(const std::vector<PlaneLayer>& layers, double depth, double
 }
 
 //------------------------------------------------------------------------------
-// Points lie behind, between, on and in front of the planes, beside their borders, and one has NaN
-// coordinates. Solved alone, a point converges to 1e-12 of a facet, which is 133 long; its cosine
-// belongs to the place before the last step, which is at most 1e-5 of a facet long.
+// Some points lie behind all planes, some between them, on them, in front of them or outside of
+// their borders; one has NaN coordinates. Solved alone, a point converges to 1e-12 of a facet,
+// which is 133 long; its cosine belongs to the place before the last step, which is at most 1e-5 of
+// a facet long.
 TEST(RefractionStackPlanes, ImagesOfManyPointsAreThoseOfPointsAlone)
 {
   constexpr double tolerance = 1e-10 * 100.0;

@@ -291,8 +291,9 @@ double GetSeenArea(const Object& object, const glm::dvec3& eye, double unit)
 }
 
 //------------------------------------------------------------------------------
-// Of a sea of two facets any size, the eye sees the floor in a small part through a window. The
-// scene has any unit of length. The sides of the image are off by the tolerance at most, each way.
+// The sea is a square of two facets, up to 2e6 wide. The eye sees the floor through a window,
+// in a small part of the sea. The scene is repeated in other units of length. The sides of the
+// image are off by the tolerance at most, each way.
 TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
 {
   constexpr double tolerance = 1e-4;
