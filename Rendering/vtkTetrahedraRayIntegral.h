@@ -147,7 +147,7 @@ public:
    *
    * The output has this extent. In the modes FITTED and PARALLEL its origin, spacing and direction
    * put its points to the centres of the rectangle's parts; the product of the first two spacings
-   * is a pixel's area. In the mode CAMERA origin and spacing are those of pixels, 0 and 1.
+   * is a pixel's area. In the mode CAMERA the unit is a pixel: the origin is 0, the spacing 1.
    */
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);

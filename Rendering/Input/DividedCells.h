@@ -90,7 +90,7 @@ public:
    * always edges that just keep them.
    */
   bool Holds(const DivisionRequest& request, const RangeLoop& loop) const;
-  /** Positions of all points, for other positions of those of the input. */
+  /** Positions of all points of the pieces, after the input's points have moved. */
   std::vector<double> ComputePositions(const InputBlocks& input, const RangeLoop& loop) const;
 
   const WeightedPoints& GetPoints() const { return this->Division.GetPoints(); }

@@ -27,7 +27,7 @@ class vtkImageData;
 namespace meniscus
 {
 
-/** Names of the events, with which those of their arrays begin. */
+/** Names of the events; the names of their arrays begin with them. */
 constexpr const char* EventNames[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
   "LargestContribution" };
 

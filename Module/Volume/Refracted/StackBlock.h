@@ -103,7 +103,7 @@ struct StackBlock
   /**
    * Sets the lanes to the rays that may meet interface `number`, from the depth `first` on; there
    * are no lanes if there is no such ray. IsMismatched is set in any case.
-   * @param toSurface the view's origin, from that of the surface.
+   * @param toSurface the view's origin relative to the surface's origin.
    */
   void SetLanes(
     std::size_t number, const Interface& interface, const glm::dvec3& toSurface, double first);
