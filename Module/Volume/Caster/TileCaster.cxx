@@ -25,8 +25,7 @@ bool IsOfBins(RayMeasuring measuring)
 RayEventState FirstState(const TileCaster::Scene& scene)
 {
   RayEventState state = EmptyRayEvents();
-  const bool areApart =
-    GetBlendModel(scene.Blending).HidesBehind() || scene.Blending == BlendMode::Additive;
+  const bool areApart = GetBlendModel(scene.Blending).AccumulatesOpacity();
   for (int kind = 0; areApart && kind < NumberOfRayEvents; ++kind)
   {
     if ((scene.WantedEvents >> kind & 1u) == 0)
