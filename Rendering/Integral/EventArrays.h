@@ -45,7 +45,7 @@ struct EventChoice
   bool HasSurfaces() const { return this->Blending == BlendMode::Isosurfaces; }
   /** True if events depend on a volume property. */
   bool NeedsProperty() const;
-  /** 32-bit numbers per pixel of all arrays. */
+  /** Size of all arrays per pixel, in numbers of 32 bits. */
   std::int64_t GetNumbersPerPixel() const;
 };
 
