@@ -85,8 +85,8 @@
  *   membrane overhangs in this direction (ALL_IMAGES, geometry on both sides), it may be wrong.
  * @note Between the rays of the vertices FLAT_FACETS interpolates linearly. The error is of second
  *   order in the size of the facets; Documentation/refraction-measurements.md has measurements.
- * Cells of neighbouring facets may overlap or leave thin gaps, and zones of convergence show the
- * first image only.
+ *   Cells of neighbouring facets may overlap or leave thin gaps, and zones of convergence show the
+ *   first image only.
  * @note Normals of the input are passed unchanged, although the virtual surface has other ones,
  *   unless VirtualNormals is on.
  *

@@ -157,7 +157,7 @@ public:
   enum
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
+    ADAPTIVE_DIVISION = 1 ///< into tetrahedra that follow its shape functions
   };
 
   /** @{ */
