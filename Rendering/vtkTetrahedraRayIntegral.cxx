@@ -22,7 +22,6 @@
 #include "vtkVolumeProperty.h"
 #include <vtksys/SystemInformation.hxx>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>

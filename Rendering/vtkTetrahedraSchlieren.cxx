@@ -31,7 +31,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>

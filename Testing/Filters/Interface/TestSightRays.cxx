@@ -25,7 +25,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>

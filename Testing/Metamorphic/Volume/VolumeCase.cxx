@@ -15,7 +15,6 @@
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkVolumeMapper.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>

@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;

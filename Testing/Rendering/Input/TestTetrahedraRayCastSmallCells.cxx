@@ -17,9 +17,7 @@
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
