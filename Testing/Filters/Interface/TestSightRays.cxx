@@ -89,13 +89,6 @@ vtkSmartPointer<Filter> MakePaneFilter(vtkPointSet* seen)
   return filter;
 }
 
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
 double ValueOf(vtkDataSetAttributes* data, const char* name, vtkIdType i)
 {
   return data->GetArray(name)->GetTuple1(i);
