@@ -72,9 +72,9 @@
  * Requires OpenGL 3.2; the native backend casts rays on the CPU and uses OpenGL only to show the
  * image. Tables are built only when their input changes: see the counters.
  *
- * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
- *   composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device,
- *   tables within GL_MAX_TEXTURE_BUFFER_SIZE. All backends draw the same image.
+ * @note Limits: 32 clipping planes; 16 lights; several components with composite blending of
+ *   point data only; fewer than 2^29 tetrahedra; on the graphics device, tables within
+ *   GL_MAX_TEXTURE_BUFFER_SIZE.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -563,9 +563,8 @@ public:
    * A frame that differs from the last one neither in camera, mesh, scalars, property, lights,
    * clipping planes, membrane, settings nor in the depths of opaque geometry casts no rays and
    * shows the last image again. If only depths differ, the native backend casts the tiles of 32 x
-   * 32 pixels in which they do, the others the whole image. The OpenGL backends recognise the
-   * second repetition of a frame, because the first reads the depths. Modified() makes the next
-   * frame be cast.
+   * 32 pixels in which they do, the others the whole image. OpenGL backends need two repetitions.
+   * Modified() makes the next frame be cast.
    */
   vtkTable* GetStatistics();
   double GetStatistic(const char* name);
