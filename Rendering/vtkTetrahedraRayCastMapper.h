@@ -245,8 +245,7 @@ public:
    * between neighbours. Cells are divided when the mesh is built, and again only if moved points,
    * other scalars or another property exceed twice the error; otherwise the values of the new
    * points are interpolated. Lagrange and Bezier cells above order 1 have no fixed division: if
-   * there are any, cells above order 1 are divided adaptively in any case. See
-   * Documentation/true-cells.md.
+   * there are any, all cells above order 1 are divided adaptively. See Documentation/true-cells.md.
    */
   virtual void SetCellDivision(int division);
   vtkGetMacro(CellDivision, int);
@@ -415,7 +414,7 @@ public:
    * the N - 1 blends loses half a step on average, for which a bias of (N - 1) / (2 N) in every
    * image compensates. With a bias greater than 0, no colour exceeds the opacity in any pixel of
    * the framebuffer, so that sums do not exceed 255; brighter highlights of lit volumes are limited
-   * to that. In [0, 0.5]; default is 0: the image is not changed.
+   * to that. In [0, 0.5]. Default is 0.
    */
   virtual void SetColorBias(double bias);
   vtkGetMacro(ColorBias, double);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Caster/RefractedLegEntries.h"
 
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <limits>
 

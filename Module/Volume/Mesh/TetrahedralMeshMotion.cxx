@@ -8,16 +8,13 @@
 #include "Volume/Mesh/PointBox.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace meniscus

@@ -4,8 +4,6 @@
 
 #include "Common/BlockLoop.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "Volume/Rays/ProjectedFaces.h"
 #include "Volume/Packet/Data/PacketRays.h"
 
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
