@@ -31,7 +31,7 @@ public:
     bool IsJump = false;
   };
 
-  /** @param scalar not less than that of the last call. */
+  /** @param scalar not less than in the last call. */
   Limits Read(double scalar)
   {
     const std::size_t size = this->Points.size();

@@ -261,7 +261,7 @@ void RefractedLegEntries::Collect(
 }
 
 //------------------------------------------------------------------------------
-/** Sets the entries of the workspace to those of a group's lines. */
+/** Sets the entries of the workspace to the entries of a group's lines. */
 void RefractedLegEntries::FindEntries(
   int frame, const Workspace::Group& group, Workspace& workspace) const
 {

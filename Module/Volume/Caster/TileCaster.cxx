@@ -188,7 +188,7 @@ void TileCaster::Show(
 }
 
 //------------------------------------------------------------------------------
-/** Joins the measurement of a ray of a batch to those of the legs in front of it. */
+/** Joins the measurement of a ray of a batch to the measurements of the legs in front of it. */
 template <class Entries>
 void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& leg,
   const LegBatch& batch, std::size_t ray, Workspace& workspace) const

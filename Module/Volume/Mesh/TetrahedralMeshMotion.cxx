@@ -168,7 +168,7 @@ void TetrahedralMesh::MeasureCells(
 }
 
 //------------------------------------------------------------------------------
-/** Adds the volumes of measured cells to those of the cells before them. */
+/** Adds the volumes of measured cells to the volumes of the cells before them. */
 void TetrahedralMesh::AddVolumes(const CellMeasures& cells, std::size_t first,
   std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const
 {
