@@ -25,7 +25,6 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {

@@ -85,7 +85,7 @@ void ExtendArrays(
 }
 
 //------------------------------------------------------------------------------
-// The grid with hidden cells. The first points of these are those of the surface.
+// The grid with hidden cells. Its first points are the surface's.
 void AppendHidden(vtkUnstructuredGrid* grid, const meniscus::TriangleSurface& surface,
   const meniscus::TetrahedronCells& hidden, vtkUnstructuredGrid* output)
 {

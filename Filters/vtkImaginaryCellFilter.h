@@ -38,7 +38,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
-  /** Set/Get the time in seconds after which TetGen is ended, with an error. Default is 300. */
+  /** Set/Get the seconds, > 0, after which TetGen is ended, with an error. Default is 300. */
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   /** @} */

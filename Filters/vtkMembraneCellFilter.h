@@ -49,7 +49,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
-  /** Set/Get the eye in world coordinates. Must be finite. Default is (0, 0, 1). */
+  /** Set/Get the eye in world coordinates, finite. Default is (0, 0, 1). */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
   /** @} */

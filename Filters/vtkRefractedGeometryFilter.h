@@ -85,8 +85,8 @@
  *   membrane overhangs in this direction (ALL_IMAGES, geometry on both sides), it may be wrong.
  * @note Between the rays of the vertices FLAT_FACETS interpolates linearly. The error is of second
  *   order in the size of the facets; Documentation/refraction-measurements.md has measurements.
- * Cells of neighbouring facets may overlap or leave thin gaps, and zones of convergence show the
- * first image only.
+ *   Cells of neighbouring facets may overlap or leave thin gaps, and zones of convergence show the
+ *   first image only.
  * @note Normals of the input are passed unchanged, although the virtual surface has other ones,
  *   unless VirtualNormals is on.
  *
@@ -253,11 +253,11 @@ public:
    * an eye between interfaces looks through the interfaces behind it. Interfaces with equal indices
    * are left out. MembraneModel must be CURVED, and the light of VirtualNormals at the eye;
    * ViewCulling has no effect. With ALL_IMAGES, the part of a cell in front of all interfaces is
-   * limited to what is seen through the first one. RefractionDepth is the sum of the legs behind
-   * the first sight point. Point arrays added: `LegLengths` (a length behind each refracting
-   * interface), `LastSightPoint` (3 doubles, world), `Transmittance` (share of unpolarised light,
-   * with the reflections between the interfaces as parallel plates have them) and
-   * `InnerReflectance` (1 minus Transmittance / (1 - Reflectance)).
+   * drawn only where the sight rays through it go on to the first interface. RefractionDepth is the
+   * sum of the legs behind the first sight point. Point arrays added: `LegLengths` (a length behind
+   * each refracting interface), `LastSightPoint` (3 doubles, world), `Transmittance` (share of
+   * unpolarised light, with the reflections between the interfaces as parallel plates have them)
+   * and `InnerReflectance` (1 minus Transmittance / (1 - Reflectance)).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

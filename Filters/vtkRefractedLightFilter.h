@@ -33,7 +33,8 @@
  *
  * @note Objects cast no shadows, except on themselves if OneSided is on.
  * @note The irradiance is constant in a cell: smaller details are not resolved.
- * @note A light at infinity is approximated by one at ten thousand times the scene's size.
+ * @note A light at infinity is approximated by a light at a distance of ten thousand times the
+ *   scene's size.
  *
  * @sa vtkRefractedGeometryFilter
  */

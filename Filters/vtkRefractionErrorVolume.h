@@ -28,8 +28,8 @@
  *   NO_EXACT_POINT (the sight ray misses the exact surface or is totally reflected), NOT_FINITE
  *   (coordinates out of range);
  * - `ErrorColor` (3 unsigned char): the thesis's colours, green below the first of ColorLimits,
- * blue below the second, red below the third and white above, darker for smaller errors of the same
- *   colour; black if not measured;
+ *   blue below the second, red below the third and white above, darker for smaller errors of the
+ *   same colour; black if not measured;
  * - `AngularError` (1 double, degrees), with AngularErrorsOn(): angle at the eye between the places
  *   where the sample is drawn and where it would be seen; NaN if there is no such place nearby.
  *

@@ -23,7 +23,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <vector>
 
 vtkStandardNewMacro(vtkSightRayFilter);
 

@@ -21,8 +21,8 @@
  * surface must have triangles that are small against its curvature and its thickness: each must be
  * a face of a Delaunay cell, or the filter reports an error.
  *
- * Both kinds of cells are checked before they are returned: all are positive, and their volume
- * equals the volume inside of the surface.
+ * The cells of both meshers are checked before they are returned: each has a positive volume, and
+ * their sum equals the volume inside of the surface.
  *
  * Numerical point arrays are passed on. At points that were added on the surface, they are
  * interpolated in the triangle; inside they are continued harmonically, so that a linear field
@@ -76,15 +76,18 @@ public:
   /** @{ */
   /**
    * Set/Get the bound of the ratio of circumscribed radius to shortest edge of a cell, for TETGEN.
-   * At least 1; TetGen reaches 2 in theory, about 1.2 in practice, with the more cells the smaller
-   * it is. A regular tetrahedron has 0.61. Default is 2.
+   * At least 1; TetGen reaches 2 in theory and about 1.2 in practice; smaller bounds take more
+   * cells. A regular tetrahedron has 0.61. Default is 2.
    */
   vtkSetMacro(MaximumRadiusEdgeRatio, double);
   vtkGetMacro(MaximumRadiusEdgeRatio, double);
   /** @} */
 
   /** @{ */
-  /** Set/Get the largest volume of a cell, for TETGEN. 0, the default, stands for no limit. */
+  /**
+   * Set/Get the largest volume of a cell, in the cube of the input's unit of length, for TETGEN. 0,
+   * the default, stands for no limit; negative numbers are an error.
+   */
   vtkSetMacro(MaximumVolume, double);
   vtkGetMacro(MaximumVolume, double);
   /** @} */
@@ -101,7 +104,7 @@ public:
   /** @} */
 
   /** @{ */
-  /** Set/Get the time in seconds after which TetGen is ended, with an error. Default is 300. */
+  /** Set/Get the seconds, > 0, after which TetGen is ended, with an error. Default is 300. */
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   /** @} */

@@ -35,7 +35,7 @@ class Comparison(NamedTuple):
 
     name: "meniscus", "projected tetrahedra", "ray cast" or "z sweep". milliseconds: median time of
     a frame from a new view. first_milliseconds: time of the first frame, with the mapper's set-up.
-    rms: root mean square difference of the picture from that of meniscus, in levels of 0 to 255, in
+    rms: root mean square difference of the picture from meniscus's, in levels of 0 to 255, in
     the pixels in which one of them shows the mesh.
     """
 

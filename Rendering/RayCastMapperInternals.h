@@ -50,7 +50,7 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
-  /** Fallbacks that were reported: names of the backends that refused and of the one that drew. */
+  /** Fallbacks that were reported: the backends that refused, and the backend that drew instead. */
   std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;
   /** Matrix of the last frame, for positions given in world coordinates. */

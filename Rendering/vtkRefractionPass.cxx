@@ -101,7 +101,7 @@ vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) 
 }
 
 //------------------------------------------------------------------------------
-/** Activates the tables of an object instead of those of another one; null for none. */
+/** Activates the tables of an object in place of another object's; null for none. */
 void vtkRefractionPass::vtkInternals::ActivateTables(
   meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces)
 {

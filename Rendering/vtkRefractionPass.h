@@ -212,8 +212,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the colour that the medium scatters towards the eye, in red, green and blue: that of an
-   * object at a large distance. Default is (0, 0, 0): objects fade to black.
+   * Set/Get the colour that the medium scatters towards the eye: red, green and blue, each from 0
+   * to 1. Objects at a large distance have this colour. Default is (0, 0, 0): objects fade to
+   * black.
    */
   vtkSetVector3Macro(MediumColor, double);
   vtkGetVector3Macro(MediumColor, double);
@@ -242,10 +243,10 @@ public:
    * is exact for a light at the eye with VirtualNormals of the filter, and no more than plausible
    * for others.
    *
-   * TRUE_SPACE lights each fragment at its true position, with its true normal (or that of its
+   * TRUE_SPACE lights each fragment at its true position, with its true normal (the normal of its
    * facet, if the object has no point normals) and the direction back along the refracted ray to
    * its sight point. TrueGeometry of the filter must be on; otherwise there is an error, and the
-   * object is lit in virtual space. The lights are those of the renderer, up to 16: directional,
+   * object is lit in virtual space. The renderer's lights are used, up to 16: directional,
    * positional and spot, with VTK's falloff and Phong's model, on both sides of a surface. Lights
    * behind the membrane shine straight. The plane that fits the membrane's points best decides on
    * which side a light is. Lights on it (within rounding), or along it at infinity, are left out,
@@ -254,9 +255,9 @@ public:
    * The rays of lights in front of a flat membrane are refracted by Snell's law, and have the flux
    * that it transmits: Fresnel's loss and the change of a beam's width. Of a light at infinity at
    * the angle of incidence i, the share (1 - F) cos i / cos r arrives across the refracted rays,
-   * which have the angle r. Behind several flat interfaces, F is that of all of them, and lights
-   * are refracted as if the media between were not there, which is exact for parallel planes and
-   * lights at infinity.
+   * which have the angle r. Behind several flat interfaces, F is the reflectance of all of them,
+   * and lights are refracted as if the media between were not there, which is exact for parallel
+   * planes and lights at infinity.
    *
    * Through a membrane that is not flat, or a list with such a surface, a vtkRefractedLightFilter
    * computes the light of scene lights in front of it on each object: the pattern of waves, with

@@ -7,21 +7,21 @@
  * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
- * Input: a vtkUnstructuredGrid, structured, rectilinear or image grid, or a composite data set of
- * such (whose leaves make one mesh, so that they may interlock; leaves without the array are left
- * out with a warning) with a point or cell array, chosen by the scalar mode and array selection of
- * vtkAbstractVolumeMapper. Of several components, SetVectorMode() or the colour function chooses
- * one or the length; or two to four are mixed as described below. Point data is linear within each
- * tetrahedron, cell data constant within each cell. Tetrahedra are drawn directly; voxels,
- * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells are split into tetrahedra that
- * have the same points and match across shared faces. With SetCellDivision() they are divided until
- * the tetrahedra follow the cells' shape functions, also of Lagrange and Bezier cells. Other cells
- * are left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with
- * inverted cells, cells of zero volume, duplicate points and faces of more than two cells. Cells
- * that vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of
- * range, a repeated point, a point that is not finite, a number of points that their type does not
- * have, or faces that are incomplete are left out and counted. Cells with a scalar that is not
- * finite, of their own or of a vertex, are transparent and counted.
+ * Input: a vtkUnstructuredGrid, structured, rectilinear or image grid, or a composite data set
+ * whose leaves make one mesh and may interlock; leaves without the array are left out with a
+ * warning. The scalar mode and array selection of vtkAbstractVolumeMapper choose a point or cell
+ * array. SetVectorMode() or the colour function chooses one of several components or their length,
+ * or two to four are mixed as described below. Point data is linear within each tetrahedron, cell
+ * data constant within each cell. Tetrahedra are drawn directly; voxels, hexahedra, wedges,
+ * pyramids, prisms, polyhedra and quadratic cells are split into tetrahedra that have the same
+ * points and match across shared faces. With SetCellDivision() they are divided until the
+ * tetrahedra follow the cells' shape functions, also of Lagrange and Bezier cells. Other cells are
+ * left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with inverted
+ * cells, cells of zero volume, duplicate points and faces of more than two cells. Cells that
+ * vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of range, a
+ * repeated point, a point that is not finite, a number of points that their type does not have, or
+ * faces that are incomplete are left out and counted. Cells with a scalar that is not finite, their
+ * own or a vertex's, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
@@ -72,9 +72,9 @@
  * Requires OpenGL 3.2; the native backend casts rays on the CPU and uses OpenGL only to show the
  * image. Tables are built only when their input changes: see the counters.
  *
- * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
- *   composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device,
- *   tables within GL_MAX_TEXTURE_BUFFER_SIZE. All backends draw the same image.
+ * @note Limits: 32 clipping planes; 16 lights; several components with composite blending of
+ *   point data only; fewer than 2^29 tetrahedra; on the graphics device, tables within
+ *   GL_MAX_TEXTURE_BUFFER_SIZE.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -121,9 +121,7 @@ public:
 
   using vtkUnstructuredGridVolumeMapper::SetInputData;
   /** @{ */
-  /**
-   * Set the input without a pipeline: a data set with three-dimensional cells, or a composite one.
-   */
+  /** Set the input without a pipeline: a data set with three-dimensional cells, or a composite. */
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
   /** @} */
@@ -143,8 +141,8 @@ public:
    * membrane is taken as virtual geometry, see SetInterfaces(). A membrane that is itself drawn
    * opaque occludes everything behind it.
    *
-   * The bounds of the mapper include the membrane's, where the volume is seen. A membrane
-   * that cannot be used is an error, and nothing is rendered.
+   * The mapper's bounds include the membrane's, where the volume is seen. A membrane that cannot be
+   * used is an error, and nothing is rendered.
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
@@ -235,7 +233,7 @@ public:
   enum
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
+    ADAPTIVE_DIVISION = 1 ///< into tetrahedra that follow its shape functions
   };
 
   /** @{ */
@@ -247,8 +245,7 @@ public:
    * between neighbours. Cells are divided when the mesh is built, and again only if moved points,
    * other scalars or another property exceed twice the error; otherwise the values of the new
    * points are interpolated. Lagrange and Bezier cells above order 1 have no fixed division: if
-   * there are any, cells above order 1 are divided adaptively in any case. See
-   * Documentation/true-cells.md.
+   * there are any, all cells above order 1 are divided adaptively. See Documentation/true-cells.md.
    */
   virtual void SetCellDivision(int division);
   vtkGetMacro(CellDivision, int);
@@ -258,7 +255,7 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest error of the picture in the edges
+   * Set/Get the tolerance of ADAPTIVE_DIVISION, > 0: the largest error of the picture along edges
    * of the tetrahedra, as a fraction of full colour or opacity. Differences of the scalar are seen
    * through the volume's property: for a medium, relative to its density, or to one optical depth
    * per length of the mesh's diagonal if that is more. With several components that are mixed they
@@ -312,7 +309,7 @@ public:
     OPENGL = 1,
     NATIVE = 2,
     COMPUTE = 3,
-    REGISTERED = 4 ///< one registered from outside; of GetActiveBackend() only
+    REGISTERED = 4 ///< registered from outside; a value of GetActiveBackend() only
   };
 
   /** @{ */
@@ -334,8 +331,9 @@ public:
 
   /** @{ */
   /**
-   * Name of the backend to use in place of SetBackend(): "OpenGL", "Compute", "Native", or one
-   * registered from outside, otherwise AUTOMATIC draws after a warning. Empty, the default: none.
+   * Set/Get the name of the backend to use in place of SetBackend(): "OpenGL", "Compute", "Native"
+   * or a registered name; others warn and draw as AUTOMATIC. Empty, the default: SetBackend()
+   * decides.
    */
   vtkSetStdStringFromCharMacro(BackendName);
   vtkGetCharFromStdStringMacro(BackendName);
@@ -416,7 +414,7 @@ public:
    * the N - 1 blends loses half a step on average, for which a bias of (N - 1) / (2 N) in every
    * image compensates. With a bias greater than 0, no colour exceeds the opacity in any pixel of
    * the framebuffer, so that sums do not exceed 255; brighter highlights of lit volumes are limited
-   * to that. In [0, 0.5]; default is 0: the image is not changed.
+   * to that. In [0, 0.5]. Default is 0.
    */
   virtual void SetColorBias(double bias);
   vtkGetMacro(ColorBias, double);
@@ -564,20 +562,19 @@ public:
    * A frame that differs from the last one neither in camera, mesh, scalars, property, lights,
    * clipping planes, membrane, settings nor in the depths of opaque geometry casts no rays and
    * shows the last image again. If only depths differ, the native backend casts the tiles of 32 x
-   * 32 pixels in which they do, the others the whole image. The OpenGL backends recognise the
-   * second repetition of a frame, because the first reads the depths. Modified() makes the next
-   * frame be cast.
+   * 32 pixels in which they do, the others the whole image. OpenGL backends need two repetitions.
+   * Modified() makes the next frame be cast.
    */
   vtkTable* GetStatistics();
   double GetStatistic(const char* name);
   /** @} */
 
   /**
-   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, draws
-   * the prop's id wherever the volume is visible. Input that cannot be drawn causes an error and
-   * leaves the image unchanged. While the tables of a mesh are built, ProgressEvent is invoked;
-   * AbortExecuteOn(), called by an observer, or the window's abort status ends the build. In that
-   * case nothing is drawn, and the next call begins again.
+   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
+   * prop's id wherever the volume is visible. Input that cannot be drawn causes an error and leaves
+   * the image unchanged. While the tables of a mesh are built, ProgressEvent is invoked; an
+   * observer's AbortExecuteOn() or the window's abort status ends the build: nothing is drawn, and
+   * the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 

@@ -22,7 +22,6 @@
 #include "vtkVolumeProperty.h"
 #include <vtksys/SystemInformation.hxx>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -77,7 +76,7 @@ meniscus::InputReport CollectNamed(
   }
   selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
   const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
-  // If there is no such array of cells, the error about that of points says more.
+  // If there is no such array of cells, the error about the array of points says more.
   return ofCells.Error.empty() ? ofCells : ofPoints;
 }
 
@@ -112,7 +111,7 @@ meniscus::InputReport FindScalars(
 }
 
 /**
- * Sets the number of energy bins to that of the attenuation's components. Returns an error if
+ * Sets the number of energy bins to the number of the attenuation's components. Returns an error if
  * another number is wanted, or the attenuation is not in the scalars' data sets.
  */
 std::string CountBins(

@@ -147,7 +147,7 @@ public:
    *
    * The output has this extent. In the modes FITTED and PARALLEL its origin, spacing and direction
    * put its points to the centres of the rectangle's parts; the product of the first two spacings
-   * is a pixel's area. In the mode CAMERA origin and spacing are those of pixels, 0 and 1.
+   * is a pixel's area. In the mode CAMERA the unit is a pixel: the origin is 0, the spacing 1.
    */
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);
@@ -157,7 +157,7 @@ public:
   enum
   {
     FIXED_DIVISION = 0,   ///< into tetrahedra between the points of the cell
-    ADAPTIVE_DIVISION = 1 ///< into as many as its shape functions take, within a tolerance
+    ADAPTIVE_DIVISION = 1 ///< into tetrahedra that follow its shape functions
   };
 
   /** @{ */

@@ -31,7 +31,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@
 namespace
 {
 
-/** Shares of the progress that the medium and the rays take; the rest is that of the images. */
+/** Shares of the progress that the medium and the rays take; the images take the rest. */
 constexpr double ShareOfMedium = 0.3;
 constexpr double ShareOfRays = 0.6;
 /** Rows of the image that are cast between two reports of the progress. */
@@ -406,7 +405,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   const auto height = static_cast<std::size_t>(this->ImageSize[1]);
   internals.Rays.assign(width * height, {});
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
-  // Rays that go on at the same time are those of a block of pixels, which are in the same cells.
+  // The rays of a block of pixels, which are in the same cells, go on at the same time.
   const auto castBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
     std::vector<meniscus::GradedRay> ofBlock;

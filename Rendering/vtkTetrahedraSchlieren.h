@@ -19,11 +19,11 @@
  * output has ImageSize points, one per pixel, and these point arrays of 32-bit floats. Brackets
  * name the values of rays that miss the mesh or were stopped in it:
  * - `Deflection`, 2 components: change of the slope of the ray, tangents along the image's axes
- * [0];
+ *   [0];
  * - `OpticalPathDifference`: integral of n - ReferenceIndex along the ray, a length [0];
- * - `Shadowgraph`: irradiance on a screen ScreenDistance behind the mesh, relative to that without
- *   a medium. Light that reaches a pixel on several ways adds up, as in caustics; light of stopped
- *   rays is missing;
+ * - `Shadowgraph`: irradiance on a screen ScreenDistance behind the mesh, over the irradiance
+ *   without a medium. Light that reaches a pixel on several ways adds up, as in caustics; light of
+ *   stopped rays is missing;
  * - `Schlieren`: share of the light that passes a knife edge, from 0 to 1 [1 - KnifeCutOff];
  * - `Interferogram`: intensity of the light superposed with a plane reference wave, from 0 to 1;
  * - `Displacement`, 2 components: shift of a background BackgroundDistance behind the mesh as seen
@@ -148,7 +148,7 @@ public:
   /** @} */
 
   /** @{ */
-  /** Set/Get the distance of the shadowgraph's screen behind the mesh. Default is 1. */
+  /** Set/Get the distance of the shadowgraph's screen behind the mesh, a length. Default is 1. */
   vtkSetMacro(ScreenDistance, double);
   vtkGetMacro(ScreenDistance, double);
   /** @} */
@@ -173,9 +173,10 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the deflection that changes the light at the knife from none to all: width of the light
-   * source's image over the focal length of the schlieren head, >= 0. With 0, the default, it is
-   * twice the largest deflection towards or away from the knife in the image.
+   * Set/Get the difference in deflection, as a slope, between rays that are wholly cut off and rays
+   * that wholly pass: width of the light source's image over the focal length of the schlieren
+   * head, >= 0. With 0, the default, it is twice the largest deflection towards or away from the
+   * knife in the image.
    */
   virtual void SetKnifeRange(double range);
   vtkGetMacro(KnifeRange, double);
@@ -197,7 +198,7 @@ public:
   /** @} */
 
   /** @{ */
-  /** Set/Get the distance of the background behind the mesh. Default is 1. */
+  /** Set/Get the distance of the background behind the mesh, a length. Default is 1. */
   vtkSetMacro(BackgroundDistance, double);
   vtkGetMacro(BackgroundDistance, double);
   /** @} */

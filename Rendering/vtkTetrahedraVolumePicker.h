@@ -81,8 +81,8 @@ public:
 
   /** @{ */
   /**
-   * If on, the ray ends at the opaque geometry of the last frame, whose depth is read from the
-   * window; without a frame it has no effect. Default is off.
+   * Set/Get whether the ray ends at the opaque geometry of the last frame, whose depth is read from
+   * the window; without a frame this has no effect. Default is off.
    */
   vtkSetMacro(UseOpaqueDepth, vtkTypeBool);
   vtkGetMacro(UseOpaqueDepth, vtkTypeBool);

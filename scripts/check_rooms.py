@@ -2,10 +2,11 @@
 """usage: scripts/check_rooms.py [ROOT]
 
 Checks the includes between the folders of the library against the table of ARCHITECTURE.md. Each
-row of the table names a folder, its subject and the folders that its files may include; a folder
-may only name folders of rows above its own, so that no arrow points up and no circle is possible.
-Prints each include that the table does not allow, each folder without a row and each allowed arrow
-that no file uses; exits with 1 if there is any.
+row of the table names a folder, its subject and the folders that its files may include. They may
+also include what these folders may include, unless the row says "only". A folder may only name
+folders of rows above its own, so that no arrow points up and no circle is possible. Prints each
+include that the table does not allow, each folder without a row, and each name of a row that no
+file uses or that follows from another name; exits with 1 if there is any.
 """
 import pathlib
 import re
@@ -18,12 +19,17 @@ INCLUDE = re.compile(r'^\s*#\s*include "([^"]+)"', re.MULTILINE)
 
 
 def read_table(root):
-    """Folders in the order of the table, with the folders that each may include."""
+    """Folders in the order of the table, each with the folders that its row names and the folders
+    that follow from these."""
     table = {}
     for line in (root / "ARCHITECTURE.md").read_text(encoding="utf-8").splitlines():
         row = ROW.match(line)
         if row:
-            table[row.group(1)] = re.findall(r"`([^`]+)`", row.group(2))
+            named = re.findall(r"`([^`]+)`", row.group(2))
+            implied = set()
+            for folder in named:
+                implied.update(*table.get(folder, ()))
+            table[row.group(1)] = (named, set() if row.group(2).startswith("only") else implied)
     return table
 
 
@@ -61,14 +67,16 @@ def main():
     faults = [f"{folder}: no row in ARCHITECTURE.md" for folder in sorted(folders - set(table))]
     faults += [f"{folder}: a row of ARCHITECTURE.md without files" for folder in table
                if folder not in folders]
-    for folder, targets in table.items():
-        for target in targets:
+    for folder, (named, implied) in table.items():
+        for target in named:
             if order.get(target, len(order)) >= order[folder]:
                 faults.append(f"{folder} -> {target}: an arrow up in ARCHITECTURE.md")
             if (folder, target) not in arrows:
                 faults.append(f"{folder} -> {target}: allowed in ARCHITECTURE.md, but not used")
+            if target in implied:
+                faults.append(f"{folder} -> {target}: follows from another name of the row")
     for (folder, target), includes in sorted(arrows.items()):
-        if target not in table.get(folder, ()):
+        if not any(target in targets for targets in table.get(folder, ())):
             faults += [f"{folder} -> {target} is not allowed: {text}" for text in includes]
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults else 0

@@ -4,8 +4,9 @@
 Checks the traces of ARCHITECTURE.md, numbered steps of the form "1. `file`, `function`: ...": each
 file has the function, and each step has the next number. Checks that the files and names between
 backquotes in ARCHITECTURE.md and Documentation/extending.md exist, and that "`name` in `file`" is
-true; parts of a name between < and > stand for any. Prints each fault; exits with 1 if there is
-any, or if a trace is missing.
+true; parts of a name between < and > stand for any. ARCHITECTURE.md must name the classes of the
+list in Module/CMakeLists.txt, which are the public ones. Prints each fault; exits with 1 if there
+is any, or if a trace is missing.
 """
 import os
 import pathlib
@@ -79,11 +80,23 @@ def name_faults(root, page, files, words):
             yield f"{page}: {end} has no {name}"
 
 
+def class_faults(root, text):
+    """Public classes that ARCHITECTURE.md does not name."""
+    file = root / "Module" / "CMakeLists.txt"
+    found = re.search(r"^set\(classes$(.*?)\)", read(file) if file.is_file() else "",
+                      re.MULTILINE | re.DOTALL)
+    for name in found.group(1).split() if found else ():
+        stem = pathlib.PurePath(name).name
+        if not re.search(rf"\b{stem}\b", text):
+            yield f"ARCHITECTURE.md: no {stem}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     text = read(root / "ARCHITECTURE.md")
     faults = [fault for title in TRACES
               for fault in trace_faults(root, title, section(text, title))]
+    faults += class_faults(root, text)
     files = list_files(root)
     words = {pathlib.PurePath(file).stem for file in files}
     for file in files:

@@ -15,8 +15,6 @@
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

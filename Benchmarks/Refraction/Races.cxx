@@ -9,8 +9,6 @@
 
 #include <vtkRefractedGeometryFilter.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <sstream>

@@ -10,10 +10,7 @@
 
 #include <vtkRefractedGeometryFilter.h>
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
-#include <functional>
 #include <utility>
 #include <vector>
 

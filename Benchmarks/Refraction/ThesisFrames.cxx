@@ -10,8 +10,6 @@
 #include <vtkPolyData.h>
 #include <vtkRefractedGeometryFilter.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <functional>
 #include <iomanip>

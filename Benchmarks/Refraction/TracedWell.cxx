@@ -8,8 +8,6 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
-
 namespace meniscus
 {
 namespace benchmark

@@ -17,7 +17,7 @@ namespace benchmark
 
 TracedMesh MembraneOf(const reference::MembraneMesh& mesh);
 
-/** Triangles 2 i and 2 i + 1 are those of quad i. */
+/** Quad i becomes the triangles 2 i and 2 i + 1. */
 TracedMesh ObjectOf(vtkPolyData* data);
 
 /** Colours of these triangles. */

@@ -26,12 +26,12 @@ struct Contestant
   std::string Name;
   std::function<MapperPointer()> Make;
   /**
-   * True if its image in a float framebuffer is that of the window with higher precision, as for
+   * True if its image in a float framebuffer is the window's image with higher precision, as for
    * our mapper. The ray cast mapper and Z sweep create 8-bit images, and projected tetrahedra
    * differ from those in a window.
    */
   bool HasFloat = false;
-  /** Transfer function that it draws; the error is measured for that of the run only. */
+  /** Transfer function that it draws; the error is measured for the function of the run only. */
   test::FunctionKind Function = test::FunctionKind::Smooth;
   /** False if the mapper crashes when it gets a larger mesh, as Z sweep does in VTK 9.1. */
   bool CanChangeMesh = true;

@@ -18,7 +18,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Processor time of a frame over that of the same frame without the membrane. */
+/** Processor time of a frame relative to the same frame without the membrane. */
 struct MembraneCost
 {
   std::string Name;

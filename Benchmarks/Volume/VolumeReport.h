@@ -14,7 +14,7 @@ namespace benchmark
 
 /**
  * Prints the mapper's goals next to the measured values: rows of a Markdown table. Uses the meshes
- * of the data folder if they exist, otherwise generated ones, or the one mesh given.
+ * of the data folder if they exist, otherwise generated meshes, or the single mesh that is given.
  */
 void PrintReport(std::ostream& out, const VolumeOptions& options);
 

@@ -29,10 +29,9 @@ public:
 
   /** @{ */
   /**
-   * Index of refraction on the side that the surface's normals point to, the eye's or the light's;
-   * in a list of several interfaces it may be either side.
-   * Positive and finite; other values are an error of the filter or mapper when it runs. Default is
-   * 1.0 (air).
+   * Set/Get the index of refraction on the side that the surface's normals point to, usually the
+   * side of the eye or the light. Must be positive and finite; other values are an error of the
+   * filter or mapper when it runs. Default is 1.0 (air).
    */
   vtkSetMacro(ExteriorIndexOfRefraction, double);
   vtkGetMacro(ExteriorIndexOfRefraction, double);
@@ -40,8 +39,8 @@ public:
 
   /** @{ */
   /**
-   * Index of refraction on the other side. Positive and finite; other values are an error of the
-   * filter or mapper when it runs. Default is 1.333 (water).
+   * Set/Get the index of refraction on the other side. Must be positive and finite; other values
+   * are an error of the filter or mapper when it runs. Default is 1.333 (water).
    */
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);
@@ -49,8 +48,8 @@ public:
 
   /** @{ */
   /**
-   * Function whose zero set is the exact surface, or null if there is none, the default. See
-   * vtkRefractedGeometryFilter::SetExactMembrane() and
+   * Set/Get the function whose zero set is the exact surface. Null, the default, stands for none.
+   * See vtkRefractedGeometryFilter::SetExactMembrane() and
    * vtkRefractionErrorVolume::SetExactMembrane().
    */
   void SetExactSurface(vtkImplicitFunction* function);
@@ -59,13 +58,13 @@ public:
 
   /** @{ */
   /**
-   * If on, an open surface none of whose facets faces the eye or the light is turned round: its
-   * normals are reversed, so that the eye is on the side of ExteriorIndexOfRefraction. In a list of
-   * several interfaces, a surface is turned to the side from which rays pass it when they come from
-   * the exterior of the first one. Surfaces with facets on both sides and closed surfaces are not
-   * turned. Filters with an eye for each point, vtkTetrahedraRayCastMapper and
-   * vtkTetrahedraRayIntegral turn no surface. Default is off, and owners warn of such a surface: an
-   * eye that is really on the other side, as under water, sees it rightly so.
+   * Set/Get whether an open surface is turned over if none of its facets faces the eye or the
+   * light: its normals are reversed, so that the eye is on the side of ExteriorIndexOfRefraction.
+   * In a list of several interfaces, a surface is turned to the side from which rays pass it when
+   * they come from the exterior of the first one. Surfaces with facets on both sides and closed
+   * surfaces are not turned. Filters with an eye for each point, vtkTetrahedraRayCastMapper and
+   * vtkTetrahedraRayIntegral turn no surface. Default is off: filters with one eye then warn of
+   * such a surface, which is right for an eye on the other side, such as an eye under water.
    */
   vtkSetMacro(TurnTowardsEye, bool);
   vtkGetMacro(TurnTowardsEye, bool);

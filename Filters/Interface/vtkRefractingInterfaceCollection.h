@@ -4,18 +4,18 @@
  * @class   vtkRefractingInterfaceCollection
  * @brief   the interfaces that a ray meets, in the order of the list
  *
- * Filters and mapper refract at all of them, and each has a port for as many surfaces. One list may
- * be shared by any number of them. It is never shorter than one: without any, the first is one with
- * default values.
+ * Filters and mappers that refract have such a list, and a port with one surface per interface.
+ * They may share a list. An empty list stands for a list of one interface with default values.
  *
- * A ray meets the first interface from either side. It meets a further one at the first
- * intersection behind the last point of refraction at which it arrives in the medium of that side;
- * intersections from the other side do not count. So a closed surface, such as a glass ball, is
- * listed twice, with the same indices: it is entered and left. The medium behind each interface
- * must be one of the two media of the next interface, otherwise the list is an error. Rays may come
- * from the interior of the first interface if the media match in that order. A ray that is totally
- * reflected at an interface ends there; one that misses an interface ends at the last one that it
- * met, and shows nothing behind it. Interfaces with equal indices are left out.
+ * A ray meets the first interface from either side. It meets each further interface at its nearest
+ * intersection behind the last point of refraction, among the intersections with the side of the
+ * surface that is in the ray's medium; others do not count. So a closed surface, such as a glass
+ * ball, is listed twice, with the same indices: it is entered and left. The medium behind each
+ * interface must be one of the two media of the next interface, otherwise the list is an error.
+ * Rays may come from the interior of the first interface if the media match in that order. A ray
+ * that is totally reflected at an interface ends there; a ray that misses an interface ends at the
+ * last interface that it met, and shows nothing behind it. Interfaces with equal indices are left
+ * out.
  *
  * @sa vtkRefractingInterface
  */

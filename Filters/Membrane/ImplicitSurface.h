@@ -26,7 +26,7 @@ public:
   bool Meet(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& near,
     PatchPoint& at) const;
 
-  /** Makes the other side of the surface the one that rays come from. */
+  /** Turns the surface over: rays come from its other side. */
   void Turn() { this->Sign = -this->Sign; }
 
 private:

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

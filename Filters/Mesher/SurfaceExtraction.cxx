@@ -31,7 +31,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-// The joined surface as data whose point i is that of the kernel.
+// The joined surface as data with the points of the kernel, in their order.
 vtkSmartPointer<vtkPolyData> ToPolyData(const TriangleSurface& surface)
 {
   vtkNew<vtkPoints> points;

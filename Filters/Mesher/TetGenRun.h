@@ -19,7 +19,7 @@ namespace meniscus
  */
 constexpr double CoplanarTolerance = 1e-8;
 
-/** File name of TetGen's program: the one that was set, or the library's if that is null. */
+/** File name of TetGen's program: `set` or, if it is null, the program of the installation. */
 std::string ChooseTetGenProgram(const char* set);
 
 /**

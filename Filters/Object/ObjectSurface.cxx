@@ -46,7 +46,7 @@ vtkMTimeType GetTime(vtkDataSet* data)
 
 /**
  * True if a polygon turns to both sides, by more than the rounding of the cross product of its
- * edges. The side is that of its area vector.
+ * edges. Its area vector determines the side.
  */
 bool IsConcave(const std::vector<glm::dvec3>& corners)
 {

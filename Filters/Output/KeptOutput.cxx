@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <cstring>
-#include <string>
 
 namespace meniscus
 {

@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /** Winding of output cells against that of the input. Mirror images have the reversed one. */
+  /** Winding of output cells relative to the input's. Mirror images have the reversed winding. */
   enum class Winding
   {
     Kept,

@@ -15,7 +15,7 @@ namespace meniscus
 {
 
 /**
- * Order in which each of `count` points (x, y, z each) is near the one before, for solvers that
+ * Order in which each of `count` points (x, y, z each) is near the previous point, for solvers that
  * start from the previous answer. Empty if the given order is such an order, or has 2^32 points and
  * more; otherwise the points' indices along a Hilbert curve, points that are not finite first.
  *

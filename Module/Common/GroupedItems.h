@@ -10,7 +10,7 @@
 namespace meniscus
 {
 
-/** Numbers of items in groups, such as the facets at each vertex, in two arrays. */
+/** A list of item numbers per group, such as the facets at each vertex, stored in two arrays. */
 class GroupedItems
 {
 public:
@@ -57,7 +57,8 @@ public:
   }
 
 private:
-  std::vector<std::int32_t> Begins; ///< and the end of the last group; empty before Set()
+  /** Place of the first item of each group, and the end of the last group; empty before Set(). */
+  std::vector<std::int32_t> Begins;
   std::vector<std::int32_t> Items;
 };
 

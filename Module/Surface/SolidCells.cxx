@@ -134,7 +134,7 @@ double BoundVolumeError(const TriangleSurface& surface, double relativeTolerance
   return area * relativeTolerance * glm::length(upper - lower);
 }
 
-// Removes points that no cell has, except for the first ones, those of the surface.
+// Removes points that no cell has, except for the first ones, which are the surface's.
 void DropUnusedPoints(std::size_t first, TetrahedronCells& cells)
 {
   std::vector<int> place(cells.Points.size(), -1);

@@ -23,7 +23,7 @@ public:
   /**
    * Set the camera that took the image: position, focal point, view up, vertical view angle in
    * degrees, and the distances of the near and the far clipping plane, which only depth buffers
-   * need. Defaults are those of vtkCamera.
+   * need. Defaults are vtkCamera's.
    */
   void SetEyePosition(double x, double y, double z);
   void SetViewFocalPoint(double x, double y, double z);

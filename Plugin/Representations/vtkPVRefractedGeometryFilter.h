@@ -9,11 +9,11 @@
  * once per run, and each rank keeps all of it: about 400 bytes per facet.
  *
  * Geometry may be composite; its output has the same structure, with empty blocks where the input
- * is not a vtkPolyData. `SightFacet` numbers the gathered membrane's cells: those of the input if
- * only one rank and block has any.
+ * is not a vtkPolyData. `SightFacet` numbers the cells of the gathered membrane, which are the
+ * input's cells if only one rank and block has any.
  *
- * The view for ViewCulling is given by numbers, which can be linked to those of a view. ViewCulling
- * is off by default, so that the output can be viewed from any side.
+ * The view for ViewCulling is given by numbers, which can be linked to the properties of a view.
+ * ViewCulling is off by default, so that the output can be viewed from any side.
  */
 #ifndef vtkPVRefractedGeometryFilter_h
 #define vtkPVRefractedGeometryFilter_h

@@ -6,8 +6,8 @@
  *
  * Every rank measures its part of the box behind the whole membrane, which is gathered from all
  * ranks and blocks, as is the finer one. The statistics are over the samples of all ranks, each
- * counted once, and are the same on all of them. The number and the largest error equal those of a
- * run on one rank to the last bit, mean and deviation up to the rounding of their sums.
+ * counted once, and are the same on all of them. The number and the largest error equal the results
+ * of one rank to the last bit, mean and deviation up to the rounding of their sums.
  */
 #ifndef vtkPVRefractionErrorVolume_h
 #define vtkPVRefractionErrorVolume_h

@@ -4,8 +4,8 @@
  * @class   vtkPVTriangulatedPositionFilter
  * @brief   vtkTriangulatedPositionFilter for ParaView, with the surfaces of all ranks and blocks
  *
- * Every rank triangulates its own observations: those of one object point must be on one rank. See
- * InterfaceTable for the rows of the table.
+ * Every rank triangulates its own observations: all observations of one object point must be on one
+ * rank. See InterfaceTable for the rows of the table.
  */
 #ifndef vtkPVTriangulatedPositionFilter_h
 #define vtkPVTriangulatedPositionFilter_h

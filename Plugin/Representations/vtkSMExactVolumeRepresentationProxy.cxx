@@ -67,7 +67,7 @@ void NameClassIn(vtkSession* session)
     const char* group = "representations";
     const char* name = "UnstructuredGridRepresentation";
     NameClass(manager->GetProxyDefinition(group, name, false));
-    // A copy, in which the definition is merged with that of its base.
+    // A copy, in which the definition is merged with its base's.
     NameClass(manager->GetCollapsedProxyDefinition(group, name, nullptr, false));
   }
 }

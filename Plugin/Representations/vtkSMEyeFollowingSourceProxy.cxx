@@ -31,7 +31,7 @@ vtkStandardNewMacro(vtkSMEyeFollowingSourceProxy);
 namespace
 {
 
-/** True if a representation, or the one to which it belongs, is visible. */
+/** True if a representation, or the representation to which it belongs, is visible. */
 bool IsVisible(vtkSMProxy* representation)
 {
   return vtkSMPropertyHelper(representation->GetTrueParentProxy(), "Visibility", true).GetAsInt() !=

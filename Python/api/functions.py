@@ -86,7 +86,7 @@ def make_opaque(table):
 def follow_table(look, table, opacity=None):
     """Gives a volume property the functions of a table, now and whenever the table changes. Those
     of PyVista run over the indices of the entries up to version 0.44, and over the value where the
-    table's scale is logarithmic. opacity: function that is used instead of that of the table."""
+    table's scale is logarithmic. opacity: function that is used instead of the table's."""
     def apply(*_):
         colors, own = make_functions(table)
         look.SetColor(colors)

@@ -22,7 +22,7 @@ _PLACES = {"first_visible": vtkTetrahedraVolumePicker.FIRST_VISIBLE,
 class Pick(NamedTuple):
     """A place in a volume.
 
-    value: the scalar, of several arrays the one that gives the opacity. position: in world
+    value: the scalar; of several arrays, the array that gives the opacity. position: in world
     coordinates; behind refracting surfaces the true place. cell_id: cell of the dataset. block:
     flat index of the dataset in a MultiBlock, otherwise -1. surface: index of the isosurface,
     otherwise -1. depth: distance from the camera along the ray.

@@ -41,7 +41,7 @@ def refracted(
 ) -> Any:
     """Virtual geometry of a mesh, which looks like the mesh seen through refracting surfaces.
 
-    mesh: a dataset; its surface is used, that of all blocks of a pyvista.MultiBlock.
+    mesh: a dataset; its surface is used, or the surfaces of all blocks of a pyvista.MultiBlock.
     surfaces: a dataset, or a list of them in the order in which the sight rays meet them; their
         normals point to the eye's side. A surface may be a pair of arrays (points, triangles), of
         the shapes (n, 3) and (m, 3).
@@ -85,7 +85,7 @@ def refracted(
 
 
 def _add_following(plotter, refraction, arguments):
-    """Adds the output of a filter whose eye is that of a plotter's camera in every frame."""
+    """Adds the output of a filter whose eye follows a plotter's camera."""
     renderer = plotter.renderer
     if not plotter.camera_set:
         # Until the first frame, in which the plotter places its camera, the eye is where it would

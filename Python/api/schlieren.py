@@ -139,7 +139,7 @@ def zernike(path: Any, terms: int = 15, *, pupil: Sequence[float] | None = None)
         whole numbers; default: the largest circle in the image.
 
     Returns an array of coefficients in the unit of the path, by least squares over the pixels in
-    the circle. Numbering and norm are those of R. J. Noll, "Zernike polynomials and atmospheric
+    the circle. Numbering and norm follow R. J. Noll, "Zernike polynomials and atmospheric
     turbulence", J. Opt. Soc. Am. 66, 207-211 (1976); the first entry is term 1, the piston. The
     polynomials have a mean square of 1 in the circle: the root of the sum of squares of all
     coefficients but the first is the RMS wave front error. Raises ValueError for a circle with

@@ -18,5 +18,5 @@ Mesh = Union[pyvista.DataSet, pyvista.MultiBlock]
 # A surface: a dataset, or (points, triangles) of the shapes (n, 3) and (m, 3).
 Surface = Union[pyvista.DataSet, pyvista.MultiBlock, "tuple[ArrayLike, ArrayLike]"]
 Surfaces = Union[Surface, "list[Surface]"]
-# Index behind each surface; or those of all media, the eye's first; or pairs, one per surface.
+# Index behind each surface; or indices of all media, the eye's first; or pairs, one per surface.
 Indices = Union[float, Sequence[float], Sequence["tuple[float, float]"]]

@@ -51,7 +51,7 @@ def _make_stand_in(bounds, scalars):
 
 
 def _find_unit_distance(mesh, bounds):
-    """Length over which opacities are given: for image data that of plotter.add_volume()."""
+    """Length over which opacities are given: for image data as in plotter.add_volume()."""
     if isinstance(mesh, (pyvista.ImageData, pyvista.RectilinearGrid)):
         return mesh.length / max(1, sum(mesh.dimensions) / 3 - 1)
     length = math.hypot(*(bounds[2 * i + 1] - bounds[2 * i] for i in range(3)))
@@ -268,7 +268,7 @@ def plot(
     mesh, scalars: as in meniscus.add_to().
     off_screen: draws without a window; default: PyVista's setting.
     window_size: width and height in pixels; default: PyVista's setting.
-    background: colour; default: that of PyVista's theme.
+    background: colour; default: PyVista's theme.
     cpos: camera position as pyvista.plot() takes it, such as "xy".
     screenshot: file name of a picture, or True to return it.
     show_axes: whether axes are shown in a corner; default: PyVista's setting.

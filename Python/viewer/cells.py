@@ -47,7 +47,7 @@ def types_of(leaf):
 
 
 def kinds_in(types):
-    """The different types among those of cells."""
+    """The different types of cells."""
     if types.size and (types == types[0]).all():
         return types[:1]
     return numpy.flatnonzero(numpy.bincount(types, minlength=256))

@@ -17,7 +17,7 @@ from .cells import drawn_cells_of, kinds_in, types_of
 
 BINS = 64
 # Share of the largest area that is added to each level's. It limits the opacity of values that
-# hardly occur to 50 times that of the most frequent one.
+# hardly occur to 50 times the opacity of the most frequent value.
 FLOOR = 0.02
 # Mean optical depth of a ray through the middle of a cube of the mesh's size.
 OPTICAL_DEPTH = 1.5

@@ -28,7 +28,7 @@ def _make_uniform(size):
 
 
 class MeshSeries:
-    """Time steps of a mesh: those of one file or collection, or one step per file."""
+    """Time steps of a mesh: the steps of a file or collection, or one step per file."""
 
     def __init__(self, names):
         """names: file names. Several files are the steps of one mesh, in this order; among them, a

@@ -21,8 +21,8 @@ from .levels import BINS, Levels
 from .reading import MeshSeries, ReadingError, arrays_of
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-# Modes with a curve of opacity of their own, by blend mode. Of a projection and of isosurfaces the
-# opacities are those of values, of a volume over a length.
+# Modes with a curve of opacity of their own, by blend mode. In a projection and for isosurfaces an
+# opacity belongs to a value, in a volume to a length.
 _KINDS = {"maximum": "projection", "minimum": "projection", "average": "projection",
           "isosurface": "isosurface"}
 _VOLUME = "volume"
@@ -145,7 +145,7 @@ class MeshScene:
         return (signs * half).T
 
     def get_arrays(self):
-        """Names of the arrays that can be shown: those of points, then those of cells."""
+        """Names of the arrays that can be shown: of points, then of cells."""
         return list(arrays_of(self.data))
 
     def get_range(self):

@@ -93,7 +93,7 @@ def _join(parts):
 
 
 class _Collection:
-    """Several files: those of one time are the parts of one step."""
+    """Several files: files of one time are the parts of one step."""
 
     def __init__(self, name, entries, open_part):
         """name: of the collection. open_part: function that opens a file."""

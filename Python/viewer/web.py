@@ -230,7 +230,7 @@ def _add_curve(page, html, vuetify3, editor):
 
 
 def _guard(is_local):
-    """A handler of requests that refuses those of other pages in the user's browser: a socket is
+    """A handler of requests that refuses requests of other pages in the user's browser: a socket is
     not bound to the page that opens it. is_local: the page is for this machine only."""
     from aiohttp import web
 

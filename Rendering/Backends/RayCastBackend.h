@@ -211,8 +211,8 @@ public:
   virtual const std::vector<float>* GetDepthsOfImage() { return nullptr; }
 
   /**
-   * Whether the application may give up this frame: it is that of a still picture, and the window
-   * has an observer of vtkCommand::AbortCheckEvent.
+   * True if the application may give up this frame: it is a still picture, and the window has an
+   * observer of vtkCommand::AbortCheckEvent.
    */
   virtual bool MayStop() { return false; }
   /**

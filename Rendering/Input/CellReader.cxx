@@ -20,7 +20,6 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <atomic>
-#include <cmath>
 #include <sstream>
 
 namespace meniscus

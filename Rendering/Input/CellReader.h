@@ -79,7 +79,7 @@ public:
   }
   const IdView& GetIds() const { return this->Ids; }
   std::int64_t GetSize() const { return std::max<std::int64_t>(this->Offsets.GetSize() - 1, 0); }
-  /** True if the lists [first, last) have this size and follow each other, as those before do. */
+  /** True if each list i of [first, last) is the range [size * i, size * (i + 1)) of GetIds(). */
   bool HaveSize(std::int64_t size, std::int64_t first, std::int64_t last) const;
 
 private:

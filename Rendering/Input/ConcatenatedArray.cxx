@@ -109,7 +109,7 @@ double ConcatenatedArray::GetComponent(std::int32_t number, int component) const
 /** Length of the interpolated tuple, which is not the interpolated length. */
 double ConcatenatedArray::InterpolatedLength(std::int32_t number) const
 {
-  // The points of a row are those of one cell, and so of one part.
+  // A row has the points of one cell, and so of one part.
   int components = 1;
   double length = this->Points->Interpolate(number,
     [&](std::int32_t point)

@@ -24,7 +24,7 @@ public:
   /**
    * @param component as in ScalarSelection; the first one for Only. For an array of one component,
    *   it is ignored.
-   * @param points interpolated points, with numbers after those of the arrays; null if there are
+   * @param points interpolated points, numbered after the points of the arrays; null if there are
    *   none. Must outlive this object.
    */
   ConcatenatedArray(

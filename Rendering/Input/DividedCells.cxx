@@ -165,8 +165,8 @@ int LeastDegreeOf(const DivisionSettings& settings)
 /** @param fixedPieces number of pieces before they are divided. */
 std::int64_t BudgetOf(const DivisionSettings& settings, std::int64_t fixedPieces)
 {
-  // By default the cost is bounded by a multiple of that of the fixed division; pieces that are
-  // made within a second do not count.
+  // By default the cost is bounded by a multiple of the fixed division's cost; pieces that are made
+  // within a second do not count.
   constexpr std::int64_t multiple = 2;
   constexpr std::int64_t least = 100000;
   const std::int64_t budget =

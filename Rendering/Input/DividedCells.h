@@ -30,10 +30,10 @@ struct DivisionSettings
    */
   bool IsAdaptive = false;
   /**
-   * Largest error in the edges of the tetrahedra, as a fraction of the picture's full colour. The
-   * default is a step of a display with 8 bits per channel. A displacement counts four times as a
-   * fraction of the mesh's diagonal, so that the default is a pixel of a picture in which the mesh
-   * is 1024 pixels long.
+   * Largest error along the edges of the tetrahedra, as a fraction of the picture's full colour.
+   * The default is a step of a display with 8 bits per channel. A displacement counts as four times
+   * its fraction of the mesh's diagonal, so that the default is a pixel of a picture in which the
+   * mesh is 1024 pixels long.
    */
   double Tolerance = 1.0 / 256.0;
   /** Budget of tetrahedra; 0 stands for a multiple of the number by the fixed division. */
@@ -90,7 +90,7 @@ public:
    * always edges that just keep them.
    */
   bool Holds(const DivisionRequest& request, const RangeLoop& loop) const;
-  /** Positions of all points, for other positions of those of the input. */
+  /** Positions of all points of the pieces, after the input's points have moved. */
   std::vector<double> ComputePositions(const InputBlocks& input, const RangeLoop& loop) const;
 
   const WeightedPoints& GetPoints() const { return this->Division.GetPoints(); }

@@ -103,7 +103,7 @@ private:
   std::vector<std::int64_t> Faces;
 };
 
-/** Marks of a point: bit 0 to 5 if it is the one that Extremes found for a side. */
+/** Marks of a point: bits 0 to 5 are set if it is the point that Extremes found for a side. */
 constexpr std::uint8_t AllSides = (1 << 6) - 1;
 constexpr std::uint8_t NotFinite = 1 << 6;
 constexpr std::uint8_t OutOfRange = 1 << 7;

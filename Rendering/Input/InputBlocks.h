@@ -63,9 +63,10 @@ struct InputBlocks
 
 /**
  * Finds the data sets and scalars of an input. Leaves of a composite data set are left out with a
- * warning if they have no usable scalars or if their scalars have another association than those of
- * the first leaf that has some; leaves without cells, and surfaces (vtkPolyData), are left out
- * without a warning. If there is no part and no error, there is nothing to draw.
+ * warning if they have no usable scalars or if their scalars have another association (points or
+ * cells) than the scalars of the first leaf that has some; leaves without cells, and surfaces
+ * (vtkPolyData), are left out without a warning. If there is no part and no error, there is nothing
+ * to draw.
  */
 InputReport CollectInputBlocks(
   vtkDataObject* input, const ScalarSelection& selection, InputBlocks& parts);

@@ -71,7 +71,7 @@ Storage PointStorageOf(vtkDataSet* grid)
   {
     storage.AddNumbers(image->GetOrigin(), 3);
     storage.AddNumbers(image->GetSpacing(), 3);
-    // The origin is that of the point with index 0, which need not be in the extent.
+    // The origin is the place of the point with index 0, which need not be in the extent.
     storage.AddNumbers(image->GetExtent(), 6);
     storage.Holders.push_back(image->GetDirectionMatrix());
     storage.AddNumbers(image->GetDirectionMatrix()->GetData(), 9);

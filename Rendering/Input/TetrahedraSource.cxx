@@ -405,7 +405,7 @@ void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vt
   }
   else
   {
-    // Its faces are those of the convex hull of its points.
+    // Its faces are the faces of the convex hull of its points.
     this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
     vtkNew<vtkGenericCell> generic;
     if (HasFaceObjects(type))

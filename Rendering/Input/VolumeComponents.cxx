@@ -10,7 +10,6 @@
 
 #include <glm/common.hpp>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>

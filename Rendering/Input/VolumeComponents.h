@@ -19,8 +19,8 @@ namespace meniscus
 {
 
 /**
- * Component that VolumeInput uses as the scalar: the first one, or the one that determines the
- * opacity.
+ * Component that VolumeInput uses as the scalar: the first component, or the component that
+ * determines the opacity.
  */
 int MainComponent(ComponentMixture mixture);
 

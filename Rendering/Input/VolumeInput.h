@@ -26,7 +26,7 @@ namespace meniscus
 
 /**
  * Kernel tables of the drawn volume: mesh, normalised scalars, active cells. Each is remade when
- * its own input changes. Users compare the versions with those of the tables that they read last.
+ * its own input changes. Users compare the versions with the versions that they read last.
  */
 class VolumeInput
 {

@@ -23,7 +23,7 @@ struct EnergyBin
   /** Attenuation coefficient and emission, both per unit of the scalar and of length. */
   double Attenuation = 1.0;
   double Emission = 0.0;
-  /** Intensity in front of the source side of the mesh. */
+  /** Intensity with which the radiation enters the mesh, on the side of the source. */
   double Intensity = 1.0;
 
   bool operator==(const EnergyBin& other) const

@@ -36,8 +36,7 @@ bool EventChoice::IsAnyWanted() const
 //------------------------------------------------------------------------------
 bool EventChoice::NeedsProperty() const
 {
-  return this->IsAnyWanted() &&
-    (GetBlendModel(this->Blending).HidesBehind() || this->Blending == BlendMode::Additive);
+  return this->IsAnyWanted() && GetBlendModel(this->Blending).AccumulatesOpacity();
 }
 
 //------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ class vtkImageData;
 namespace meniscus
 {
 
-/** Names of the events, with which those of their arrays begin. */
+/** Names of the events; the names of their arrays begin with them. */
 constexpr const char* EventNames[NumberOfRayEvents] = { "FirstVisible", "OpacityReached",
   "LargestContribution" };
 
@@ -45,7 +45,7 @@ struct EventChoice
   bool HasSurfaces() const { return this->Blending == BlendMode::Isosurfaces; }
   /** True if events depend on a volume property. */
   bool NeedsProperty() const;
-  /** 32-bit numbers per pixel of all arrays. */
+  /** Size of all arrays per pixel, in numbers of 32 bits. */
   std::int64_t GetNumbersPerPixel() const;
 };
 

@@ -48,7 +48,7 @@ float WindowDepthOf(const RayFrame& frame, double depth)
 }
 
 //------------------------------------------------------------------------------
-/** Makes the scene of events of an image whose rays are those of a frame. */
+/** Makes the scene of events of an image with the rays of a frame. */
 std::string RayPicker::MakeScene(RayCastTables& tables, RayCastFrame& frame, const int (&size)[2],
   double opacity, TileCaster::Scene& scene)
 {

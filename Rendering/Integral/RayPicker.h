@@ -29,7 +29,7 @@ struct PickedPixel
 };
 
 /**
- * Events of single rays of a mapper's picture. It has tables of its own where those of the mapper
+ * Events of single rays of a mapper's picture. It has tables of its own where the mapper's tables
  * belong to its last frame: vertices about the ray, and refracted rays.
  */
 class RayPicker
@@ -38,7 +38,7 @@ public:
   /**
    * Casts the ray of a pixel.
    * @param tables tables of the mapper, brought up to date; its own Membrane is not used.
-   * @param frame frame of the whole viewport, whose size is that of its Output.
+   * @param frame frame of the whole viewport; its Output has the viewport's size.
    * @param opacity accumulated opacity of OpacityReachedEvent.
    * @return an error, or an empty text.
    */

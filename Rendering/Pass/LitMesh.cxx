@@ -10,7 +10,6 @@
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

@@ -51,7 +51,7 @@ std::array<float, Size> ToFloats(const Numbers& numbers)
 //------------------------------------------------------------------------------
 /**
  * True if the points of a surface are in a plane within the rounding errors of floats, and if its
- * normals are those of the plane within the errors that this gives to normals of facets.
+ * normals equal the plane's normal within the errors that this gives to normals of facets.
  */
 bool LiesInPlane(vtkPolyData* surface, const double (&origin)[3], const double (&normal)[3])
 {

@@ -52,16 +52,16 @@ struct RayCastBackendEntry
 };
 
 /**
- * Adds a backend for all mappers of the process. AUTOMATIC asks the last one added first, those of
- * the library last. Returns false, and adds nothing, if the name is empty or taken or there is no
- * factory. May be called on any thread.
+ * Adds a backend for all mappers of the process. AUTOMATIC asks the last backend added first, and
+ * the library's backends last. Returns false, and adds nothing, if the name is empty or taken or
+ * there is no factory. May be called on any thread.
  */
 VTKMENISCUS_EXPORT bool RegisterRayCastBackend(const RayCastBackendEntry& entry);
 
 /**
- * Takes away a backend that was added; those of the library stay. Returns whether it was there.
- * Mappers that made one keep it, unused, until they are destroyed: the code of the backend must
- * stay loaded as long.
+ * Removes a backend that was added; the library's backends stay. Returns whether it was there.
+ * Mappers that made such a backend keep it, unused, until they are destroyed: the code of the
+ * backend must stay loaded as long.
  */
 VTKMENISCUS_EXPORT bool UnregisterRayCastBackend(const std::string& name);
 

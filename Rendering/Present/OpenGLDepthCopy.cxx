@@ -12,7 +12,8 @@ namespace meniscus
 //------------------------------------------------------------------------------
 OpenGLDepthCopy::Format OpenGLDepthCopy::ReadFormat(int framebuffer)
 {
-  // The buffers of a window's own framebuffer have other names than those of a framebuffer object.
+  // The buffers of a window's own framebuffer have other names than the buffers of a framebuffer
+  // object.
   const GLenum depth = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
   const GLenum stencil = framebuffer == 0 ? GL_STENCIL : GL_STENCIL_ATTACHMENT;
   const auto get = [](GLenum attachment, GLenum name)

@@ -57,7 +57,7 @@ bool IsEmpty(const RayCastImageBox& box)
 }
 
 /**
- * Range of a viewport's pixels in which those of an image appear.
+ * Range of a viewport's pixels in which the pixels of an image appear.
  * @param origin,length of the viewport; `size` pixels of the image appear in it.
  */
 glm::ivec2 Shown(int first, int last, int origin, int length, int size)
@@ -229,9 +229,9 @@ const std::vector<float>& RayCastPresenter::ReadDepths()
 
 //------------------------------------------------------------------------------
 /**
- * True if the image held is that of the frame at hand. Depths are read only where the frame may be
- * the same, so that the first repetition of a frame may not be recognised, but a moving camera
- * costs nothing.
+ * True if the image held shows the frame at hand. Depths are read only where the frame may be the
+ * same, so that the first repetition of a frame may not be recognised, but a moving camera costs
+ * nothing.
  */
 bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
 {

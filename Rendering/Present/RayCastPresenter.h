@@ -49,9 +49,9 @@ public:
 
   /**
    * Has an image of the current viewport made and blends it into the current framebuffer.
-   * @param sameFrame true if the frame differs from that of the image held, or begun, in the depths
-   *   of opaque geometry at most: `makeImage` is not called if these are equal, too, and the image
-   *   is finished.
+   * @param sameFrame true if the frame differs at most in the depths of opaque geometry from the
+   *   frame of the image that is held or begun. If these depths are equal, too, and the image is
+   *   finished, `makeImage` is not called.
    * @param sameView true if the image held shows the same view, perhaps with fewer rays: it is
    *   shown again if the application gives up the frame. Nothing is drawn then if it does not.
    */

@@ -50,8 +50,8 @@ struct RayCastOptics
   bool Illuminated = false;
   bool GradientOpacity = false;
   /**
-   * True: gradients interpolated between vertices; false: those of the cells. Used with one of the
-   * above.
+   * True: gradients interpolated between vertices; false: one gradient per cell. Used with Shading
+   * or GradientOpacity.
    */
   bool VertexGradients = false;
   /** Matrix from gradients in normalised model coordinates to the frame's. */
@@ -68,7 +68,7 @@ struct RayCastOptics
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
   /**
-   * True if gradients of the cells are used, instead of those of vertices. Scalars of cells have no
+   * True if gradients per cell are used, instead of gradients per vertex. Scalars of cells have no
    * gradient.
    */
   bool UsesCellGradients() const

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <utility>
 
 namespace meniscus
 {
@@ -32,7 +31,7 @@ public:
     bool IsJump = false;
   };
 
-  /** @param scalar not less than that of the last call. */
+  /** @param scalar not less than in the last call. */
   Limits Read(double scalar)
   {
     const std::size_t size = this->Points.size();

@@ -45,7 +45,7 @@ public:
     ComponentMixture mixture, int components);
   /**
    * Converts the tables to normalised scalars.
-   * @param normalization that of the main scalar; the components have their own.
+   * @param normalization of the main scalar; the components have their own.
    */
   void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
 

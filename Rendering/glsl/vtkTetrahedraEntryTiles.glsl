@@ -142,8 +142,7 @@ bool setUpTile(out int end, out bool alike)
   }
   // Within 2 units, since halves are rounded.
   setUpRefractedRay(frame, (least >> 1) + (most >> 1), vec2(0.0));
-  // The lines are those of the pixel centres, so no margin for rounding to the grid is needed
-  // between them.
+  // The lines pass the pixel centres, so no margin for rounding to the grid is needed between them.
   vec4 spread = 0.5 * (vec4(most) - vec4(least));
   reach = spread.xy + vec2(BOX_MARGIN);
   reachPerDepth = spread.zw * (GRID_PER_DEPTH * SLOPE_UNIT) + vec2(BOX_MARGIN);

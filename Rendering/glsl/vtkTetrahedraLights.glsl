@@ -54,7 +54,7 @@ vec3 cellGradient(int index)
 #endif
 
 #if CELL_SCALARS
-// Vertices of the cell that the ray is leaving; the first three are those of its exit face.
+// Vertices of the cell that the ray is leaving; the first three belong to its exit face.
 ivec4 cellVertices(int index)
 {
 #if COMPACT_CELLS

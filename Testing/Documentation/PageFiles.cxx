@@ -12,7 +12,6 @@
 #include <vtkPlaneSource.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

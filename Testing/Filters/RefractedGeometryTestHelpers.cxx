@@ -144,6 +144,33 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(vtkPolyData* geometry, vt
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
+  vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i)
+{
+  glm::dvec3 point;
+  data->GetPoint(i, &point.x);
+  return point;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
+{
+  glm::dvec3 tuple;
+  array->GetTuple(i, &tuple.x);
+  return tuple;
+}
+
+//------------------------------------------------------------------------------
 void AddTruth(vtkPolyData* data)
 {
   vtkNew<vtkDoubleArray> truth;

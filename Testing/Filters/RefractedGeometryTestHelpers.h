@@ -12,6 +12,8 @@
 #include "vtkRefractedLightFilter.h"
 #include "vtkSmartPointer.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <functional>
 #include <string>
@@ -74,6 +76,14 @@ vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 /** A filter with FLAT_FACETS, FIRST_IMAGE and the eye at (20, 300, 10). */
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
   vtkPolyData* geometry, vtkPolyData* membrane);
+
+/** A filter with CURVED, ALL_IMAGES, points in double precision and the eye at (20, 300, 10). */
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
+  vtkPolyData* geometry, vtkPolyData* membrane);
+
+/** Coordinates of a point, and three components of a tuple. */
+glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i);
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i);
 
 /** Adds the true position as a point array `Truth`, so that interpolation can be checked. */
 void AddTruth(vtkPolyData* data);

@@ -40,26 +40,9 @@ const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
 vtkSmartPointer<Filter> MakeMirror(vtkPolyData* geometry, vtkPolyData* membrane)
 {
-  auto filter = MakeFilter(geometry, membrane);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
+  auto filter = MakeAllImages(geometry, membrane);
   filter->SetModeToReflection();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   return filter;
-}
-
-glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
-{
-  glm::dvec3 p(0.0);
-  data->GetPoint(i, &p.x);
-  return p;
-}
-
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  glm::dvec3 t(0.0);
-  array->GetTuple(i, &t.x);
-  return t;
 }
 
 /** Twice the area of a polygon of the output, along its normal by the order of its points. */
@@ -70,9 +53,9 @@ glm::dvec3 GetAreaVector(vtkPolyData* data, vtkIdType cell)
   glm::dvec3 sum(0.0);
   for (vtkIdType k = 2; k < ids->GetNumberOfIds(); ++k)
   {
-    const glm::dvec3 first = GetPoint(data, ids->GetId(0));
+    const glm::dvec3 first = PointOf(data, ids->GetId(0));
     sum +=
-      glm::cross(GetPoint(data, ids->GetId(k - 1)) - first, GetPoint(data, ids->GetId(k)) - first);
+      glm::cross(PointOf(data, ids->GetId(k - 1)) - first, PointOf(data, ids->GetId(k)) - first);
   }
   return sum;
 }
@@ -258,8 +241,8 @@ TEST(ReflectedGeometryOutput, PlaneMirrorsReverseNormalsAndWinding)
     EXPECT_EQ(mirrored->GetDataType(), VTK_FLOAT);
     for (vtkIdType i = 0; i < 81; ++i)
     {
-      const glm::dvec3 truth = GetPoint(grid, i);
-      EXPECT_LT(glm::length(GetPoint(output, i) - glm::dvec3(truth.x, -truth.y, truth.z)), 1e-10);
+      const glm::dvec3 truth = PointOf(grid, i);
+      EXPECT_LT(glm::length(PointOf(output, i) - glm::dvec3(truth.x, -truth.y, truth.z)), 1e-10);
       const glm::dvec3 n = GetTuple(normals, i);
       EXPECT_LT(glm::length(GetTuple(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
       EXPECT_GT(n.y, 0.0);
@@ -338,8 +321,8 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
       const glm::dvec3 n = GetTuple(made, i);
       EXPECT_NEAR(glm::length(n), 1.0, 1e-12);
       const bool isAtEye = light == glm::dvec3(0.0);
-      const glm::dvec3 toLamp = isAtEye ? glm::normalize(Eye - GetPoint(grid, source)) : light;
-      const glm::dvec3 drawn = isAtEye ? glm::normalize(Eye - GetPoint(output, i)) : light;
+      const glm::dvec3 toLamp = isAtEye ? glm::normalize(Eye - PointOf(grid, source)) : light;
+      const glm::dvec3 drawn = isAtEye ? glm::normalize(Eye - PointOf(output, i)) : light;
       EXPECT_NEAR(glm::dot(n, drawn), glm::dot(truth, toLamp), 1e-9);
     }
   }
@@ -363,7 +346,7 @@ TEST(ReflectedGeometryOutput, PiercingObjectsEndAtTheMirror)
   double highest = -1e300;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 p = GetPoint(output, i);
+    const glm::dvec3 p = PointOf(output, i);
     highest = std::max(highest, p.y);
     EXPECT_NEAR(p.z, -5.0, 1e-9);
     EXPECT_GE(p.y, -50.0 - 1e-9);
@@ -499,7 +482,7 @@ TEST(ReflectedGeometryCache, ModesDoNotMix)
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), refracted->GetNumberOfPoints());
   for (vtkIdType i = 0; i < refracted->GetNumberOfPoints(); ++i)
   {
-    EXPECT_EQ(GetPoint(filter->GetOutput(), i), GetPoint(refracted, i));
+    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(refracted, i));
   }
   EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
   EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 3);

@@ -50,20 +50,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeCurved(vtkPolyData* geometry, vt
   return filter;
 }
 
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  glm::dvec3 t(0.0);
-  array->GetTuple(i, &t.x);
-  return t;
-}
-
-glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
-{
-  glm::dvec3 p(0.0);
-  data->GetPoint(i, &p.x);
-  return p;
-}
-
 /** True point, true and virtual normal, and other data of each point of an output. */
 struct Lit
 {
@@ -81,8 +67,8 @@ std::vector<Lit> Read(vtkPolyData* grid, vtkPolyData* output)
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     const auto id = static_cast<vtkIdType>(data->GetArray("SourcePointId")->GetTuple1(i));
-    result.push_back({ GetPoint(grid, id), GetTuple(data->GetArray("SightPoint"), i),
-      GetPoint(output, i), GetTuple(data->GetArray("Bumps"), i), GetTuple(data->GetNormals(), i) });
+    result.push_back({ PointOf(grid, id), GetTuple(data->GetArray("SightPoint"), i),
+      PointOf(output, i), GetTuple(data->GetArray("Bumps"), i), GetTuple(data->GetNormals(), i) });
     EXPECT_EQ(result.back().Normal, GetTuple(grid->GetPointData()->GetNormals(), id));
   }
   return result;

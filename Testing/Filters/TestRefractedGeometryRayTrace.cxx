@@ -23,10 +23,7 @@ vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)
 
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(const PictureScene& scene)
 {
-  auto filter = MakeFilter(MakeObject(scene), MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  auto filter = MakeAllImages(MakeObject(scene), MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
   filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
   filter->SetExteriorIndexOfRefraction(scene.Field.Exterior);
   filter->SetInteriorIndexOfRefraction(scene.Field.Interior);

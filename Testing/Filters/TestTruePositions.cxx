@@ -110,13 +110,6 @@ vtkSmartPointer<vtkPolyData> MakeSeen(const std::vector<reference::ExactImage>& 
   return MakePoints(points);
 }
 
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
 int StateOf(vtkPointSet* data, vtkIdType i)
 {
   return static_cast<int>(data->GetPointData()->GetArray("SeenState")->GetTuple1(i));

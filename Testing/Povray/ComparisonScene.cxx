@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 
 namespace meniscus
 {

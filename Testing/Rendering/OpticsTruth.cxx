@@ -30,6 +30,13 @@ reference::ReferenceTransferFunction ToAlphas(vtkVolumeProperty* property)
 }
 
 //------------------------------------------------------------------------------
+reference::ReferenceTransferFunction FunctionOf(
+  const ProjectionMode& mode, vtkVolumeProperty* property)
+{
+  return mode.OpacityPerDistance ? ToReference(property) : ToAlphas(property);
+}
+
+//------------------------------------------------------------------------------
 reference::Material ToMaterial(vtkVolumeProperty* property, vtkRenderer* renderer)
 {
   reference::Material material;

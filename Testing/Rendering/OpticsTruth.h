@@ -3,6 +3,7 @@
 #ifndef meniscus_Testing_Rendering_OpticsTruth_h
 #define meniscus_Testing_Rendering_OpticsTruth_h
 
+#include "ProjectionModes.h"
 #include "RayCastScene.h"
 #include "ReferenceOptics.h"
 #include "TracedImage.h"
@@ -14,6 +15,10 @@ namespace test
 
 /** Unchanged opacities, for modes that do not measure lengths. */
 reference::ReferenceTransferFunction ToAlphas(vtkVolumeProperty* property);
+
+/** The function by which a projection shows its number. */
+reference::ReferenceTransferFunction FunctionOf(
+  const ProjectionMode& mode, vtkVolumeProperty* property);
 
 /** The material of a property, lit by the renderer's lights as they were in the last frame. */
 reference::Material ToMaterial(vtkVolumeProperty* property, vtkRenderer* renderer);

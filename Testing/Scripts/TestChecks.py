@@ -86,6 +86,34 @@ class Checks(unittest.TestCase):
         self.expect_fault(
             "allowed in ARCHITECTURE.md, but not used", "check_rooms.py", str(self.root))
 
+    def write_top(self, column):
+        row = f"| `Module/Top` | top | {column} |\n"
+        self.write("ARCHITECTURE.md", TABLE + row + TRACES)
+        self.write("Module/Top/Top.h", '#include "High/High.h"\n#include "Low/Low.h"\n')
+
+    def test_a_folder_may_include_what_its_folders_may(self):
+        self.write_top("`Module/High`")
+        self.assertEqual(self.rooms(), (0, ""))
+
+    def test_only_the_folders_of_a_row_with_only(self):
+        self.write_top("only `Module/High`")
+        self.expect_fault(
+            "Module/Top -> Module/Low is not allowed", "check_rooms.py", str(self.root))
+        self.write_top("only `Module/Low`, `Module/High`")
+        self.assertEqual(self.rooms(), (0, ""))
+
+    def test_a_name_that_follows_from_another_is_found(self):
+        self.write_top("`Module/Low`, `Module/High`")
+        self.expect_fault("follows from another name", "check_rooms.py", str(self.root))
+
+    def test_a_public_class_that_the_page_lacks_is_found(self):
+        classes = "set(classes\n  ../Filters/Room/vtkLow\n  ../Rendering/vtkHigh)\n"
+        self.write("Module/CMakeLists.txt", classes)
+        self.write("ARCHITECTURE.md", TABLE + TRACES + "\nvtkLow, vtkHighest\n")
+        self.expect_fault("ARCHITECTURE.md: no vtkHigh", "check_traces.py", str(self.root))
+        self.write("ARCHITECTURE.md", TABLE + TRACES + "\nvtkLow, vtkHigh\n")
+        self.assertEqual(self.run_check("check_traces.py", str(self.root)), (0, ""))
+
     def test_a_trace_without_its_function_is_found(self):
         self.write("Module/Low/Low.h", "void Start();\n")
         self.expect_fault("has no Low::Begin", "check_traces.py", str(self.root))

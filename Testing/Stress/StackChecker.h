@@ -35,7 +35,7 @@ struct TracedSurface
 {
   std::shared_ptr<RefractingSurface> Surface = std::make_shared<RefractingSurface>();
   std::unique_ptr<PatchTracer> Tracer;
-  glm::dvec3 Shift{ 0.0 }; ///< of its origin from that of the list
+  glm::dvec3 Shift{ 0.0 }; ///< of its origin from the list's origin
 };
 
 /** A sight ray that was traced from patch to patch without the kernel. */

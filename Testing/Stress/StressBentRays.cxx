@@ -15,8 +15,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace meniscus

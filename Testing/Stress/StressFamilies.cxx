@@ -10,8 +10,6 @@
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -8,7 +8,6 @@
 #include "ProgrammeOptions.h"
 #include "StressRun.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Meshes that are difficult for a ray caster, in addition to those of TestMeshes.h. */
+/** Meshes that are difficult for a ray caster, in addition to TestMeshes.h. */
 #ifndef meniscus_Testing_Support_HardMeshes_h
 #define meniscus_Testing_Support_HardMeshes_h
 
@@ -17,7 +17,7 @@ namespace test
 /** Replaces every point by the function's value at it. */
 void MapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
 
-/** Fraction of cells whose volume has another sign than that of most cells. */
+/** Fraction of cells whose volume has another sign than most cells'. */
 double InvertedShare(vtkUnstructuredGrid* grid);
 
 /** A block that is tangled until at least the given fraction of its cells is inverted. */

@@ -77,11 +77,11 @@ public:
 
   /**
    * Finds one image of each of `points` (x, y, z each) in [begin, end) and writes it to the same
-   * places of `vertices`. If a point has several images, the result is the one that continues the
-   * image of the previous point; at the start of a chain, and where this continuation ends, it is
-   * the first one that the tree yields. A step more than a tenth longer than one at which a
-   * continuation ended, earlier in the chain, is not continued. With `isAsked`, which has a value
-   * for each point, points with 0 are left out of their chains.
+   * places of `vertices`. If a point has several images, the result continues the previous point's
+   * image; at the start of a chain, and where this continuation ends, it is the first image that
+   * the tree yields. If a continuation ended at a step, later steps of the chain that are more than
+   * 1.1 times as long are not continued. With `isAsked`, which has a value for each point, points
+   * with 0 are left out of their chains.
    */
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     const unsigned char* isAsked = nullptr) const;
@@ -105,7 +105,7 @@ public:
     glm::dvec3 Point{ 0.0 };
     glm::dvec3 PointStep{ 0.0 };
     glm::dvec3 SightStep{ 0.0 };
-    /** Change of SightStep from the one before, and whether that predicts the next change. */
+    /** Change of SightStep since the previous step, and whether that predicts the next change. */
     glm::dvec3 SightTurn{ 0.0 };
     bool IsTurning = false;
     /** Difference of the facets' numbers. */
@@ -129,9 +129,9 @@ public:
   /** @} */
   /**
    * Grid for points down to the height `lowest` along GetFrame(), in local coordinates. It reaches
-   * from the top of the membrane down by its radius, multiplied by a power of two, so that objects
-   * in similar depths share one, whichever comes first. It is kept until the shape or the eye
-   * changes. Needs PrepareField.
+   * from the top of the membrane down by its radius, multiplied by a power of two. Objects in
+   * similar depths therefore share a grid, which does not depend on their order. It is kept until
+   * the shape or the eye changes. Needs PrepareField.
    */
   const InjectivityGrid& PrepareGrid(double lowest, const RangeLoop& loop);
   /** Largest distance of a patch from its flat facet. */

@@ -30,7 +30,7 @@ constexpr double CreaseAngle = 0.52359877559829887; // pi / 6
  *
  * @param borders edges of `facets` that have no other facet
  * @param normals per vertex, of unit length or zero
- * @return per vertex, the vertex that replaces it in `facets`: the one of the smallest index.
+ * @return per vertex, the vertex that replaces it in `facets`, which has the smallest index.
  *   Empty, and `facets` unchanged, if no vertices are joined.
  */
 std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& positions,

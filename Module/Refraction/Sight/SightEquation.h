@@ -70,8 +70,9 @@ public:
   glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b, double& nearest) const;
 
   /**
-   * Change of the residual with the distance from the eye or from the point, whichever is nearer:
-   * the one of its factors that is not smooth where that distance is small.
+   * Derivative of the residual with respect to the distance from the eye or from the point,
+   * whichever is nearer. Of the residual's factors, this one is not smooth where that distance is
+   * small.
    */
   double GetConeSlope(const CurvedPatch& patch, const glm::dvec2& b) const;
 

@@ -77,8 +77,7 @@ public:
    * Finds one image of each of `points` (x, y, z each) in [begin, end), and writes it to the same
    * places of `vertices` and `details`. `legs` gets the lengths of the legs behind each interface
    * of the list that refracts, GetStack().GetNumberOfInterfaces() per point, 0 for those not
-   * passed. If there are several images the result is the one that continues that of the point
-   * before.
+   * passed. If a point has several images, the result continues the previous point's image.
    */
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     StackDetail* details, double* legs) const;

@@ -34,7 +34,7 @@ struct PatchCrossing
  *   farther than E from the interpolant's triangle, the part has no root.
  * - Let D be the derivatives of the facet's linear map, or of X in the middle of the part. If the
  *   derivatives of X differ from D by less than D as matrices, X is injective on the part and
- * within Reach of it. Newton's method then finds the only root there.
+ *   within Reach of it. Newton's method then finds the only root there.
  *
  * E and the bounds on the derivatives follow from bounds of q, n and |n| (CurvedPatch) and their
  * derivatives over the part: control points of polynomials and the product rule.

@@ -55,7 +55,7 @@ public:
   }
   /** Joins the values of a leg to the values of the legs in front of it. */
   void Join(const LegBatch::Origin& origin, BlendMode mode, const PacketResult& result);
-  /** Sets the ray's end to a leg's end. A line that was cut off leaves the sight point unknown. */
+  /** Sets the ray's end to a leg's end, which is unknown if the leg ends before its interface. */
   void EndAt(const LegBatch::Origin& origin, const PacketResult& result)
   {
     this->SetEnd(origin.Pixel, origin.ReachesInterface ? result.End : PacketResult::Somewhere);

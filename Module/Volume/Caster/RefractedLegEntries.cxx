@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Caster/RefractedLegEntries.h"
 
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <limits>
 
@@ -263,7 +261,7 @@ void RefractedLegEntries::Collect(
 }
 
 //------------------------------------------------------------------------------
-/** Sets the entries of the workspace to those of a group's lines. */
+/** Sets the entries of the workspace to the entries of a group's lines. */
 void RefractedLegEntries::FindEntries(
   int frame, const Workspace::Group& group, Workspace& workspace) const
 {

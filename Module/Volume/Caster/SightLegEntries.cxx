@@ -56,7 +56,7 @@ public:
 
   double At(std::int64_t pixel)
   {
-    // Consecutive pixels mostly have the same depth, that of the background.
+    // Consecutive pixels mostly have the same depth, the background's.
     if (this->WindowDepths && this->WindowDepths[pixel] != this->Window)
     {
       this->Window = this->WindowDepths[pixel];
@@ -178,8 +178,8 @@ void SightLegEntries::TakeRays(
   const EntryLists& entries = workspace.Raster.Lists;
   LegBatch& batch = workspace.Batch;
   OpaqueEnds ends(this->Rays.GetFrame(), leg.OpaqueDepth);
-  // Rays that are cast together are those of a square, which cross the same cells for longer than
-  // those of a row.
+  // The rays of a square are cast together: they cross the same cells for longer than the rays of a
+  // row.
   for (const std::int32_t pixel : Curve.Pixels)
   {
     const auto inTile = static_cast<std::size_t>(pixel);

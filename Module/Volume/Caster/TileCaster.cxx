@@ -25,8 +25,7 @@ bool IsOfBins(RayMeasuring measuring)
 RayEventState FirstState(const TileCaster::Scene& scene)
 {
   RayEventState state = EmptyRayEvents();
-  const bool areApart =
-    GetBlendModel(scene.Blending).HidesBehind() || scene.Blending == BlendMode::Additive;
+  const bool areApart = GetBlendModel(scene.Blending).AccumulatesOpacity();
   for (int kind = 0; areApart && kind < NumberOfRayEvents; ++kind)
   {
     if ((scene.WantedEvents >> kind & 1u) == 0)
@@ -189,7 +188,7 @@ void TileCaster::Show(
 }
 
 //------------------------------------------------------------------------------
-/** Joins the measurement of a ray of a batch to those of the legs in front of it. */
+/** Joins the measurement of a ray of a batch to the measurements of the legs in front of it. */
 template <class Entries>
 void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& leg,
   const LegBatch& batch, std::size_t ray, Workspace& workspace) const

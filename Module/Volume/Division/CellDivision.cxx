@@ -7,7 +7,6 @@
 #include "Volume/Division/DivisionWatch.h"
 #include "Volume/Division/ShapeTest.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>

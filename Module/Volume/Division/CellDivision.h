@@ -70,7 +70,7 @@ class CellDivision
 public:
   /**
    * Divides the cells, which replaces earlier results.
-   * @param pieces tetrahedra of the cells; those of one cell follow each other.
+   * @param pieces tetrahedra of the cells; the pieces of one cell follow each other.
    * @param progress called several times per round, and every 131,072 edges or pieces, with the
    *   fraction done, an estimate, since the number of rounds is not known; returns false to abort.
    *   Always on the calling thread.

@@ -5,11 +5,9 @@
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Kernels/PacketKernels.h"
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meniscus

@@ -20,13 +20,14 @@ class EntryLists
 {
 public:
   /**
-   * Replaces the entries by those of `count` hits, in any order, of rays numbered from 0.
+   * Makes the entries from `count` hits, in any order, of rays numbered from 0. Replaces earlier
+   * entries.
    * @param faces faces that the hits refer to.
    */
   void Set(
     std::size_t numberOfRays, const PacketHit* hits, std::size_t count, const PacketFace* faces);
 
-  /** Entries of all rays; those of a ray are [GetBegin(ray), GetBegin(ray + 1)). */
+  /** Entries of all rays; a ray has the entries [GetBegin(ray), GetBegin(ray + 1)). */
   const std::vector<PacketEntry>& GetEntries() const { return this->Entries; }
   std::int32_t GetBegin(std::size_t ray) const { return this->Begins[ray]; }
 

@@ -33,8 +33,8 @@ constexpr double TimeAtVertex = 0x1p-40;
 /**
  * Refracts a momentum at a face by Snell's law, or reflects it if it is totally reflected, which
  * returns false.
- * @param normal unit normal, that of the mesh outwards; 0 for none, which refracts nothing.
- * @param squaredIndex that of the medium beyond.
+ * @param normal unit normal, outwards from the mesh; 0 for none, which refracts nothing.
+ * @param squaredIndex of the medium beyond.
  * @param side 1 for a ray that goes along the normal, as one that leaves, -1 for one against it.
  */
 bool Refract(const glm::dvec3& normal, double squaredIndex, double side, glm::dvec3& momentum)

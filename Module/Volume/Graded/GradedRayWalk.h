@@ -6,15 +6,14 @@
  *
  * Method:
  * 1. The path in a cell is a parabola or a power series (GradedPassage.h). The ray leaves by the
- *    face whose barycentric weight is the first to fall below 0; of equal ones, by that opposite
- * the vertex of the lowest rank.
+ *    face whose barycentric weight is the first to fall below 0; if several fall at once, by the
+ *    face opposite the vertex of the lowest rank.
  * 2. A ray's place is its barycentric weights. They pass to the next cell unchanged, with a weight
  *    of exactly 0 for the vertex that is new, so that no rounding puts a ray outside of its cell.
  *    A ray that has entered by a face moves away from it or along it, never back at once.
  * 3. n^2 is continuous across linked faces, and so is the momentum p, |p| = n.
- * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays. If n^2
- * differs between the two sides of a flat cell, a jump of the index, Snell's law holds at its
- * plane.
+ * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays. If the two
+ *    sides of a flat cell have different n^2, a jump of the index, Snell's law holds at its plane.
  * 5. Outside of the mesh, rays are straight. They enter it as often as they meet its boundary.
  *
  * A ray can glide along a face to which n^2 rises from both sides, or along an edge. Its zigzag has

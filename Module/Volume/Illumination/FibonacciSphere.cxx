@@ -3,7 +3,6 @@
 #include "Volume/Illumination/FibonacciSphere.h"
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
 #include <cmath>
 

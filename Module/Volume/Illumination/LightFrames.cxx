@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
 #include <atomic>
 
 namespace meniscus

@@ -119,7 +119,7 @@ public:
   {
   }
 
-  /** Writes those of the cells [first, last). */
+  /** Writes the gradients of the cells [first, last). */
   void Compute(std::size_t first, std::size_t last, WeightedGradient* gradients) const
   {
     const auto& cells = this->Mesh.GetCells();

@@ -7,12 +7,10 @@
 #include "Volume/Mesh/DuplicateCells.h"
 #include "Volume/Mesh/PointBox.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>

@@ -21,7 +21,7 @@
  *    sides of faces.
  *
  * Points can move: MovePoints() places the vertices anew and keeps their order, the cells and the
- * links, none of which depends on positions but in the cases that it reports.
+ * links. These do not depend on positions, except in the cases that it reports.
  *
  * Cells that cannot be seen can be made inactive: links to them read as negative, like the
  * boundary. GetBoundary() is the boundary of the active cells, where rays enter and leave the mesh.
@@ -148,12 +148,12 @@ public:
     const TetrahedraView& input, const MeshBuildControl& control = MeshBuildControl());
 
   /**
-   * Moves the points of the mesh; cells and active cells stay. The tables are those that Build()
-   * makes of the moved points, but for the order of vertices and cells, which also decides where a
-   * ring without orientation is cut. It remains the order along the curve of the points given to
-   * Build(), in which neighbours are still neighbours in memory.
+   * Moves the points of the mesh; cells and active cells stay. The tables are equal to the result
+   * of Build() for the moved points, except for the order of vertices and cells, which also decides
+   * where a ring without orientation is cut. This order remains the order of the points given to
+   * Build() along the curve; neighbours are still neighbours in memory.
    *
-   * Returns false if Build() must be called, which depends on positions if
+   * Returns false if Build() must be called instead, because more than the positions would change:
    * - a position is or was not finite: cells are left out;
    * - positions decide on duplicates (TetrahedraView::MatchPositions), and other points coincide;
    * - volumes of connected cells cancel or did so: links are cut;

@@ -8,16 +8,13 @@
 #include "Volume/Mesh/PointBox.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace meniscus
@@ -171,7 +168,7 @@ void TetrahedralMesh::MeasureCells(
 }
 
 //------------------------------------------------------------------------------
-/** Adds the volumes of measured cells to those of the cells before them. */
+/** Adds the volumes of measured cells to the volumes of the cells before them. */
 void TetrahedralMesh::AddVolumes(const CellMeasures& cells, std::size_t first,
   std::vector<std::pair<std::int32_t, ComponentVolume>>& runs) const
 {

@@ -89,6 +89,14 @@ struct BlendModel
 
   /** Whether a ray ends where next to nothing shines through. */
   constexpr bool HidesBehind() const { return this->Kept == KeptResult::Color; }
+  /**
+   * Whether a ray has an opacity up to each of its places: of the picture, or, in additive
+   * blending, of the same medium in a composite picture. Other modes show a place or a mean.
+   */
+  constexpr bool AccumulatesOpacity() const
+  {
+    return this->HidesBehind() || this->Opacity == OpacityMeaning::Attenuation;
+  }
   /** Whether pictures of several ranks can be put one over the other. */
   constexpr bool RanksComposite() const { return this->HidesBehind(); }
   constexpr bool IsMedium() const { return this->Subject == BlendSubject::Medium; }

@@ -4,7 +4,8 @@
 #
 # meniscus_blend_mode(NAME NUMBER LABEL MODEL PART OPACITY VISIBLE KEPT SUBJECT)
 #   NAME     enumerator of BlendMode; shaders know it as NAME in capitals
-#   NUMBER   that of vtkVolumeMapper::BlendModes; ascending
+#   NUMBER   number in vtkVolumeMapper::BlendModes, or from 1000 on if VTK has no such mode;
+#            ascending
 #   LABEL    name for people
 #   MODEL    class template in Module/Volume/Packet/Models/<MODEL>.h
 #   PART     optical model of the shader: Rendering/glsl/vtkTetrahedra<PART>.glsl

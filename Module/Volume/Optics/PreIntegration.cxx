@@ -4,8 +4,6 @@
 
 #include "Common/BlockLoop.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -213,7 +211,8 @@ PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& l
             depth += this->Samples[i].StepDepth;
             emission += this->Samples[i].StepEmission;
           }
-          // Entries without opacity also need a colour, for interpolation: that of the middle.
+          // Entries without opacity also need a colour, for interpolation: the colour in the
+          // middle.
           slice[at(low, high)] =
             glm::vec3(depth > 0.0 ? emission / depth : this->Samples[low + high].Color);
           slice[at(high, low)] = slice[at(low, high)];

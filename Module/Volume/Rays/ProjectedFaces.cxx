@@ -3,7 +3,6 @@
 #include "Volume/Rays/ProjectedFaces.h"
 #include "Volume/Packet/Data/PacketRays.h"
 
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ static_assert(
 
 /**
  * More than the rounding of a pixel's number, which is below 1e9, in double arithmetic: a few times
- * 1e9 * 2^-53. The errors of u and v that it is computed from are far below those of rays.
+ * 1e9 * 2^-53. The errors of u and v that it is computed from are far below the errors of rays.
  */
 constexpr double RoundingOfPixel = 1.0 / 1024.0;
 

@@ -4,8 +4,6 @@
 
 #include "Simd/LaneLoop.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <limits>
 

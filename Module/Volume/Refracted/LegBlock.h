@@ -19,7 +19,7 @@ namespace meniscus
 
 /**
  * Legs of the rays of a square of pixels, as arrays; see RayLeg. Pixels are in the order of the
- * Morton curve, so that rays that are cast together are those of a square.
+ * Morton curve, so that the rays of a small square are cast together.
  */
 struct LegBlock
 {

@@ -3,7 +3,6 @@
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Simd/InstructionSets.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>

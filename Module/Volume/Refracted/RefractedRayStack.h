@@ -30,8 +30,8 @@ namespace meniscus
  * count. A closed surface that is listed twice is thus entered and left.
  *
  * A ray that is totally reflected at an interface ends there. A ray that misses an interface ends
- * at the one before, where nothing is known about its further way; rays that miss the first
- * interface are straight. A ray also ends at an interface behind which it does not reach the mesh.
+ * at the previous interface, since its further way is unknown; rays that miss the first interface
+ * are straight. A ray also ends at an interface behind which it does not reach the mesh.
  *
  * Blocks of rays descend the trees of boxes around the patches. Those that show nothing of the mesh
  * by their bounds (StackVisibility) are not traced behind the first interface. Tiles of the image

@@ -49,7 +49,7 @@ RefractedRayLine LineOf(
     return NoLine;
   }
   const glm::dvec3 sightPoint = before.Begin + (before.End - before.Depth) * before.Step;
-  // The frame of the sight ray is that of the view.
+  // The frame of the sight ray is the view's frame.
   const double end =
     number == 1 ? sightPoint.z : (frames.Get(frames.IndexOf(before.Step)).FromView * sightPoint).z;
   RefractedRayLine line{ {}, {}, static_cast<float>(end), 0.0f, 0.0f, RestOf(end) << 8 };
@@ -69,7 +69,7 @@ RefractedRayLine LineOf(
   return line;
 }
 
-/** Lays out the lines of one leg in a tile; `lines` are those of all pixels. */
+/** Lays out the lines of one leg in a tile; `lines` has the lines of all pixels. */
 void LayOutTile(const RayLegs& legs, const RefractionFrames& frames, int tile, int number,
   RefractedRayLine* lines)
 {

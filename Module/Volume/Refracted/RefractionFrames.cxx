@@ -13,7 +13,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace meniscus

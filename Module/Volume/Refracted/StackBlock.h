@@ -60,8 +60,8 @@ struct WorldLegs
 };
 
 /**
- * Rays on their way to an interface, each up to its nearest intersection. Rays that do not go there
- * are replaced by one that does, and end in front of everything.
+ * Rays on their way to an interface, each up to its nearest intersection. The lane of a ray that
+ * does not go there has a copy of a ray that does, which ends in front of everything.
  */
 struct StackLanes : RayBlock
 {
@@ -103,7 +103,7 @@ struct StackBlock
   /**
    * Sets the lanes to the rays that may meet interface `number`, from the depth `first` on; there
    * are no lanes if there is no such ray. IsMismatched is set in any case.
-   * @param toSurface the view's origin, from that of the surface.
+   * @param toSurface the view's origin relative to the surface's origin.
    */
   void SetLanes(
     std::size_t number, const Interface& interface, const glm::dvec3& toSurface, double first);
@@ -124,7 +124,7 @@ struct StackBlock
     FacetBoxes* own = this->Facets.Find(number);
     return own ? own : this->OfTile.Find(number);
   }
-  /** Intersector of a patch, for rays of that length. */
+  /** Intersector of a patch, for rays of the length `rayLength`. */
   const PatchIntersector& GetTracer(
     const Interface& interface, std::size_t number, std::int32_t facet, double rayLength);
 

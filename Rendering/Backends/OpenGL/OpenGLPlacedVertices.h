@@ -39,9 +39,9 @@ public:
   using FrameRows = FixedPointRays::FixedPointRows;
 
   /**
-   * Places the vertices unless they are placed in this way already; those of frame i begin at i
-   * times their number. Binds a framebuffer and sets the viewport. Returns an error or an empty
-   * string.
+   * Places the vertices unless they are placed in this way already; the vertices of frame i begin
+   * at i times their number. Binds a framebuffer and sets the viewport. Returns an error or an
+   * empty string.
    * @param vertices (x, y, z, scalar) of each vertex in fixed point.
    * @param version changes with the vertices.
    */

@@ -9,7 +9,6 @@
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace meniscus
 {

@@ -14,10 +14,6 @@
 #include <string>
 #include <vector>
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 class vtkWindow;
@@ -49,7 +45,7 @@ public:
     int width, const RefractionFrames& frames);
 
   /**
-   * Rows of the frames with lines, in the order in which their vertices follow those of the view.
+   * Rows of the frames with lines, in the order in which their vertices follow the view's vertices.
    */
   const std::vector<FixedPointRays::FixedPointRows>& GetFixedPointRows() const
   {

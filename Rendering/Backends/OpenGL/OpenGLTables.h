@@ -138,7 +138,8 @@ private:
   OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
   /**
-   * Intervals of the scalar's function, of those of its other components, and of gradient opacity.
+   * Intervals of the scalar's function, of the functions of its other components, and of gradient
+   * opacity.
    */
   OpenGLTable Intervals;
   /** Start of the intervals of each function, gradient opacity last, and their end. */

@@ -30,13 +30,6 @@ const glm::dvec3 Eye(20.0, 300.0, 10.0);
 const glm::dvec3 Up(0.0, 1.0, 0.0);
 constexpr double Length = 80.0;
 
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
 double ValueOf(vtkDataSetAttributes* data, const char* name, vtkIdType i)
 {
   return data->GetArray(name)->GetTuple1(i);

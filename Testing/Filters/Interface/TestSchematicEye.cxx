@@ -8,9 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
-#include <vector>
 
 namespace
 {

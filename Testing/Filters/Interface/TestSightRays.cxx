@@ -25,7 +25,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -88,13 +87,6 @@ vtkSmartPointer<Filter> MakePaneFilter(vtkPointSet* seen)
   AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
   AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.5, 1.333);
   return filter;
-}
-
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
 }
 
 double ValueOf(vtkDataSetAttributes* data, const char* name, vtkIdType i)

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace
@@ -31,13 +30,6 @@ namespace reference = meniscus::reference;
 
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 const glm::dvec3 Up(0.0, 1.0, 0.0);
-
-glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
 
 vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume()
 {

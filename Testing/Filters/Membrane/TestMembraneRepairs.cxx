@@ -34,15 +34,6 @@ void Store(const glm::dvec3& value, std::int64_t index, std::vector<double>& arr
   std::copy(&value.x, &value.x + 3, array.begin() + 3 * index);
 }
 
-vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkPolyData* geometry, vtkPolyData* membrane)
-{
-  auto filter = MakeFilter(geometry, membrane);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  return filter;
-}
-
 // Each triangle of the waves has its own corners and its own normal, as in an STL file.
 TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
 {
@@ -63,7 +54,7 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
   const auto grid = MakeGrid(81, 100.0, -30.0);
   const auto merged = MakeMembrane(waves);
   merged->GetPointData()->SetNormals(nullptr);
-  const auto expected = MakeView(grid, merged);
+  const auto expected = MakeAllImages(grid, merged);
   expected->Update();
   for (const bool withNormals : { false, true })
   {
@@ -72,7 +63,7 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
     {
       separate->GetPointData()->SetNormals(nullptr);
     }
-    const auto view = MakeView(grid, separate);
+    const auto view = MakeAllImages(grid, separate);
     const auto told = Observe(view);
     view->Update();
     EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
@@ -97,7 +88,7 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
   MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 40, 2.0, 3.0);
   vtkNew<vtkPolyData> grid; // points alone: cells would be divided as finely as they bend
   grid->SetPoints(MakeGrid(21, 100.0, -30.0)->GetPoints());
-  const auto right = MakeView(grid, MakeMembrane(mesh));
+  const auto right = MakeAllImages(grid, MakeMembrane(mesh));
   right->Update();
   int wild = 0;
   for (std::int64_t i = 50; i < 1681; i += 101)
@@ -105,7 +96,7 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
     Store(glm::normalize(glm::dvec3(1.0, 0.3, -0.4)), i, mesh.Normals);
     ++wild;
   }
-  const auto view = MakeView(grid, MakeMembrane(mesh));
+  const auto view = MakeAllImages(grid, MakeMembrane(mesh));
   const auto told = Observe(view);
   view->Update();
   EXPECT_EQ(told->Warnings, 1);
@@ -159,7 +150,7 @@ TEST(MembraneRepairs, DomesWithWildNormalsAtTheRimEnd)
     ball->SetThetaResolution(12);
     ball->SetPhiResolution(12);
     ball->Update();
-    const auto view = MakeView(ball->GetOutput(), MakeMembrane(dome));
+    const auto view = MakeAllImages(ball->GetOutput(), MakeMembrane(dome));
     const auto told = Observe(view);
     view->Update();
     EXPECT_GT(view->GetOutput()->GetNumberOfPoints(), 0);

@@ -33,16 +33,6 @@ using namespace meniscus::reference;
 
 const double Pi = std::acos(-1.0);
 
-vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
-  vtkPolyData* geometry, vtkPolyData* membrane)
-{
-  auto filter = MakeFilter(geometry, membrane);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  return filter;
-}
-
 /**
  * A whole sphere about the origin with exact normals, outward or inward; the winding is outward.
  */
@@ -96,13 +86,6 @@ vtkSmartPointer<vtkPolyData> MakeVertices(const std::vector<Point>& positions)
   }
   points->SetVerts(verts);
   return points;
-}
-
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  glm::dvec3 t(0.0);
-  array->GetTuple(i, &t.x);
-  return t;
 }
 
 /**

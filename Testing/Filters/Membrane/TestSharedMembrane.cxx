@@ -16,8 +16,6 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
 namespace
 {
 

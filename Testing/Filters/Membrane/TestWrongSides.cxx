@@ -59,22 +59,6 @@ vtkSmartPointer<vtkPolyData> MakeWater(double side, double height = 0.0, bool wi
   return membrane;
 }
 
-vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkPolyData* geometry, vtkPolyData* membrane)
-{
-  auto filter = MakeFilter(geometry, membrane);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  return filter;
-}
-
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
 bool Contains(const std::string& text, const char* part)
 {
   return text.find(part) != std::string::npos;
@@ -89,7 +73,7 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
     const auto points = MakePoints({ { 10.0, -20.0, 5.0 } });
     for (const bool all : { false, true })
     {
-      const auto view = MakeView(points, water);
+      const auto view = MakeAllImages(points, water);
       view->SetImages(
         all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
       const auto told = Observe(view);
@@ -158,11 +142,11 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
 TEST(WrongSides, AMembraneIsTurnedTowardsTheEye)
 {
   const auto points = MakePoints({ { 10.0, -20.0, 5.0 }, { -30.0, -40.0, 15.0 } });
-  const auto right = MakeView(points, MakeWater(1.0));
+  const auto right = MakeAllImages(points, MakeWater(1.0));
   right->Update();
   for (const bool withNormals : { false, true })
   {
-    const auto turned = MakeView(points, MakeWater(-1.0, 0.0, withNormals));
+    const auto turned = MakeAllImages(points, MakeWater(-1.0, 0.0, withNormals));
     turned->GetInterfaces()->GetFirstInterface()->TurnTowardsEyeOn();
     const auto told = Observe(turned);
     turned->Update();
@@ -189,7 +173,7 @@ TEST(WrongSides, AMembraneIsTurnedTowardsTheEye)
 vtkSmartPointer<vtkRefractedGeometryFilter> MakePane(
   vtkPolyData* geometry, double upperSide, double lowerSide, bool turns)
 {
-  auto filter = MakeView(geometry, MakeWater(upperSide));
+  auto filter = MakeAllImages(geometry, MakeWater(upperSide));
   filter->AddMembraneData(MakeWater(lowerSide, -10.0));
   vtkNew<vtkRefractingInterfaceCollection> pane;
   pane->AddInterface(1.0, 1.5)->SetTurnTowardsEye(turns);
@@ -228,7 +212,7 @@ TEST(WrongSides, APaneWithASideUpsideDownIsReportedAndTurned)
 TEST(WrongSides, SidesOfAPaneInTheWrongOrderAreReported)
 {
   const auto points = MakePoints({ { 10.0, -60.0, 5.0 } });
-  auto filter = MakeView(points, MakeWater(1.0, -10.0));
+  auto filter = MakeAllImages(points, MakeWater(1.0, -10.0));
   filter->AddMembraneData(MakeWater(1.0));
   vtkNew<vtkRefractingInterfaceCollection> pane;
   pane->AddInterface(1.0, 1.5);
@@ -242,7 +226,7 @@ TEST(WrongSides, SidesOfAPaneInTheWrongOrderAreReported)
 TEST(WrongSides, TotalReflectionEverywhereIsNamed)
 {
   const auto points = MakePoints({ { 10.0, -60.0, 5.0 } });
-  const auto view = MakeView(points, MakeWater(1.0));
+  const auto view = MakeAllImages(points, MakeWater(1.0));
   view->SetEyePosition(1000.0, 300.0, 0.0); // at least 72 degrees from the normal
   view->SetExteriorIndexOfRefraction(1.333);
   view->SetInteriorIndexOfRefraction(1.0);
@@ -267,7 +251,7 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
     });
   ASSERT_EQ(common.size(), 2u);
   mesh.AddTriangle(common[0], common[1], static_cast<std::int64_t>(mesh.Points.size() / 3) - 1);
-  const auto view = MakeView(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeMembrane(mesh));
+  const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeMembrane(mesh));
   const auto told = Observe(view);
   view->Update();
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;

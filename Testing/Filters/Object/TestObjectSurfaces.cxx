@@ -40,13 +40,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkDataObject* geometry)
   return filter;
 }
 
-glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
 /** A row of two hexahedra in the water, with the point and cell arrays "Rank". */
 vtkSmartPointer<vtkUnstructuredGrid> MakeHexahedra()
 {

@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -35,10 +34,7 @@ struct Seams
 Seams Measure(bool isClosed)
 {
   const auto waves = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 3.0, 3.0));
-  const auto filter = MakeFilter(MakeGrid(5, Side, -120.0), waves);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  const auto filter = MakeAllImages(MakeGrid(5, Side, -120.0), waves);
   filter->SetAngularTolerance(0.1);
   filter->SetCloseSeams(isClosed);
   filter->TrueGeometryOn();

@@ -29,28 +29,6 @@ const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 5.0, 0.03 * Pi, 1.0, 1.333 };
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
-vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
-  vtkPolyData* geometry, vtkPolyData* membrane)
-{
-  auto filter = MakeFilter(geometry, membrane);
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  return filter;
-}
-
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  double t[3] = { 0.0, 0.0, 0.0 };
-  array->GetTuple(i, t);
-  return { t[0], t[1], t[2] };
-}
-
-glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
-{
-  return GetTuple(data->GetPoints()->GetData(), i);
-}
-
 /** A vertical polygon at x = 7, from `low` to `high`. */
 vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
 {
@@ -119,14 +97,14 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
     ++images[static_cast<std::size_t>(id)];
     EXPECT_EQ(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(i), id);
     // Eq. 2.4.
-    EXPECT_NEAR(glm::length(GetPoint(output, i) - GetTuple(sight, i)) * 1.333,
-      glm::length(GetPoint(points, id) - GetTuple(sight, i)), 1e-9);
+    EXPECT_NEAR(glm::length(PointOf(output, i) - GetTuple(sight, i)) * 1.333,
+      glm::length(PointOf(points, id) - GetTuple(sight, i)), 1e-9);
   }
   int several = 0;
   int without = 0;
   for (std::size_t i = 0; i < 200; ++i)
   {
-    const glm::dvec3 p = GetPoint(points, static_cast<vtkIdType>(i));
+    const glm::dvec3 p = PointOf(points, static_cast<vtkIdType>(i));
     const auto exact = Waves.FindSightPoints(Eye, p);
     several += images[i] > 1;
     without += images[i] == 0;
@@ -233,7 +211,7 @@ TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossAFlatMembrane)
     if (facet->GetTuple1(i) < 0.0)
     {
       EXPECT_GE(t.y, -1e-9);
-      EXPECT_LT(glm::length(GetPoint(output, i) - t), 1e-9);
+      EXPECT_LT(glm::length(PointOf(output, i) - t), 1e-9);
     }
     else
     {
@@ -285,7 +263,7 @@ TEST(RefractedGeometryImages, ObjectsInFrontPassUnchanged)
   EXPECT_EQ(output->GetNumberOfPolys(), 16);
   for (vtkIdType i = 0; i < 25; ++i)
   {
-    EXPECT_EQ(GetPoint(output, i), GetPoint(grid, i));
+    EXPECT_EQ(PointOf(output, i), PointOf(grid, i));
     EXPECT_EQ(output->GetPointData()->GetArray("RefractionDepth")->GetTuple1(i), 0.0);
   }
 }

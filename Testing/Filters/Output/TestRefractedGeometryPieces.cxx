@@ -47,12 +47,9 @@ const PiecesCase Cases[] = {
     { 20.0, 200.0, 10.0 } },
 };
 
-vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(const PiecesCase& test, vtkPolyData* data)
+vtkSmartPointer<vtkRefractedGeometryFilter> MakePieces(const PiecesCase& test, vtkPolyData* data)
 {
-  auto filter = MakeFilter(data, MakeMembrane(test.Field.MakeMesh(test.Cells)));
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  auto filter = MakeAllImages(data, MakeMembrane(test.Field.MakeMesh(test.Cells)));
   filter->SetEyePosition(test.Eye.x, test.Eye.y, test.Eye.z);
   filter->SetExteriorIndexOfRefraction(test.Field.Exterior);
   filter->SetInteriorIndexOfRefraction(test.Field.Interior);
@@ -88,7 +85,7 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
     texture->InsertNextTuple2(p[0] / side + 0.5, p[2] / side + 0.5);
   }
   floor->GetPointData()->SetTCoords(texture);
-  const auto filter = MakeAllImages(test, floor);
+  const auto filter = MakePieces(test, floor);
   filter->Update();
   vtkPointData* output = filter->GetOutput()->GetPointData();
   ASSERT_GE(filter->GetOutput()->GetNumberOfPoints(), count * count);
@@ -194,7 +191,7 @@ TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
         MakeRing({ 2.0 + away * std::cos(5.2 + i), -9.0 + i % 4, -3.0 + away * std::sin(5.2 + i) },
           8.0, 2.5);
       AddTruth(ring);
-      const auto filter = MakeAllImages(test, ring);
+      const auto filter = MakePieces(test, ring);
       filter->SetAngularTolerance(0.001);
       filter->Update();
       ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 500);
@@ -216,7 +213,7 @@ TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
   vtkNew<vtkPolyData> ball;
   ball->DeepCopy(source->GetOutput());
   AddPlaces(ball);
-  const auto filter = MakeAllImages(test, ball);
+  const auto filter = MakePieces(test, ball);
   filter->Update();
   constexpr int pixels = 700;
   const PixelCamera camera(test.Eye, { 3.0, -30.0, 2.0 }, 0.2, pixels);

@@ -54,7 +54,7 @@ enum class CellForm
 
 /**
  * The object. Point arrays: "Truth" (the true position), "Ones", "Index". `places` are the points'
- * coordinates if they differ from those of the scene.
+ * coordinates if they differ from the scene's.
  */
 vtkSmartPointer<vtkPolyData> MakeObject(const FilterScene& scene, CellForm form = CellForm::Quads,
   const std::vector<glm::dvec3>* places = nullptr);

@@ -3,7 +3,6 @@
 #include "RefractionTrial.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

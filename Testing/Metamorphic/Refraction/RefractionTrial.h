@@ -59,7 +59,7 @@ struct Motion
 };
 
 /**
- * Compares images and sides of a scene's points with those of a changed scene.
+ * Compares images and sides of points between a scene and a changed scene.
  *
  * Newton's method leaves an error of 1e-10 of a facet in a sight point (SightEquation::Solve), and
  * coordinates of magnitude M are rounded to M 2^-53 a few times; positions of vertices change the
@@ -79,7 +79,7 @@ public:
   /** Adds to the tally. `shows` returns true for images that the changed scene shows; null: all. */
   void Compare(const RefractionScene& changed, const Motion& motion,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
-  /** As above, for given geometry; `magnitude` is that of its coordinates. */
+  /** As above, for given geometry; `magnitude` is the magnitude of its coordinates. */
   void Compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
   /**

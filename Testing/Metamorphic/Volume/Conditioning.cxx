@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Conditioning.h"
 
+#include "ProjectionModes.h"
 #include "ReferenceComponents.h"
 #include "ReferenceOptics.h"
 
@@ -144,8 +145,9 @@ reference::ReferenceTransferFunction Merged(const LookFunction& function, double
 reference::ReferenceTransferFunction FunctionOf(const VolumeLook& look, std::size_t component)
 {
   const LookFunction& function = look.Functions[std::min(component, look.Functions.size() - 1)];
+  const ProjectionMode* projection = FindProjectionMode(look.Blend);
   const bool measures =
-    look.Blend == vtkVolumeMapper::COMPOSITE_BLEND || look.Blend == vtkVolumeMapper::ADDITIVE_BLEND;
+    projection ? projection->OpacityPerDistance : look.Blend == vtkVolumeMapper::COMPOSITE_BLEND;
   const double weight = look.Functions.size() > 1 ? function.Weight : 1.0;
   return Merged(function, weight / (measures ? look.Unit : 1.0));
 }
@@ -274,11 +276,7 @@ private:
     return random.Below(2) ? amount : -amount;
   }
 
-  bool IsProjection() const
-  {
-    return this->Case.Look.Blend != vtkVolumeMapper::COMPOSITE_BLEND &&
-      this->Case.Look.Blend != vtkVolumeMapper::ISOSURFACE_BLEND;
-  }
+  bool IsProjection() const { return FindProjectionMode(this->Case.Look.Blend) != nullptr; }
 
   Ray Clipped(const Ray& ray) const
   {
@@ -378,14 +376,9 @@ private:
   {
     const std::vector<RaySegment> segments =
       this->DepthRounding > 0.0 ? this->WithMovedEnds(ray, given) : given;
-    const int blend = this->Case.Look.Blend;
     const auto range = this->Case.MakeMesh().MakeRange(0);
-    const auto projection = blend == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND
-      ? reference::Projection::Maximum
-      : blend == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ? reference::Projection::Minimum
-      : blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND ? reference::Projection::Average
-                                                          : reference::Projection::Additive;
-    return reference::Project(ray, segments, projection, this->Functions[0], range.data());
+    const ProjectionMode* projection = FindProjectionMode(this->Case.Look.Blend);
+    return reference::Project(ray, segments, projection->Truth, this->Functions[0], range.data());
   }
 
   Color Mix(const Ray& ray) const

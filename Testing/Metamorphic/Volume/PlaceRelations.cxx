@@ -7,7 +7,6 @@
 #include <vtkMath.h>
 #include <vtkRenderer.h>
 
-#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>

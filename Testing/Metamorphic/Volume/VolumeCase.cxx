@@ -4,6 +4,7 @@
 
 #include "MapScene.h"
 #include "MeshFamilies.h"
+#include "ProjectionModes.h"
 #include "ReferenceMesh.h"
 #include "VolumeScene.h"
 
@@ -14,11 +15,12 @@
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkVolumeMapper.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 namespace meniscus
 {
@@ -184,7 +186,8 @@ void SetMembrane(VolumeCase& test, RandomNumbers& random)
 void SetMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
 {
   VolumeLook& look = test.Look;
-  const int kind = random.Below(needs.Composite ? 5 : 10);
+  const int numberOfProjections = static_cast<int>(std::size(ProjectionModes));
+  const int kind = random.Below(needs.Composite ? 5 : 5 + numberOfProjections + 1);
   if (kind == 3 && !needs.OneComponent)
   {
     const int components = 2 + random.Below(3);
@@ -204,15 +207,13 @@ void SetMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
   }
   else if (kind >= 5)
   {
-    const int modes[5] = { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-      vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
-      vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND };
-    const char* const names[5] = { ", maximum", ", minimum", ", average", ", additive",
-      ", isosurfaces" };
-    look.Blend = modes[kind - 5];
-    test.Name += names[kind - 5];
+    const bool isProjection = kind < 5 + numberOfProjections;
+    look.Blend =
+      isProjection ? ProjectionModes[kind - 5].Number : int(vtkVolumeMapper::ISOSURFACE_BLEND);
+    test.Name +=
+      std::string(", ") + (isProjection ? ProjectionModes[kind - 5].Name : "isosurfaces");
     look.Gradients = needs.NoVertexGradients ? 0 : random.Below(2);
-    look.Shade = kind == 9 && !needs.NoGradients && random.Below(2) == 0;
+    look.Shade = !isProjection && !needs.NoGradients && random.Below(2) == 0;
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <vtkTetrahedraRayCastMapper.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

@@ -39,7 +39,7 @@ public:
 
   /** Expects a changed scene to give the same image. */
   void ExpectSame(const VolumeCase& changed, const std::string& words);
-  /** Expects an image to be that of the scene. */
+  /** Expects an image to equal the scene's. */
   void ExpectSame(const FloatImage& changed, const std::string& words);
   void ExpectSame(
     const FloatImage& changed, const PixelMap& map, double tolerance, const std::string& words);

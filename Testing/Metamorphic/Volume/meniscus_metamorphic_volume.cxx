@@ -9,7 +9,6 @@
 
 #include <vtkTetrahedraRayCastMapper.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <map>
 

@@ -8,6 +8,7 @@
 #include "Volume/Rays/RayPivot.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace meniscus
 {
@@ -62,7 +63,8 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
 std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested)
 {
   std::string name = NameOf(tested.param);
-  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  const auto isOther = [](unsigned char letter) { return std::isalnum(letter) == 0; };
+  name.erase(std::remove_if(name.begin(), name.end(), isOther), name.end());
   return name;
 }
 

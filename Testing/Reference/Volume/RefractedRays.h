@@ -56,7 +56,7 @@ struct RefractedRay
  */
 RefractedRay Refract(const RefractingSurface& surface, const Ray& ray, double eye, bool endsOpaque);
 
-/** Segments along both parts, as those of one ray with a direction of unit length. */
+/** Segments along both parts, as of one ray with a direction of unit length. */
 std::vector<RaySegment> FindSegments(
   const ReferenceRayIntegrator& integrator, const RefractedRay& ray);
 

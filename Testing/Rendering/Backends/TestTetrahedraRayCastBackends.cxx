@@ -3,6 +3,7 @@
 // Compute and fragment shaders consist of the same functions and give the same image.
 #include "DeviceTableLimits.h"
 #include "MembraneScene.h"
+#include "ProjectionModes.h"
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -149,7 +149,7 @@ TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
   const std::vector<int> backends{ vtkTetrahedraRayCastMapper::COMPUTE };
   ExpectAgreement(scene, backends, "plain");
   scene.GetVolume()->SetProperty(LitProperty());
-  ExpectAgreementOfModes(scene, backends, { 0, 1, 2, 3, 4, 5 });
+  ExpectAgreementOfModes(scene, backends, AllBlendModes());
 }
 
 TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
@@ -161,7 +161,7 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   const std::vector<int> backends{ vtkTetrahedraRayCastMapper::NATIVE };
   ExpectAgreement(scene, backends, "plain");
   scene.GetVolume()->SetProperty(LitProperty());
-  ExpectAgreementOfModes(scene, backends, { 0, 1, 2, 3, 4, 5 });
+  ExpectAgreementOfModes(scene, backends, AllBlendModes());
   AddLights(scene.GetRenderer());
   ExpectAgreementOfModes(scene, backends, { 0, 5 });
   // Fractional exponents; lighting alone, then gradient opacity alone.
@@ -196,7 +196,7 @@ TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
     ExpectAgreement(scene, backends, "compact tables");
     meniscus::DeviceTableLimits::SetCompact(scene.GetRayCaster(), false);
     scene.GetVolume()->SetProperty(LitProperty());
-    ExpectAgreementOfModes(scene, backends, { 0, 1, 2, 3, 4, 5 });
+    ExpectAgreementOfModes(scene, backends, AllBlendModes());
   }
 }
 

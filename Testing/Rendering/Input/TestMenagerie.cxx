@@ -18,7 +18,6 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <ostream>
 #include <sstream>
 

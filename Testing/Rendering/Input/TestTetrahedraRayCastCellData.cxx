@@ -343,20 +343,14 @@ TEST(TetrahedraRayCastCellData, ThroughAMembraneNextToTheBoundary)
 TEST(TetrahedraRayCastCellData, Projections)
 {
   const Grid grid = MakeCellBlock(6);
-  const std::pair<int, Projection> modes[] = { { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-                                                 Projection::Maximum },
-    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
-    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
-    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
-  for (const auto& mode : modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
     CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
-    scene.GetRayCaster()->SetBlendMode(mode.first);
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
     scene.GetWindow()->Render();
     const auto integrator = MakeReference(grid);
     vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
-    const auto function =
-      mode.second == Projection::Additive ? ToReference(property) : ToAlphas(property);
+    const auto function = FunctionOf(mode, property);
     double range[2];
     MakeCellScalars(grid)->GetFiniteRange(range);
     ExpectTrace(
@@ -364,9 +358,9 @@ TEST(TetrahedraRayCastCellData, Projections)
       [&](const Ray& ray)
       {
         return Project(
-          ray, FindCells(*integrator, MakeCellScalars(grid), ray), mode.second, function, range);
+          ray, FindCells(*integrator, MakeCellScalars(grid), ray), mode.Truth, function, range);
       },
-      "mode " + std::to_string(mode.first), FloatTolerance, 0.01);
+      mode.Name, FloatTolerance, 0.01);
   }
 }
 

@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
@@ -226,23 +225,16 @@ TEST(TetrahedraRayCastFillValues, Isosurfaces)
 
 TEST(TetrahedraRayCastFillValues, Projections)
 {
-  const std::pair<int, Projection> modes[4] = { { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-                                                  Projection::Maximum },
-    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
-    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
-    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
   const auto property = MakeFunction(false);
-  for (const auto& mode : modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
     ExpectFills(
-      "projection " + std::to_string(mode.first), property,
-      [&mode](RayCastScene& scene) { scene.GetRayCaster()->SetBlendMode(mode.first); },
+      mode.Name, property,
+      [&mode](RayCastScene& scene) { scene.GetRayCaster()->SetBlendMode(mode.Number); },
       [&mode](
         RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
       {
-        const bool additive = mode.second == Projection::Additive;
-        const auto function = additive ? ToReference(scene.GetVolume()->GetProperty())
-                                       : ToAlphas(scene.GetVolume()->GetProperty());
+        const auto function = FunctionOf(mode, scene.GetVolume()->GetProperty());
         std::array<double, 2> range{ 0.0, 0.0 };
         for (std::size_t c = 0; c < integrator.MakeMesh().GetNumberOfCells(); ++c)
         {
@@ -257,7 +249,7 @@ TEST(TetrahedraRayCastFillValues, Projections)
         {
           std::vector<RaySegment> segments;
           integrator.FindSegments(ray, segments);
-          return Project(ray, segments, mode.second, function, range.data());
+          return Project(ray, segments, mode.Truth, function, range.data());
         };
       });
   }

@@ -23,7 +23,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <initializer_list>
 
 using namespace meniscus::test;
 

@@ -17,9 +17,7 @@
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -168,30 +166,22 @@ void ExpectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
   scene.GetWindow()->Render();
   vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
   const std::vector<Surface> surfaces = ToSurfaces(property);
-  const bool lengths =
-    mode == vtkVolumeMapper::COMPOSITE_BLEND || mode == vtkVolumeMapper::ADDITIVE_BLEND;
-  const ReferenceTransferFunction function = lengths ? ToReference(property) : ToAlphas(property);
+  const ProjectionMode* projection = FindProjectionMode(mode);
+  const ReferenceTransferFunction function =
+    projection ? FunctionOf(*projection, property) : ToReference(property);
   double range[2];
   scene.MakeGrid()->GetPointData()->GetScalars()->GetFiniteRange(range);
   ExpectSegments(
     scene, corner.Part, integrator, membrane,
     [&](const Ray& ray, const std::vector<RaySegment>& segments) -> std::array<double, 4>
     {
-      switch (mode)
+      if (projection)
       {
-        case vtkVolumeMapper::COMPOSITE_BLEND:
-          return ReferenceRayIntegrator::Integrate(ray, segments, function);
-        case vtkVolumeMapper::ISOSURFACE_BLEND:
-          return BlendSurfaces(ray, segments, surfaces, nullptr, Material());
-        case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
-          return Project(ray, segments, Projection::Maximum, function, range);
-        case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
-          return Project(ray, segments, Projection::Minimum, function, range);
-        case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
-          return Project(ray, segments, Projection::Average, function, range);
-        default:
-          return Project(ray, segments, Projection::Additive, function, range);
+        return Project(ray, segments, projection->Truth, function, range);
       }
+      return mode == vtkVolumeMapper::ISOSURFACE_BLEND
+        ? BlendSurfaces(ray, segments, surfaces, nullptr, Material())
+        : ReferenceRayIntegrator::Integrate(ray, segments, function);
     },
     what + ", mode " + std::to_string(mode), ToleranceOf(corner, mode));
 }
@@ -232,10 +222,12 @@ TEST(TetrahedraRayCastSmallCells, OtherModes)
   for (const double part : Views)
   {
     CornerScene corner(grid, part, FunctionKind::Smooth);
-    for (const int mode : { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-           vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
-           vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+    for (const int mode : AllBlendModes())
     {
+      if (mode == vtkVolumeMapper::COMPOSITE_BLEND)
+      {
+        continue;
+      }
       ExpectMode(corner, *integrator, nullptr, mode, "part " + std::to_string(part));
     }
   }
@@ -251,10 +243,7 @@ TEST(TetrahedraRayCastSmallCells, RefractedRays)
     for (const double above : { 0.1, -0.7 })
     {
       const MembraneCase membrane = MakePlaneCase(1.0 + above * part, 8.0, 2);
-      for (const int mode :
-        { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-          vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
-          vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+      for (const int mode : AllBlendModes())
       {
         CornerScene corner(grid, part,
           mode == vtkVolumeMapper::COMPOSITE_BLEND ? FunctionKind::Opaque : FunctionKind::Smooth);

@@ -23,7 +23,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 #include <vector>
 
 using namespace meniscus::test;

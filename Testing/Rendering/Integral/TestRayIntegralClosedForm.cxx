@@ -16,8 +16,6 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolumeProperty.h>
 
-#include <glm/geometric.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

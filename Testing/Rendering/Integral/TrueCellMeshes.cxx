@@ -10,7 +10,6 @@
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace meniscus
 namespace test
 {
 
-/** A type of cell whose shape functions are not those of a linear tetrahedron. */
+/** A type of cell with other shape functions than a linear tetrahedron. */
 struct CellCase
 {
   const char* Name;

@@ -23,11 +23,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;

@@ -27,7 +27,6 @@
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <gtest/gtest.h>

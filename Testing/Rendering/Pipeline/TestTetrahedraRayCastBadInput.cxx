@@ -20,7 +20,6 @@
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
-#include <cmath>
 #include <limits>
 
 using namespace meniscus::test;

@@ -22,7 +22,6 @@
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace meniscus::test;

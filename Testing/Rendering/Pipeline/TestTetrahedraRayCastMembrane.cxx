@@ -361,37 +361,31 @@ TEST(TetrahedraRayCastMembrane, ClippingPlanesAreWhereTheMeshIs)
 
 TEST(TetrahedraRayCastMembrane, Projections)
 {
-  const std::vector<std::pair<int, Projection>> modes{ { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-                                                         Projection::Maximum },
-    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
-    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
-    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
   const Grid grid = MakeBlock(6, WavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   const std::vector<MembraneCase> membranes{ MakePlaneCase(1.3, 3.0, 3), MakePlaneCase(0.1, 4.0, 2),
     MakeDomeCase(1.4, 4.0, 2.8, 16) };
-  for (const auto& mode : modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
     for (const MembraneCase& membrane : membranes)
     {
       MembraneTest test(membrane, grid);
       RayCastScene& scene = test.Scene;
-      scene.GetRayCaster()->SetBlendMode(mode.first);
+      scene.GetRayCaster()->SetBlendMode(mode.Number);
       test.LookAtBlock(30.0, 55.0);
       const auto integrator = MakeReference(grid);
       vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
-      const auto function =
-        mode.second == Projection::Additive ? ToReference(property) : ToAlphas(property);
+      const auto function = FunctionOf(mode, property);
       ExpectTrace(
         scene,
         [&](const Ray& ray)
         {
           const RefractedRay refracted = Refract(membrane.Surface, ray, 0.0, false);
           return Project(
-            refracted.Straight, FindSegments(*integrator, refracted), mode.second, function, range);
+            refracted.Straight, FindSegments(*integrator, refracted), mode.Truth, function, range);
         },
-        "mode " + std::to_string(mode.first));
+        mode.Name);
     }
   }
 }

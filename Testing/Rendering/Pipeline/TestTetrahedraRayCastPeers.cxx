@@ -41,8 +41,6 @@
 #include <vtkVolumeProperty.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -28,31 +28,23 @@ namespace
 
 constexpr int Size = 100;
 
-const std::vector<std::pair<int, Projection>> Modes{ { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
-                                                       Projection::Maximum },
-  { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
-  { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
-  { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
-
-TracedComparison ExpectReference(RayCastScene& scene, Projection projection,
-  const std::string& what, double tolerance = FloatTolerance)
+void ExpectReference(RayCastScene& scene, const ProjectionMode& mode, const std::string& what)
 {
   scene.GetWindow()->Render();
   const auto integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
   vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
-  const auto function =
-    projection == Projection::Additive ? ToReference(property) : ToAlphas(property);
+  const auto function = FunctionOf(mode, property);
   double range[2];
   scene.MakeGrid()->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return ExpectTrace(
+  ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
       std::vector<RaySegment> segments;
       integrator->FindSegments(ray, segments);
-      return meniscus::reference::Project(ray, segments, projection, function, range);
+      return meniscus::reference::Project(ray, segments, mode.Truth, function, range);
     },
-    what, tolerance);
+    what);
 }
 
 // Attenuation (alpha) equal to s over the range [0, 1] of s.
@@ -73,10 +65,10 @@ TEST(TetrahedraRayCastProjections, LinearFieldInABox)
   // s from 0 to 1 along x + y; white with alpha s.
   const auto field = [](double x, double y, double) { return 0.5 + 0.25 * (x + y); };
   const Grid grid = MakeBlock(5, field);
-  for (const auto& mode : Modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
     RayCastScene scene(grid, IdentityProperty(3.0), Size, Size);
-    scene.GetRayCaster()->SetBlendMode(mode.first);
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
     LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0, 1.2);
     ExpectTrace(
       scene,
@@ -102,7 +94,7 @@ TEST(TetrahedraRayCastProjections, LinearFieldInABox)
         const double s0 = at(begin);
         const double s1 = at(end);
         double shown = 0.5 * (s0 + s1);
-        if (mode.second == Projection::Additive)
+        if (mode.Truth == Projection::Additive)
         {
           const double length = (end - begin) *
             std::sqrt(ray.Direction[0] * ray.Direction[0] + ray.Direction[1] * ray.Direction[1] +
@@ -110,11 +102,11 @@ TEST(TetrahedraRayCastProjections, LinearFieldInABox)
           shown = std::min(1.0, length / 3.0 * (s0 * s0 + s0 * s1 + s1 * s1) / 3.0);
           return std::array<double, 4>{ shown, shown, shown, 1.0 };
         }
-        shown = mode.second == Projection::Maximum ? std::max(s0, s1) : shown;
-        shown = mode.second == Projection::Minimum ? std::min(s0, s1) : shown;
+        shown = mode.Truth == Projection::Maximum ? std::max(s0, s1) : shown;
+        shown = mode.Truth == Projection::Minimum ? std::min(s0, s1) : shown;
         return std::array<double, 4>{ shown, shown, shown, shown };
       },
-      "mode " + std::to_string(mode.first));
+      mode.Name);
   }
 }
 
@@ -125,15 +117,15 @@ TEST(TetrahedraRayCastProjections, CurvedFieldsAndHoles)
     const Grid grid = MakeBlock(9, WavyField(3.0), hollow ? Shell(0.5, 0.95) : Region());
     double range[2];
     grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-    for (const auto& mode : Modes)
+    for (const ProjectionMode& mode : ProjectionModes)
     {
       for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
       {
         RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
-        scene.GetRayCaster()->SetBlendMode(mode.first);
+        scene.GetRayCaster()->SetBlendMode(mode.Number);
         LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0, 1.0, hollow);
-        ExpectReference(scene, mode.second,
-          "mode " + std::to_string(mode.first) + (hollow ? ", shell" : ", block") +
+        ExpectReference(scene, mode,
+          std::string(mode.Name) + (hollow ? ", shell" : ", block") +
             (kind == FunctionKind::Smooth ? ", smooth" : ", peaked"));
       }
     }
@@ -145,13 +137,13 @@ TEST(TetrahedraRayCastProjections, ScaledAndMirroredVolume)
   const Grid grid = MakeBlock(6, WavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  for (const auto& mode : Modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
     RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-    scene.GetRayCaster()->SetBlendMode(mode.first);
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
     scene.GetVolume()->SetScale(-0.8, 1.4, 1.0);
     LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
-    ExpectReference(scene, mode.second, "mode " + std::to_string(mode.first));
+    ExpectReference(scene, mode, mode.Name);
   }
 }
 
@@ -180,10 +172,10 @@ TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage first = scene.RenderFloat();
-  for (const auto& mode : Modes)
+  for (const ProjectionMode& mode : ProjectionModes)
   {
-    scene.GetRayCaster()->SetBlendMode(mode.first);
-    ExpectReference(scene, mode.second, "mode " + std::to_string(mode.first));
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
+    ExpectReference(scene, mode, mode.Name);
   }
   scene.GetRayCaster()->SetBlendModeToComposite();
   EXPECT_EQ(scene.RenderFloat().Rgba, first.Rgba);
@@ -203,12 +195,12 @@ TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
   EXPECT_GT(steps, 0);
   // All scalars are visible with this function, so no cell is skipped.
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
-  for (const int mode : { 1, 2, 3, 4 })
+  for (const ProjectionMode& mode : ProjectionModes)
   {
-    scene.GetRayCaster()->SetBlendMode(mode);
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
     scene.GetWindow()->Render();
-    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTraversalSteps(), steps) << mode;
-    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << mode;
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTraversalSteps(), steps) << mode.Name;
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << mode.Name;
   }
 }
 
@@ -222,11 +214,12 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
-  for (const int mode : { 1, 2, 3, 4 })
+  for (const ProjectionMode& mode : ProjectionModes)
   {
-    scene.GetRayCaster()->SetBlendMode(mode);
+    scene.GetRayCaster()->SetBlendMode(mode.Number);
     scene.GetWindow()->Render();
-    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells()) << mode;
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells())
+      << mode.Name;
   }
   // x = 0.1 runs through one of 8 layers.
   scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);

@@ -417,7 +417,7 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   RayCastScene scene(grid, MediumProperty(false, false), 64, 64);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-  for (const int mode : { 0, 1, 2, 3, 4, 5 })
+  for (const int mode : AllBlendModes())
   {
     mapper->SetBlendMode(mode);
     scene.GetWindow()->Render();

@@ -11,7 +11,7 @@ namespace meniscus
 /** Values of a ray that meets nothing. */
 void ClearValues(BlendMode mode, float (&values)[4]);
 
-/** Joins the values of a leg of a ray to those of the legs in front of it. */
+/** Adds the values of a leg of a ray to the values of the legs in front of it. */
 void JoinValues(BlendMode mode, const float (&behind)[4], float (&values)[4]);
 
 /** Premultiplied RGBA of values. */

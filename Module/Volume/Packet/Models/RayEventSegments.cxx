@@ -197,7 +197,7 @@ void AddPiece(
   state.Transmittance = std::exp(-state.OpticalDepth);
 }
 
-/** The functions that attenuate: that of the scalar, and those of independent components. */
+/** The functions that attenuate: of the scalar, and of independent components. */
 int ListCourses(const PacketJob& job, const RayEventSegment& segment, Course (&courses)[4])
 {
   courses[0] = { job.Intervals, job.NumberOfIntervals, segment.From, segment.To };

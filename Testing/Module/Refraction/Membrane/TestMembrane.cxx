@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 namespace

@@ -6,7 +6,6 @@
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>

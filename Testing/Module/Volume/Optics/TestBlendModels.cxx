@@ -59,6 +59,16 @@ TEST(BlendModels, OpacityMeaning)
   }
 }
 
+TEST(BlendModels, AccumulatedOpacity)
+{
+  for (const BlendModel& model : BlendModels)
+  {
+    EXPECT_EQ(model.AccumulatesOpacity(),
+      model.IsMedium() || model.IsLit() || model.Mode == BlendMode::Additive)
+      << model.Label;
+  }
+}
+
 TEST(BlendModels, NothingInFrontLeavesWhatIsBehind)
 {
   for (const BlendModel& model : BlendModels)

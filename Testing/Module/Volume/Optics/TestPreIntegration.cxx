@@ -6,8 +6,6 @@
 #include "Volume/Mesh/LongestEdge.h"
 #include "Volume/Optics/PreIntegration.h"
 
-#include <glm/common.hpp>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

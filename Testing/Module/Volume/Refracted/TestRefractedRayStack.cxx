@@ -9,7 +9,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-#include <glm/matrix.hpp>
 
 #include <gtest/gtest.h>
 
