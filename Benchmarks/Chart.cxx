@@ -22,9 +22,7 @@
 #include <array>
 #include <cmath>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -288,5 +286,4 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   return writer->GetErrorCode() == 0;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Points of one colour and marker, joined by a line if there are several; many have no markers. */
@@ -34,7 +32,6 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   const std::string& yTitle, const std::vector<ChartSeries>& series,
   ChartScale scale = ChartScale::Logarithmic);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -10,9 +10,7 @@
 #include <cstring>
 #include <limits>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -289,5 +287,4 @@ void RefractionTracer::Trace(
     });
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

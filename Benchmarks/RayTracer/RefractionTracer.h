@@ -19,9 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Triangles in Embree's layout, with one float of padding behind the last point. */
@@ -138,7 +136,6 @@ private:
   float Ratio = 1.0f;
 };
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

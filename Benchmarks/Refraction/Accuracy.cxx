@@ -18,9 +18,7 @@
 #include <sstream>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -292,5 +290,4 @@ double MeasureHemispherePixels()
   return largest;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

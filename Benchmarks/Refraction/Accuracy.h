@@ -5,9 +5,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Prints thesis Tables 4.1 to 4.5 side by side and returns them as members of a JSON object. */
@@ -41,7 +39,6 @@ ImageCount CountImages();
  */
 double MeasureHemispherePixels();
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

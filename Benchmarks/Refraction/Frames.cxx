@@ -9,9 +9,7 @@
 
 #include <iomanip>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -73,5 +71,4 @@ void PrintRaces(std::ostream& out)
   }
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Thesis Tables 4.6 to 4.9 next to the filter's frames, drawn at 512 x 512. */
@@ -50,7 +48,6 @@ std::vector<RaceReport> RunRaces();
 
 void PrintRaces(std::ostream& out);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

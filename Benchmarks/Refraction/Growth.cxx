@@ -23,9 +23,7 @@
 #include <sstream>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -324,5 +322,4 @@ std::string RunGrowth(const RefractionOptions& options)
   return json;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -8,9 +8,7 @@
 #include <cstddef>
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -61,7 +59,6 @@ ThreadedFigures MeasureThreaded(int cells);
  */
 std::string RunGrowth(const RefractionOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -15,9 +15,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -94,5 +92,4 @@ bool WritePoolPicture(const std::string& file)
   return writer->GetErrorCode() == 0;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

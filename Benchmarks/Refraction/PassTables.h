@@ -6,9 +6,7 @@
 #include <ostream>
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -20,7 +18,6 @@ std::string PrintPassTables(std::ostream& out);
 /** Writes the picture of the pool with three objects, drawn by the pass, as PNG. */
 bool WritePoolPicture(const std::string& file);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

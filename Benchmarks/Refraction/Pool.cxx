@@ -21,9 +21,7 @@
 #include <sstream>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -309,5 +307,4 @@ PoolPictures ComparePool()
   return result;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -48,7 +46,6 @@ struct PoolPictures
 };
 PoolPictures ComparePool();
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -15,9 +15,7 @@
 
 #endif
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 #ifdef MENISCUS_HAS_EMBREE
@@ -231,5 +229,4 @@ std::vector<RaceReport> RunRaces()
   return reports;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

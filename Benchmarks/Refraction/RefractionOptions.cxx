@@ -4,9 +4,7 @@
 
 #include <cstdlib>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 const char* const RefractionUsage =
@@ -79,5 +77,4 @@ RefractionOptions ParseRefractionOptions(int argc, char* argv[])
   return options;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -5,9 +5,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 struct RefractionOptions
@@ -32,7 +30,6 @@ extern const char* const RefractionUsage;
 
 RefractionOptions ParseRefractionOptions(int argc, char* argv[]);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

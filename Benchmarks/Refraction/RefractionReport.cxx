@@ -22,9 +22,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -272,5 +270,4 @@ void PrintRefractionReport(std::ostream& out, const RefractionOptions& options)
   Report(out, options).Print();
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

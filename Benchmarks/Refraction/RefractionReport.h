@@ -7,15 +7,12 @@
 
 #include <ostream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Measures each row of the table of goals and prints it next to its goal. */
 void PrintRefractionReport(std::ostream& out, const RefractionOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -16,9 +16,7 @@
 
 #endif
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 #ifdef MENISCUS_HAS_EMBREE
@@ -436,5 +434,4 @@ bool CompareRivals(const std::string&, std::ostream&)
 
 #endif
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

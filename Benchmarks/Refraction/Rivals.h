@@ -6,9 +6,7 @@
 #include <ostream>
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -20,7 +18,6 @@ namespace benchmark
  */
 bool CompareRivals(const std::string& folder, std::ostream& out);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -17,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -330,5 +328,4 @@ void PrintThesisFrames(std::ostream& out)
   PrintShares(out);
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -8,9 +8,7 @@
 #include <ctime>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Processor time of all threads of this program, which does not include other programs. */
@@ -72,7 +70,6 @@ Seconds TimeMedian(const Work& work, int runs = 5)
   return MedianOf(times);
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -8,9 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 //------------------------------------------------------------------------------
@@ -97,5 +95,4 @@ testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::Pi
   return picture;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

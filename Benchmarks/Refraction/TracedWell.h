@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 TracedMesh MembraneOf(const reference::MembraneMesh& mesh);
@@ -47,7 +45,6 @@ void TracePixels(const RefractionTracer& tracer, const TracedView& view, const V
 /** Places that the tracer's image shows. */
 testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -22,9 +22,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -344,5 +342,4 @@ testing::PlacePicture WellScene::DrawPlaces()
   return picture;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -16,9 +16,7 @@ class vtkRefractedGeometryFilter;
 class vtkRenderWindow;
 class vtkRenderer;
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Forms of the well's membrane. */
@@ -108,7 +106,6 @@ private:
   bool HasMatrix = false;
 };
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -15,9 +15,7 @@
 #include <sstream>
 #include <thread>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 namespace
@@ -140,5 +138,4 @@ std::string ReadText(const std::string& name)
   return text.str();
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 struct ChildEnd
@@ -35,7 +33,6 @@ ChildEnd RunChild(const ChildProgram& program);
 /** Contents of a file; empty if it cannot be read. */
 std::string ReadText(const std::string& name);
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

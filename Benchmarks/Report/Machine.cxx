@@ -14,9 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 namespace
@@ -159,5 +157,4 @@ std::string DescribeMachine(const ReportOptions& options, ReportText& report)
   return renderer;
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

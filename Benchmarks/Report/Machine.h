@@ -6,9 +6,7 @@
 #include "ReportOptions.h"
 #include "ReportText.h"
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 /** Bytes of main memory that programs can still get; 0 if the system does not tell. */
@@ -20,7 +18,6 @@ std::string DescribeMachine(const ReportOptions& options, ReportText& report);
 /** True for a device that is a program: llvmpipe or another rasteriser on the processor. */
 bool IsSoftware(const std::string& renderer);
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

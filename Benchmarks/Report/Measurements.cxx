@@ -14,9 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 namespace
@@ -309,5 +307,4 @@ void MeasureAll(const ReportOptions& options, ReportText& report)
   measurements.MeasureRefraction();
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

@@ -6,15 +6,12 @@
 #include "ReportOptions.h"
 #include "ReportText.h"
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 /** Errors, frames, large meshes and the refraction pass, in the report's order. */
 void MeasureAll(const ReportOptions& options, ReportText& report);
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

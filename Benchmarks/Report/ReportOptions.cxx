@@ -4,9 +4,7 @@
 
 #include <map>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 const char* const ReportUsage =
@@ -57,5 +55,4 @@ ReportOptions ParseReportOptions(int argc, char* argv[])
   return options;
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

@@ -5,9 +5,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 struct ReportOptions
@@ -26,7 +24,6 @@ extern const char* const ReportUsage;
 
 ReportOptions ParseReportOptions(int argc, char* argv[]);
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

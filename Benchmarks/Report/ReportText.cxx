@@ -7,9 +7,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 //------------------------------------------------------------------------------
@@ -104,5 +102,4 @@ bool ReportText::WriteFiles(const std::string& folder) const
   return page.good() && json.good();
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

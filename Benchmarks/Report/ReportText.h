@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 /** A text as a JSON string. */
@@ -52,7 +50,6 @@ private:
   int FailedTests = 0;
 };
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 namespace
@@ -299,5 +297,4 @@ void RunTests(const ReportOptions& options, ReportText& report)
   report.AddMember("tests", "[\n" + json + "\n]");
 }
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report

@@ -7,9 +7,7 @@
 #include "ReportOptions.h"
 #include "ReportText.h"
 
-namespace meniscus
-{
-namespace report
+namespace meniscus::report
 {
 
 /**
@@ -19,7 +17,6 @@ namespace report
  */
 void RunTests(const ReportOptions& options, ReportText& report);
 
-} // namespace report
-} // namespace meniscus
+} // namespace meniscus::report
 
 #endif

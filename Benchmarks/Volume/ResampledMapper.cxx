@@ -19,9 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -153,5 +151,4 @@ MapperPointer MakeResampledMapper(int size)
   return mapper;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -5,9 +5,7 @@
 
 #include "VolumeContestants.h"
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -17,7 +15,6 @@ namespace benchmark
  */
 MapperPointer MakeResampledMapper(int size);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

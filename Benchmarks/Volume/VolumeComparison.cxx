@@ -24,9 +24,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 using namespace meniscus::test;
@@ -460,5 +458,4 @@ void VolumeComparison::FindError(
   figures.IsCompared = true;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -20,9 +20,7 @@
 
 class vtkTetrahedraRayCastMapper;
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 struct FrameTime
@@ -158,7 +156,6 @@ private:
   double EmptyMs = 0.0;
 };
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -19,9 +19,7 @@
 #include <vtkUnstructuredGridVolumeRayCastMapper.h>
 #include <vtkUnstructuredGridVolumeZSweepMapper.h>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -230,5 +228,4 @@ std::vector<Contestant> SelectContestants(
   return selected;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

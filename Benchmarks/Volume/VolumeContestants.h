@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 using MapperPointer = vtkSmartPointer<vtkUnstructuredGridVolumeMapper>;
@@ -53,7 +51,6 @@ bool IsSelected(const std::string& name, const std::string& word);
 std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -160,5 +158,4 @@ double MeasureCopyBandwidth(vtkRenderWindow* window)
   return failed ? 0.0 : best;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

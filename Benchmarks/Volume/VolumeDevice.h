@@ -8,9 +8,7 @@
 
 class vtkRenderWindow;
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Prints one "name: value" per line. */
@@ -22,7 +20,6 @@ void PrintDevice(std::ostream& out);
  */
 double MeasureCopyBandwidth(vtkRenderWindow* window);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

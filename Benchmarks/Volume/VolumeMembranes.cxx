@@ -21,9 +21,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 namespace
 {
@@ -159,5 +157,4 @@ std::vector<MembraneCost> MeasureMembranes(
   return costs;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -13,9 +13,7 @@
 
 class vtkPolyData;
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Processor time of a frame relative to the same frame without the membrane. */
@@ -33,7 +31,6 @@ vtkSmartPointer<vtkPolyData> MakeWavesAbove(vtkUnstructuredGrid* grid);
 std::vector<MembraneCost> MeasureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -16,9 +16,7 @@
 
 #include <utility>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -96,5 +94,4 @@ std::array<double, 2> ViewAnglesOf(VolumeMode mode, int view)
   return { angles[0], mode == VolumeMode::Membrane ? 55.0 + angles[1] / 3.0 : angles[1] };
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -11,9 +11,7 @@ class vtkUnstructuredGrid;
 class vtkUnstructuredGridVolumeMapper;
 class vtkVolumeProperty;
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 enum class VolumeMode
@@ -37,7 +35,6 @@ void ApplyMode(VolumeMode mode, vtkUnstructuredGrid* grid, vtkUnstructuredGridVo
  */
 std::array<double, 2> ViewAnglesOf(VolumeMode mode, int view);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -13,9 +13,7 @@
 #include <map>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 const char* const VolumeUsage =
@@ -221,5 +219,4 @@ test::Grid MakeVolumeMesh(const VolumeOptions& options)
   return grid && grid->GetPointData()->GetScalars() ? grid : nullptr;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Options of the command line. */
@@ -64,7 +62,6 @@ bool FindFunctionKind(const std::string& name, test::FunctionKind& kind);
 /** The requested mesh; null if it cannot be read. */
 test::Grid MakeVolumeMesh(const VolumeOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -10,9 +10,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -222,5 +220,4 @@ bool WriteJson(
   return out.good();
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /** Conditions under which figures were measured. */
@@ -53,7 +51,6 @@ bool AppendErrorRows(const std::string& file, const VolumeOptions& options,
 bool WritePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

@@ -17,9 +17,7 @@
 #include <numeric>
 #include <ostream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 using namespace meniscus::test;
@@ -235,5 +233,4 @@ bool DrawPaper(std::ostream& out, const VolumeOptions& options)
   return DrawViews(out, options, scene) && DrawSteps(out, options, scene, mesh);
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

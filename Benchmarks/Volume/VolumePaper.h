@@ -6,9 +6,7 @@
 
 #include <iosfwd>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 struct VolumeOptions;
@@ -22,7 +20,6 @@ struct VolumeOptions;
  */
 bool DrawPaper(std::ostream& out, const VolumeOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

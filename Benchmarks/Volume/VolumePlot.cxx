@@ -5,9 +5,7 @@
 
 #include <algorithm>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -95,5 +93,4 @@ bool WritePlot(
     "milliseconds of processor time per frame", "RMS error", series);
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -24,9 +24,7 @@
 #include <sstream>
 #include <vector>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 using namespace meniscus::test;
@@ -186,5 +184,4 @@ int RunProbe(const Contestant& contestant, const VolumeOptions& options)
   return EXIT_SUCCESS;
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

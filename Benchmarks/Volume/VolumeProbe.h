@@ -7,9 +7,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 struct ProbeResult
@@ -28,7 +26,6 @@ ProbeResult ProbeContestant(const std::string& name, const VolumeOptions& option
 /** Work of that process; returns its exit status. */
 int RunProbe(const Contestant& contestant, const VolumeOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

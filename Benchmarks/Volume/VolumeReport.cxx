@@ -15,9 +15,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 using test::FunctionKind;
@@ -409,5 +407,4 @@ void PrintGrowth(std::ostream& out, const VolumeOptions& options)
   out << " (goal: below 0.5)\n";
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

@@ -7,9 +7,7 @@
 
 #include <ostream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 /**
@@ -21,7 +19,6 @@ void PrintReport(std::ostream& out, const VolumeOptions& options);
 /** Milliseconds per frame for generated meshes of growing size, and the exponent of the growth. */
 void PrintGrowth(std::ostream& out, const VolumeOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

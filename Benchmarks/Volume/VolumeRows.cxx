@@ -8,9 +8,7 @@
 #include <iomanip>
 #include <sstream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -130,5 +128,4 @@ bool AppendErrorRows(const std::string& file, const VolumeOptions& options,
   return out.good();
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

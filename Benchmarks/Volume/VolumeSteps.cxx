@@ -23,9 +23,7 @@
 #include <iomanip>
 #include <ostream>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 namespace
@@ -166,5 +164,4 @@ void PrintSteps(std::ostream& out, const VolumeOptions& options)
   }
 }
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark

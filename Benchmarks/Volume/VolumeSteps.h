@@ -6,9 +6,7 @@
 
 #include <iosfwd>
 
-namespace meniscus
-{
-namespace benchmark
+namespace meniscus::benchmark
 {
 
 struct VolumeOptions;
@@ -20,7 +18,6 @@ struct VolumeOptions;
  */
 void PrintSteps(std::ostream& out, const VolumeOptions& options);
 
-} // namespace benchmark
-} // namespace meniscus
+} // namespace meniscus::benchmark
 
 #endif

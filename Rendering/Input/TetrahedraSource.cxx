@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -31,6 +32,29 @@ namespace
 {
 
 constexpr int NoPoint = -1;
+
+/** A cell type with a rule of its own for its division, and its number of points. */
+struct CellRule
+{
+  int Type;
+  vtkIdType Size;
+  void (Tetrahedralizer::*Add)(const std::int64_t* points);
+};
+
+constexpr CellRule CellRules[] = {
+  { VTK_TETRA, 4, &Tetrahedralizer::AddTetrahedron },
+  { VTK_VOXEL, 8, &Tetrahedralizer::AddVoxel },
+  { VTK_HEXAHEDRON, 8, &Tetrahedralizer::AddHexahedron },
+  { VTK_WEDGE, 6, &Tetrahedralizer::AddWedge },
+  { VTK_PYRAMID, 5, &Tetrahedralizer::AddPyramid },
+  { VTK_QUADRATIC_TETRA, 10, &Tetrahedralizer::AddQuadraticTetrahedron },
+  { VTK_QUADRATIC_HEXAHEDRON, 20, &Tetrahedralizer::AddQuadraticHexahedron },
+  { VTK_QUADRATIC_WEDGE, 15, &Tetrahedralizer::AddQuadraticWedge },
+  { VTK_QUADRATIC_LINEAR_WEDGE, 12, &Tetrahedralizer::AddQuadraticLinearWedge },
+  { VTK_QUADRATIC_PYRAMID, 13, &Tetrahedralizer::AddQuadraticPyramid },
+};
+/** Largest number of points of a cell with a rule. */
+constexpr vtkIdType MostPointsOfRules = 20;
 
 /** Index, in the cell, of the point inside it, or NoPoint. */
 int CenterOfCell(int type)
@@ -238,6 +262,7 @@ struct TetrahedraSource::Part
 private:
   void AddCell(const CellReader& cells, vtkIdType cell, vtkIdList* ids);
   void AddPolyhedron(const CellReader& cells, vtkIdType cell);
+  void AddOther(const CellReader& cells, vtkIdType cell, int type);
   bool AddByFaces(vtkCell* cell);
   bool IsPoint(std::int64_t id) const { return id >= 0 && id < this->NumberOfPoints; }
   bool HasOverlaps(std::size_t firstId) const;
@@ -344,9 +369,6 @@ void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vt
   {
     return;
   }
-  // Largest number of points of a cell type with its own rule.
-  constexpr vtkIdType mostPoints = 20;
-  std::array<std::int64_t, mostPoints> points{};
   vtkIdType size = ids->GetNumberOfIds();
   type = ResolveCellType(type, size);
   if (this->Used == CellPoints::All && size <= 8)
@@ -359,63 +381,35 @@ void TetrahedraSource::Part::AddCell(const CellReader& cells, vtkIdType cell, vt
     type = shape.LinearType;
     size = shape.NumberOfCorners;
   }
-  for (vtkIdType i = 0; i < std::min(size, mostPoints); ++i)
+  const auto* rule = std::find_if(std::begin(CellRules), std::end(CellRules),
+    [type, size](const CellRule& known) { return known.Type == type && known.Size == size; });
+  if (rule == std::end(CellRules))
   {
-    points[i] = this->FirstPoint + ids->GetId(i);
+    this->AddOther(cells, cell, type);
+    return;
   }
-  if (type == VTK_TETRA && size == 4)
+  std::array<std::int64_t, MostPointsOfRules> points;
+  for (vtkIdType i = 0; i < size; ++i)
   {
-    this->Tetrahedra.AddTetrahedron(points.data());
+    points[static_cast<std::size_t>(i)] = this->FirstPoint + ids->GetId(i);
   }
-  else if (type == VTK_VOXEL && size == 8)
+  (this->Tetrahedra.*rule->Add)(points.data());
+}
+
+//------------------------------------------------------------------------------
+/** Adds a cell of a type without a rule of its own, by its faces. */
+void TetrahedraSource::Part::AddOther(const CellReader& cells, vtkIdType cell, int type)
+{
+  // The faces of a VTK_CONVEX_POINT_SET are the faces of the convex hull of its points.
+  this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
+  vtkNew<vtkGenericCell> generic;
+  if (HasFaceObjects(type))
   {
-    this->Tetrahedra.AddVoxel(points.data());
+    cells.GetGrid()->GetCell(cell, generic);
   }
-  else if (type == VTK_HEXAHEDRON && size == 8)
+  if (!this->AddByFaces(generic))
   {
-    this->Tetrahedra.AddHexahedron(points.data());
-  }
-  else if (type == VTK_WEDGE && size == 6)
-  {
-    this->Tetrahedra.AddWedge(points.data());
-  }
-  else if (type == VTK_PYRAMID && size == 5)
-  {
-    this->Tetrahedra.AddPyramid(points.data());
-  }
-  else if (type == VTK_QUADRATIC_TETRA && size == 10)
-  {
-    this->Tetrahedra.AddQuadraticTetrahedron(points.data());
-  }
-  else if (type == VTK_QUADRATIC_HEXAHEDRON && size == 20)
-  {
-    this->Tetrahedra.AddQuadraticHexahedron(points.data());
-  }
-  else if (type == VTK_QUADRATIC_WEDGE && size == 15)
-  {
-    this->Tetrahedra.AddQuadraticWedge(points.data());
-  }
-  else if (type == VTK_QUADRATIC_LINEAR_WEDGE && size == 12)
-  {
-    this->Tetrahedra.AddQuadraticLinearWedge(points.data());
-  }
-  else if (type == VTK_QUADRATIC_PYRAMID && size == 13)
-  {
-    this->Tetrahedra.AddQuadraticPyramid(points.data());
-  }
-  else
-  {
-    // Its faces are the faces of the convex hull of its points.
-    this->SplitsByPosition = this->SplitsByPosition || type == VTK_CONVEX_POINT_SET;
-    vtkNew<vtkGenericCell> generic;
-    if (HasFaceObjects(type))
-    {
-      cells.GetGrid()->GetCell(cell, generic);
-    }
-    if (!this->AddByFaces(generic))
-    {
-      ++this->Omitted[type];
-    }
+    ++this->Omitted[type];
   }
 }
 

@@ -33,9 +33,7 @@
 #include <iostream>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -180,5 +178,4 @@ void LookAtWater(VolumeScene& scene, double distance)
   renderer->SetBackground(0.6, 0.7, 0.8);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -18,9 +18,7 @@
 class vtkImageData;
 class vtkTetrahedraRayCastMapper;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Width and height of all pictures in pixels. */
@@ -64,7 +62,6 @@ vtkSmartPointer<vtkActor> AddSurface(VolumeScene& scene, vtkAlgorithmOutput* por
 /** Camera of the scenes with water in the plane z = 0: from above, looking at a place below it. */
 void LookAtWater(VolumeScene& scene, double distance);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -13,9 +13,7 @@
 #include <cstring>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -117,7 +115,6 @@ private:
   std::size_t Left;
 };
 
-}
 }
 
 #endif

@@ -12,9 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -120,5 +118,4 @@ void FuzzFunction(const std::uint8_t* bytes, std::size_t size)
   CheckTable(table);
 }
 
-}
 }

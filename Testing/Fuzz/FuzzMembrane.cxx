@@ -16,9 +16,7 @@
 #include <limits>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -167,5 +165,4 @@ void FuzzMembrane(const std::uint8_t* bytes, std::size_t size)
   }
 }
 
-}
 }

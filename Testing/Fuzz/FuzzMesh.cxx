@@ -10,9 +10,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -304,5 +302,4 @@ void CheckMesh(const TetrahedralMesh& mesh, const TetrahedraView& view, MeshStat
   }
 }
 
-}
 }

@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Arrays of a mesh in one of the forms that TetrahedraView accepts. */
@@ -44,7 +42,6 @@ private:
 /** Requires that the tables of a mesh are consistent and that all cells are accounted for. */
 void CheckMesh(const TetrahedralMesh& mesh, const TetrahedraView& view, MeshStatus status);
 
-}
 }
 
 #endif

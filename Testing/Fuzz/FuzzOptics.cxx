@@ -8,9 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -122,5 +120,4 @@ RayFrameInput ReadCamera(
   return input;
 }
 
-}
 }

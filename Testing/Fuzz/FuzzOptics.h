@@ -10,9 +10,7 @@
 
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -30,7 +28,6 @@ SurfaceLighting ReadLighting(ByteReader& reader);
 RayFrameInput ReadCamera(
   ByteReader& reader, const glm::dvec3& center, double radius, int width, int height);
 
-}
 }
 
 #endif

@@ -15,9 +15,7 @@
 #include <memory>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -141,5 +139,4 @@ void FuzzStack(const std::uint8_t* bytes, std::size_t size)
   object.Map(images, reader.Flag());
 }
 
-}
 }

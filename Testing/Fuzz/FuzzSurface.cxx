@@ -10,9 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -322,5 +320,4 @@ void CheckImage(const VirtualVertex& image, std::size_t facets)
   Require(image.Orientation == 1 || image.Orientation == -1, "orientations are signs");
 }
 
-}
 }

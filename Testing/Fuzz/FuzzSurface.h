@@ -11,9 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Arrays of a surface: a sheet of heights, a closed body or any triangles. */
@@ -77,7 +75,6 @@ struct FuzzObject
 /** Requires that an image of a point has finite values in their ranges. */
 void CheckImage(const VirtualVertex& image, std::size_t facets);
 
-}
 }
 
 #endif

@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Throws if a property that every result has is violated. */
@@ -36,7 +34,6 @@ void FuzzVolume(const std::uint8_t* bytes, std::size_t size);
 inline constexpr FuzzTarget FuzzTargets[] = { { "function", FuzzFunction },
   { "membrane", FuzzMembrane }, { "stack", FuzzStack }, { "volume", FuzzVolume } };
 
-}
 }
 
 #endif

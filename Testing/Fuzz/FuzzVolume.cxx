@@ -20,9 +20,7 @@
 #include <limits>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -403,5 +401,4 @@ void FuzzVolume(const std::uint8_t* bytes, std::size_t size)
   VolumeRun(reader).Run();
 }
 
-}
 }

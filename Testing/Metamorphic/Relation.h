@@ -12,9 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Outcome of comparing some pairs of results. The tally of several cases is the sum of theirs. */
@@ -65,7 +63,6 @@ struct Relation
   std::function<RelationWork()> Start;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

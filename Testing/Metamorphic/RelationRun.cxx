@@ -16,9 +16,7 @@
 #include <sstream>
 #include <utility>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -279,5 +277,4 @@ std::uint64_t SeedOfCase(std::uint64_t seed, const std::string& relation, int in
   return RandomNumbers(mix.Bits() + static_cast<std::uint64_t>(index)).Bits();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

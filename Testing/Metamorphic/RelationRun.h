@@ -9,9 +9,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -36,7 +34,6 @@ int CasesAt(double intensity, int atOne);
 /** Seed of the random numbers of one case of the relation with the given name. */
 std::uint64_t SeedOfCase(std::uint64_t seed, const std::string& relation, int index);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

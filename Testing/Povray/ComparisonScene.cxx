@@ -20,9 +20,7 @@
 #include <cmath>
 #include <functional>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 const char* const ColorArrayName = "Colors";
@@ -422,5 +420,4 @@ std::vector<ComparisonScene> MakeComparisonScenes()
     MakeBowlScene() };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

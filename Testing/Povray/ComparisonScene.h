@@ -18,9 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Name of the cell array of an object with the colours, 3 unsigned chars. */
@@ -76,7 +74,6 @@ ObjectColors FindObjectColors(const ComparisonScene& scene, const unsigned char*
  */
 std::vector<ComparisonScene> MakeComparisonScenes();
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

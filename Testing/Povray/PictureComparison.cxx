@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -112,5 +110,4 @@ double LargestDifference(const PictureComparison& comparison, double offset, dou
   return expected + 3.0 * std::sqrt(expected);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Place of a pixel in a picture. */
@@ -62,7 +60,6 @@ bool IsExplained(const unsigned char* pixel, const ByteImage& closeUp, const Obj
  */
 double LargestDifference(const PictureComparison& comparison, double offset, double area);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

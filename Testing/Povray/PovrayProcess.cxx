@@ -10,9 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -76,5 +74,4 @@ ByteImage PovrayProcess::Draw(const ComparisonScene& scene, const std::string& n
   return ReadPng(picture);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

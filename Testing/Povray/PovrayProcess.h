@@ -8,9 +8,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** How POV-Ray is started, and where. */
@@ -28,7 +26,6 @@ struct PovrayProcess
     const PictureWindow& window = {}) const;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

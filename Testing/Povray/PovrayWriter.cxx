@@ -17,9 +17,7 @@
 #include <map>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -149,5 +147,4 @@ std::string PovrayOptions(const std::string& name, int pixels)
     "Bits_Per_Color=8\nFile_Gamma=1.0\n";
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -7,9 +7,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A number as POV-Ray reads it, with all its digits. */
@@ -49,7 +47,6 @@ std::string PovrayScene(const ComparisonScene& scene, const PictureWindow& windo
  */
 std::string PovrayOptions(const std::string& name, int pixels);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

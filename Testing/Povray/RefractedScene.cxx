@@ -12,9 +12,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -83,5 +81,4 @@ ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double to
   return ReadBytes(window.GetWindow());
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -6,9 +6,7 @@
 #include "ComparisonScene.h"
 #include "VolumeScene.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -17,7 +15,6 @@ namespace test
  */
 ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

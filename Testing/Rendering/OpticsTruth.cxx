@@ -15,9 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -109,5 +107,4 @@ TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const s
   return comparison;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

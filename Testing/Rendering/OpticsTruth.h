@@ -8,9 +8,7 @@
 #include "ReferenceOptics.h"
 #include "TracedImage.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Unchanged opacities, for modes that do not measure lengths. */
@@ -35,7 +33,6 @@ std::vector<reference::Surface> ToSurfaces(vtkVolumeProperty* property);
 TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
   double tolerance = FloatTolerance, double excusedShare = LargestSilhouetteShare);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -20,9 +20,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -181,5 +179,4 @@ std::string ErrorObserver::GetText() const
   return all;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -22,9 +22,7 @@ class vtkRenderer;
 class vtkUnstructuredGrid;
 class vtkVolumeProperty;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper. */
@@ -101,7 +99,6 @@ public:
   std::string GetText() const;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -8,9 +8,7 @@
 #include <vtkSphereSource.h>
 #include <vtkTetrahedraRayCastMapper.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -103,5 +101,4 @@ MembraneCase MakeBallCase(const reference::Vector3& center, double radius, int r
   return { source->GetOutput(), reference::MakeSphere(center, radius) };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

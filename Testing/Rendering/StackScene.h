@@ -10,9 +10,7 @@
 
 class vtkTetrahedraRayCastMapper;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Several membranes, in the order of the rays. */
@@ -38,7 +36,6 @@ std::vector<reference::Ray> FindParts(
 /** Colour of all parts, one behind the other; premultiplied. */
 std::array<double, 4> ComposeParts(const std::vector<reference::Ray>& parts, const TraceRay& trace);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

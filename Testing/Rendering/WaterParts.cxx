@@ -7,9 +7,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -42,5 +40,4 @@ void SetFlatColor(vtkActor* actor, double red, double green, double blue)
   actor->GetProperty()->SetDiffuse(0.0);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

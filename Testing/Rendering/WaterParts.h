@@ -9,9 +9,7 @@
 class vtkActor;
 class vtkAlgorithmOutput;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A square around the z axis at a given height, of resolution x resolution quads. */
@@ -23,7 +21,6 @@ vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithmOutput* port);
 /** Sets a colour that does not depend on lights. */
 void SetFlatColor(vtkActor* actor, double red, double green, double blue);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

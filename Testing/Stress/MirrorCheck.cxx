@@ -13,9 +13,7 @@
 #include <memory>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -406,5 +404,4 @@ RefractionTally CheckMirror(const MirrorCase& test)
   return MirrorChecker(test).Run();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

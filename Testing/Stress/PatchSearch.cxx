@@ -9,9 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -193,5 +191,4 @@ double PatchSearch::Residual(
     std::max(0.0, -FindOutside(b).Least);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -9,9 +9,7 @@
 
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -66,7 +64,6 @@ private:
   double Interior;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -172,5 +170,4 @@ bool PatchTracer::IsAtBorder(std::int32_t facet, const glm::dvec2& b, double wid
   return false;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

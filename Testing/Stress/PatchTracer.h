@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Crossing of a ray with a patch. */
@@ -80,7 +78,6 @@ private:
   std::vector<Sphere> Spheres;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -16,9 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Criterion for the correct images. */
@@ -71,7 +69,6 @@ struct RefractionFamily
  */
 std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

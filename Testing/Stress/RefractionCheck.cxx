@@ -15,9 +15,7 @@
 #include <limits>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -474,5 +472,4 @@ RefractionTally CheckCase(const RefractionCase& test)
   return Checker(test).Run();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

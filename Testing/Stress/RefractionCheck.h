@@ -8,9 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Results of some cases. Results are added, except for the error. */
@@ -57,7 +55,6 @@ struct RefractionTally
 /** Solves a case and compares every answer with the case's reference. */
 RefractionTally CheckCase(const RefractionCase& test);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -9,9 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -467,5 +465,4 @@ std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t
   return families;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -11,9 +11,7 @@
 #include <limits>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -290,5 +288,4 @@ RefractionTally CheckTriangles(const RefractionCase& test, CurvedMembraneSolver&
   return checker.Tally;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -7,9 +7,7 @@
 #include "RefractionCheck.h"
 #include "SightOracle.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -20,7 +18,6 @@ namespace test
 RefractionTally CheckTriangles(const RefractionCase& test, CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

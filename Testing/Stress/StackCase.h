@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** An interface of a list, and how rays pass it by construction. */
@@ -75,7 +73,6 @@ struct MirrorFamily
 };
 std::vector<MirrorFamily> MirrorFamilies();
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -12,9 +12,7 @@
 #include <limits>
 #include <thread>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -490,5 +488,4 @@ RefractionTally CheckStack(const StackCase& test)
   return StackChecker(test).Run();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -7,9 +7,7 @@
 #include "RefractionCheck.h"
 #include "StackCase.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Runs a loop in seven ranges on two threads, the last ranges first. */
@@ -25,7 +23,6 @@ RefractionTally CheckStack(const StackCase& test);
 /** The same for a mirror and the law of reflection. */
 RefractionTally CheckMirror(const MirrorCase& test);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

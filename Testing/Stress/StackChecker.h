@@ -15,9 +15,7 @@
 #include <sstream>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Two images are the same, and a crossing is the one at hand, within this part of a facet. */
@@ -121,7 +119,6 @@ private:
   std::vector<glm::dvec3> Points; ///< all points so far, in world coordinates
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -11,9 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -458,5 +456,4 @@ std::vector<MirrorFamily> MirrorFamilies()
     { "offset and scaled mirrors", 8, MakeOffsetMirror } };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

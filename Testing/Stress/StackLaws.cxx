@@ -11,9 +11,7 @@
 #include <limits>
 #include <optional>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -373,5 +371,4 @@ void StackChecker::CheckWayBack(
   }
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -17,9 +17,7 @@
 
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -265,5 +263,4 @@ StressTally CheckBentRays(const StressCase& stress)
   return stress.Mesh ? BentRays(stress).Check() : StressTally();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

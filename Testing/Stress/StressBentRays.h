@@ -6,9 +6,7 @@
 #include "StressCase.h"
 #include "StressCheck.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -17,7 +15,6 @@ namespace test
  */
 StressTally CheckBentRays(const StressCase& stress);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Criterion for a correct image. */
@@ -64,7 +62,6 @@ struct StressFamily
  */
 std::vector<StressFamily> StressFamilies(double intensity, std::uint64_t seed);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -26,9 +26,7 @@
 
 #include <algorithm>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -205,5 +203,4 @@ std::unique_ptr<StressCaster> MakeStressCaster(const std::string& name)
   return nullptr;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

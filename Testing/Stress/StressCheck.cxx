@@ -11,9 +11,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -191,5 +189,4 @@ StressTally CheckCase(StressCaster& caster, const StressCase& stress)
   return total;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Results of some views. Results are added, except for the errors. */
@@ -51,7 +49,6 @@ struct StressTally
 /** Casts a case in all of its views and checks the images by its rule. */
 StressTally CheckCase(StressCaster& caster, const StressCase& stress);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

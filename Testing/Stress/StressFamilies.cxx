@@ -15,9 +15,7 @@
 #include <limits>
 #include <map>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -365,5 +363,4 @@ std::vector<StressFamily> StressFamilies(double intensity, std::uint64_t seed)
   return list.Done();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -5,14 +5,11 @@
 
 #include "RandomNumbers.h"
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 using StressRandom = RandomNumbers;
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -10,9 +10,7 @@
 #include <memory>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -76,5 +74,4 @@ FamilyResult RunFamily(
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 struct FamilyResult : ProcessResult
@@ -32,7 +30,6 @@ struct FamilyResult : ProcessResult
 FamilyResult RunFamily(
   const StressFamily& family, const std::string& caster, int stride, double secondsPerCase);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

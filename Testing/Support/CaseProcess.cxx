@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -138,5 +136,4 @@ void RunCases(int cases, int stride, double secondsPerCase, const CaseStart& sta
   result.Seconds = time.count();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

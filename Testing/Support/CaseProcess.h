@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Outcome of the cases of a family that ran in processes. */
@@ -52,7 +50,6 @@ using CaseLoss = std::function<void(int index, bool stuck)>;
 void RunCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose = nullptr);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

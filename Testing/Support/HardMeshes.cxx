@@ -15,9 +15,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -306,5 +304,4 @@ Grid MakeSoup(RandomNumbers& random)
   return arrays.ToGrid(WavyField(2.0));
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -9,9 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Replaces every point by the function's value at it. */
@@ -51,7 +49,6 @@ Grid MakeScrambled(vtkUnstructuredGrid* grid, const Field& field, RandomNumbers&
  */
 Grid MakeSoup(RandomNumbers& random);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -10,9 +10,7 @@
 
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -106,5 +104,4 @@ MembraneCase MakeWavesCase(double level, double amplitude, double k, double half
     cells);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -11,9 +11,7 @@
 
 #include <functional>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A membrane as the mapper's input and as the reference's surface. */
@@ -42,7 +40,6 @@ MembraneCase MakeDomeCase(double apex, double radius, double half, int cells);
 /** y = level + amplitude sin(k x) sin(k z) over a square. */
 MembraneCase MakeWavesCase(double level, double amplitude, double k, double half, int cells);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

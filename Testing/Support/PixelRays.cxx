@@ -8,9 +8,7 @@
 
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -54,5 +52,4 @@ reference::Ray PixelRays::RayAt(double x, double y) const
   return ray;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -7,9 +7,7 @@
 
 class vtkRenderer;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -49,7 +47,6 @@ private:
   bool Parallel;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

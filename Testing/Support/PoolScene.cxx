@@ -38,9 +38,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace testing
+namespace meniscus::testing
 {
 namespace
 {
@@ -548,5 +546,4 @@ PoolPicture PoolScene::Trace() const
   return picture;
 }
 
-} // namespace testing
-} // namespace meniscus
+} // namespace meniscus::testing

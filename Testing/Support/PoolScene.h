@@ -29,9 +29,7 @@ class vtkRefractedGeometryFilter;
 class vtkRefractionPass;
 class vtkTexture;
 
-namespace meniscus
-{
-namespace testing
+namespace meniscus::testing
 {
 
 /** Optical effects of the water besides refraction. */
@@ -136,7 +134,6 @@ private:
   test::VolumeScene Window;
 };
 
-} // namespace testing
-} // namespace meniscus
+} // namespace meniscus::testing
 
 #endif

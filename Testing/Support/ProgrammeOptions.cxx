@@ -6,9 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 const char* const ProgrammeUsage =
@@ -79,5 +77,4 @@ int RunProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& op
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -9,9 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Command line options of all programmes of random cases. */
@@ -56,7 +54,6 @@ using ProgrammeRunner = std::function<bool(std::ostream&)>;
 int RunProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const ProgrammeRunner& run);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

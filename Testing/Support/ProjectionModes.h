@@ -11,9 +11,7 @@
 #include <iterator>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A blend mode that shows one number per ray, and the truth of its pictures. */
@@ -53,7 +51,6 @@ inline std::vector<int> AllBlendModes()
   return numbers;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -8,9 +8,7 @@
 
 #include <cstdint>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Random numbers that are the same with every standard library. */
@@ -55,7 +53,6 @@ private:
   std::uint64_t State;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

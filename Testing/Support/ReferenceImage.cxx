@@ -16,9 +16,7 @@
 #include <sstream>
 #include <thread>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -311,5 +309,4 @@ Comparison CompareToReference(const ByteImage& image, const ReferenceImage& trut
   return comparer.GetResult();
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

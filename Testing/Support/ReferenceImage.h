@@ -17,9 +17,7 @@
 class vtkMatrix4x4;
 class vtkUnstructuredGrid;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -100,7 +98,6 @@ Comparison CompareToReference(const ByteImage& image, const ReferenceImage& trut
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   const std::array<double, 3>& background, int left = 0, int bottom = 0);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

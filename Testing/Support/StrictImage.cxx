@@ -12,9 +12,7 @@
 #include <cstdlib>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -132,5 +130,4 @@ BaselineResult CompareToBaseline(
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

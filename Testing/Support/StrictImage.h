@@ -8,9 +8,7 @@
 #include <cstddef>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -47,7 +45,6 @@ struct BaselineResult
 BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold,
   const std::string& folder = std::string());
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

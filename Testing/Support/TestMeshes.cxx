@@ -17,9 +17,7 @@
 #include <fstream>
 #include <random>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 const char* const ScalarName = "Scalar";
@@ -270,5 +268,4 @@ Grid ReadDataMesh(const std::string& name)
   return ReadMesh(std::string(folder ? folder : MENISCUS_DEFAULT_DATA_DIR) + "/" + name + ".vtu");
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

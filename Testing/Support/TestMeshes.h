@@ -12,9 +12,7 @@
 
 class vtkUnstructuredGrid;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Analytic scalar at a position. */
@@ -72,7 +70,6 @@ Grid ReadDataMesh(const std::string& name);
 /** Any .vtu file, its first point array active if none is; null if it cannot be read. */
 Grid ReadMesh(const std::string& path);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -11,9 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -202,5 +200,4 @@ reference::ReferenceTransferFunction ToReference(vtkVolumeProperty* property, Op
   return reference::ReferenceTransferFunction(nodes);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkVolumeProperty.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 enum class FunctionKind
@@ -46,7 +44,6 @@ enum class OpacityModel
 reference::ReferenceTransferFunction ToReference(
   vtkVolumeProperty* property, OpacityModel model = OpacityModel::AttenuationCoefficient);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

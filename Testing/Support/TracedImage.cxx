@@ -12,9 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -176,5 +174,4 @@ TracedComparison CompareToTrace(const FloatImage& image, const PixelRays& rays,
   return total;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -11,9 +11,7 @@
 #include <functional>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Premultiplied colour of a ray; called from several threads at once. */
@@ -41,7 +39,6 @@ struct TracedComparison
 TracedComparison CompareToTrace(const FloatImage& image, const PixelRays& rays,
   const TraceRay& trace, double tolerance, double rounding);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

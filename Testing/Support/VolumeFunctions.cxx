@@ -16,9 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -193,5 +191,4 @@ vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeFunction& function)
   return property;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -14,9 +14,7 @@
 class vtkUnstructuredGrid;
 class vtkVolumeProperty;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A transfer function as control points of attenuation and colour, ascending. */
@@ -48,7 +46,6 @@ double BrightestColor(const VolumeFunction& function);
 /** A property with a function's attenuation and colour. */
 vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeFunction& function);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

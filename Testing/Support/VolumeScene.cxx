@@ -21,9 +21,7 @@
 #include <cstring>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -209,5 +207,4 @@ std::array<double, 2> ViewAngles(int i)
   return { azimuth, 60.0 * std::sin(0.7 + 2.4 * i) };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -19,9 +19,7 @@ class vtkUnstructuredGridVolumeMapper;
 class vtkVolume;
 class vtkVolumeProperty;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Premultiplied float RGBA, in rows from the bottom. */
@@ -119,7 +117,6 @@ std::string DeviceName(vtkRenderWindow* window);
 
 double DiagonalOf(const double bounds[6]);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -83,5 +81,4 @@ void VolumeView::ApplyTo(vtkRenderer* renderer) const
   camera->SetClippingRange(this->Near, this->Far);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -9,9 +9,7 @@
 
 class vtkRenderer;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -53,7 +51,6 @@ private:
   Axes GetAxes() const;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -18,9 +18,7 @@
 #include <numeric>
 #include <utility>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -298,5 +296,4 @@ std::vector<FilterRelation> GetFilterRelations()
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

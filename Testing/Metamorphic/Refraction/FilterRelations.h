@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 struct FilterRelation
@@ -28,7 +26,6 @@ std::vector<FilterRelation> GetFilterRelations();
 /** Those of the light filter and of the error volume. */
 std::vector<FilterRelation> GetLightRelations();
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -14,9 +14,7 @@
 
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -277,5 +275,4 @@ glm::dvec3 GetTuple(vtkPolyData* data, const char* name, vtkIdType point)
   return value;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -19,9 +19,7 @@
 
 class vtkRefractedGeometryFilter;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 enum class FilterMode
@@ -75,7 +73,6 @@ vtkSmartPointer<vtkPolyData> GetResult(vtkRefractedGeometryFilter* filter);
 
 glm::dvec3 GetTuple(vtkPolyData* data, const char* name, vtkIdType point);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -15,9 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -551,5 +549,4 @@ double FilterTrial::GetAngle(const glm::dvec3& a, const glm::dvec3& b) const
   return glm::length(glm::cross(first, glm::normalize(b - this->Scene.Base.Eye)));
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

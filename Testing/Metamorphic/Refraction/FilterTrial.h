@@ -18,9 +18,7 @@
 
 class vtkDataSetAttributes;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -95,7 +93,6 @@ private:
   vtkSmartPointer<vtkPolyData> Base;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -23,9 +23,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -456,5 +454,4 @@ std::vector<FilterRelation> GetLightRelations()
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -417,5 +415,4 @@ void RefractionTrial::CompareFirst(const std::vector<std::size_t>& order)
   }
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

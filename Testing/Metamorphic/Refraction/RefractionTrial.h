@@ -17,9 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A membrane, an eye and points on both sides of it, a few units wide. */
@@ -108,7 +106,6 @@ private:
   RelationTally Tally;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -15,9 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -523,5 +521,4 @@ double PlainTolerance(int backend)
   return backend == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

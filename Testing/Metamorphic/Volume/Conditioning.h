@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -84,7 +82,6 @@ private:
  */
 double PlainTolerance(int backend);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -10,9 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -84,5 +82,4 @@ void MapScene(VolumeCase& test, const glm::dmat4& map)
   MapScalars(test.Look, 1.0, 0.0, scale);
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 glm::dvec3 PointBy(const glm::dmat4& map, const glm::dvec3& p);
@@ -21,7 +19,6 @@ glm::dvec3 PointBy(const glm::dmat4& map, const glm::dvec3& p);
  */
 void MapScene(VolumeCase& test, const glm::dmat4& map);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -16,9 +16,7 @@
 #include <cmath>
 #include <map>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -274,5 +272,4 @@ std::vector<VolumeRelation> MembraneRelations()
   };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -18,9 +18,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -290,5 +288,4 @@ std::vector<MeshTetrahedron> TetrahedraOf(const MeshArrays& mesh)
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

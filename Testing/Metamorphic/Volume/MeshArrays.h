@@ -15,9 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A cell of VTK: its type and its points in VTK's order. */
@@ -85,7 +83,6 @@ struct MeshTetrahedron
  */
 std::vector<MeshTetrahedron> TetrahedraOf(const MeshArrays& mesh);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -16,9 +16,7 @@
 #include <map>
 #include <numeric>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -448,5 +446,4 @@ void SetRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumber
   }
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -15,9 +15,7 @@
 
 class vtkRectilinearGrid;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 template <typename Sequence>
@@ -65,7 +63,6 @@ vtkSmartPointer<vtkRectilinearGrid> ToRectilinear(const MeshArrays& mesh);
  */
 void SetRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -18,9 +18,7 @@
 #include <functional>
 #include <map>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -409,5 +407,4 @@ FamilyMesh MakeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random)
   return result;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -8,9 +8,7 @@
 
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A random mesh with one scalar per point. */
@@ -23,8 +21,6 @@ struct FamilyMesh
    * any division into tetrahedra gives the same image.
    */
   bool Linear = false;
-  /** True if the mesh is in [-1, 1]^3 or hardly larger, as membranes expect. */
-  bool UnitBox = true;
 };
 
 /** Kinds of meshes that RandomMesh() chooses from. */
@@ -57,7 +53,6 @@ void SetRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumber
 /** Moves the values of a mesh's points to its cells: the mean of each cell's points. */
 void MoveToCells(MeshArrays& mesh);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -17,9 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -348,5 +346,4 @@ std::vector<VolumeRelation> MeshRelations()
   };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

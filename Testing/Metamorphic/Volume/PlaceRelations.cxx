@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -182,5 +180,4 @@ std::vector<VolumeRelation> PlaceRelations()
   };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -25,9 +25,7 @@
 
 #include <algorithm>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -379,5 +377,4 @@ std::vector<VolumeRelation> StateRelations()
   };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

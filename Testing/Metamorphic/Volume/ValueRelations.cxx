@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -364,5 +362,4 @@ std::vector<VolumeRelation> ValueRelations()
   };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

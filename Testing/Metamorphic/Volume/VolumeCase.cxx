@@ -22,9 +22,7 @@
 #include <iterator>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -432,5 +430,4 @@ void MapScalars(VolumeLook& look, double factor, double offset, double lengthFac
   look.Unit *= lengthFactor;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -16,9 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Opacity and colour of one component, each by its own control points, ascending. */
@@ -84,7 +82,6 @@ struct VolumeCase
 
   const MeshArrays& MakeMesh() const { return this->Blocks.front(); }
   MeshArrays& MakeMesh() { return this->Blocks.front(); }
-  bool IsComposite() const { return this->Look.Blend == 0; }
   bool HasGradients() const { return this->Look.Shade || !this->Look.GradientOpacity.empty(); }
 };
 
@@ -125,7 +122,6 @@ vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeLook& look);
  */
 void MapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

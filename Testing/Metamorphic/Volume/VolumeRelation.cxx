@@ -7,9 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -208,5 +206,4 @@ VolumeRelation RelationOf(const std::string& name, int cases, const CaseNeeds& n
     nullptr };
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

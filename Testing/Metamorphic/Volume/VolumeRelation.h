@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Pixel of a changed scene's image that corresponds to pixel (x, y) of the original scene. */
@@ -85,7 +83,6 @@ std::vector<VolumeRelation> StateRelations();
 /** Membranes. */
 std::vector<VolumeRelation> MembraneRelations();
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

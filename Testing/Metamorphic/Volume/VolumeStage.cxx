@@ -13,9 +13,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Collects the error messages of a mapper. */
@@ -145,5 +143,4 @@ std::string VolumeStage::Complaints()
   return text;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

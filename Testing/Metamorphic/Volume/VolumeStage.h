@@ -16,9 +16,7 @@
 class vtkDataObject;
 class vtkTetrahedraRayCastMapper;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /**
@@ -59,7 +57,6 @@ private:
   long long Lost = 0;
 };
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -6,9 +6,7 @@
 
 #include <random>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -94,5 +92,4 @@ std::vector<TransferFunctionInterval> ConstantFunction(double attenuation)
   return BuildIntervals({ { 0.0, attenuation, glm::dvec3(1.0) } }, ScalarNormalization());
 }
 
-}
 }

@@ -13,9 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Points and tetrahedra as arrays of a mesh's caller. */
@@ -56,7 +54,6 @@ RayFrame FrameAlongZ(const TetrahedralMesh& mesh, double extent, int pixels);
 /** One interval of constant attenuation and colour. */
 std::vector<TransferFunctionInterval> ConstantFunction(double attenuation);
 
-}
 }
 
 #endif

@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -68,5 +66,4 @@ std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested)
   return name;
 }
 
-}
 }

@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A mesh ready for ray casting; the caller sets the optics. */
@@ -51,7 +49,6 @@ Picture CastPicture(
 /** Name of a test for an instruction set, of letters and digits. */
 std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested);
 
-}
 }
 
 #endif

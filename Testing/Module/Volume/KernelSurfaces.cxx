@@ -13,9 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------
@@ -132,5 +130,4 @@ void SetMesh(RefractedRayStack::View& view, const WorldBox& box)
     toFrame * glm::dmat3(box.Half.x, 0.0, 0.0, 0.0, box.Half.y, 0.0, 0.0, 0.0, box.Half.z);
 }
 
-}
 }

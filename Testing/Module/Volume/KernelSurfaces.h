@@ -11,9 +11,7 @@
 #include <functional>
 #include <memory>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A refracting surface with its boxes. */
@@ -63,7 +61,6 @@ RefractedRayStack::View LookAt(
 /** Sets the bounds of the mesh. */
 void SetMesh(RefractedRayStack::View& view, const WorldBox& box);
 
-}
 }
 
 #endif

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 namespace
 {
@@ -652,5 +650,4 @@ bool GradedPathCheck::GoTo(const PlaceOnRay& next, bool glides)
   return false;
 }
 
-}
 }

@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 /** A mesh in a field of n^2, with lengths in units of its radius. */
@@ -119,7 +117,6 @@ private:
   std::vector<std::int64_t> Near;
 };
 
-}
 }
 
 #endif

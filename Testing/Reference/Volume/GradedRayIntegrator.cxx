@@ -4,9 +4,7 @@
 
 #include <algorithm>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 namespace
 {
@@ -181,5 +179,4 @@ LightRay GradedRayIntegrator::Follow(LightRay ray, double step) const
   }
 }
 
-}
 }

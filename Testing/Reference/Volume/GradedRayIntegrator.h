@@ -10,9 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 /** A ray of light with the momentum p, |p| = n, and the optical path so far. */
@@ -65,7 +63,6 @@ private:
   std::vector<Cell> Cells;
 };
 
-}
 }
 
 #endif

@@ -6,9 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -254,5 +252,4 @@ void FindOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tr
   }
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

@@ -11,9 +11,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 /** Part of a ray inside one cell; the scalar is linear between its ends. */
@@ -55,7 +53,6 @@ bool NeedsOrder(
 void FindOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
   const CellTest* canBeSeen, std::vector<Crossing>& crossings);
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

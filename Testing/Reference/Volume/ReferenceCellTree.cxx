@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -162,5 +160,4 @@ void ReferenceCellTree::Candidates(const Ray& ray, std::vector<std::int64_t>& ce
   }
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

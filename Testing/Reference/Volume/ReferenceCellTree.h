@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 struct Ray
@@ -51,7 +49,6 @@ private:
   double Padding = 0.0;
 };
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -131,5 +129,4 @@ std::array<double, 4> IntegrateComponents(const Ray& ray,
   return result;
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

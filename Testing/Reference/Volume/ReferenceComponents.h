@@ -13,9 +13,7 @@
 #include <array>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 enum class Mixture
@@ -35,7 +33,6 @@ std::array<double, 4> IntegrateComponents(const Ray& ray,
   const std::vector<std::vector<RaySegment>>& segments, Mixture mixture,
   const std::vector<ReferenceTransferFunction>& functions);
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

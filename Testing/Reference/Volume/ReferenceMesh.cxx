@@ -7,9 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -302,5 +300,4 @@ void ReferenceMesh::FindPlanes(std::size_t id)
   }
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 using Vector3 = std::array<double, 3>;
@@ -105,7 +103,6 @@ private:
   double Diagonal = 0.0;
 };
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

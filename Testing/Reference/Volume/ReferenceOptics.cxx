@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -329,5 +327,4 @@ std::array<double, 4> IntegrateShaded(const Ray& ray, const std::vector<RaySegme
   return total;
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

@@ -15,9 +15,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 enum class Projection
@@ -108,7 +106,6 @@ std::array<double, 4> IntegrateShaded(const Ray& ray, const std::vector<RaySegme
   const Material* material, const std::function<double(double)>& gradientOpacity,
   int stepsPerPiece);
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

@@ -9,9 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -454,5 +452,4 @@ double ReferenceRayIntegrator::Sensitivity(
   return largest;
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

@@ -29,9 +29,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 /** Part of a ray inside the mesh without a gap. */
@@ -115,7 +113,6 @@ private:
   ReferenceCellTree Tree;
 };
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 //------------------------------------------------------------------------------
@@ -61,5 +59,4 @@ OpticalSample ReferenceTransferFunction::ValueInPiece(std::size_t piece, double 
   return sample;
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

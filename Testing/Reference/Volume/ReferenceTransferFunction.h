@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 /** Attenuation per world length and emitted colour of a medium. */
@@ -65,7 +63,6 @@ private:
   Outside Beyond = Outside::Clamped;
 };
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

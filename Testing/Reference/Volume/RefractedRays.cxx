@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 namespace
@@ -206,5 +204,4 @@ std::array<double, 4> Compose(
   return total;
 }
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference

@@ -13,9 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace reference
+namespace meniscus::reference
 {
 
 struct RefractingSurface
@@ -64,7 +62,6 @@ std::vector<RaySegment> FindSegments(
 std::array<double, 4> Compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace);
 
-} // namespace reference
-} // namespace meniscus
+} // namespace meniscus::reference
 
 #endif

@@ -22,9 +22,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -253,5 +251,4 @@ double IntegrateImage(vtkImageData* image, int n, const WorldRay& ray)
   return sum;
 }
 
-}
 }

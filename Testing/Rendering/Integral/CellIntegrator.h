@@ -17,9 +17,7 @@ class vtkDataArray;
 class vtkImageData;
 class vtkUnstructuredGrid;
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Integrates along rays through one cell by its shape functions, in double precision. */
@@ -52,7 +50,6 @@ private:
 /** Integral of the trilinear field of an image of n^3 voxels in [-1, 1]^3: a cubic in each. */
 double IntegrateImage(vtkImageData* image, int n, const WorldRay& ray);
 
-}
 }
 
 #endif

@@ -16,9 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -272,5 +270,4 @@ double IntegrateCells(vtkUnstructuredGrid* grid, bool scalars)
   return sum;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 using Filter = vtkSmartPointer<vtkTetrahedraRayIntegral>;
@@ -84,7 +82,6 @@ double WorstError(vtkTetrahedraRayIntegral* filter, const char* name,
 /** Sum over the tetrahedra of a grid: volume times the mean of the scalars, or of 1. */
 double IntegrateCells(vtkUnstructuredGrid* grid, bool scalars);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

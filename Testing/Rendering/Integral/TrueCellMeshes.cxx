@@ -21,9 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 namespace
@@ -236,5 +234,4 @@ Grid MakeMixedBlock(int n, bool quadratic, unsigned int seed)
   return MixedBlock(n, quadratic, seed).Make();
 }
 
-}
 }

@@ -7,9 +7,7 @@
 
 #include <vtkCellType.h>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A type of cell with other shape functions than a linear tetrahedron. */
@@ -46,7 +44,6 @@ Grid MakeCell(const CellCase& shape, double displacement, unsigned int seed);
  */
 Grid MakeMixedBlock(int n, bool quadratic, unsigned int seed);
 
-}
 }
 
 #endif

@@ -24,9 +24,7 @@
 #include <cmath>
 #include <string>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** Names that are common words elsewhere. */
@@ -193,7 +191,6 @@ void ExpectColors(
 
 }
 
-}
 }
 
 #endif

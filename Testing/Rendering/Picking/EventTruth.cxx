@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 namespace
 {
@@ -299,5 +297,4 @@ RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrato
   return robust;
 }
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test

@@ -17,9 +17,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** A place on a ray. */
@@ -79,7 +77,6 @@ RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrato
   const reference::Ray& ray, const FindEvents& find, double slope, double scalarRange,
   double depthRounding);
 
-} // namespace test
-} // namespace meniscus
+} // namespace meniscus::test
 
 #endif

@@ -16,9 +16,7 @@
 #include <functional>
 #include <vector>
 
-namespace meniscus
-{
-namespace test
+namespace meniscus::test
 {
 
 /** n^2 as a function of the position. */
@@ -135,7 +133,6 @@ inline void CrossAxes(const glm::dvec3& direction, glm::dvec3& first, glm::dvec3
   second = glm::cross(direction, first);
 }
 
-}
 }
 
 #endif
