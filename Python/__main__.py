@@ -3,6 +3,6 @@
 """`python -m meniscus` is the command `meniscus`."""
 import sys
 
-from .viewer.command import main
+from .viewer.command import program
 
-sys.exit(main())
+sys.exit(program())

@@ -15,6 +15,7 @@ window, web: a desktop window with keys and sliders, and a page served by trame.
 chart: the histogram and the curve of opacity in the window.
 contest: VTK's mappers and ours side by side.
 watching: files that change.
+guard: files that crash the library that reads them.
 options: options from the command line and from a file.
 command: arguments and messages.
 """

@@ -122,7 +122,9 @@ def _check_ids(ids, points, what):
 
 
 def _check_cells(cells, points, what="a cell"):
-    """Checks a vtkCellArray of a mesh with a number of points."""
+    """Checks a vtkCellArray of a mesh with a number of points; None has no cells."""
+    if cells is None:
+        return
     ids = vtk_to_numpy(cells.GetConnectivityArray())
     offsets = vtk_to_numpy(cells.GetOffsetsArray())
     if offsets.size and (offsets[0] != 0 or (offsets[1:] < offsets[:-1]).any()
@@ -139,10 +141,11 @@ def _check_faces(grid):
             _check_cells(grid.GetPolyhedronFaces(), grid.GetNumberOfPoints(), _FACE)
         return
     faces, places = grid.GetFaces(), grid.GetFaceLocations()
-    if not faces or not places:
-        return
-    stream, points = vtk_to_numpy(faces), grid.GetNumberOfPoints()
-    for cell in numpy.flatnonzero(types_of(grid) == VTK_POLYHEDRON):
+    polyhedra = numpy.flatnonzero(types_of(grid) == VTK_POLYHEDRON)
+    if polyhedra.size and not (faces and places):
+        raise ReadingError(f"The mesh is damaged: its {polyhedra.size} polyhedra have no faces")
+    stream, points = vtk_to_numpy(faces) if polyhedra.size else None, grid.GetNumberOfPoints()
+    for cell in polyhedra:
         place = places.GetValue(int(cell)) + 1
         for _ in range(stream[place - 1] if 0 < place <= stream.size else 0):
             size = stream[place] if place < stream.size else stream.size
@@ -161,6 +164,20 @@ def _check_arrays(leaf):
             if array is not None and array.GetNumberOfTuples() != size:
                 raise ReadingError(f"The mesh is damaged: the array '{array.GetName()}' has "
                                    f"{array.GetNumberOfTuples()} values for {size} {kind}")
+        ghosts = attributes.GetArray(vtkDataSetAttributes.GhostArrayName())
+        if ghosts is not None and ghosts.GetNumberOfComponents() != 1:
+            raise ReadingError(f"The mesh is damaged: the array '{ghosts.GetName()}' of {kind} has "
+                               f"{ghosts.GetNumberOfComponents()} components")
+
+
+def _check_axes(grid):
+    """Checks that a rectilinear grid has a coordinate for each point of an axis."""
+    axes = (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates())
+    for axis, coordinates, size in zip("xyz", axes, grid.GetDimensions()):
+        found = coordinates.GetNumberOfTuples() if coordinates else 0
+        if found != size:
+            raise ReadingError(f"The mesh is damaged: it has {found} coordinates for {size} points "
+                               f"along {axis}")
 
 
 def check_damage(data):
@@ -175,6 +192,8 @@ def check_damage(data):
         elif isinstance(leaf, vtkPolyData):
             for cells in (leaf.GetVerts(), leaf.GetLines(), leaf.GetPolys(), leaf.GetStrips()):
                 _check_cells(cells, leaf.GetNumberOfPoints())
+        elif isinstance(leaf, vtkRectilinearGrid):
+            _check_axes(leaf)
         _check_arrays(leaf)
 
 

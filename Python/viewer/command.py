@@ -13,6 +13,7 @@ import sys
 from ..names import BACKENDS, BLEND_MODES
 from .colors import COLOR_MAPS
 from .files import collecting_reports
+from .guard import run_guarded
 from .options import OptionParser
 from .pictures import draw_picture, grab_picture, write_picture
 from .reading import MeshSeries, ReadingError, read_surface
@@ -165,7 +166,7 @@ def make_scene(options, report=lambda line: None):
     # moves; VTK's mappers have one ray per pixel.
     scene.set_rays_at_edges(options.backend in ("automatic", "native")
                             and not (options.water or options.web or options.compare))
-    if options.clip:
+    if options.clip is not None:
         scene.set_clip(*_split_clip(options.clip))
     if options.water:
         scene.set_surface(read_surface(options.water), options.index)
@@ -253,3 +254,8 @@ def main(arguments=None):
         print(f"meniscus: {error}", file=sys.stderr)
         return 1
     return 0
+
+
+def program():
+    """The command as a process of its own; returns its exit status."""
+    return run_guarded(main)

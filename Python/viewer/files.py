@@ -13,6 +13,8 @@ import warnings
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
+from .guard import noting_file
+
 _EXODUS = ("vtkIOExodus", "vtkExodusIIReader")
 _BYU = ("vtkIOGeometry", "vtkBYUReader")
 _ENSIGHT = ("vtkIOEnSight", "vtkGenericEnSightReader")
@@ -79,6 +81,10 @@ def check_exists(name):
         raise ReadingError(f"{name}: there is no such file")
     if os.path.isdir(name):
         raise ReadingError(f"{name}: this is a folder, not a file")
+    if not os.path.isfile(name):  # a pipe would be waited for, a device may have no end
+        raise ReadingError(f"{name}: this is a pipe or a device, not a file")
+    if not os.access(name, os.R_OK):
+        raise ReadingError(f"{name}: there is no permission to read this file")
 
 
 def ending_of(name):
@@ -153,7 +159,7 @@ def collecting_reports():
 @contextlib.contextmanager
 def _reading(name):
     """Turns the first error that VTK reports into a ReadingError, and prints none."""
-    with collecting_reports() as reports, _without_standard_error():
+    with noting_file(name), collecting_reports() as reports, _without_standard_error():
         yield
         errors, _ = reports()
     if errors:

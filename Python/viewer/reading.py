@@ -3,7 +3,7 @@
 """Meshes, their time steps and surfaces from files."""
 import os
 
-from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.vtkCommonCore import vtkBitArray, vtkDoubleArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkDataSetSurfaceFilter
 
@@ -61,7 +61,7 @@ class MeshSeries:
         """The data of a step; if it is damaged or has no volume, it is a ReadingError. Without an
         array it gets one of cells, UNIFORM, with the value 1."""
         data = self.steps[step][1]()
-        _decode_names(data)
+        _mend_arrays(data)
         check_damage(data)
         check_drawable(data)
         if not arrays_of(data):
@@ -70,14 +70,19 @@ class MeshSeries:
         return data
 
 
-def _decode_names(data):
-    """Makes the names of arrays text, where a program has written them in Latin-1."""
+def _mend_arrays(data):
+    """Makes the names of arrays text, where a program has written them in Latin-1, and arrays of
+    bits arrays of bytes, which numpy knows."""
     for leaf in leaves_of(data):
         for attributes in (leaf.GetPointData(), leaf.GetCellData()):
             for index in range(attributes.GetNumberOfArrays()):
                 array = attributes.GetAbstractArray(index)
                 if isinstance(array.GetName(), bytes):
                     array.SetName(text_of(array.GetName()))
+                if isinstance(array, vtkBitArray):
+                    values = vtkUnsignedCharArray()
+                    values.DeepCopy(array)
+                    attributes.AddArray(values)  # in its place: names are unique
 
 
 def arrays_of(data):

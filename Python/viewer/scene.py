@@ -161,7 +161,7 @@ class MeshScene:
         if name not in arrays:
             raise ReadingError(f"The mesh has no array '{name}'; it has " + ", ".join(arrays))
         association, components = arrays[name]
-        if limits and not limits[0] < limits[1]:
+        if limits and not -math.inf < limits[0] < limits[1] < math.inf:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
         levels = Levels(self.data, name, association)
         if levels.is_empty:
@@ -399,7 +399,9 @@ class MeshScene:
         camera = self.renderer.GetActiveCamera()
         center = [0.5 * (self.bounds[2 * i] + self.bounds[2 * i + 1]) for i in range(3)]
         camera.SetFocalPoint(*center)
-        camera.SetPosition(*(center[i] + direction[i] for i in range(3)))
+        # At this distance from it, so that it is not lost in the coordinates of a huge mesh.
+        length = math.hypot(*direction)
+        camera.SetPosition(*(center[i] + direction[i] / length * self.diagonal for i in range(3)))
         camera.SetViewUp(*up)
         self.renderer.ResetCamera(self.bounds)
         self._turns, self._reset_at = turns, camera.GetMTime()

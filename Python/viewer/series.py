@@ -28,7 +28,7 @@ class _Entry:
 def _time_of(name, text):
     try:
         time = float(text)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         time = math.nan
     if not math.isfinite(time):
         raise ReadingError(f"{name}: the time '{text}' is not a number")
@@ -39,7 +39,7 @@ def _read_pvd(name):
     """Entries of a ParaView data file: those without a time belong to every step."""
     try:
         sets = ElementTree.parse(name).getroot().findall("./Collection/DataSet")
-    except (ElementTree.ParseError, UnicodeError) as error:
+    except (ElementTree.ParseError, LookupError, UnicodeError) as error:
         raise ReadingError(f"{name}: {error}") from None
     entries = []
     for item in sets:
@@ -48,13 +48,22 @@ def _read_pvd(name):
     return entries
 
 
+def _text_of(name):
+    """The name of a file; None is one that is absent."""
+    if not isinstance(name, (str, type(None))):
+        raise TypeError(name)
+    return name
+
+
 def _read_series(name):
     """Entries of a file series (JSON): a file without a time has its number as time."""
     try:
         with open(name, encoding="utf-8-sig") as file:
             files = json.load(file)["files"]
-        return [_Entry(_time_of(name, item.get("time", number)), item.get("name"))
+        return [_Entry(_time_of(name, item.get("time", number)), _text_of(item.get("name")))
                 for number, item in enumerate(files)]
+    except RecursionError:
+        raise ReadingError(f"{name}: its brackets are nested too deeply") from None
     except ValueError as error:
         raise ReadingError(f"{name}: {error}") from None
     except (AttributeError, KeyError, TypeError):
