@@ -45,10 +45,10 @@
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
  * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
  * to four scalars, each with its own functions and weight, as media in the same place (attenuations
- * and emissions are added; not lit). If off, there are two components, the first for colour and the
- * second for opacity, or four: the first three are the colour (unsigned char, or 0 to 1), the
- * fourth is for opacity. Lighting then uses the gradient of the last component. See
- * Documentation/volume.md.
+ * and emissions are added; lit with GlobalIlluminationReach alone). If off, there are two
+ * components, the first for colour and the second for opacity, or four: the first three are the
+ * colour (unsigned char, or 0 to 1), the fourth is for opacity. Lighting then uses the gradient of
+ * the last component. See Documentation/volume.md.
  *
  * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over the
  * contents of the framebuffer; rays end at opaque geometry in it. Clipping planes cut cells
