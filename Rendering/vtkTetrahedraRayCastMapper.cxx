@@ -526,16 +526,16 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   frame.Optics.CellScalars =
     internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
   frame.Optics.Illuminated =
-    this->GlobalIlluminationReach > 0.0f && frame.Optics.Model().IsMedium();
+    this->GlobalIlluminationReach > 0.0f && meniscus::CanBeIlluminated(frame.Optics);
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
-      (volume->GetProperty()->GetShade() != 0 ||
+      ((volume->GetProperty()->GetShade() != 0 && !frame.Optics.Illuminated) ||
         meniscus::UsesGradientOpacity(volume->GetProperty())),
     internals.WarnedComponents,
-    "Shading and gradient opacity are not available with independent components; rendering "
-    "without.");
+    "Independent components have no common gradient, which could light them or change their "
+    "opacity; rendering without. A GlobalIlluminationReach above 0 lights them.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && frame.Optics.HasGradients() &&
     this->Gradients == VERTEX_GRADIENTS;
   this->PrepareIllumination(renderer, volume, frame);
   // Rays that are refracted nowhere see through no medium; other modes show no light.

@@ -45,10 +45,10 @@
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
  * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
  * to four scalars, each with its own functions and weight, as media in the same place (attenuations
- * and emissions are added; not lit). If off, there are two components, the first for colour and the
- * second for opacity, or four: the first three are the colour (unsigned char, or 0 to 1), the
- * fourth is for opacity. Lighting then uses the gradient of the last component. See
- * Documentation/volume.md.
+ * and emissions are added; lit with GlobalIlluminationReach alone). If off, there are two
+ * components, the first for colour and the second for opacity, or four: the first three are the
+ * colour (unsigned char, or 0 to 1), the fourth is for opacity. Lighting then uses the gradient of
+ * the last component. See Documentation/volume.md.
  *
  * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over the
  * contents of the framebuffer; rays end at opaque geometry in it. Clipping planes cut cells
@@ -460,12 +460,13 @@ public:
 
   /** @{ */
   /**
-   * Set/Get how far shadows reach in a medium whose property shades, as a fraction of the diameter
+   * Set/Get how far shadows reach in a volume whose property shades, as a fraction of the diameter
    * of a sphere about the volume, in [0, 1]; VTK's name and range. Each light is attenuated by the
-   * medium on this part of its way to the vertices of the mesh, and the ambient light by the mean
-   * over 32 directions (ambient occlusion); Documentation/volume.md has the rules for several
-   * lights and for changes. Default is 0: light is not attenuated; NaN counts as 0. Composite
-   * blending only. Cell data, which has no gradient, is lit by scattered light alone.
+   * medium, or by the isosurfaces, on this part of its way to the vertices of the mesh, and the
+   * ambient light by the mean over 32 directions (ambient occlusion); Documentation/volume.md has
+   * the rules for several lights and for changes. Default is 0: light is not attenuated; NaN counts
+   * as 0. Cell data and independent components, which have no gradient, are lit by scattered light
+   * alone; isosurfaces of cell data have no shadows.
    */
   void SetGlobalIlluminationReach(float reach);
   vtkGetMacro(GlobalIlluminationReach, float);

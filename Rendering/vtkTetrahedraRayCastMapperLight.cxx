@@ -67,8 +67,10 @@ void vtkTetrahedraRayCastMapper::PrepareIllumination(
     optics.Illuminated = false;
     return;
   }
-  // Scalars of cells have no gradient that reflects light: all of it is scattered.
-  optics.Lighting.Scattering = optics.CellScalars ? 1.0 : 0.5 * this->VolumetricScatteringBlending;
+  // Surfaces reflect all light; a medium without a gradient that reflects light scatters all of it.
+  optics.Lighting.Scattering = !optics.Model().IsMedium() ? 0.0
+    : optics.HasGradients()                               ? 0.5 * this->VolumetricScatteringBlending
+                                                          : 1.0;
   optics.Lighting.Anisotropy = meniscus::GetScatteringAnisotropy(volume->GetProperty(), 0);
   meniscus::VolumeIllumination::Request& request = internals.IlluminationRequest;
   request.Base = world.Frame;

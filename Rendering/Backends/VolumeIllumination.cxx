@@ -60,8 +60,8 @@ bool VolumeIllumination::MediumKey::operator==(const MediumKey& other) const
 {
   const auto members = [](const MediumKey& key)
   {
-    return std::tie(
-      key.Attenuation, key.GradientOpacity, key.VertexGradients, key.GradientMagnitude, key.Reach);
+    return std::tie(key.Blending, key.Attenuation, key.Isovalues, key.SurfaceOpacities,
+      key.GradientOpacity, key.VertexGradients, key.GradientMagnitude, key.Reach);
   };
   return this->Mesh == other.Mesh && this->Values == other.Values &&
     members(*this) == members(other) && this->ClippingPlanes == other.ClippingPlanes &&
@@ -79,12 +79,21 @@ auto VolumeIllumination::KeyOf(const RayCastTables& tables, const Request& reque
   key.Mesh = { input.GetMeshVersion(), input.GetLinkVersion() };
   key.Values = { input.GetScalarVersion(),
     mixed ? tables.Components.GetVersion() : TableVersion() };
-  AddAttenuation(tables.Property.GetIntervals(), key.Attenuation);
+  if (optics.Model().IsMedium())
+  {
+    AddAttenuation(tables.Property.GetIntervals(), key.Attenuation);
+  }
   for (const std::vector<TransferFunctionInterval>& other : tables.Property.GetOtherIntervals())
   {
     AddAttenuation(other, key.Attenuation);
   }
   key.Attenuation.push_back(static_cast<float>(optics.Components));
+  key.Blending = optics.Blending;
+  for (const Isosurface& surface : tables.Property.GetIsosurfaces())
+  {
+    key.Isovalues.push_back(surface.Scalar);
+    key.SurfaceOpacities.push_back(surface.Opacity);
+  }
   key.GradientOpacity = optics.GradientOpacity;
   if (optics.GradientOpacity)
   {
@@ -109,17 +118,28 @@ void VolumeIllumination::SetMediumOf(RayCastTables& tables, const Request& reque
   }
   if (!(key == this->Medium))
   {
-    const bool newStarts = !(key.Mesh == this->Medium.Mesh);
+    // Isosurfaces and their scalars count where there are some.
+    const bool newStarts = !(key.Mesh == this->Medium.Mesh) ||
+      key.Isovalues != this->Medium.Isovalues ||
+      (!key.Isovalues.empty() && !(key.Values == this->Medium.Values));
     this->Medium = std::move(key);
     this->Lights.clear();
     this->AmbientDirections = 0;
     PackProperty(tables.Property, this->Packed);
     if (newStarts)
     {
-      this->Starts.Build(tables.Input.GetMesh(), ThreadedLoop);
+      this->BuildStarts(tables);
     }
   }
   this->IsCombined = false;
+}
+
+//------------------------------------------------------------------------------
+void VolumeIllumination::BuildStarts(RayCastTables& tables)
+{
+  const StartSurfaces surfaces{ tables.Input.GetScalars(), this->Medium.Isovalues };
+  this->Starts.Build(
+    tables.Input.GetMesh(), ThreadedLoop, surfaces.Isovalues.empty() ? nullptr : &surfaces);
 }
 
 //------------------------------------------------------------------------------
@@ -193,6 +213,10 @@ void VolumeIllumination::Combine(RayCastTables& tables, const Request& request)
       this->Brightest = static_cast<int>(i);
     }
   }
+  // The half of the directions that is behind a surface lights it in no case.
+  const bool isMedium = request.Optics.Model().IsMedium();
+  const auto directions =
+    static_cast<float>(isMedium ? NumberOfDirections : NumberOfDirections / 2);
   this->Values.assign(static_cast<std::size_t>(mesh.GetNumberOfVertices()), glm::vec3(1.0f));
   const std::vector<std::int32_t>& vertices = this->Starts.GetVertices();
   ForEachBlock(vertices.size(), ThreadedLoop,
@@ -202,7 +226,7 @@ void VolumeIllumination::Combine(RayCastTables& tables, const Request& request)
       {
         const auto vertex = static_cast<std::size_t>(vertices[i]);
         glm::vec3& value = this->Values[vertex];
-        value.x = this->Ambient[vertex] / static_cast<float>(NumberOfDirections);
+        value.x = std::min(this->Ambient[vertex] / directions, 1.0f);
         double sum = 0.0;
         double weights = 0.0;
         for (std::size_t number = 0; number < lights.size(); ++number)

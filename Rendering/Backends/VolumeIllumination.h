@@ -23,10 +23,10 @@ struct RayCastTables;
 struct ShadowScene;
 
 /**
- * Light that reaches the vertices of a volume through its own medium: per vertex the numbers of
- * VertexLight. Transmittances are computed again when the medium, the reach, the clipping planes or
- * the place of the light in relation to the volume have changed, each light by itself; another
- * camera or colour of a light does not change them.
+ * Light that reaches the vertices of a volume through its own medium, or past its isosurfaces: per
+ * vertex the numbers of VertexLight. Transmittances are computed again when the medium, the reach,
+ * the clipping planes or the place of the light in relation to the volume have changed, each light
+ * by itself; another camera or colour of a light does not change them.
  */
 class VolumeIllumination
 {
@@ -69,8 +69,12 @@ private:
   {
     TableVersions Mesh;
     TableVersions Values;
+    BlendMode Blending = BlendMode::Composite;
     /** Attenuation of the functions, without colours. */
     std::vector<float> Attenuation;
+    /** Isovalues, ascending, and opacities of the isosurfaces. */
+    std::vector<float> Isovalues;
+    std::vector<float> SurfaceOpacities;
     std::vector<RayClippingPlane> ClippingPlanes;
     bool GradientOpacity = false;
     bool VertexGradients = false;
@@ -89,6 +93,7 @@ private:
 
   MediumKey KeyOf(const RayCastTables& tables, const Request& request) const;
   void SetMediumOf(RayCastTables& tables, const Request& request);
+  void BuildStarts(RayCastTables& tables);
   std::vector<std::size_t> FindUnknown(const std::vector<RayCastLight>& lights);
   void CastLight(const ShadowScene& scene, KnownLight& light);
   void CastDirection(const ShadowScene& scene, int direction);

@@ -97,6 +97,13 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 }
 
 //------------------------------------------------------------------------------
+bool CanBeIlluminated(const RayCastOptics& optics)
+{
+  const BlendModel& model = optics.Model();
+  return model.IsMedium() || (model.IsLit() && !optics.CellScalars);
+}
+
+//------------------------------------------------------------------------------
 bool operator==(const RayCastOptics& a, const RayCastOptics& b)
 {
   const auto members = [](const RayCastOptics& optics)
@@ -114,14 +121,11 @@ bool operator==(const RayCastOptics& a, const RayCastOptics& b)
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics)
 {
-  // Mixed components have a gradient each: there is no common normal.
-  const bool hasGradients =
-    !optics.CellScalars && optics.Components != ComponentMixture::Independent;
+  const bool hasGradients = optics.HasGradients();
   const bool isMedium = optics.Model().IsMedium();
   // Light that a medium scatters needs no normal.
-  const bool isScattered = optics.CellScalars && optics.Illuminated;
   optics.Shading = property->GetShade() != 0 && optics.Model().IsLit() &&
-    (hasGradients || isScattered || !isMedium);
+    (hasGradients || optics.Illuminated || !isMedium);
   optics.GradientOpacity = isMedium && hasGradients && UsesGradientOpacity(property);
   if (!optics.UsesGradients())
   {

@@ -46,7 +46,7 @@ struct RayCastOptics
   /** True if lists of entries per tile of any length have been uploaded; for one leg only. */
   bool LongLists = false;
   bool Shading = false;
-  /** True if the medium attenuates its light: see VolumeIllumination. */
+  /** True if the volume attenuates its own light: see VolumeIllumination. */
   bool Illuminated = false;
   bool GradientOpacity = false;
   /**
@@ -67,13 +67,18 @@ struct RayCastOptics
   bool IsRefracting() const { return this->NumberOfLegs > 1; }
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
+  /** False for scalars of cells, and for mixed components, which have a gradient each. */
+  bool HasGradients() const
+  {
+    return !this->CellScalars && this->Components != ComponentMixture::Independent;
+  }
   /**
    * True if gradients per cell are used, instead of gradients per vertex. Scalars of cells have no
    * gradient.
    */
   bool UsesCellGradients() const
   {
-    return this->UsesGradients() && !this->VertexGradients && !this->CellScalars;
+    return this->UsesGradients() && !this->VertexGradients && this->HasGradients();
   }
   /** Description of the blend mode. */
   const BlendModel& Model() const { return GetBlendModel(this->Blending); }
@@ -106,12 +111,18 @@ struct ViewContext
 
 /**
  * Sets shading, its material and the active lights, and gradient opacity if there is one. Scalars
- * of cells have no gradient: only their isosurfaces have a normal, and a medium of them is lit with
- * global illumination alone. The other members of the optics, on which these depend, must be set;
- * Illuminated if global illumination is wanted.
+ * of cells have no gradient: only their isosurfaces have a normal, and a medium of them, or of
+ * independent components, is lit with global illumination alone. The other members of the optics,
+ * on which these depend, must be set; Illuminated if global illumination is wanted.
  */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);
+
+/**
+ * True if a volume with shading can attenuate its own light. Isosurfaces of scalars of cells
+ * cannot: they pass through the vertices, which are on neither side of them.
+ */
+bool CanBeIlluminated(const RayCastOptics& optics);
 
 /** True if a property uses a gradient opacity function. */
 bool UsesGradientOpacity(vtkVolumeProperty* property);

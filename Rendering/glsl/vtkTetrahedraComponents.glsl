@@ -164,6 +164,10 @@ bool integratePiece()
       float scalar = mix(fronts[f], backs[f], at);
       here += densityAt(f, scalar, pieceLength) * colorAt(f, scalar);
     }
+#if SHADING
+    // Without a gradient no highlight is added, which the density would have to multiply.
+    here = shade(here, mix(segmentDone, reached, at));
+#endif
 #else
     vec3 colorHere = mix(colorStart, colorEnd, at);
 #if SHADING

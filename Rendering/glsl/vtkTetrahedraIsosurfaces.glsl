@@ -40,8 +40,40 @@ void startPart(float scalar)
   isRangeKnown = false;
 }
 
-// Adds a surface at a fraction of the pending segment.
-void addSurface(int index, float at)
+#if VERTEX_LIGHT
+// Light at a point of a surface, on the ray: interpolated between those vertices of the cell that
+// lie on the side from which the ray comes. The surface itself may hide the light from the others.
+// Their weights are in the ratio of the volumes of the other three and the point, in the space of
+// the place relative to the ray and of the scalar.
+vec3 lightBefore(float isovalue, bool fromBelow)
+{
+  ivec4 numbers = cellVertices(cell);
+  vec3 place[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    RayVertex p = fetchVertex(numbers[k]);
+    place[k] = vec3(placeOf(p) * (1.0 / 65536.0), vertexScalar(p) - isovalue);
+  }
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    if ((place[k].z < 0.0) == fromBelow)
+    {
+      float volume =
+        dot(place[k == 0 ? 1 : 0], cross(place[k <= 1 ? 2 : 1], place[k == 3 ? 2 : 3]));
+      // In a cell without volume the vertices count alike.
+      float weight = max(abs(volume), 1.0e-30);
+      sum += weight * texelFetch(vertexLight, numbers[k]).xyz;
+      total += weight;
+    }
+  }
+  return total > 0.0 ? sum / total : vec3(1.0);
+}
+#endif
+
+// Adds a surface at a fraction of the pending segment, met from below or above its isovalue.
+void addSurface(int index, float at, bool fromBelow)
 {
   float alpha = texelFetch(surfaces, 2 * index).y;
   vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
@@ -52,6 +84,9 @@ void addSurface(int index, float at)
   vec3 gradient = mix(segmentValuesStart, segmentValuesEnd, at);
 #else
   vec3 gradient = cellGradient(cell);
+#endif
+#if VERTEX_LIGHT
+  lightReached = lightBefore(texelFetch(surfaces, 2 * index).x, fromBelow);
 #endif
   vec3 reflected;
   vec3 highlight;
@@ -89,7 +124,7 @@ bool integratePiece()
       float at =
         inside ? clamp((isovalue - segmentStart) / (segmentEnd - segmentStart), 0.0, 1.0) : 0.0;
 #endif
-      addSurface(upward ? surfacesBelow : surfacesBelow - 1, at);
+      addSurface(upward ? surfacesBelow : surfacesBelow - 1, at, upward);
     }
     surfacesBelow += upward ? 1 : -1;
     loadSurfaceRange();

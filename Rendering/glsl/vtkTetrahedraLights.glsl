@@ -53,7 +53,7 @@ vec3 cellGradient(int index)
 }
 #endif
 
-#if CELL_SCALARS
+#if CELL_SCALARS || (VERTEX_LIGHT && !MEDIUM_LIGHT)
 // Vertices of the cell that the ray is leaving; the first three belong to its exit face.
 ivec4 cellVertices(int index)
 {
@@ -67,7 +67,9 @@ ivec4 cellVertices(int index)
   return ivec4(corners, v.x ^ v.y ^ v.z ^ v.w ^ corners.x ^ corners.y ^ corners.z);
 #endif
 }
+#endif
 
+#if CELL_SCALARS
 // Difference of two vertices, in units of MODEL_UNIT: exact up to rounding to float.
 vec4 fromVertex(ivec4 from, int vertex)
 {

@@ -118,7 +118,7 @@ float segmentScalar; // scalar at that fraction
 #endif
 #define GRADIENT_OF(values) values[0]
 #define LIGHT_OF(values) values[VERTEX_GRADIENTS]
-#define COMPONENTS_OF(values) values[VERTEX_GRADIENTS + VERTEX_LIGHT]
+#define COMPONENTS_OF(values) values[VERTEX_GRADIENTS + MEDIUM_LIGHT]
 #endif
 VertexValues valuesA; // at the face's vertices
 VertexValues valuesB;
@@ -134,7 +134,7 @@ VertexValues fetchValues(int vertex)
 #if VERTEX_GRADIENTS
   GRADIENT_OF(values) = texelFetch(vertexGradients, vertex).xyz;
 #endif
-#if VERTEX_LIGHT
+#if MEDIUM_LIGHT
   LIGHT_OF(values) = texelFetch(vertexLight, vertex).xyz;
 #endif
 #if VERTEX_COMPONENTS

@@ -264,7 +264,8 @@ void ShadowCast::CastLines(const FrameCaster& caster, ShadowBatch& batch) const
   job.TerminationTransmittance = OpaqueShadow;
   job.KeepsValues = true;
   caster.Leg.Describe(job);
-  const bool isPlain = job.Mixture == ComponentMixture::None && !job.Medium;
+  const bool isPlain =
+    GetBlendModel(job.Blending).IsMedium() && job.Mixture == ComponentMixture::None && !job.Medium;
   job.Measuring = isPlain ? RayMeasuring::OpticalDepth : RayMeasuring::None;
   job.Rays = batch.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(batch.Rays.size());

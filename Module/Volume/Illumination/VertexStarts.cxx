@@ -7,59 +7,109 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus
 {
 
+namespace
+{
+
+/** Six times the volume of an active cell; -1 for others. */
+float VolumeOf(const TetrahedralMesh& mesh, std::size_t cell)
+{
+  if (!mesh.IsActiveCell(static_cast<std::int64_t>(cell)))
+  {
+    return -1.0f;
+  }
+  const auto& ids = mesh.GetCells()[cell].Vertices;
+  const glm::dvec3 corner = mesh.GetPosition(ids[0]);
+  const glm::dvec3 edges[3] = { mesh.GetPosition(ids[1]) - corner,
+    mesh.GetPosition(ids[2]) - corner, mesh.GetPosition(ids[3]) - corner };
+  return static_cast<float>(std::abs(glm::dot(edges[0], glm::cross(edges[1], edges[2]))));
+}
+
+/** True if no surface lies between a vertex and the place next to it in a cell. */
+bool KeepsSide(
+  const StartSurfaces& surfaces, const TetrahedralMesh::Cell& cell, std::int32_t vertex)
+{
+  const auto scalarOf = [&](std::int32_t v)
+  { return double{ surfaces.Scalars[static_cast<std::size_t>(v)] }; };
+  double mean = 0.0;
+  for (const std::int32_t corner : cell.Vertices)
+  {
+    mean += 0.25 * scalarOf(corner);
+  }
+  // A scalar equal to an isovalue counts as above it.
+  const auto below = [&](double scalar)
+  { return std::upper_bound(surfaces.Isovalues.begin(), surfaces.Isovalues.end(), scalar); };
+  const double scalar = scalarOf(vertex);
+  return below(scalar) == below(scalar + VertexStarts::Share * (mean - scalar));
+}
+
+}
+
 //------------------------------------------------------------------------------
-void VertexStarts::Build(const TetrahedralMesh& mesh, const RangeLoop& loop)
+void VertexStarts::Build(
+  const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces)
 {
   this->Inside = !HasInvertedCells(mesh, loop);
-  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
-  std::vector<float> volumes(cells, -1.0f);
-  ForEachBlock(cells, loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        if (mesh.IsActiveCell(static_cast<std::int64_t>(c)))
-        {
-          const auto& ids = mesh.GetCells()[c].Vertices;
-          const glm::dvec3 corner = mesh.GetPosition(ids[0]);
-          const glm::dvec3 edges[3] = { mesh.GetPosition(ids[1]) - corner,
-            mesh.GetPosition(ids[2]) - corner, mesh.GetPosition(ids[3]) - corner };
-          volumes[c] =
-            static_cast<float>(std::abs(glm::dot(edges[0], glm::cross(edges[1], edges[2]))));
-        }
-      }
-    });
-  const auto vertices = static_cast<std::size_t>(mesh.GetNumberOfVertices());
-  this->Cells.assign(vertices, -1);
-  for (std::size_t c = 0; c < cells; ++c)
-  {
-    for (const std::int32_t vertex : mesh.GetCells()[c].Vertices)
-    {
-      std::int32_t& best = this->Cells[static_cast<std::size_t>(vertex)];
-      if (volumes[c] >= 0.0f && (best < 0 || volumes[c] > volumes[static_cast<std::size_t>(best)]))
-      {
-        best = static_cast<std::int32_t>(c);
-      }
-    }
-  }
+  this->FindCells(mesh, loop, surfaces);
   this->Vertices.clear();
-  for (std::size_t v = 0; v < vertices; ++v)
+  for (std::size_t v = 0; v < this->Cells.size(); ++v)
   {
     if (this->Cells[v] >= 0)
     {
       this->Vertices.push_back(static_cast<std::int32_t>(v));
     }
   }
-  this->FindPlaces(mesh, loop);
+  this->FindPlaces(mesh, loop, surfaces);
 }
 
 //------------------------------------------------------------------------------
-void VertexStarts::FindPlaces(const TetrahedralMesh& mesh, const RangeLoop& loop)
+void VertexStarts::FindCells(
+  const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces)
+{
+  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
+  std::vector<float> volumes(cells);
+  ForEachBlock(cells, loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        volumes[c] = VolumeOf(mesh, c);
+      }
+    });
+  const auto vertices = static_cast<std::size_t>(mesh.GetNumberOfVertices());
+  this->Cells.assign(vertices, -1);
+  std::vector<char> keeps(surfaces ? vertices : 0, 0);
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    for (const std::int32_t vertex : mesh.GetCells()[c].Vertices)
+    {
+      const auto v = static_cast<std::size_t>(vertex);
+      std::int32_t& best = this->Cells[v];
+      const char side =
+        surfaces && volumes[c] >= 0.0f && KeepsSide(*surfaces, mesh.GetCells()[c], vertex) ? 1 : 0;
+      const char bestSide = surfaces ? keeps[v] : 0;
+      if (volumes[c] < 0.0f || side < bestSide ||
+        (side == bestSide && best >= 0 && volumes[c] <= volumes[static_cast<std::size_t>(best)]))
+      {
+        continue;
+      }
+      best = static_cast<std::int32_t>(c);
+      if (surfaces)
+      {
+        keeps[v] = side;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void VertexStarts::FindPlaces(
+  const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces)
 {
   this->Places.resize(this->Cells.size());
   ForEachBlock(this->Vertices.size(), loop,
@@ -69,13 +119,14 @@ void VertexStarts::FindPlaces(const TetrahedralMesh& mesh, const RangeLoop& loop
       {
         const std::int32_t vertex = this->Vertices[i];
         const glm::dvec3 place = mesh.GetPosition(vertex);
+        const auto& cell = mesh.GetCells()[static_cast<std::size_t>(this->GetCell(vertex))];
         glm::dvec3 center(0.0);
-        for (const std::int32_t corner :
-          mesh.GetCells()[static_cast<std::size_t>(this->GetCell(vertex))].Vertices)
+        for (const std::int32_t corner : cell.Vertices)
         {
           center += 0.25 * mesh.GetPosition(corner);
         }
-        this->Places[static_cast<std::size_t>(vertex)] = place + Share * (center - place);
+        const double share = surfaces && !KeepsSide(*surfaces, cell, vertex) ? -Share : Share;
+        this->Places[static_cast<std::size_t>(vertex)] = place + share * (center - place);
       }
     });
 }

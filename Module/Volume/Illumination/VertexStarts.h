@@ -14,11 +14,21 @@
 namespace meniscus
 {
 
+/** Isosurfaces that cast shadows. */
+struct StartSurfaces
+{
+  /** One normalised scalar per vertex. */
+  const std::vector<float>& Scalars;
+  /** Ascending. */
+  std::vector<float> Isovalues;
+};
+
 /**
  * Places, next to the vertices of the active cells, where lines to a light begin. A line through a
  * vertex on the border of the mesh might pass outside of it. A place is therefore moved from its
  * vertex by a small share of the way to the centre of a cell, the largest active one at the vertex,
- * which is the cell that a walk begins in.
+ * which is the cell that a walk begins in. No isosurface lies between a vertex and its place: where
+ * one would, another cell is taken, or the place opposite to the cell.
  */
 class VertexStarts
 {
@@ -26,11 +36,13 @@ public:
   /** Share of the way: light is attenuated too much by this share of a cell's optical depth. */
   static constexpr double Share = 1.0 / 4096.0;
 
-  void Build(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
+  /** @param surfaces null for a medium. */
+  void Build(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop,
+    const StartSurfaces* surfaces = nullptr);
 
   /** The vertices of active cells, in ascending order. */
   const std::vector<std::int32_t>& GetVertices() const { return this->Vertices; }
-  /** Cell in which lines of one of these vertices begin. */
+  /** Cell, at one of these vertices, in which lines begin unless the place is outside of it. */
   std::int32_t GetCell(std::int32_t vertex) const
   {
     return this->Cells[static_cast<std::size_t>(vertex)];
@@ -48,7 +60,9 @@ public:
   }
 
 private:
-  void FindPlaces(const TetrahedralMesh& mesh, const RangeLoop& loop);
+  void FindCells(const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces);
+  void FindPlaces(
+    const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces);
 
   std::vector<std::int32_t> Vertices;
   /** One per vertex; negative without an active cell. */

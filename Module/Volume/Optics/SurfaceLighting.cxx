@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace meniscus
 {
@@ -62,9 +63,9 @@ double StrengthAt(const RayCastLight& light, const glm::dvec3& place, glm::dvec3
 
 //------------------------------------------------------------------------------
 ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
-  const glm::dvec3& place, const glm::dvec2& raySlope)
+  const glm::dvec3& place, const glm::dvec2& raySlope, const glm::dvec3& reached)
 {
-  ReflectedLight light{ glm::dvec3(lighting.Ambient), glm::dvec3(0.0) };
+  ReflectedLight light{ glm::dvec3(lighting.Ambient * reached.x), glm::dvec3(0.0) };
   const glm::dvec3 sizes = glm::abs(normal);
   const double largest = std::max({ sizes.x, sizes.y, sizes.z });
   if (!(largest > 0.0))
@@ -74,10 +75,13 @@ ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
   const glm::dvec3 toEye = -glm::normalize(glm::dvec3(raySlope.x, raySlope.y, 1.0));
   glm::dvec3 facing = glm::normalize(normal / largest);
   facing = glm::dot(facing, toEye) < 0.0 ? -facing : facing;
-  for (const RayCastLight& source : lighting.Lights)
+  for (std::size_t i = 0; i < lighting.Lights.size(); ++i)
   {
+    const RayCastLight& source = lighting.Lights[i];
+    const bool isBrightest = static_cast<int>(i) == lighting.BrightestLight;
     glm::dvec3 toLight;
-    const double strength = StrengthAt(source, place, toLight);
+    const double strength =
+      (isBrightest ? reached.y : reached.z) * StrengthAt(source, place, toLight);
     const double cosine = Clamped(glm::dot(facing, toLight));
     if (cosine > 0.0)
     {

@@ -35,7 +35,7 @@ struct SurfaceLighting
   double SpecularPower = 1.0;
   std::vector<RayCastLight> Lights;
   /**
-   * Global illumination of a medium: the share, in [0, 1], of its light that it scatters instead of
+   * Global illumination: the share, in [0, 1], of its light that a medium scatters instead of
    * reflecting it at its gradient, by Henyey and Greenstein's phase function of this anisotropy;
    * and the light whose transmittance is known apart from the transmittance of the other lights.
    */
@@ -65,9 +65,11 @@ struct ReflectedLight
  * @param normal in the frame, of any length; 0 leaves only the ambient light.
  * @param place point of the surface, in the frame.
  * @param raySlope change of x and y per depth of the ray that sees the point.
+ * @param reached shares of the ambient light, of the brightest light and of the others that reach
+ *   the point; ones without shadows.
  */
 ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
-  const glm::dvec3& place, const glm::dvec2& raySlope);
+  const glm::dvec3& place, const glm::dvec2& raySlope, const glm::dvec3& reached);
 
 }
 

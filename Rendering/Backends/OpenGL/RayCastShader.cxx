@@ -107,10 +107,12 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("WIDE_CELLS", optics.WideCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
+  // A medium interpolates the light between all vertices, isosurfaces between those before them.
+  const bool mediumLight = optics.Illuminated && optics.Model().IsMedium();
   define("VERTEX_LIGHT", optics.Illuminated ? 1 : 0);
+  define("MEDIUM_LIGHT", mediumLight ? 1 : 0);
   define("VERTEX_VALUES",
-    (optics.VertexGradients ? 1 : 0) + (optics.Illuminated ? 1 : 0) +
-      (optics.HasComponents() ? 1 : 0));
+    (optics.VertexGradients ? 1 : 0) + (mediumLight ? 1 : 0) + (optics.HasComponents() ? 1 : 0));
   define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
   define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
   const bool faded = optics.IsFaded() && optics.IsRefracting();

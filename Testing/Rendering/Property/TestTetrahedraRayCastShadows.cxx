@@ -347,6 +347,10 @@ TEST(TetrahedraRayCastShadows, LightsAnywhere)
       {
         light->SetPosition(0.0, 0.0, 0.0); // in a cell, at its focus
       }
+      else if (i == 4)
+      {
+        light->SetPosition(std::numeric_limits<double>::infinity(), 0.0, 0.0);
+      }
     }
     LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     if (number > 16)

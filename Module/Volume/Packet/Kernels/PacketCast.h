@@ -58,25 +58,28 @@ using PacketColorAndOpacity =
 template <class Simd, class Medium>
 using PacketColorsAsTheyAre =
   MultiComponentModel<Simd, ComponentMixture::RedGreenBlueOpacity, 1, Medium>;
-/** Gradients have no effect on independent components. */
-template <class Simd, int Functions, template <class, class> class Between>
-using PacketIndependent = MultiComponentModel<Simd, ComponentMixture::Independent, Functions,
-  Between<Simd, PacketNoGradientShading<Simd>>>;
+/**
+ * Gradients have no effect on independent components; with PacketJob::VertexLight, they scatter
+ * light.
+ */
+template <class Simd, int Functions, class Medium>
+using PacketIndependent =
+  MultiComponentModel<Simd, ComponentMixture::Independent, Functions, Medium>;
 
-template <class Simd, template <class, class> class Between>
+template <class Simd, class Medium>
 void CastIndependent(const PacketJob& job)
 {
   if (job.NumberOfOtherIntervals[2] > 0)
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 4, Between>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 4, Medium>>(job).Run();
   }
   else if (job.NumberOfOtherIntervals[1] > 0)
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 3, Between>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 3, Medium>>(job).Run();
   }
   else
   {
-    PacketWalk<Simd, PacketIndependent<Simd, 2, Between>>(job).Run();
+    PacketWalk<Simd, PacketIndependent<Simd, 2, Medium>>(job).Run();
   }
 }
 
@@ -87,7 +90,14 @@ void CastComposite(const PacketJob& job)
   switch (job.Mixture)
   {
     case ComponentMixture::Independent:
-      CastIndependent<Simd, Between>(job);
+      if (job.Medium && job.VertexLight)
+      {
+        CastIndependent<Simd, Between<Simd, PacketGradientShading<Simd, false, true>>>(job);
+      }
+      else
+      {
+        CastIndependent<Simd, Between<Simd, PacketNoGradientShading<Simd>>>(job);
+      }
       break;
     case ComponentMixture::ColorAndOpacity:
       CastMedium<Simd, PacketColorAndOpacity, Between>(job);

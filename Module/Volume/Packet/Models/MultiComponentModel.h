@@ -269,6 +269,8 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
         emission[channel] = Simd::Fma(density, ColorAt(fields, scalar, channel), emission[channel]);
       }
     }
+    // Without a gradient no highlight is added, which the density would have to multiply.
+    this->Optics.Shade(emission, Mix(this->Done, piece.Reached, at));
   }
   else
   {

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -55,18 +56,54 @@ glm::dvec3 TripleAt(const float* table, std::int64_t index)
   return { triple[0], triple[1], triple[2] };
 }
 
-/** The gradients of the cell's vertices, interpolated at a point in it. */
-glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm::dvec3& place)
+/** Weights of the cell's vertices at a point in it. */
+glm::dvec4 WeightsAt(const SeenCell& cell, const glm::dvec3& place)
 {
-  const auto gradientOf = [&](int k) { return TripleAt(job.VertexGradients, cell.Ids[k]); };
   const glm::dmat3 edges = cell.Edges();
   if (glm::determinant(edges) == 0.0)
   {
-    return gradientOf(0);
+    return { 1.0, 0.0, 0.0, 0.0 };
   }
   const glm::dvec3 weights = glm::inverse(edges) * (place - cell.Corners[0]);
-  return (1.0 - weights.x - weights.y - weights.z) * gradientOf(0) + weights.x * gradientOf(1) +
-    weights.y * gradientOf(2) + weights.z * gradientOf(3);
+  return { 1.0 - weights.x - weights.y - weights.z, weights };
+}
+
+/** The gradients of the cell's vertices, interpolated. */
+glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm::dvec4& weights)
+{
+  glm::dvec3 gradient(0.0);
+  for (int k = 0; k < 4; ++k)
+  {
+    gradient += weights[k] * TripleAt(job.VertexGradients, cell.Ids[k]);
+  }
+  return gradient;
+}
+
+/**
+ * The numbers of VertexLight at a point of an isosurface: interpolated between those vertices of
+ * the cell that lie on the side from which the ray comes. The surface itself may hide the light
+ * from the others.
+ */
+glm::dvec3 LightBefore(const PacketJob& job, const SeenCell& cell, const glm::dvec4& weights,
+  float isovalue, bool fromBelow)
+{
+  if (!job.VertexLight)
+  {
+    return glm::dvec3(1.0);
+  }
+  glm::dvec3 sum(0.0);
+  double total = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    if ((job.Vertices[cell.Ids[k]].Scalar < isovalue) == fromBelow)
+    {
+      // By rounding, a weight may be negative, and all of them 0: the vertices count alike then.
+      const double weight = std::max(weights[k], std::numeric_limits<double>::min());
+      sum += weight * TripleAt(job.VertexLight, cell.Ids[k]);
+      total += weight;
+    }
+  }
+  return total > 0.0 ? sum / total : glm::dvec3(1.0);
 }
 
 glm::dvec3 FaceNormal(const SeenCell& cell, int opposite)
@@ -76,9 +113,9 @@ glm::dvec3 FaceNormal(const SeenCell& cell, int opposite)
     cell.Corners[opposite <= 1 ? 2 : 1] - p, cell.Corners[opposite == 3 ? 2 : 3] - p);
 }
 
-/** Lit colour of a surface where a ray meets it. */
-glm::dvec3 LitColor(
-  const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface, double at)
+/** Lit colour of a surface where a ray, from below or above its isovalue, meets it. */
+glm::dvec3 LitColor(const PacketJob& job, const PacketSegment& segment,
+  const PacketSurface& surface, double at, bool fromBelow)
 {
   const glm::dvec3 emitted(surface.Color[0], surface.Color[1], surface.Color[2]);
   if (!job.Lighting)
@@ -95,6 +132,8 @@ glm::dvec3 LitColor(
   const glm::dvec3 place(across, (fromPivot + job.Pivot) / PacketVertex::GridPerDepth);
 
   const SeenCell cell = SeeCell(job, segment.CellFace / 4);
+  const glm::dvec4 weights =
+    job.VertexGradients || job.VertexLight ? WeightsAt(cell, place) : glm::dvec4(0.0);
   glm::dvec3 normal;
   if (job.CellScalars)
   {
@@ -102,13 +141,14 @@ glm::dvec3 LitColor(
   }
   else if (job.VertexGradients)
   {
-    normal = *job.GradientToFrame * VertexGradient(job, cell, place);
+    normal = *job.GradientToFrame * VertexGradient(job, cell, weights);
   }
   else
   {
     normal = *job.GradientToFrame * TripleAt(job.CellGradients, segment.CellFace / 4);
   }
-  const ReflectedLight light = Light(*job.Lighting, normal, place, slope);
+  const ReflectedLight light = Light(*job.Lighting, normal, place, slope,
+    LightBefore(job, cell, weights, surface.Scalar, fromBelow));
   return emitted * light.Reflected + light.Highlight;
 }
 
@@ -134,11 +174,12 @@ glm::dvec3 FadedColor(
   return glm::mix(scattered, color, glm::dvec3(seen[0], seen[1], seen[2]));
 }
 
-/** Adds a surface at a fraction of the segment. */
+/** Adds a surface at a fraction of the segment, met from below or above its isovalue. */
 void AddSurface(const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface,
-  double at, PacketSurfaceState& state)
+  double at, bool fromBelow, PacketSurfaceState& state)
 {
-  const glm::dvec3 color = FadedColor(job, segment, LitColor(job, segment, surface, at), at);
+  const glm::dvec3 color =
+    FadedColor(job, segment, LitColor(job, segment, surface, at, fromBelow), at);
   const float weight = state.Transmittance * surface.Opacity;
   for (int channel = 0; channel < 3; ++channel)
   {
@@ -174,7 +215,7 @@ void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSur
       const double at = isAtStart || job.CellScalars
         ? 0.0
         : std::clamp((double{ surface.Scalar } - segment.From) / change, 0.0, 1.0);
-      AddSurface(job, segment, surface, at, state);
+      AddSurface(job, segment, surface, at, upward, state);
     }
   };
   cross(atFrom, true);
