@@ -5,7 +5,6 @@
 #include "Volume/Refracted/RayBundleEntries.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace meniscus
@@ -87,7 +86,7 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
 {
   static const std::vector<BoundaryFace> none;
   const bool isHidden =
-    legs.GetNumberOfLegs() > 1 && this->EndBefore(BoxOf(*tree, rays.GetFrame()), loop);
+    legs.GetNumberOfLegs() > 1 && this->EndBefore(BoxOf(*tree, rays.GetFrame()));
   this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set, pitch);
   this->Frame.Set(rays, vertices, optics);
 }
@@ -111,53 +110,30 @@ void SightLegEntries::Limit(int column, int row, double end, PacketRay& ray) con
 }
 
 //------------------------------------------------------------------------------
-/** True if all rays end at the first interface, in front of the mesh. */
-bool SightLegEntries::EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const
+/** True if all rays that may show the mesh end at the first interface, in front of it. */
+bool SightLegEntries::EndBefore(const BoundsInFrame& mesh) const
 {
   // Larger than the relative rounding error of vertices by their grid.
   constexpr double margin = 1.0 + 1.0e-6;
   const glm::dmat3& edges = mesh.HalfEdges;
   const double nearest = mesh.Center.z -
     margin * (std::fabs(edges[0].z) + std::fabs(edges[1].z) + std::fabs(edges[2].z));
-  std::atomic<bool> all{ true };
-  loop(static_cast<std::size_t>(this->Legs.GetNumberOfTiles()),
-    [&](std::size_t begin, std::size_t end)
+  for (int tile = 0; tile < this->Legs.GetNumberOfTiles(); ++tile)
+  {
+    if (this->ReachDepth(tile, nearest))
     {
-      for (std::size_t i = begin; i < end && all; ++i)
-      {
-        const auto tile = static_cast<int>(i);
-        const int left = this->Legs.GetLeft(tile);
-        const int bottom = this->Legs.GetBottom(tile);
-        const BoundaryRaster::PixelBox box{ left, std::min(left + TileSize, this->Legs.GetWidth()),
-          bottom, std::min(bottom + TileSize, this->Legs.GetHeight()) };
-        const RefractedRay* next = this->Legs.GetTile(1, tile);
-        if (!next || this->ReachDepth(box, next, nearest))
-        {
-          all = false;
-        }
-      }
-    });
-  return all;
+      return false;
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
-/** True if a ray of a tile reaches the depth before the next interface. */
-bool SightLegEntries::ReachDepth(
-  const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const
+/** True if a ray of a tile that may show the mesh reaches the depth before the next interface. */
+bool SightLegEntries::ReachDepth(int tile, double depth) const
 {
-  const float first = this->Rays.FromPivot(depth);
-  for (int row = 0; row < box.Top - box.Bottom; ++row)
-  {
-    for (int column = 0; column < box.Right - box.Left; ++column)
-    {
-      // An entry is used if it is before the end, both in single precision.
-      if (first < this->Rays.FromPivot(next[row * TileSize + column].Depth))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+  // An entry is used if it is before the end, both in single precision.
+  return this->Rays.FromPivot(depth) < this->Rays.FromPivot(this->Legs.GetFarthestEnd(tile));
 }
 
 //------------------------------------------------------------------------------
@@ -222,7 +198,8 @@ void SightLegEntries::Collect(
   const RefractedRay* next =
     this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
   if (!this->Raster.IsEmpty(leg.Tile) &&
-    (!next || this->ReachDepth(leg.Box, next, this->Raster.NearestDepth(leg.Tile))))
+    (this->Legs.GetNumberOfLegs() == 1 ||
+      this->ReachDepth(leg.Tile, this->Raster.NearestDepth(leg.Tile))))
   {
     if (!leg.HasEntries)
     {

@@ -71,9 +71,8 @@ public:
 
 private:
   void Limit(int column, int row, double end, PacketRay& ray) const;
-  bool EndBefore(const BoundsInFrame& mesh, const RangeLoop& loop) const;
-  bool ReachDepth(
-    const BoundaryRaster::PixelBox& box, const RefractedRay* next, double depth) const;
+  bool EndBefore(const BoundsInFrame& mesh) const;
+  bool ReachDepth(int tile, double depth) const;
   std::int64_t PixelOf(const TileLeg& leg, int column, int row) const;
   void TakeRays(
     const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;

@@ -118,6 +118,12 @@ public:
     return this->Refracted[static_cast<std::size_t>(leg) - 1]->MayShow(tile, square);
   }
 
+  /**
+   * Largest depth at which a ray of a tile that may show the mesh meets the first interface;
+   * infinite if one passes it.
+   */
+  double GetFarthestEnd(int tile) const { return this->Refracted.front()->GetFarthest(tile); }
+
   /** Lower left pixel of a tile. */
   int GetLeft(int tile) const { return tile % this->Columns * this->Pitch; }
   int GetBottom(int tile) const { return tile / this->Columns * this->Pitch; }

@@ -185,9 +185,28 @@ void RefractedRayStack::HideTile(int tile)
   {
     rays.ChangeTile(tile) = std::vector<RefractedRay>();
     rays.SetSquares(tile, 0, 0);
+    rays.SetFarthest(tile, -Infinity);
   }
   constexpr TileSquares all = static_cast<TileSquares>((1u << BlocksOfTile) - 1u);
   this->Untraced[static_cast<std::size_t>(tile)] = all;
+}
+
+//------------------------------------------------------------------------------
+/** The same for a block of a tile. */
+void RefractedRayStack::HideBlock(int tile, int number)
+{
+  const glm::ivec2 first = FirstOfBlock(number);
+  for (RefractedRayTiles& tiles : this->Rays)
+  {
+    std::vector<RefractedRay>& rays = tiles.ChangeTile(tile);
+    for (int row = 0; row < StackBlock::Side && !rays.empty(); ++row)
+    {
+      std::fill_n(
+        rays.begin() + (first.y + row) * TileSize + first.x, StackBlock::Side, RefractedRay());
+    }
+  }
+  TileSquares& untraced = this->Untraced[static_cast<std::size_t>(tile)];
+  untraced = static_cast<TileSquares>(untraced | 1u << number);
 }
 
 //------------------------------------------------------------------------------
@@ -198,16 +217,26 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(
   const glm::ivec2 first = this->FirstPixel(tile);
   const CornerRays corners = this->CornersOf(first, TileSize);
   const bool mayShow = sight.MayShowMesh(corners, block.OfTile);
-  if (!mayShow && !sight.MayShowMeshUnrefracted(corners))
+  const bool mayShowStraight = sight.MayShowMeshUnrefracted(corners);
+  if (!mayShow && !mayShowStraight)
   {
     this->HideTile(tile);
     return sum;
   }
   this->PrepareTile(tile, mayShow);
+  double farthest = -Infinity;
   for (int number = 0; number < BlocksOfTile; ++number)
   {
+    const CornerRays ofBlock = this->CornersOf(first + FirstOfBlock(number), StackBlock::Side);
+    if (!(mayShowStraight && sight.MayShowMeshUnrefracted(ofBlock)) &&
+      !(mayShow && sight.MayShowMesh(ofBlock, block.OfTile, block.Facets)))
+    {
+      this->HideBlock(tile, number);
+      continue;
+    }
     Counts counts;
     this->MeetFirst(first + FirstOfBlock(number), block, counts);
+    farthest = std::max(farthest, block.Lanes.GetFarthest());
     if (mayShow && this->TraceBlock(&sight, block, counts))
     {
       sum.Rays.Add(counts);
@@ -221,6 +250,7 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(
   }
   for (RefractedRayTiles& tiles : this->Rays)
   {
+    tiles.SetFarthest(tile, farthest);
     std::vector<RefractedRay>& rays = tiles.ChangeTile(tile);
     if (std::none_of(
           rays.begin(), rays.end(), [](const RefractedRay& ray) { return ray.MeetsInterface(); }))

@@ -119,6 +119,7 @@ private:
   TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
   void PrepareTile(int tile, bool mayShow);
   void HideTile(int tile);
+  void HideBlock(int tile, int number);
   /** First pixel of a tile. */
   glm::ivec2 FirstPixel(int tile) const
   {

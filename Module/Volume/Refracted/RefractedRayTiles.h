@@ -67,6 +67,7 @@ public:
     this->Tiles.resize(tiles);
     this->GoingOn.resize(tiles, AllSquares);
     this->Showing.resize(tiles, AllSquares);
+    this->Farthest.resize(tiles, std::numeric_limits<double>::infinity());
   }
   /** Removes all tiles. */
   void Clear() { this->Resize(0); }
@@ -102,6 +103,15 @@ public:
     this->GoingOn[at] = static_cast<TileSquares>(this->GoingOn[at] | (goesOn ? 1u : 0u) << square);
     this->Showing[at] = static_cast<TileSquares>(this->Showing[at] | (mayShow ? 1u : 0u) << square);
   }
+  /**
+   * Sets a bound of the depths at which those rays of a tile meet the interface that may show the
+   * mesh; infinite, as in a new tile, if one of them passes it.
+   */
+  void SetFarthest(int tile, double depth)
+  {
+    this->Farthest[static_cast<std::size_t>(tile)] = depth;
+  }
+  double GetFarthest(int tile) const { return this->Farthest[static_cast<std::size_t>(tile)]; }
   bool GoesOn(int tile, int square) const
   {
     return (this->GoingOn[static_cast<std::size_t>(tile)] >> square & 1u) != 0;
@@ -130,6 +140,7 @@ private:
   std::vector<std::vector<RefractedRay>> Tiles;
   std::vector<TileSquares> GoingOn;
   std::vector<TileSquares> Showing;
+  std::vector<double> Farthest;
 };
 
 }

@@ -114,7 +114,14 @@ StackVisibility::Meeting StackVisibility::Meet(const Interface& interface, const
 bool StackVisibility::MayShowMesh(const CornerRays& rays, BundleFacets& facets) const
 {
   BundleFacets all;
-  return this->FollowLegs(0, BoundSight(rays), 0.0, all, facets);
+  return this->MayShowMesh(rays, all, facets);
+}
+
+//------------------------------------------------------------------------------
+bool StackVisibility::MayShowMesh(
+  const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const
+{
+  return this->FollowLegs(0, BoundSight(rays), 0.0, within, facets);
 }
 
 //------------------------------------------------------------------------------

@@ -75,10 +75,15 @@ public:
    * @param facets is set to the facets of each interface that the rays may meet.
    */
   bool MayShowMesh(const CornerRays& rays, BundleFacets& facets) const;
+  /**
+   * The same for a part of these rays.
+   * @param within facets of the rectangle of pixels; may be empty.
+   */
+  bool MayShowMesh(const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const;
   /** False if these rays, on straight ways, do not reach the bounds of the mesh. */
   bool MayShowMeshUnrefracted(const CornerRays& rays) const;
   /**
-   * The same for a part of these rays behind the first interface.
+   * The same for a part of the rays of the rectangle behind the first interface.
    * @param rays beginnings, and directions of unit length.
    * @param medium index of refraction of the medium that they are in.
    * @param within facets of the rectangle of pixels; may be empty.

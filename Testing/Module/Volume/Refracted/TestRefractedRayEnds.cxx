@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -165,6 +166,59 @@ TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
   };
   EXPECT_EQ(countShown(straight), 0);
   EXPECT_EQ(countShown(aside), Size * Size);
+}
+
+/**
+ * Blocks beside a small mesh, that show it neither behind one surface nor straight on, are not
+ * traced at all. The bound of a tile's ends holds for all rays that come to the mesh straight on.
+ */
+TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
+{
+  constexpr int side = RefractedRayTiles::SquareSize;
+  constexpr int blocks = Size / side * (Size / side);
+  Random random(37);
+  const Sheet waves(Shapes[2], 24);
+  const std::vector<Interface> water{ waves.Between(1.0, 1.33) };
+  int traced = 0;
+  int shown = 0;
+  int ends = 0;
+  for (int i = 0; i < 24; ++i)
+  {
+    RefractedRayStack::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 4.0),
+      glm::dvec3(0.0, 0.0, -1.0), 1.0, false, Size);
+    RefractedRayStack all;
+    SetMesh(view, Everywhere);
+    all.Build(water, view);
+    const WorldBox box{ random.Point(glm::dvec3(-0.3, -0.3, -1.0), glm::dvec3(0.3, 0.3, -0.6)),
+      random.Point(glm::dvec3(0.1), glm::dvec3(0.2)) };
+    RefractedRayStack some;
+    SetMesh(view, box);
+    some.Build(water, view);
+    traced += blocks - static_cast<int>(some.GetNumberOfUntracedBlocks());
+    const RayLegs legs = LegsOf(all, view);
+    const RayLegs fewer = LegsOf(some, view);
+    std::vector<bool> shows(blocks, false);
+    for (int pixel = 0; pixel < Size * Size; ++pixel)
+    {
+      const int column = pixel % Size;
+      const int row = pixel / Size;
+      const WorldRay ray = LegOf(legs, view, column, row, 1);
+      const WorldRay sight = LegOf(legs, view, column, row, 0);
+      const bool isStraight = box.Meets(sight.Start, sight.Direction, 1e30);
+      const auto block = static_cast<std::size_t>(row / side * (Size / side) + column / side);
+      shows[block] = shows[block] || isStraight || box.Meets(ray.Start, ray.Direction, 1e30);
+      const double end = RayOf(all.GetRays()[0], column, row).Depth;
+      const double farthest = fewer.GetFarthestEnd(row / TileSize * Columns + column / TileSize);
+      EXPECT_TRUE(!isStraight || end <= farthest);
+      ends += isStraight && farthest < 1e30 ? 1 : 0;
+    }
+    shown += static_cast<int>(std::count(shows.begin(), shows.end(), true));
+  }
+  EXPECT_GT(ends, 1000);
+  EXPECT_GT(shown, 24);
+  EXPECT_GE(traced, shown);
+  // Bounds add a ring of blocks: a square of n x n becomes one of (n + 2) x (n + 2), n at least 3.
+  EXPECT_LT(traced, shown * 25 / 9);
 }
 
 /** Tiles that showed the mesh hold nothing of it after another view, in an image of any size. */
