@@ -4,9 +4,16 @@
 Compares the benchmarks of two build trees on one machine. BEFORE and AFTER are build folders; their
 programs run in turns, in alternating order, and each row takes the smallest processor time of all
 rounds, because disturbances only add time. Prints a table in Markdown and exits with 1 if a row of
-AFTER is more than 3 % slower. PART is volume, refraction or picture: the processor time of the
-command `meniscus` from its start to the end of a picture, if both trees have the Python package; it
-needs a Python with their VTK. Default: all parts. Meshes are taken from the folder that
+AFTER is more than 3 % slower. PART is one of these; default: all.
+
+  volume      frames and set-up, also behind waves
+  changes     turning at 1920 x 1080, shadows and opacity that change, first frames, divided cells
+  steps       time steps
+  refraction  filters
+  picture     the command `meniscus` from its start to the end of a picture, if both trees have the
+              Python package; it needs a Python with their VTK
+
+Parts that a tree is too old for are left out. Meshes are taken from the folder that
 MENISCUS_DATA_DIR names, or from ../shared/data next to the clone; without them only a generated
 block or the demo is used. Needs a display.
 """
@@ -20,7 +27,7 @@ import sys
 import tempfile
 
 SLOWER = 1.03
-PARTS = ("volume", "refraction", "picture")
+PARTS = ("volume", "changes", "steps", "refraction", "picture")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BACKENDS = "meniscus/native/exact,meniscus/opengl/exact,meniscus/compute/exact"
 # Rows of the growth of the refraction benchmark. Those of brute force take minutes and measure no
@@ -51,12 +58,33 @@ def find_meshes():
     return {name: str(file) for name, file in files.items() if file.exists()}
 
 
+def volume_meshes():
+    """Arguments of the volume benchmark per mesh."""
+    return [("block", []), *((name, ["--mesh", file]) for name, file in find_meshes().items())]
+
+
 def volume_cases():
     """Arguments of the volume benchmark per case."""
-    meshes = [("block", []), *((name, ["--mesh", file]) for name, file in find_meshes().items())]
-    for mesh, arguments in meshes:
+    for mesh, arguments in volume_meshes():
         for function in ("smooth", "opaque", "sparse"):
             yield f"{mesh}, {function}", [*arguments, "--function", function]
+        yield f"{mesh}, behind waves", [*arguments, "--mode", "membrane"]
+
+
+def writes_times(build):
+    """True if the volume benchmark of a build tree writes times of changes and steps."""
+    program = str(build / "bin/meniscus_benchmark_volume")
+    usage = subprocess.run([program, "--help"], stdout=subprocess.PIPE, text=True).stdout
+    return "--changes" in usage
+
+
+def measure_times(build, option, *arguments):
+    """Processor milliseconds by row, of an option of the volume benchmark that prints them."""
+    rows = {}
+    for mesh, of_mesh in volume_meshes():
+        figures = run([str(build / "bin/meniscus_benchmark_volume"), option, *of_mesh, *arguments])
+        rows.update({f"{mesh}: {name} (ms)": value for name, value in figures.items()})
+    return rows
 
 
 def measure_volume(build, arguments):
@@ -119,7 +147,7 @@ def compare(measure, before, after, rounds):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+    parser = argparse.ArgumentParser(usage=__doc__.replace("%", "%%"))
     parser.add_argument("before", type=pathlib.Path)
     parser.add_argument("after", type=pathlib.Path)
     parser.add_argument("--rounds", type=int, default=3)
@@ -134,6 +162,11 @@ def main():
                 lambda build, a=arguments: measure_volume(build, a), options.before, options.after,
                 options.rounds)
             rows.update({f"{title}: {name}": value for name, value in measured.items()})
+    for part, arguments in (("changes", ["--size", "1920x1080"]), ("steps", [])):
+        if part in parts and all(writes_times(tree) for tree in (options.before, options.after)):
+            rows.update(compare(
+                lambda build, p=part, a=arguments: measure_times(build, "--" + p, *a),
+                options.before, options.after, options.rounds))
     if "refraction" in parts:
         rows.update(compare(measure_refraction, options.before, options.after, options.rounds))
     if "picture" in parts and all(

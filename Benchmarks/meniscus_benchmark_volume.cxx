@@ -5,6 +5,7 @@
  * mesh, views and transfer function, and measures each one's error with respect to the
  * double-precision reference. --help lists further options.
  */
+#include "Volume/VolumeChanges.h"
 #include "Volume/VolumeComparison.h"
 #include "Volume/VolumeDevice.h"
 #include "Volume/VolumeOptions.h"
@@ -219,8 +220,11 @@ int main(int argc, char* argv[])
   }
   if (options.Steps)
   {
-    PrintSteps(std::cout, options);
-    return EXIT_SUCCESS;
+    return PrintSteps(std::cout, options) ? EXIT_SUCCESS : EXIT_FAILURE;
+  }
+  if (options.Changes)
+  {
+    return PrintChanges(std::cout, options) ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   if (!options.Paper.empty())
   {

@@ -55,6 +55,8 @@ const char* const VolumeUsage =
   "  --growth-limit N   up to N thousand tetrahedra (default 5000)\n"
   "  --steps            shares of the first frame that time steps of the mesh take (processor "
   "time)\n"
+  "  --changes          native frames after a moved camera, light or opacity, and first frames\n"
+  "                     (processor time)\n"
   "  --report           the goals of the mapper, each beside what is measured\n"
   "  --row NAME         only this row of the report: native, native-1024, opengl, sparse, opaque,\n"
   "                     setup, edit, scalars, memory, membrane, growth, error\n"
@@ -107,7 +109,8 @@ bool ReadFlag(const std::string& key, VolumeOptions& options)
   const std::map<std::string, bool*> flags{ { "--help", &options.Help }, { "-h", &options.Help },
     { "--zsweep", &options.ZSweep }, { "--growth", &options.Growth },
     { "--report", &options.Report }, { "--bandwidth", &options.Bandwidth },
-    { "--device", &options.Device }, { "--steps", &options.Steps } };
+    { "--device", &options.Device }, { "--steps", &options.Steps },
+    { "--changes", &options.Changes } };
   const auto flag = flags.find(key);
   if (flag != flags.end())
   {

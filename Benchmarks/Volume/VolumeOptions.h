@@ -43,6 +43,7 @@ struct VolumeOptions
   bool Growth = false;
   int GrowthLimit = 5000; // in thousands of cells
   bool Steps = false;
+  bool Changes = false;
   bool Report = false;
   std::string Row;
   std::string Probe; // name of the mapper that this process tests

@@ -220,4 +220,18 @@ bool WriteJson(
   return out.good();
 }
 
+//------------------------------------------------------------------------------
+bool WriteTimes(const std::string& file, const NamedTimes& times)
+{
+  std::ofstream out(file);
+  const char* separator = "{";
+  for (const auto& [name, time] : times)
+  {
+    out << separator << "\n  " << Quoted(name) << ": " << time;
+    separator = ",";
+  }
+  out << "\n}\n";
+  return out.good();
+}
+
 } // namespace meniscus::benchmark

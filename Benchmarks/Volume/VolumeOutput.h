@@ -9,6 +9,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meniscus::benchmark
@@ -33,6 +34,12 @@ void PrintTable(std::ostream& out, const std::vector<Figures>& all);
 
 bool WriteJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
+
+/** Names of rows and their milliseconds of processor time. */
+using NamedTimes = std::vector<std::pair<std::string, double>>;
+
+/** Writes times to a file of JSON; returns false if that fails. */
+bool WriteTimes(const std::string& file, const NamedTimes& times);
 
 /**
  * Appends rows of a Markdown table, one per mapper, to a file, and its heading if there is no file.

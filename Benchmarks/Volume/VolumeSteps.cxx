@@ -6,6 +6,7 @@
 #include "TestTransferFunctions.h"
 #include "VolumeComparison.h"
 #include "VolumeOptions.h"
+#include "VolumeOutput.h"
 #include "VolumeScene.h"
 
 #include <vtkCellArray.h>
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <string>
 
 namespace meniscus::benchmark
 {
@@ -36,12 +38,13 @@ constexpr int Size = 8;
 /** The arrays that differ between two steps in their values. */
 struct StepKind
 {
+  const char* Name;
   bool Scalars;
   bool Points;
 };
 
-constexpr StepKind Kinds[4] = { { true, false }, { false, true }, { true, true },
-  { false, false } };
+constexpr StepKind Kinds[4] = { { "scalars", true, false }, { "points", false, true },
+  { "both", true, true }, { "equal values", false, false } };
 
 /** A copy of the mesh with new arrays; those of the kind have other values. */
 test::Grid MakeStep(vtkUnstructuredGrid* mesh, const StepKind& kind, int number)
@@ -139,10 +142,11 @@ private:
 }
 
 //------------------------------------------------------------------------------
-void PrintSteps(std::ostream& out, const VolumeOptions& options)
+bool PrintSteps(std::ostream& out, const VolumeOptions& options)
 {
   const test::Grid mesh = MakeVolumeMesh(options);
   constexpr int steps = 20;
+  NamedTimes times;
   out << "| " << mesh->GetNumberOfCells()
       << " cells | set-up, ms CPU | scalars, % | points, % | both, % | equal values, % |\n"
       << "|---|---|---|---|---|---|\n"
@@ -153,15 +157,20 @@ void PrintSteps(std::ostream& out, const VolumeOptions& options)
     {
       StepRun run(mesh, backend, lit);
       const double setUp = run.MeasureSetUp(options.SetUpRepetitions);
-      out << "| " << (backend == Mapper::NATIVE ? "native" : "OpenGL") << (lit ? ", lit | " : " | ")
-          << std::setprecision(1) << setUp;
+      const std::string name =
+        std::string(backend == Mapper::NATIVE ? "native" : "OpenGL") + (lit ? ", lit" : "");
+      out << "| " << name << " | " << std::setprecision(1) << setUp;
+      times.emplace_back(name + ": set-up", setUp);
       for (const StepKind& kind : Kinds)
       {
-        out << " | " << std::setprecision(1) << 100.0 * run.MeasureSteps(kind, steps) / setUp;
+        const double time = run.MeasureSteps(kind, steps);
+        out << " | " << std::setprecision(1) << 100.0 * time / setUp;
+        times.emplace_back(name + ": step with new " + kind.Name, time);
       }
       out << " |" << std::endl;
     }
   }
+  return options.Json.empty() || WriteTimes(options.Json, times);
 }
 
 } // namespace meniscus::benchmark
