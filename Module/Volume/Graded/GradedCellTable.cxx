@@ -23,15 +23,13 @@ double SizeOf(const glm::dvec3& v)
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-GradedCellRow MakeRow(
-  const GradedCell& cell, const TetrahedralMesh::Cell& ofMesh, const glm::dvec3& first)
+GradedCellRow MakeRow(const GradedCell& cell, const glm::dvec3& first)
 {
   using Row = GradedCellRow;
   GradedCellRow row{};
   auto& values = row.Values;
   for (int i = 0; i < 4; ++i)
   {
-    values[Row::Links + i] = ofMesh.Links[i];
     values[Row::LargestGradient] =
       std::max(values[Row::LargestGradient], SizeOf(cell.Gradients[i]));
   }
@@ -78,7 +76,7 @@ void GradedCellTable::Build(const TetrahedralMesh& mesh, const std::vector<doubl
         const auto number = static_cast<std::int64_t>(c);
         if (mesh.IsActiveCell(number))
         {
-          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number), cells[c],
+          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number),
             mesh.GetPosition(cells[c].Vertices[0]));
         }
       }

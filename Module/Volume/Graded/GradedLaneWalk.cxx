@@ -28,6 +28,7 @@ public:
 
   void Run(InstructionSet set)
   {
+    const auto& cells = this->Walk.Medium.Mesh->GetCells();
     std::fill_n(this->Lanes.Rows, GradedLanes::Size, this->Walk.Medium.Table->GetRow(0));
     while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
     {
@@ -42,15 +43,17 @@ public:
       StepLanes(this->Lanes, set);
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        const auto link = static_cast<std::int32_t>(this->Lanes.Link[lane]);
+        const int exit = static_cast<int>(this->Lanes.Exit[lane]);
+        const std::int32_t link = exit < 0
+          ? TetrahedralMesh::NoNeighbor
+          : cells[static_cast<std::size_t>(this->Cells[lane])].Links[exit];
         if (link >= 0)
         {
           this->Cells[lane] = link / 4;
           this->Lanes.Entry[lane] = link % 4;
           continue;
         }
-        this->Take(lane);
-        if (!this->GoOn(lane) && !this->BeginNext(lane))
+        if (!(exit >= 0 ? this->Leave(lane, exit) : this->GoOn(lane)) && !this->BeginNext(lane))
         {
           // The last lane takes the place, and has its turn in it.
           const int last = --this->Lanes.Count;
@@ -86,9 +89,24 @@ private:
     return false;
   }
 
+  /** Takes the ray out of the mesh by the face to which the lane has moved it. */
+  bool Leave(int lane, int face)
+  {
+    Path& path = this->Paths[lane];
+    this->Lanes.Entry[lane] = face;
+    this->Take(lane);
+    if (this->Walk.LeaveMesh(face, path) && !this->Walk.EnterMesh(path))
+    {
+      this->Walk.Finish(path);
+      return false;
+    }
+    return this->Settle(lane);
+  }
+
   /** Takes a step of the ray alone. Returns false if the ray has ended. */
   bool GoOn(int lane)
   {
+    this->Take(lane);
     Path& path = this->Paths[lane];
     double& shortSteps = this->Lanes.ShortSteps[lane];
     // The search of a zigzag begins anew, and is not to be interrupted.
@@ -170,7 +188,7 @@ private:
       lanes.Weights[axis][to] = lanes.Weights[axis][from];
     }
     for (double* const values :
-      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Link })
+      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Exit })
     {
       values[to] = values[from];
     }
