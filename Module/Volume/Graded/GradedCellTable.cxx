@@ -23,11 +23,13 @@ double SizeOf(const glm::dvec3& v)
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-GradedCellRow MakeRow(const GradedCell& cell, const glm::dvec3& first)
+GradedCellRow MakeRow(
+  const GradedCell& cell, const TetrahedralMesh::Cell& ofMesh, const glm::dvec3& first)
 {
   using Row = GradedCellRow;
   GradedCellRow row{};
-  auto& values = row.Values;
+  row.Links = ofMesh.Links;
+  double* const values = row.Values;
   for (int i = 0; i < 4; ++i)
   {
     values[Row::LargestGradient] =
@@ -46,7 +48,7 @@ GradedCellRow MakeRow(const GradedCell& cell, const glm::dvec3& first)
     force -= derivative * first;
     const double entries[6] = { derivative[0][0], derivative[1][1], derivative[2][2],
       derivative[1][0], derivative[2][0], derivative[2][1] };
-    std::copy(std::begin(entries), std::end(entries), values.begin() + Row::Derivative);
+    std::copy(std::begin(entries), std::end(entries), values + Row::Derivative);
     for (int axis = 0; axis < 3; ++axis)
     {
       values[Row::Norm] = std::max(values[Row::Norm], SizeOf(derivative[axis]));
@@ -76,7 +78,7 @@ void GradedCellTable::Build(const TetrahedralMesh& mesh, const std::vector<doubl
         const auto number = static_cast<std::int64_t>(c);
         if (mesh.IsActiveCell(number))
         {
-          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number),
+          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number), cells[c],
             mesh.GetPosition(cells[c].Vertices[0]));
         }
       }

@@ -28,8 +28,8 @@ public:
 
   void Run(InstructionSet set)
   {
-    const auto& cells = this->Walk.Medium.Mesh->GetCells();
-    std::fill_n(this->Lanes.Rows, GradedLanes::Size, this->Walk.Medium.Table->GetRow(0));
+    const GradedCellTable& table = *this->Walk.Medium.Table;
+    std::fill_n(this->Lanes.Rows, GradedLanes::Size, table.GetRow(0).Values);
     while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
     {
       ++this->Lanes.Count;
@@ -38,17 +38,17 @@ public:
     {
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        this->Lanes.Rows[lane] = this->Walk.Medium.Table->GetRow(this->Cells[lane]);
+        this->Lanes.Rows[lane] = table.GetRow(this->Cells[lane]).Values;
       }
       StepLanes(this->Lanes, set);
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
         const int exit = static_cast<int>(this->Lanes.Exit[lane]);
-        const std::int32_t link = exit < 0
-          ? TetrahedralMesh::NoNeighbor
-          : cells[static_cast<std::size_t>(this->Cells[lane])].Links[exit];
+        const std::int32_t link =
+          exit < 0 ? TetrahedralMesh::NoNeighbor : table.GetRow(this->Cells[lane]).Links[exit];
         if (link >= 0)
         {
+          Fetch(table.GetRow(link / 4));
           this->Cells[lane] = link / 4;
           this->Lanes.Entry[lane] = link % 4;
           continue;
@@ -65,6 +65,16 @@ public:
   }
 
 private:
+  /** Begins to load a row that the next step needs. */
+  static void Fetch(const GradedCellRow& row)
+  {
+    constexpr int perLine = 8;
+    for (int column = 0; column < GradedCellRow::End; column += perLine)
+    {
+      __builtin_prefetch(row.Values + column);
+    }
+  }
+
   /** Begins with the next ray that meets the mesh. Returns false if there is none. */
   bool BeginNext(int lane)
   {
