@@ -133,6 +133,7 @@ void StressTally::Add(const StressTally& other)
   this->Steps += other.Steps;
   this->Lost += other.Lost;
   this->Stopped += other.Stopped;
+  this->StoppedInFolds += other.StoppedInFolds;
   this->Wrong += other.Wrong;
   this->Rounding += other.Rounding;
   this->Silhouettes += other.Silhouettes;

@@ -22,6 +22,8 @@ struct StressTally
   std::int64_t Lost = 0;
   /** Bent rays that were stopped in the mesh after their largest number of steps. */
   std::int64_t Stopped = 0;
+  /** Those of them that have passed inverted cells, in which light would go backwards. */
+  std::int64_t StoppedInFolds = 0;
   /**
    * Pixels with an error of more than FloatTolerance and more than the change of the exact result
    * when the ray moves by RoundingDistance, or drawn where there is nothing; silhouettes are not

@@ -22,8 +22,8 @@ std::string Encode(bool skipped, const StressTally& t)
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
   line << skipped << ' ' << t.Views << ' ' << t.Rays << ' ' << t.Steps << ' ' << t.Lost << ' '
-       << t.Stopped << ' ' << t.Wrong << ' ' << t.Rounding << ' ' << t.Silhouettes << ' '
-       << t.Largest << ' ' << t.Rms << ' ' << t.FirstWrong;
+       << t.Stopped << ' ' << t.StoppedInFolds << ' ' << t.Wrong << ' ' << t.Rounding << ' '
+       << t.Silhouettes << ' ' << t.Largest << ' ' << t.Rms << ' ' << t.FirstWrong;
   return line.str();
 }
 
@@ -32,8 +32,8 @@ void Decode(int index, const std::string& text, FamilyResult& result)
   std::istringstream line(text);
   StressTally t;
   bool skipped = false;
-  line >> skipped >> t.Views >> t.Rays >> t.Steps >> t.Lost >> t.Stopped >> t.Wrong >> t.Rounding >>
-    t.Silhouettes >> t.Largest >> t.Rms;
+  line >> skipped >> t.Views >> t.Rays >> t.Steps >> t.Lost >> t.Stopped >> t.StoppedInFolds >>
+    t.Wrong >> t.Rounding >> t.Silhouettes >> t.Largest >> t.Rms;
   line.ignore(1);
   std::getline(line, t.FirstWrong);
   result.Skipped += skipped;

@@ -63,10 +63,11 @@ std::vector<std::string> CastersOf(const Options& options, std::ostream& out)
 //------------------------------------------------------------------------------
 void PrintHead(std::ostream& out)
 {
-  out << "| caster | family | cases | rays | steps | lost | stopped | stuck | crashed | wrong | "
+  out << "| caster | family | cases | rays | steps | lost | stopped | in folds | stuck | crashed | "
+         "wrong | "
          "rounding | "
          "silhouettes | max error | RMS | s |\n"
-      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 //------------------------------------------------------------------------------
@@ -81,8 +82,8 @@ void PrintRow(
   }
   const StressTally& t = r.Tally;
   row << " | " << t.Rays << " | " << t.Steps << " | " << t.Lost << " | " << t.Stopped << " | "
-      << r.Stuck << " | " << r.Crashed << " | " << t.Wrong << " | " << t.Rounding << " | "
-      << t.Silhouettes << " | ";
+      << t.StoppedInFolds << " | " << r.Stuck << " | " << r.Crashed << " | " << t.Wrong << " | "
+      << t.Rounding << " | " << t.Silhouettes << " | ";
   if (t.Largest > 0.0)
   {
     row << std::scientific << std::setprecision(1) << t.Largest << " | " << t.Rms;

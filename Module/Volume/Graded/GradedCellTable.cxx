@@ -28,10 +28,10 @@ GradedCellRow MakeRow(
 {
   using Row = GradedCellRow;
   GradedCellRow row{};
-  auto& values = row.Values;
+  row.Links = ofMesh.Links;
+  double* const values = row.Values;
   for (int i = 0; i < 4; ++i)
   {
-    values[Row::Links + i] = ofMesh.Links[i];
     values[Row::LargestGradient] =
       std::max(values[Row::LargestGradient], SizeOf(cell.Gradients[i]));
   }
@@ -48,7 +48,7 @@ GradedCellRow MakeRow(
     force -= derivative * first;
     const double entries[6] = { derivative[0][0], derivative[1][1], derivative[2][2],
       derivative[1][0], derivative[2][0], derivative[2][1] };
-    std::copy(std::begin(entries), std::end(entries), values.begin() + Row::Derivative);
+    std::copy(std::begin(entries), std::end(entries), values + Row::Derivative);
     for (int axis = 0; axis < 3; ++axis)
     {
       values[Row::Norm] = std::max(values[Row::Norm], SizeOf(derivative[axis]));

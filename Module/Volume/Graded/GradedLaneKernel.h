@@ -52,42 +52,39 @@ Number Load(const double* from)
   return result;
 }
 
-#if defined(__AVX__)
-/** Four numbers of each of four rows, from the k-th on. */
-void LoadFourRows(const double* const* rows, int k, __m256d (&columns)[4])
-{
-  const __m256d a = _mm256_loadu_pd(rows[0] + k);
-  const __m256d b = _mm256_loadu_pd(rows[1] + k);
-  const __m256d c = _mm256_loadu_pd(rows[2] + k);
-  const __m256d d = _mm256_loadu_pd(rows[3] + k);
-  const __m256d ab[2] = { _mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b) };
-  const __m256d cd[2] = { _mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d) };
-  for (int i = 0; i < 2; ++i)
-  {
-    columns[i] = _mm256_permute2f128_pd(ab[i], cd[i], 0x20);
-    columns[i + 2] = _mm256_permute2f128_pd(ab[i], cd[i], 0x31);
-  }
-}
-#endif
-
 /** Four numbers of each lane's row of the table, from the k-th on. */
 void LoadOfRows(const double* const* rows, int k, Number* columns)
 {
 #if defined(__AVX512F__)
-  __m256d low[4];
-  __m256d high[4];
-  LoadFourRows(rows, k, low);
-  LoadFourRows(rows + 4, k, high);
-  for (int i = 0; i < 4; ++i)
+  const auto pair = [rows, k](int i)
   {
-    columns[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(low[i]), high[i], 1);
-  }
+    return _mm512_insertf64x4(
+      _mm512_castpd256_pd512(_mm256_load_pd(rows[i] + k)), _mm256_load_pd(rows[i + 4] + k), 1);
+  };
+  const __m512d first[2] = { pair(0), pair(2) };
+  const __m512d second[2] = { pair(1), pair(3) };
+  const __m512i lower = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i upper = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  const __m512d even[2] = { _mm512_unpacklo_pd(first[0], second[0]),
+    _mm512_unpacklo_pd(first[1], second[1]) };
+  const __m512d odd[2] = { _mm512_unpackhi_pd(first[0], second[0]),
+    _mm512_unpackhi_pd(first[1], second[1]) };
+  columns[0] = _mm512_permutex2var_pd(even[0], lower, even[1]);
+  columns[1] = _mm512_permutex2var_pd(odd[0], lower, odd[1]);
+  columns[2] = _mm512_permutex2var_pd(even[0], upper, even[1]);
+  columns[3] = _mm512_permutex2var_pd(odd[0], upper, odd[1]);
 #elif defined(__AVX__)
-  __m256d all[4];
-  LoadFourRows(rows, k, all);
-  for (int i = 0; i < 4; ++i)
+  const auto pair = [rows, k](int i)
   {
-    columns[i] = all[i];
+    return _mm256_insertf128_pd(
+      _mm256_castpd128_pd256(_mm_load_pd(rows[i] + k)), _mm_load_pd(rows[i + 2] + k), 1);
+  };
+  for (int half = 0; half < 4; half += 2, k += 2)
+  {
+    const __m256d first = pair(0);
+    const __m256d second = pair(1);
+    columns[half] = _mm256_unpacklo_pd(first, second);
+    columns[half + 1] = _mm256_unpackhi_pd(first, second);
   }
 #else
   for (int i = 0; i < 4; ++i)
@@ -153,7 +150,7 @@ using Row = GradedCellRow;
 /** Coefficients of the lanes' cells. */
 struct Coefficients
 {
-  explicit Coefficients(const double* const* rows)
+  void Read(const double* const* rows)
   {
     static_assert(Row::Size % 4 == 0, "whole blocks of four");
     for (int k = 0; k < Row::Size; k += 4)
@@ -184,13 +181,12 @@ private:
 /** The face by which a straight way leaves the cell. */
 struct Exit
 {
-  void Try(double face, Number weight, Number rate, Vector gradient, Number link)
+  void Try(double face, Number weight, Number rate, Vector gradient)
   {
     const Mask isNearer = -rate * this->Weight > weight * this->Fall;
     this->Face = Choose(isNearer, Splat(face), this->Face);
     this->Weight = Choose(isNearer, weight, this->Weight);
     this->Fall = Choose(isNearer, -rate, this->Fall);
-    this->Link = Choose(isNearer, link, this->Link);
     this->Gradient = Choose(isNearer, gradient, this->Gradient);
   }
 
@@ -200,37 +196,40 @@ struct Exit
    */
   Number Weight = Splat(1.0);
   Number Fall = Splat(0.0);
-  Number Link = Splat(-1.0);
   Vector Gradient = { Splat(0.0), Splat(0.0), Splat(0.0) };
 };
 
 /** The series of a ray in its cell without its first term, the momentum. */
 struct Series
 {
-  Series(const Coefficients& cell, Vector place, Vector momentum)
-    : Force(cell.GetVector(Row::Force) + cell.Derive(place))
-    , Second(0.5 * this->Force)
-    , Third(Splat(1.0 / 6.0) * cell.Derive(momentum))
-    , Fourth(Splat(1.0 / 12.0) * cell.Derive(this->Second))
-    , Fifth(Splat(1.0 / 20.0) * cell.Derive(this->Third))
+  void Read(const Coefficients& cell, Vector place, Vector momentum)
   {
+    this->Force = cell.GetVector(Row::Force) + cell.Derive(place);
+    this->Second = 0.5 * this->Force;
+    this->Third = (1.0 / 6.0) * cell.Derive(momentum);
+    this->Fourth = (1.0 / 12.0) * cell.Derive(this->Second);
+    this->Fifth = (1.0 / 20.0) * cell.Derive(this->Third);
   }
 
-  /** Moves a time to the zero of the exit's weight. Returns the last change. */
+  /**
+   * Time at which the exit's weight is 0: the first three terms of the root as a series in the
+   * curvature, and a step of Newton's method, whose change is returned.
+   */
   Number Solve(const Exit& exit, Number& t) const
   {
     const Number c2 = Product(exit.Gradient, this->Second);
     const Number c3 = Product(exit.Gradient, this->Third);
     const Number c4 = Product(exit.Gradient, this->Fourth);
     const Number c5 = Product(exit.Gradient, this->Fifth);
-    Number change = t;
-    for (int step = 0; step < 2; ++step)
-    {
-      const Number curve = t * (c2 + t * (c3 + t * (c4 + t * c5)));
-      const Number slope = t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * (5.0 * c5))));
-      change = (exit.Weight + t * (curve - exit.Fall)) / (slope - exit.Fall);
-      t = t - change;
-    }
+    const Number perFall = 1.0 / exit.Fall;
+    const Number straight = exit.Weight * perFall;
+    const Number bend = straight * perFall * (c2 + straight * c3);
+    t = straight * (1.0 + bend * (1.0 + 2.0 * bend));
+    const Number square = t * t;
+    const Number curve = t * ((c2 + t * c3) + square * (c4 + t * c5));
+    const Number slope = t * ((2.0 * c2 + t * (3.0 * c3)) + square * (4.0 * c4 + t * (5.0 * c5)));
+    const Number change = (exit.Weight + t * (curve - exit.Fall)) / (slope - exit.Fall);
+    t = t - change;
     return change;
   }
   /** Place from the beginning. */
@@ -264,10 +263,10 @@ struct Series
 /** Where a ray is in its cell at the beginning of a step. */
 struct Begin
 {
-  Begin(const GradedLanes& lanes, const Coefficients& cell, int i)
-    : Place(LoadVector(lanes.Place, i))
-    , Momentum(LoadVector(lanes.Momentum, i))
+  void Read(const GradedLanes& lanes, const Coefficients& cell, int i)
   {
+    this->Place = LoadVector(lanes.Place, i);
+    this->Momentum = LoadVector(lanes.Momentum, i);
     const Number entry = Load(lanes.Entry + i);
     const Vector w = LoadVector(lanes.Weights, i);
     const Number zero = Splat(0.0);
@@ -286,10 +285,10 @@ struct Begin
   {
     Exit exit;
     exit.Try(0.0, this->Weights[0], this->Rates[0],
-      -1.0 * (cell.GetGradient(0) + cell.GetGradient(1) + cell.GetGradient(2)), cell[Row::Links]);
+      -1.0 * (cell.GetGradient(0) + cell.GetGradient(1) + cell.GetGradient(2)));
     for (int k = 1; k < 4; ++k)
     {
-      exit.Try(k, this->Weights[k], this->Rates[k], cell.GetGradient(k - 1), cell[Row::Links + k]);
+      exit.Try(k, this->Weights[k], this->Rates[k], cell.GetGradient(k - 1));
     }
     return exit;
   }
@@ -300,15 +299,37 @@ struct Begin
   Number Rates[4];
 };
 
-/** Steps of the lanes from i on. */
-void Step(GradedLanes& lanes, int i)
+/** A step of lanes in three parts, so that those of several lanes are computed side by side. */
+struct LaneStep
 {
-  const Coefficients cell(lanes.Rows + i);
-  const Begin begin(lanes, cell, i);
-  const Exit exit = begin.FindExit(cell);
-  const Series series(cell, begin.Place, begin.Momentum);
-  Number t = exit.Weight / exit.Fall;
-  const Number change = series.Solve(exit, t);
+  void FindExit(const GradedLanes& lanes, int i);
+  void FindTime() { this->Change = this->Way.Solve(this->End, this->Time); }
+  void Finish(GradedLanes& lanes, int i) const;
+
+  Coefficients Cell;
+  Begin Start;
+  Exit End;
+  Series Way;
+  Number Time;
+  Number Change;
+};
+
+void LaneStep::FindExit(const GradedLanes& lanes, int i)
+{
+  this->Cell.Read(lanes.Rows + i);
+  this->Start.Read(lanes, this->Cell, i);
+  this->End = this->Start.FindExit(this->Cell);
+  this->Way.Read(this->Cell, this->Start.Place, this->Start.Momentum);
+}
+
+void LaneStep::Finish(GradedLanes& lanes, int i) const
+{
+  const Coefficients& cell = this->Cell;
+  const Begin& begin = this->Start;
+  const Exit& exit = this->End;
+  const Series& series = this->Way;
+  const Number t = this->Time;
+  const Number change = this->Change;
   const Vector way = series.GetWay(begin.Momentum, t);
   const Vector end = series.GetMomentum(begin.Momentum, t);
 
@@ -351,7 +372,7 @@ void Step(GradedLanes& lanes, int i)
   const Number steps = Load(lanes.Steps + i);
   const Mask isDone = (least > 0.0) & isExact & isRoot & (t > 0.0) &
     (SizeOf(excess) < GradedPassage::LastChange) & (run <= GradedLanes::MostShortSteps) &
-    (exit.Link >= 0.0) & (steps < Load(lanes.LastStep + i));
+    (steps < Load(lanes.LastStep + i));
 
   const Vector mean = series.Integrate(begin.Momentum, t);
   const Number path = 0.5 * (square * t + Product(series.Force, mean) + Product(end, way));
@@ -365,15 +386,25 @@ void Step(GradedLanes& lanes, int i)
   Store(lanes.OpticalPath + i, Choose(isDone, before + path, before));
   Store(lanes.Steps + i, Choose(isDone, steps + 1.0, steps));
   Store(lanes.ShortSteps + i, Choose(isDone, run, shortSteps));
-  Store(lanes.Link + i, Choose(isDone, exit.Link, Splat(-1.0)));
+  Store(lanes.Exit + i, Choose(isDone, exit.Face, Splat(-1.0)));
 }
 
 /** Steps of all lanes. */
 void StepAll(GradedLanes& lanes)
 {
-  for (int i = 0; i < lanes.Count; i += Width)
+  LaneStep steps[GradedLanes::Size / Width];
+  const int groups = (lanes.Count + Width - 1) / Width;
+  for (int group = 0; group < groups; ++group)
   {
-    Step(lanes, i);
+    steps[group].FindExit(lanes, group * Width);
+  }
+  for (int group = 0; group < groups; ++group)
+  {
+    steps[group].FindTime();
+  }
+  for (int group = 0; group < groups; ++group)
+  {
+    steps[group].Finish(lanes, group * Width);
   }
 }
 

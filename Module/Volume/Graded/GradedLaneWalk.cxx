@@ -28,7 +28,8 @@ public:
 
   void Run(InstructionSet set)
   {
-    std::fill_n(this->Lanes.Rows, GradedLanes::Size, this->Walk.Medium.Table->GetRow(0));
+    const GradedCellTable& table = *this->Walk.Medium.Table;
+    std::fill_n(this->Lanes.Rows, GradedLanes::Size, table.GetRow(0).Values);
     while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
     {
       ++this->Lanes.Count;
@@ -37,20 +38,22 @@ public:
     {
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        this->Lanes.Rows[lane] = this->Walk.Medium.Table->GetRow(this->Cells[lane]);
+        this->Lanes.Rows[lane] = table.GetRow(this->Cells[lane]).Values;
       }
       StepLanes(this->Lanes, set);
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        const auto link = static_cast<std::int32_t>(this->Lanes.Link[lane]);
+        const int exit = static_cast<int>(this->Lanes.Exit[lane]);
+        const std::int32_t link =
+          exit < 0 ? TetrahedralMesh::NoNeighbor : table.GetRow(this->Cells[lane]).Links[exit];
         if (link >= 0)
         {
+          Fetch(table.GetRow(link / 4));
           this->Cells[lane] = link / 4;
           this->Lanes.Entry[lane] = link % 4;
           continue;
         }
-        this->Take(lane);
-        if (!this->GoOn(lane) && !this->BeginNext(lane))
+        if (!(exit >= 0 ? this->Leave(lane, exit) : this->GoOn(lane)) && !this->BeginNext(lane))
         {
           // The last lane takes the place, and has its turn in it.
           const int last = --this->Lanes.Count;
@@ -62,6 +65,16 @@ public:
   }
 
 private:
+  /** Begins to load a row that the next step needs. */
+  static void Fetch(const GradedCellRow& row)
+  {
+    constexpr int perLine = 8;
+    for (int column = 0; column < GradedCellRow::End; column += perLine)
+    {
+      __builtin_prefetch(row.Values + column);
+    }
+  }
+
   /** Begins with the next ray that meets the mesh. Returns false if there is none. */
   bool BeginNext(int lane)
   {
@@ -86,9 +99,24 @@ private:
     return false;
   }
 
+  /** Takes the ray out of the mesh by the face to which the lane has moved it. */
+  bool Leave(int lane, int face)
+  {
+    Path& path = this->Paths[lane];
+    this->Lanes.Entry[lane] = face;
+    this->Take(lane);
+    if (this->Walk.LeaveMesh(face, path) && !this->Walk.EnterMesh(path))
+    {
+      this->Walk.Finish(path);
+      return false;
+    }
+    return this->Settle(lane);
+  }
+
   /** Takes a step of the ray alone. Returns false if the ray has ended. */
   bool GoOn(int lane)
   {
+    this->Take(lane);
     Path& path = this->Paths[lane];
     double& shortSteps = this->Lanes.ShortSteps[lane];
     // The search of a zigzag begins anew, and is not to be interrupted.
@@ -170,7 +198,7 @@ private:
       lanes.Weights[axis][to] = lanes.Weights[axis][from];
     }
     for (double* const values :
-      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Link })
+      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Exit })
     {
       values[to] = values[from];
     }

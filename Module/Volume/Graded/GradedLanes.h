@@ -16,7 +16,10 @@ namespace meniscus
  * the face that a straight way would leave by, Newton's method on the series of that face's weight,
  * and a proof that no other weight fell below 0 before. Where the proof fails, the lane stays as it
  * is, and its ray needs a step of GradedRayWalk: at ties, near edges, in strongly curved fields, in
- * flat and inverted cells, and on the boundary.
+ * flat and inverted cells. Lanes may end on the boundary, where GradedRayWalk takes the ray on.
+ *
+ * The parts of a step follow each other for all lanes, since each one is a long chain of operations
+ * that wait for one another: processors compute those of other lanes in the meantime.
  *
  * The proof: up to its terms of the second order, a weight is above the smaller of its tangent and
  * its chord, both of which begin at 0 or above. So it is if tangent and weight at the end exceed
@@ -24,7 +27,7 @@ namespace meniscus
  */
 struct GradedLanes
 {
-  /** Largest number of lanes. Their arrays and rows of the table take a third of L1. */
+  /** Largest number of lanes. Arrays, rows and numbers between the parts of a step fit into L1. */
   static constexpr int Size = 32;
   /** Terms of the series up to this order are summed. */
   static constexpr int Order = 5;
@@ -58,8 +61,8 @@ struct GradedLanes
   double ShortSteps[Size];
   /** Number of steps after which the lane stays. */
   double LastStep[Size];
-  /** Link across the face by which the ray has left its cell; -1 if the lane has stayed. */
-  double Link[Size];
+  /** Face by which the ray has left its cell, 0 to 3; -1 if the lane has stayed. */
+  double Exit[Size];
 };
 
 /** @pre GetInstructionSets() has the set */

@@ -14,7 +14,7 @@ using namespace meniscus::test;
 namespace
 {
 
-/** Numbers of cubes per edge: 6 * 9^3 = 4,374 cells, and 36,450 and 279,936 of them. */
+/** Numbers of cubes per edge: 6 * 9^3 = 4,374 cells, 34,992 and 279,936. */
 const int Sizes[3] = { 9, 18, 36 };
 
 /** Mean order of the errors on the three meshes. */
