@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/BoundaryCrossings.h"
 
+#include "Volume/Graded/TriangleCrossing.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -62,37 +64,23 @@ bool BoundaryCrossings::Cross(
   const Line& line, std::int32_t number, BoundaryCrossing& crossing) const
 {
   const BoundaryFace& face = this->Tree.GetFaces()[static_cast<std::size_t>(number)];
-  glm::dvec3 corners[3];
-  for (int i = 0; i < 3; ++i)
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
   {
     corners[i] = this->Mesh.GetPosition(face.Vertices[i]) - line.Point;
   }
-  double edges[3];
-  for (int i = 0; i < 3; ++i)
-  {
-    const int a = (i + 1) % 3;
-    const int b = (i + 2) % 3;
-    edges[i] = face.Vertices[a] < face.Vertices[b]
-      ? glm::dot(line.Direction, glm::cross(corners[a], corners[b]))
-      : -glm::dot(line.Direction, glm::cross(corners[b], corners[a]));
-  }
-  const bool leaves = edges[0] >= 0.0 && edges[1] >= 0.0 && edges[2] >= 0.0;
-  const bool enters = edges[0] <= 0.0 && edges[1] <= 0.0 && edges[2] <= 0.0;
-  const double sum = edges[0] + edges[1] + edges[2];
+  const auto isBefore = [&face](std::size_t a, std::size_t b)
+  { return face.Vertices[a] < face.Vertices[b]; };
   // A face that is seen edge-on is crossed by none; its neighbours are.
-  if (!(leaves || enters) || sum == 0.0)
+  TriangleCrossing found;
+  if (!CrossTriangle(corners, isBefore, line.Direction, found))
   {
     return false;
   }
-  glm::dvec3 place(0.0);
-  for (int i = 0; i < 3; ++i)
-  {
-    crossing.Weights[i] = edges[i] / sum;
-    place += crossing.Weights[i] * corners[i];
-  }
+  crossing.Weights = found.Weights;
   crossing.Face = number;
-  crossing.Enters = enters;
-  crossing.Distance = glm::dot(place, line.Direction) - line.Begin;
+  crossing.Enters = found.IsFront;
+  crossing.Distance = glm::dot(found.Way, line.Direction) - line.Begin;
   return true;
 }
 

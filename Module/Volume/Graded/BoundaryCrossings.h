@@ -31,10 +31,8 @@ struct BoundaryCrossing
 /**
  * First crossing of a straight ray with the boundary of a mesh.
  *
- * A face is crossed if three determinants of the direction and two vertices have no different
- * signs. Each is computed for the ascending order of the vertices, so that the two faces at an edge
- * decide alike: no ray passes between them, and a ray through an edge or a vertex crosses all faces
- * at it.
+ * No ray passes between two faces at an edge, and a ray through an edge or a vertex crosses all
+ * faces at it (TriangleCrossing.h).
  */
 class BoundaryCrossings
 {

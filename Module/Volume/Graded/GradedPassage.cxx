@@ -523,6 +523,16 @@ std::array<double, 4> GradedPassage::GetWeights(int face) const
 }
 
 //------------------------------------------------------------------------------
+double GradedPassage::GetLargestForce(double time) const
+{
+  // The force is Force + A way, and the way at most 1.2 times its terms of the first two orders:
+  // with the exponent E of the series, at most 0.7, sinh(sqrt(E)) / sqrt(E) is at most 1.13, and
+  // 2 (cosh(sqrt(E)) - 1) / E at most 1.06. A way without a series has a constant force.
+  const double force = glm::length(this->Force);
+  return force + 1.2 * this->Norm * time * (glm::length(this->Momentum) + 0.5 * time * force);
+}
+
+//------------------------------------------------------------------------------
 double GradedPassage::IntegrateSquare(double square) const
 {
   // With y = place - x: d(p y)/ds = n^2 + y grad(n^2) / 2, and n^2 = square + 2 Force y + y A y.

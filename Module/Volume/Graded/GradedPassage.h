@@ -91,6 +91,10 @@ public:
   std::array<double, 4> GetWeights(int face) const;
   /** Momentum there. */
   const glm::dvec3& GetMomentum() const { return this->EndMomentum; }
+  /** Way there from the beginning. */
+  const glm::dvec3& GetWay() const { return this->EndWay; }
+  /** At least the size of the force within a time, at most that of the exit that was found. */
+  double GetLargestForce(double time) const;
   /** Integral of n^2 along the way there, from its value at the beginning. */
   double IntegrateSquare(double square) const;
   /** grad(n^2) / 2 at the beginning, or its component along the faces that hold the ray. */

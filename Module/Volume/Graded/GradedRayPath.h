@@ -5,6 +5,7 @@
 
 #include "Volume/Graded/GradedCell.h"
 #include "Volume/Graded/GradedPassage.h"
+#include "Volume/Graded/GradedPiece.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
 #include <glm/vec3.hpp>
@@ -22,6 +23,10 @@ struct GradedRayWalk::Path
 {
   GradedRayResult* Result = nullptr;
   GradedRayStatistics* Statistics = nullptr;
+  /** Is told of the pieces of the path; null for none. */
+  GradedRayVisitor* Visitor = nullptr;
+  /** True if the visitor has ended the ray. */
+  bool IsEnded = false;
   /** Outside of the mesh: a place and the direction; unit length. */
   glm::dvec3 Origin{ 0.0 };
   glm::dvec3 Direction{ 0.0 };
@@ -59,6 +64,11 @@ struct GradedRayWalk::Path
     this->LastConstraints = 0;
   }
   void AddStraight(const GradedCell& cell, double length, const std::array<double, 4>& end);
+  void TellLeg(double length)
+  {
+    this->IsEnded =
+      this->Visitor && !this->Visitor->VisitLeg({ this->Origin, this->Direction, length });
+  }
   void NoteConstraints()
   {
     this->LastConstraints = this->Constraints > 0 ? this->Constraints : this->LastConstraints;

@@ -130,9 +130,24 @@ GradedRayWalk::GradedRayWalk(const GradedMedium& medium)
 GradedRayResult GradedRayWalk::Walk(
   const glm::dvec3& origin, const glm::dvec3& direction, GradedRayStatistics& statistics) const
 {
+  return this->WalkToEnd({ origin, direction }, statistics, nullptr);
+}
+
+//------------------------------------------------------------------------------
+GradedRayResult GradedRayWalk::Follow(
+  const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor& visitor) const
+{
+  return this->WalkToEnd(ray, statistics, &visitor);
+}
+
+//------------------------------------------------------------------------------
+GradedRayResult GradedRayWalk::WalkToEnd(
+  const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor* visitor) const
+{
   GradedRayResult result;
   Path path;
-  if (this->Begin({ origin, direction }, result, statistics, path))
+  path.Visitor = visitor;
+  if (this->Begin(ray, result, statistics, path))
   {
     while (this->Advance(path))
     {
@@ -231,6 +246,8 @@ bool GradedRayWalk::EnterMesh(Path& path) const
       this->Crossings.Find(path.Origin, path.Direction, false, path.Touched);
     if (crossing.Face < 0)
     {
+      path.TellLeg(Infinity);
+      result.State = path.IsEnded ? GradedRayState::Ended : result.State;
       return false;
     }
     if (crossing.Distance > BoundaryCrossings::DistanceError)
@@ -240,6 +257,12 @@ bool GradedRayWalk::EnterMesh(Path& path) const
     path.Touched.push_back(crossing.Face);
     this->PutIn(crossing, path);
     path.PassageBegin = this->PlaceOf(path);
+    path.TellLeg(crossing.Distance);
+    if (path.IsEnded)
+    {
+      result.State = GradedRayState::Ended;
+      return false;
+    }
     if (!path.HasEntered)
     {
       result.Entry = path.PassageBegin;
@@ -301,6 +324,11 @@ bool GradedRayWalk::Advance(Path& path) const
   GradedRayResult& result = *path.Result;
   const bool isOver = path.Steps >= this->MaximumNumberOfSteps;
   const int face = isOver ? -1 : this->CrossCell(path);
+  if (path.IsEnded)
+  {
+    result.State = GradedRayState::Ended;
+    return false;
+  }
   if (face == StaysInCell)
   {
     return true;
@@ -425,6 +453,10 @@ int GradedRayWalk::CrossCell(Path& path) const
     // |p| = n holds along the way but for rounding, which must not add up.
     path.Momentum = std::sqrt(cell.GetSquaredIndex(end) / glm::dot(momentum, momentum)) * momentum;
   }
+  if (path.Visitor && !path.IsSearching() && !cell.IsFlat)
+  {
+    path.IsEnded = !this->TellArc(way, time, end, path);
+  }
   path.Place.Weights = end;
   if (face < 0 && !path.IsSearching())
   {
@@ -474,13 +506,33 @@ double GradedRayWalk::SquaredIndexAt(const Path& path) const
 //------------------------------------------------------------------------------
 glm::dvec3 GradedRayWalk::PlaceOf(const Path& path) const
 {
-  const auto& vertices = this->CellOf(path).Vertices;
+  return this->PlaceIn(path.Cell, path.Place.Weights);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 GradedRayWalk::PlaceIn(std::int64_t cell, const std::array<double, 4>& weights) const
+{
+  const auto& vertices = this->Medium.Mesh->GetCells()[static_cast<std::size_t>(cell)].Vertices;
   glm::dvec3 sum(0.0);
   for (int i = 0; i < 4; ++i)
   {
-    sum += path.Place.Weights[i] * this->Medium.Mesh->GetPosition(vertices[i]);
+    sum += weights[i] * this->Medium.Mesh->GetPosition(vertices[i]);
   }
   return sum;
+}
+
+//------------------------------------------------------------------------------
+/** Tells the visitor of the way in a cell. Returns false if the ray is to end. */
+bool GradedRayWalk::TellArc(
+  GradedPassage& way, double time, const std::array<double, 4>& end, const Path& path) const
+{
+  GradedArc arc(way, time);
+  arc.Cell = path.Cell;
+  arc.BeginWeights = path.Place.Weights;
+  arc.EndWeights = end;
+  arc.Begin = this->PlaceOf(path);
+  arc.End = this->PlaceIn(path.Cell, end);
+  return path.Visitor->VisitArc(arc);
 }
 
 //------------------------------------------------------------------------------

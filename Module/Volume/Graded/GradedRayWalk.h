@@ -36,6 +36,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -82,7 +83,9 @@ enum class GradedRayState : std::uint8_t
   /** The ray was stopped in the mesh after the largest number of steps. */
   Trapped,
   /** The ray has no way out of a cell, which only numbers that are not finite can bring about. */
-  Lost
+  Lost,
+  /** A visitor has ended the ray. Only its entry, if it has one, is set. */
+  Ended
 };
 
 /** A ray of light. */
@@ -128,6 +131,9 @@ struct GradedRayStatistics
   void Add(const GradedRayStatistics& other);
 };
 
+class GradedPassage;
+class GradedRayVisitor;
+
 class GradedRayWalk
 {
 public:
@@ -140,6 +146,10 @@ public:
    */
   GradedRayResult Walk(
     const glm::dvec3& origin, const glm::dvec3& direction, GradedRayStatistics& statistics) const;
+
+  /** Follows a ray like Walk() and tells a visitor of the pieces of its path (GradedPiece.h). */
+  GradedRayResult Follow(
+    const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor& visitor) const;
 
   /**
    * Follows many rays, several at a time if the medium has a table. The results do not depend on
@@ -154,8 +164,12 @@ private:
   struct Path;
   class LaneWalk;
 
+  GradedRayResult WalkToEnd(
+    const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor* visitor) const;
   bool Begin(const GradedRay& ray, GradedRayResult& result, GradedRayStatistics& statistics,
     Path& path) const;
+  bool TellArc(
+    GradedPassage& way, double time, const std::array<double, 4>& end, const Path& path) const;
   void Finish(Path& path) const;
   bool MayBeInside(const glm::dvec3& place) const;
   bool BeginInside(Path& path) const;
@@ -169,6 +183,7 @@ private:
   const TetrahedralMesh::Cell& CellOf(const Path& path) const;
   double SquaredIndexAt(const Path& path) const;
   glm::dvec3 PlaceOf(const Path& path) const;
+  glm::dvec3 PlaceIn(std::int64_t cell, const std::array<double, 4>& weights) const;
   glm::dvec3 OutwardNormal(std::int64_t cell, int face) const;
 
   GradedMedium Medium;

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Graded/OpaqueTriangles.h"
+
+#include "Volume/Graded/BoundaryCrossings.h"
+#include "Volume/Graded/TriangleCrossing.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace meniscus
+{
+
+/** A straight piece: Begin + t * Way for t in [0, Most]. */
+struct OpaqueTriangles::Chord
+{
+  glm::dvec3 Begin;
+  glm::dvec3 Way;
+  double Most;
+
+  TubeBounds Widen(double width) const
+  {
+    TubeBounds tube;
+    tube.StartLow = this->Begin - width;
+    tube.StartHigh = this->Begin + width;
+    tube.DirectionLow = tube.DirectionHigh = this->Way;
+    return tube;
+  }
+};
+
+namespace
+{
+
+/** Largest distance of an arc from its chord that does not count: the error of places. */
+constexpr double Flatness = BoundaryCrossings::DistanceError;
+
+/**
+ * Growth of boxes, relative to the larger one of the size of the coordinates and 1: far more than
+ * the few roundings of 2^-53 of a crossing, and too little to cost time.
+ */
+constexpr double BoxGrowth = 0x1p-40;
+
+/** Order of points that does not depend on how often a point is listed. */
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+double SizeOf(const glm::dvec3& v)
+{
+  return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
+
+}
+
+//------------------------------------------------------------------------------
+void OpaqueTriangles::Build(
+  std::vector<glm::dvec3> points, const std::vector<std::array<std::int32_t, 3>>& triangles)
+{
+  this->Points = std::move(points);
+  this->Triangles = triangles;
+  this->Bounds = AxisBox();
+  std::vector<AxisBox> boxes;
+  boxes.reserve(triangles.size());
+  for (const auto& triangle : triangles)
+  {
+    AxisBox box;
+    double size = 1.0;
+    for (const std::int32_t corner : triangle)
+    {
+      const glm::dvec3& point = this->Points[static_cast<std::size_t>(corner)];
+      box.Add({ point, point });
+      size = std::max(size, SizeOf(point));
+    }
+    box.Low -= BoxGrowth * size;
+    box.High += BoxGrowth * size;
+    boxes.push_back(box);
+    this->Bounds.Add(box);
+  }
+  this->Tree.Build(boxes);
+}
+
+//------------------------------------------------------------------------------
+bool OpaqueTriangles::Meet(const GradedLeg& leg, OpaqueHit& hit) const
+{
+  return this->MeetLine({ leg.Begin, leg.Direction, leg.Length }, hit);
+}
+
+//------------------------------------------------------------------------------
+bool OpaqueTriangles::Meet(GradedArc& arc, OpaqueHit& hit) const
+{
+  return this->MeetPart(arc, { arc.Begin, arc.End - arc.Begin, 1.0 }, 0.0, 1.0, hit);
+}
+
+//------------------------------------------------------------------------------
+/** Finds the first triangle on a part of an arc. */
+bool OpaqueTriangles::MeetPart(
+  GradedArc& arc, const Chord& chord, double from, double to, OpaqueHit& hit) const
+{
+  const double height = arc.GetHeight(from, to);
+  if (!this->MayMeet(chord, height + Flatness))
+  {
+    return false;
+  }
+  // A division by two leaves a quarter of the height, which no division makes finite.
+  const double middle = 0.5 * (from + to);
+  if (!(height > Flatness) || !std::isfinite(height))
+  {
+    if (!this->MeetLine(chord, hit))
+    {
+      return false;
+    }
+    const double share =
+      glm::dot(hit.Place - chord.Begin, chord.Way) / glm::dot(chord.Way, chord.Way);
+    const glm::dvec3 along = glm::normalize(arc.DirectionAt(glm::mix(from, to, share)));
+    hit.Direction = glm::dot(along, chord.Way) < 0.0 ? -along : along;
+    return true;
+  }
+  const glm::dvec3 half = arc.At(middle);
+  return this->MeetPart(arc, { chord.Begin, half - chord.Begin, 1.0 }, from, middle, hit) ||
+    this->MeetPart(arc, { half, chord.Begin + chord.Way - half, 1.0 }, middle, to, hit);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if a curve within a distance of a chord may meet a triangle: if it is in the triangle's box
+ * and not on one side of its plane.
+ */
+bool OpaqueTriangles::MayMeet(const Chord& chord, double height) const
+{
+  bool meets = false;
+  this->Tree.Visit(chord.Widen(height), chord.Most,
+    [&](std::int32_t item, const TubeRange&)
+    {
+      const auto& triangle = this->Triangles[static_cast<std::size_t>(item)];
+      const glm::dvec3& first = this->Points[static_cast<std::size_t>(triangle[0])];
+      const glm::dvec3 normal =
+        glm::cross(this->Points[static_cast<std::size_t>(triangle[1])] - first,
+          this->Points[static_cast<std::size_t>(triangle[2])] - first);
+      const double begin = glm::dot(normal, chord.Begin - first);
+      const double end = begin + glm::dot(normal, chord.Way);
+      const double margin =
+        (height + Flatness * std::max(1.0, SizeOf(first))) * glm::length(normal);
+      meets = !(std::min(begin, end) > margin || std::max(begin, end) < -margin);
+      return meets ? -1.0 : chord.Most;
+    });
+  return meets;
+}
+
+//------------------------------------------------------------------------------
+bool OpaqueTriangles::MeetLine(const Chord& chord, OpaqueHit& hit) const
+{
+  const double square = glm::dot(chord.Way, chord.Way);
+  if (!(square > 0.0))
+  {
+    return false;
+  }
+  // A crossing at the end of a piece is found by one of the two that share it.
+  const double slack = Flatness * std::max(1.0, SizeOf(chord.Begin)) / std::sqrt(square);
+  double nearest = std::numeric_limits<double>::infinity();
+  this->Tree.Visit(chord.Widen(Flatness), chord.Most + slack,
+    [&](std::int32_t item, const TubeRange&)
+    {
+      const auto& triangle = this->Triangles[static_cast<std::size_t>(item)];
+      std::array<glm::dvec3, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        corners[i] = this->Points[static_cast<std::size_t>(triangle[i])] - chord.Begin;
+      }
+      const auto isBefore = [this, &triangle](std::size_t a, std::size_t b)
+      {
+        return IsBefore(this->Points[static_cast<std::size_t>(triangle[a])],
+          this->Points[static_cast<std::size_t>(triangle[b])]);
+      };
+      TriangleCrossing crossing;
+      const double limit = std::min(nearest, chord.Most + slack);
+      if (!CrossTriangle(corners, isBefore, chord.Way, crossing))
+      {
+        return limit;
+      }
+      const double at = glm::dot(crossing.Way, chord.Way) / square;
+      if (at < -slack || at > limit || (at == nearest && item > hit.Triangle))
+      {
+        return limit;
+      }
+      nearest = at;
+      hit.Triangle = item;
+      hit.Weights = crossing.Weights;
+      hit.IsFront = crossing.IsFront;
+      hit.Place = chord.Begin + crossing.Way;
+      hit.Direction = chord.Way;
+      return nearest;
+    });
+  return nearest < std::numeric_limits<double>::infinity();
+}
+
+//------------------------------------------------------------------------------
+void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, bool mayBeInMesh,
+  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results)
+{
+  const auto settle = [](const GradedRayResult& ray, OpaqueSight& sight)
+  {
+    const bool isHit = sight.Hit.Triangle >= 0;
+    sight.Direction = isHit ? sight.Hit.Direction : ray.Direction;
+    sight.IsStopped =
+      !isHit && (ray.State == GradedRayState::Trapped || ray.State == GradedRayState::Lost);
+  };
+  if (mayBeInMesh)
+  {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+    {
+      OpaqueVisitor visitor(triangles);
+      const GradedRayResult ray = walk.Follow(rays[i], statistics, visitor);
+      results[i] = OpaqueSight();
+      results[i].Hit = visitor.Hit;
+      settle(ray, results[i]);
+    }
+    return;
+  }
+  std::vector<GradedRayResult> ends(rays.size());
+  walk.WalkAll(rays, statistics, ends.data());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    const GradedRayResult& ray = ends[i];
+    results[i] = OpaqueSight();
+    OpaqueHit& hit = results[i].Hit;
+    const bool misses = ray.State == GradedRayState::Missed;
+    const double length =
+      misses ? std::numeric_limits<double>::infinity() : glm::length(ray.Entry - rays[i].Origin);
+    if (!triangles.Meet(
+          GradedLeg{ rays[i].Origin, glm::normalize(rays[i].Direction), length }, hit) &&
+      ray.State == GradedRayState::Left)
+    {
+      triangles.Meet(
+        GradedLeg{ ray.Exit, ray.Direction, std::numeric_limits<double>::infinity() }, hit);
+    }
+    settle(ray, results[i]);
+  }
+}
+
+}

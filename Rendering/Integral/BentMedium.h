@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Mesh and index of refraction of a medium that bends light, from VTK data. */
+#ifndef meniscus_Rendering_Integral_BentMedium_h
+#define meniscus_Rendering_Integral_BentMedium_h
+
+#include "Rendering/Common/ContentWatch.h"
+#include "Rendering/Input/InputBlocks.h"
+#include "Rendering/Input/InputContent.h"
+#include "Rendering/Input/VolumeInput.h"
+#include "Volume/Graded/GradedCellTable.h"
+#include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/QuadraticIndex.h"
+#include "Volume/Graded/RefractiveIndex.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkInformation;
+
+namespace meniscus
+{
+
+/** Share of a filter's progress that the medium takes. */
+constexpr double ShareOfMedium = 0.3;
+
+/** Meaning of an input's values. */
+struct MediumQuantity
+{
+  /** Densities of a gas, n = 1 + GladstoneDale * density; otherwise values of n. */
+  bool IsDensity = true;
+  double GladstoneDale = GladstoneDaleOfAir;
+
+  bool operator==(const MediumQuantity& other) const
+  {
+    return this->IsDensity == other.IsDensity &&
+      (!this->IsDensity || this->GladstoneDale == other.GladstoneDale);
+  }
+};
+
+class BentMedium
+{
+public:
+  /**
+   * Reads mesh and indices, where they have changed.
+   * @param wanted the filter's choice of a point array, by default the active scalars.
+   * @param goOn is told the progress from 0 to 1; false aborts.
+   * @return error and warnings; an error if no cell has an index.
+   */
+  InputReport Update(vtkDataObject* input, vtkInformation* wanted, const MediumQuantity& quantity,
+    const std::function<bool(double)>& goOn);
+
+  /** The mesh, in which cells without an index are inactive. */
+  const TetrahedralMesh& GetMesh() const { return this->Mesh; }
+  /** Is bumped when indices are read. */
+  const TableVersion& GetVersion() const { return this->Version; }
+  const IndexFaults& GetFaults() const { return this->Faults; }
+  /** The field for walks, which refers to this object. */
+  GradedMedium MakeField(double outsideIndex, bool isStraight) const;
+
+private:
+  std::string ReadIndices(const InputBlocks& blocks, const MediumQuantity& quantity);
+
+  VolumeInput Input;
+  ContentWatch ValueWatch;
+  TableVersions MeshVersions;
+  MediumQuantity Quantity;
+  TableVersion Version;
+  TetrahedralMesh Mesh;
+  BoundaryTree Tree;
+  std::vector<double> SquaredIndices;
+  std::vector<EdgeTerms> Terms;
+  /** Coefficients of the same field, for rays that are bent. */
+  GradedCellTable Table;
+  IndexFaults Faults;
+};
+
+}
+
+#endif

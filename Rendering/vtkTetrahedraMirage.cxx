@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraMirage.h"
+
+#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Statistics.h"
+#include "Rendering/Integral/BentRayView.h"
+#include "Rendering/Integral/SchlierenArrays.h"
+#include "Rendering/Integral/SeenObjects.h"
+#include "Volume/Graded/GradedRayWalk.h"
+
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkScalarsToColors.h"
+#include "vtkTable.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/** The objects, and the rays of the last image. */
+class vtkTetrahedraMirage::vtkInternals
+{
+public:
+  static const std::vector<meniscus::Statistic<vtkTetrahedraMirage>>& List();
+
+  double CountSights(bool (*isCounted)(const meniscus::OpaqueSight& sight)) const
+  {
+    return double(std::count_if(this->Sights.begin(), this->Sights.end(), isCounted));
+  }
+
+  meniscus::SeenObjects Objects;
+  std::vector<meniscus::OpaqueSight> Sights;
+  std::vector<glm::dvec3> Eyes;
+  meniscus::GradedRayStatistics Statistics;
+  vtkNew<vtkTable> StatisticsTable;
+};
+
+vtkStandardNewMacro(vtkTetrahedraMirage);
+meniscusStatisticsMacro(vtkTetrahedraMirage);
+meniscusSetClampMacro(vtkTetrahedraMirage, Ambient, double, 0.0, 1.0);
+
+//------------------------------------------------------------------------------
+vtkTetrahedraMirage::vtkTetrahedraMirage()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkTetrahedraMirage::~vtkTetrahedraMirage() = default;
+
+//------------------------------------------------------------------------------
+const std::vector<meniscus::Statistic<vtkTetrahedraMirage>>&
+vtkTetrahedraMirage::vtkInternals::List()
+{
+  using Self = vtkTetrahedraMirage;
+  using Sight = meniscus::OpaqueSight;
+  static const std::vector<meniscus::Statistic<Self>> list = {
+    { "NumberOfRays", "rays of the last image that met the mesh",
+      [](Self& self) { return double(self.Internals->Statistics.Rays); } },
+    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
+      [](Self& self) { return double(self.Internals->Statistics.Steps); } },
+    { "NumberOfObjectPixels", "pixels of the last image that show an object",
+      [](Self& self)
+      { return self.Internals->CountSights([](const Sight& s) { return s.Hit.Triangle >= 0; }); } },
+    { "NumberOfBackPixels", "pixels of the last image that show the back of a polygon",
+      [](Self& self)
+      {
+        return self.Internals->CountSights(
+          [](const Sight& s) { return s.Hit.Triangle >= 0 && !s.Hit.IsFront; });
+      } },
+    { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
+      [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
+    { "NumberOfLostRays",
+      "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
+      "doubles",
+      [](Self& self) { return double(self.Internals->Statistics.Lost); } },
+    { "NumberOfUnusablePoints", "points of the mesh whose value cannot be used",
+      [](Self& self) { return double(self.View->Medium.GetFaults().GetNumberOfUnusable()); } },
+    { "NumberOfBrokenCells",
+      "polygons of the objects with a point that is not finite or is missing",
+      [](Self& self) { return double(self.Internals->Objects.GetNumberOfBrokenCells()); } },
+  };
+  return list;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraMirage::SetObjectData(vtkDataSet* objects)
+{
+  this->SetInputDataInternal(1, objects);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraMirage::SetLookupTable(vtkScalarsToColors* table)
+{
+  if (this->LookupTable != table)
+  {
+    this->LookupTable = table;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkScalarsToColors* vtkTetrahedraMirage::GetLookupTable()
+{
+  return this->LookupTable;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkTetrahedraMirage::GetMTime()
+{
+  const vtkMTimeType time = this->Superclass::GetMTime();
+  return this->LookupTable ? std::max(time, this->LookupTable->GetMTime()) : time;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraMirage::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+    return 1;
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraMirage::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int result = this->Superclass::RequestInformation(request, inputs, outputs);
+  vtkDataObject::SetPointDataActiveScalarInfo(
+    outputs->GetInformationObject(0), VTK_UNSIGNED_CHAR, 3);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
+{
+  meniscus::SeenObjects& read = this->Internals->Objects;
+  read.Read(objects, this->View->Medium.GetMesh());
+  if (read.GetNumberOfBrokenCells() > 0)
+  {
+    vtkWarningMacro(<< read.GetNumberOfBrokenCells()
+                    << " polygons with a point that is not finite or is missing are left out.");
+  }
+  else if (read.GetTriangles().IsEmpty())
+  {
+    vtkWarningMacro(<< "The objects have no polygons; the picture shows the background alone.");
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Traces the rays of all pixels. Returns false after an abort. */
+bool vtkTetrahedraMirage::TraceRays()
+{
+  vtkInternals& internals = *this->Internals;
+  const bool isStraight = this->GetBendRays() == 0;
+  const meniscus::GradedRayWalk walk(
+    this->View->Medium.MakeField(this->GetOutsideIndex(), isStraight));
+  const meniscus::SchlierenRays rays(this->View->Rays, this->GetImageSize());
+  const auto width = static_cast<std::size_t>(this->GetImageSize()[0]);
+  const auto height = static_cast<std::size_t>(this->GetImageSize()[1]);
+  internals.Statistics = meniscus::GradedRayStatistics();
+  internals.Sights.assign(width * height, {});
+  internals.Eyes.assign(width * height, {});
+  std::vector<meniscus::GradedRayStatistics> ofRows(height);
+  const bool mayBeInMesh = isStraight || internals.Objects.MayBeInMesh();
+  const auto traceBlock = [&](std::size_t firstRow, std::size_t endRow)
+  {
+    std::vector<meniscus::GradedRay> ofBlock;
+    const std::size_t first = firstRow * width;
+    for (std::size_t i = first; i < endRow * width; ++i)
+    {
+      const glm::dvec2 pixel(static_cast<double>(i % width), static_cast<double>(i / width));
+      ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
+      internals.Eyes[i] = ofBlock.back().Origin;
+    }
+    meniscus::OpaqueSight* sights = internals.Sights.data() + first;
+    meniscus::SeeTriangles(
+      walk, internals.Objects.GetTriangles(), mayBeInMesh, ofBlock, ofRows[firstRow], sights);
+    for (std::size_t i = 0; isStraight && i < ofBlock.size(); ++i)
+    {
+      // Without the turn that stands for the bending.
+      sights[i].Direction = glm::normalize(ofBlock[i].Direction);
+    }
+  };
+  if (!this->RunRows(traceBlock, meniscus::ShareOfMedium, meniscus::ShareOfRays))
+  {
+    return false;
+  }
+  for (const meniscus::GradedRayStatistics& row : ofRows)
+  {
+    internals.Statistics.Add(row);
+  }
+  const std::int64_t stopped = internals.Statistics.Trapped + internals.Statistics.Lost;
+  if (stopped > 0)
+  {
+    vtkWarningMacro(<< stopped << " rays were stopped in the mesh; their pixels have the colour of "
+                    << "the background.");
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraMirage::WriteArrays(vtkImageData* output)
+{
+  this->PlaceImage(output);
+  meniscus::ObjectShading shading;
+  shading.LookupTable = this->LookupTable;
+  shading.LightDirection = glm::make_vec3(this->LightDirection);
+  shading.Ambient = this->Ambient;
+  shading.Background = glm::make_vec3(this->BackgroundColor);
+  this->Internals->Objects.Write(this->Internals->Sights, this->Internals->Eyes, shading, output);
+  output->GetPointData()->SetActiveScalars("Color");
+  this->UpdateProgress(1.0);
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraMirage::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  output->Initialize();
+  const double* settings[2] = { this->LightDirection, this->BackgroundColor };
+  const bool isFinite = std::all_of(settings, settings + 2,
+    [](const double* values) { return std::isfinite(values[0] + values[1] + values[2]); });
+  if (this->TellError(isFinite ? "" : "A setting is not finite") &&
+    this->UpdateView(vtkDataObject::GetData(inputs[0]), meniscus::ShareOfMedium))
+  {
+    this->ReadObjects(vtkDataSet::GetData(inputs[1]));
+    if (this->TraceRays())
+    {
+      this->WriteArrays(output);
+      return 1;
+    }
+  }
+  return this->GetAbortExecute() ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraMirage::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LookupTable: " << this->LookupTable << "\n";
+  os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
+     << ", " << this->LightDirection[2] << ")\n";
+  os << indent << "Ambient: " << this->Ambient << "\n";
+  os << indent << "BackgroundColor: (" << this->BackgroundColor[0] << ", "
+     << this->BackgroundColor[1] << ", " << this->BackgroundColor[2] << ")\n";
+  meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);
+}

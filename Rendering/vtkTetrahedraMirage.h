@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedraMirage
+ * @brief   picture of opaque objects in or behind a medium that bends light
+ *
+ * Traces one ray per pixel backwards through a mesh in which the index of refraction n varies,
+ * until it meets an object: a mirage over a road, things behind the hot air above a fire, or behind
+ * a lens of graded index. Objects may stand before, behind and in the mesh. It needs neither a
+ * window nor OpenGL. Mesh, rays and image are those of vtkBentRayAlgorithm; with BendRays off, the
+ * picture is that without a medium.
+ *
+ * Input port 1 has the objects: a vtkDataSet, of whose polygons both sides are seen; of a grid its
+ * outer faces. Lines and vertices are not seen. Objects are coloured by the active scalars of their
+ * cells or, without any, of their points, as by vtkMapper: unsigned char values are colours, and
+ * others are mapped by LookupTable. Objects without scalars are white. Polygons are flat: their
+ * colour is multiplied by Ambient + (1 - Ambient) times the cosine of the angle between their
+ * normal and the light of LightDirection.
+ *
+ * The output has ImageSize points, one per pixel, and these point arrays. Brackets name the values
+ * of pixels that show no object:
+ * - `Color`, 3 unsigned char [BackgroundColor];
+ * - `Seen`, unsigned char: BACKGROUND, OBJECT or STOPPED, for a ray that stayed in the mesh;
+ * - `CellId`, vtkIdType: cell of port 1 [-1];
+ * - `Position`, 3 double: place of the object that is seen, where it is [NaN];
+ * - `Depth`, float: straight distance of that place from the eye, or from the plane that parallel
+ *   rays begin on [NaN];
+ * - `Direction`, 3 float: unit vector of the ray where it ends, for a picture of things far away.
+ *
+ * **Bad input.** Warnings: objects without polygons, which show the background alone; points that
+ * are not finite, whose polygons are left out; rays that were stopped. GetStatistics() counts them,
+ * and the pixels that see the back of a polygon, which all do if the eye is in a closed object. An
+ * eye in the mesh is fine.
+ *
+ * Rays are traced in parallel by vtkSMPTools; results do not depend on the number of threads.
+ *
+ * @sa vtkTetrahedraSchlieren vtkApparentGeometryFilter
+ */
+#ifndef vtkTetrahedraMirage_h
+#define vtkTetrahedraMirage_h
+
+#include "vtkBentRayAlgorithm.h"
+#include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // For members
+
+class vtkDataSet;
+class vtkScalarsToColors;
+class vtkTable;
+
+class VTKMENISCUS_EXPORT vtkTetrahedraMirage : public vtkBentRayAlgorithm
+{
+public:
+  static vtkTetrahedraMirage* New();
+  vtkTypeMacro(vtkTetrahedraMirage, vtkBentRayAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Values of the array Seen. */
+  enum
+  {
+    BACKGROUND = 0, ///< no object
+    OBJECT = 1,     ///< an object
+    STOPPED = 2     ///< the ray stayed in the mesh and was stopped
+  };
+
+  /** @{ */
+  /** Set the objects, port 1. */
+  void SetObjectConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetObjectData(vtkDataSet* objects);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the function that maps scalars of the objects to colours. Null, the default, stands for
+   * a vtkLookupTable over the range of the scalars.
+   */
+  void SetLookupTable(vtkScalarsToColors* table);
+  vtkScalarsToColors* GetLookupTable();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the direction of parallel light that falls onto the objects, of any length. With
+   * (0, 0, 0), the default, it comes along the ray, as from a lamp at the eye.
+   */
+  vtkSetVector3Macro(LightDirection, double);
+  vtkGetVector3Macro(LightDirection, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the share of the light that has no direction, in [0, 1]. With 1, objects have the
+   * colours of their scalars. Default is 0.3.
+   */
+  virtual void SetAmbient(double share);
+  vtkGetMacro(Ambient, double);
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the colour of pixels that show no object, from 0 to 1. Default is (0, 0, 0). */
+  vtkSetVector3Macro(BackgroundColor, double);
+  vtkGetVector3Macro(BackgroundColor, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Counters by name: a table with one row each and the columns Name, Meaning and Value, which
+   * belongs to this object and is filled anew by each call; and the value of one name, such as
+   * "NumberOfStoppedRays". An unknown name is an error, and the value is not a number.
+   */
+  vtkTable* GetStatistics();
+  double GetStatistic(const char* name);
+  /** @} */
+
+  /** Includes the times of the camera and of the lookup table. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkTetrahedraMirage();
+  ~vtkTetrahedraMirage() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkTetrahedraMirage(const vtkTetrahedraMirage&) = delete;
+  void operator=(const vtkTetrahedraMirage&) = delete;
+
+  class vtkInternals;
+
+  void ReadObjects(vtkDataSet* objects);
+  bool TraceRays();
+  void WriteArrays(vtkImageData* output);
+
+  double LightDirection[3] = { 0.0, 0.0, 0.0 };
+  double Ambient = 0.3;
+  double BackgroundColor[3] = { 0.0, 0.0, 0.0 };
+  vtkSmartPointer<vtkScalarsToColors> LookupTable;
+  std::unique_ptr<vtkInternals> Internals;
+};
+
+#endif

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bent rays that end at triangles: closed forms, straight rays, closed surfaces, the way back.
+#include "GradedScene.h"
+
+#include "RandomNumbers.h"
+#include "Volume/Graded/OpaqueTriangles.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+using Corners = std::vector<std::array<std::int32_t, 3>>;
+
+/** Triangles in the units of a scene's walk. */
+OpaqueTriangles MakeTriangles(
+  const GradedScene& scene, std::vector<glm::dvec3> points, const Corners& corners)
+{
+  for (glm::dvec3& point : points)
+  {
+    point = (point - scene.Mesh.GetCenter()) / scene.Mesh.GetRadius();
+  }
+  OpaqueTriangles triangles;
+  triangles.Build(std::move(points), corners);
+  return triangles;
+}
+
+/** A square about a place, across a direction. */
+OpaqueTriangles MakeSquare(
+  const GradedScene& scene, const glm::dvec3& middle, const glm::dvec3& direction, double half)
+{
+  glm::dvec3 right;
+  glm::dvec3 up;
+  CrossAxes(glm::normalize(direction), right, up);
+  return MakeTriangles(scene,
+    { middle - half * (right + up), middle + half * (right - up), middle + half * (right + up),
+      middle - half * (right - up) },
+    { { 0, 1, 2 }, { 0, 2, 3 } });
+}
+
+/** Sight of a ray; places in the coordinates of the scene. */
+OpaqueSight See(GradedScene& scene, const OpaqueTriangles& triangles, const glm::dvec3& origin,
+  const glm::dvec3& direction, bool mayBeInMesh = true)
+{
+  const double radius = scene.Mesh.GetRadius();
+  const glm::dvec3 center = scene.Mesh.GetCenter();
+  scene.PrepareLanes();
+  OpaqueSight sight;
+  SeeTriangles(GradedRayWalk(scene.Medium), triangles, mayBeInMesh,
+    { { (origin - center) / radius, direction } }, scene.Statistics, &sight);
+  sight.Hit.Place = center + radius * sight.Hit.Place;
+  return sight;
+}
+
+double BendingField(const glm::dvec3& p)
+{
+  return 2.0 + std::sin(2.0 * p.x + p.y) * std::cos(1.5 * p.z) + 0.5 * p.y * p.z;
+}
+
+/** An octahedron divided into smaller triangles, on a sphere. */
+OpaqueTriangles MakeSphere(
+  const GradedScene& scene, const glm::dvec3& middle, double radius, int divisions)
+{
+  std::vector<glm::dvec3> points;
+  Corners corners;
+  for (int octant = 0; octant < 8; ++octant)
+  {
+    const glm::dvec3 sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+    const bool isMirrored = sign.x * sign.y * sign.z < 0.0;
+    const std::size_t firstOfOctant = corners.size();
+    const auto place = [&](int i, int j)
+    {
+      const glm::dvec3 p(i, j, divisions - i - j);
+      points.push_back(middle + radius * sign * glm::normalize(p));
+      return static_cast<std::int32_t>(points.size() - 1);
+    };
+    for (int i = 0; i < divisions; ++i)
+    {
+      for (int j = 0; i + j < divisions; ++j)
+      {
+        // Each has points of its own: equal places count as the same.
+        const std::int32_t first = place(i, j);
+        corners.push_back({ first, place(i + 1, j), place(i, j + 1) });
+        if (i + j + 2 <= divisions)
+        {
+          const std::int32_t second = place(i + 1, j);
+          corners.push_back({ second, place(i + 1, j + 1), place(i, j + 1) });
+        }
+      }
+    }
+    for (std::size_t k = firstOfOctant; k < corners.size() && isMirrored; ++k)
+    {
+      std::swap(corners[k][1], corners[k][2]);
+    }
+  }
+  return MakeTriangles(scene, points, corners);
+}
+
+}
+
+// n^2 = a + b x: x is a parabola in the way along z.
+TEST(OpaqueTriangles, ParabolaMeetsAPlane)
+{
+  constexpr double base = 1.6;
+  constexpr double slope = 0.7;
+  GradedScene scene(CenteredGrid(5, 1.0), [](const glm::dvec3& p) { return base + slope * p.x; });
+  RandomNumbers random(1);
+  for (const double depth : { 0.93, 0.4, 0.0, -0.61803, -1.5 })
+  {
+    const OpaqueTriangles plane = MakeSquare(scene, { 0.0, 0.0, depth }, { 0, 0, 1 }, 30.0);
+    for (int i = 0; i < 50; ++i)
+    {
+      const glm::dvec3 eye(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 1.0);
+      const glm::dvec3 direction =
+        glm::normalize(glm::dvec3(random.Uniform(-0.2, 0.1), random.Uniform(-0.2, 0.2), -1.0));
+      const OpaqueSight sight = See(scene, plane, eye, direction, depth > -1.0);
+      ASSERT_GE(sight.Hit.Triangle, 0);
+      const glm::dvec3 momentum = std::sqrt(base + slope * eye.x) * direction;
+      const glm::dvec3 force(0.5 * slope, 0.0, 0.0);
+      const double inside = (1.0 - std::max(depth, -1.0)) / -momentum.z;
+      const glm::dvec3 end = momentum + inside * force;
+      const glm::dvec3 place = eye + inside * (momentum + 0.5 * inside * force) +
+        std::max(-1.0 - depth, 0.0) / -end.z * end;
+      // Positions of the mesh are rounded to 2^-31 of its radius: the field is off by as much.
+      EXPECT_NEAR(glm::distance(sight.Hit.Place, place), 0.0, 1.0e-8) << depth;
+      EXPECT_NEAR(glm::distance(sight.Direction, glm::normalize(end)), 0.0, 1.0e-8) << depth;
+      EXPECT_EQ(
+        sight.Hit.IsFront, sight.Hit.Triangle >= 0 && glm::dot(end, glm::dvec3(0, 0, 1)) < 0);
+    }
+  }
+}
+
+// Without bending, the first of many triangles on the straight line.
+TEST(OpaqueTriangles, NothingBendsIsTheStraightPicture)
+{
+  GradedScene scene(CenteredGrid(4, 1.0), [](const glm::dvec3&) { return 1.7; });
+  RandomNumbers random(2);
+  std::vector<glm::dvec3> points;
+  Corners corners;
+  for (std::int32_t i = 0; i < 300; ++i)
+  {
+    const glm::dvec3 middle =
+      2.0 * glm::dvec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+    for (int k = 0; k < 3; ++k)
+    {
+      points.push_back(middle + 0.2 * random.GetDirection());
+    }
+    corners.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+  }
+  const OpaqueTriangles triangles = MakeTriangles(scene, points, corners);
+  int hits = 0;
+  for (int ray = 0; ray < 3000; ++ray)
+  {
+    const glm::dvec3 eye = (ray % 2 ? 0.7 : 2.7) * random.GetDirection();
+    const glm::dvec3 direction = random.GetDirection();
+    double nearest = std::numeric_limits<double>::infinity();
+    std::int32_t first = -1;
+    for (std::int32_t i = 0; i < 300; ++i)
+    {
+      // Cramer's rule for eye + t direction = a + u (b - a) + v (c - a).
+      const glm::dvec3 ab = points[3 * i + 1] - points[3 * i];
+      const glm::dvec3 ac = points[3 * i + 2] - points[3 * i];
+      const glm::dvec3 normal = glm::cross(ab, ac);
+      const double whole = -glm::dot(direction, normal);
+      const glm::dvec3 from = eye - points[3 * i];
+      const glm::dvec3 turned = glm::cross(from, direction);
+      const double u = glm::dot(ac, turned) / whole;
+      const double v = -glm::dot(ab, turned) / whole;
+      const double t = glm::dot(from, normal) / whole;
+      if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 && t < nearest)
+      {
+        nearest = t;
+        first = i;
+      }
+    }
+    const OpaqueSight sight = See(scene, triangles, eye, direction);
+    ASSERT_EQ(sight.Hit.Triangle, first) << ray;
+    hits += first >= 0 ? 1 : 0;
+    if (first >= 0)
+    {
+      // Some hundred roundings of 2^-53 of places of the size 3.
+      EXPECT_NEAR(glm::distance(sight.Hit.Place, eye + nearest * direction), 0.0, 1.0e-13);
+    }
+  }
+  EXPECT_GT(hits, 200);
+}
+
+// A closed surface in a medium that bends strongly: no ray leaves it between its triangles.
+TEST(OpaqueTriangles, NoRayLeavesAClosedSurface)
+{
+  GradedScene scene(CenteredGrid(7, 1.0), BendingField);
+  const glm::dvec3 middle(0.1, -0.05, 0.07);
+  const OpaqueTriangles sphere = MakeSphere(scene, middle, 0.7, 12);
+  RandomNumbers random(3);
+  for (int ray = 0; ray < 3000; ++ray)
+  {
+    const glm::dvec3 eye = middle + 0.6 * random.Uniform() * random.GetDirection();
+    const OpaqueSight sight = See(scene, sphere, eye, random.GetDirection());
+    ASSERT_GE(sight.Hit.Triangle, 0) << ray;
+    EXPECT_FALSE(sight.Hit.IsFront);
+    const double radius = glm::distance(sight.Hit.Place, middle);
+    EXPECT_LT(radius, 0.7 + 1.0e-12);
+    EXPECT_GT(radius, 0.68);
+  }
+  EXPECT_EQ(scene.Statistics.Lost + scene.Statistics.Trapped, 0);
+}
+
+// Light goes back to the eye on the way that the ray has come.
+TEST(OpaqueTriangles, TheWayBackLeadsToTheEye)
+{
+  GradedScene scene(CenteredGrid(6, 1.0), BendingField);
+  const OpaqueTriangles sphere = MakeSphere(scene, glm::dvec3(0.0), 0.9, 9);
+  RandomNumbers random(4);
+  for (int ray = 0; ray < 200; ++ray)
+  {
+    const glm::dvec3 eye = 0.5 * random.Uniform() * random.GetDirection();
+    const glm::dvec3 direction = random.GetDirection();
+    const OpaqueSight there = See(scene, sphere, eye, direction);
+    ASSERT_GE(there.Hit.Triangle, 0);
+    const OpaqueTriangles square = MakeSquare(scene, eye, direction, 0.05);
+    const OpaqueSight back = See(scene, square, there.Hit.Place, -there.Direction);
+    ASSERT_GE(back.Hit.Triangle, 0) << ray;
+    // The goal for the way back is 1e-9 of the scene.
+    EXPECT_NEAR(glm::distance(back.Hit.Place, eye), 0.0, 1.0e-9);
+    EXPECT_NEAR(glm::distance(back.Direction, -direction), 0.0, 1.0e-9);
+  }
+}
+
+// Objects behind the mesh are met by rays in lanes as by rays that are watched.
+TEST(OpaqueTriangles, LanesSeeTheSame)
+{
+  GradedScene scene(CenteredGrid(6, 1.0), BendingField);
+  const OpaqueTriangles before = MakeSquare(scene, { -0.5, 0.0, 1.8 }, { 0, 0, 1 }, 0.4);
+  const OpaqueTriangles behind = MakeSphere(scene, { 0.4, 0.2, -2.5 }, 1.2, 6);
+  RandomNumbers random(5);
+  int hits = 0;
+  for (int ray = 0; ray < 500; ++ray)
+  {
+    const OpaqueTriangles& object = ray % 2 ? before : behind;
+    const glm::dvec3 eye(0.3, 0.1, 3.0);
+    const glm::dvec3 direction(random.Uniform(-0.4, 0.4), random.Uniform(-0.4, 0.4), -1.0);
+    const OpaqueSight alone = See(scene, object, eye, direction);
+    const OpaqueSight lane = See(scene, object, eye, direction, false);
+    EXPECT_EQ(alone.Hit.Triangle, lane.Hit.Triangle) << ray;
+    hits += lane.Hit.Triangle >= 0 ? 1 : 0;
+    EXPECT_NEAR(glm::distance(alone.Hit.Place, lane.Hit.Place), 0.0, 1.0e-11);
+    EXPECT_NEAR(glm::distance(alone.Direction, lane.Direction), 0.0, 1.0e-11);
+  }
+  EXPECT_GT(hits, 100);
+}
+
+// Rays that never leave a cube of glass are stopped, and see nothing but what is in it.
+TEST(OpaqueTriangles, TrappedRaysAreTold)
+{
+  GradedScene scene(
+    CenteredGrid(2, 1.0), [](const glm::dvec3&) { return 9.0; }, 1.0);
+  const glm::dvec3 eye(0.1, 0.15, 0.3);
+  const glm::dvec3 direction(1.0, 1.1, -1.2);
+  const OpaqueTriangles outside = MakeSphere(scene, glm::dvec3(0.0), 5.0, 3);
+  for (const bool mayBeInMesh : { true, false })
+  {
+    const OpaqueSight sight = See(scene, outside, eye, direction, mayBeInMesh);
+    EXPECT_EQ(sight.Hit.Triangle, -1);
+    EXPECT_TRUE(sight.IsStopped);
+  }
+  const OpaqueSight inside = See(scene, MakeSphere(scene, glm::dvec3(0.0), 0.9, 3), eye, direction);
+  EXPECT_GE(inside.Hit.Triangle, 0);
+  EXPECT_FALSE(inside.IsStopped);
+}
+
+TEST(OpaqueTriangles, NothingIsNoObject)
+{
+  GradedScene scene(CenteredGrid(3, 1.0), BendingField);
+  const OpaqueTriangles none = MakeTriangles(scene, {}, {});
+  EXPECT_TRUE(none.IsEmpty());
+  const glm::dvec3 direction(0.1, 0.05, -1.0);
+  const OpaqueSight sight = See(scene, none, { 0, 0, 2 }, direction);
+  EXPECT_EQ(sight.Hit.Triangle, -1);
+  EXPECT_FALSE(sight.IsStopped);
+  // A triangle without area.
+  const OpaqueTriangles line =
+    MakeTriangles(scene, { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 2 }, { 1, 1, 1 } });
+  EXPECT_EQ(See(scene, line, { 0, 0, 2 }, { 0, 0, -1 }).Hit.Triangle, -1);
+}
