@@ -74,15 +74,15 @@ void LoadOfRows(const double* const* rows, int k, Number* columns)
   columns[2] = _mm512_permutex2var_pd(even[0], upper, even[1]);
   columns[3] = _mm512_permutex2var_pd(odd[0], upper, odd[1]);
 #elif defined(__AVX__)
-  const auto pair = [rows, k](int i)
+  const auto pair = [rows](int i, int column)
   {
     return _mm256_insertf128_pd(
-      _mm256_castpd128_pd256(_mm_load_pd(rows[i] + k)), _mm_load_pd(rows[i + 2] + k), 1);
+      _mm256_castpd128_pd256(_mm_load_pd(rows[i] + column)), _mm_load_pd(rows[i + 2] + column), 1);
   };
-  for (int half = 0; half < 4; half += 2, k += 2)
+  for (int half = 0; half < 4; half += 2)
   {
-    const __m256d first = pair(0);
-    const __m256d second = pair(1);
+    const __m256d first = pair(0, k + half);
+    const __m256d second = pair(1, k + half);
     columns[half] = _mm256_unpacklo_pd(first, second);
     columns[half + 1] = _mm256_unpackhi_pd(first, second);
   }

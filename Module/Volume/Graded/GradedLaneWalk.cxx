@@ -212,10 +212,6 @@ private:
   GradedRayResult* Results;
   std::size_t Next = 0;
 
-public:
-  std::int64_t Alone = 0;
-
-private:
   GradedLanes Lanes{};
   Path Paths[GradedLanes::Size];
   std::int32_t Cells[GradedLanes::Size] = {};
