@@ -5,12 +5,14 @@ import colorsys
 import math
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from meniscus import vtkTetrahedraMirage
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from .mirage import make_image, mix, refine, trace
+from .mirage import make_image, mix
 
 WALL = 1.35  # distance of the wall behind the middle of the ball, whose radius is 1
 EYE = 9.0
@@ -55,13 +57,24 @@ def see_through(mesh, index, size):
     camera.SetPosition(0.0, 0.0, EYE)
     camera.SetFocalPoint(0.0, 0.0, 0.0)
     camera.SetViewAngle(math.degrees(2.0 * math.atan(HALF)))
-    # The mesh's box is around the ball.
-    pixels, shifts, _ = trace(mesh, camera, size, WALL - 1.0)
-    return 2.0 * HALF / size[1] * (EYE + WALL) * (pixels + shifts)
+    wall = vtkPlaneSource()
+    wall.SetOrigin(-1000.0, -1000.0, -WALL)
+    wall.SetPoint1(1000.0, -1000.0, -WALL)
+    wall.SetPoint2(-1000.0, 1000.0, -WALL)
+    picture = vtkTetrahedraMirage()
+    picture.SetInputData(mesh)
+    picture.SetQuantityToRefractiveIndex()
+    picture.SetObjectConnection(wall.GetOutputPort())
+    picture.SetCamera(camera)
+    picture.SetImageSize(*size)
+    picture.Update()
+    places = vtk_to_numpy(picture.GetOutput().GetPointData().GetArray("Position"))
+    # Some rays of the fish-eye turn back and see no wall.
+    return numpy.nan_to_num(places.reshape(size[1], size[0], 3)[..., :2], nan=1000.0)
 
 
 def paint_wall(places):
-    """A chart of coloured sectors and rings, in tiles."""
+    """A chart of coloured sectors and rings, in tiles, which fade where they are far away."""
     x, y = places[..., 0], places[..., 1]
     radius = numpy.hypot(x, y)
     turn = numpy.arctan2(y, x) / (2.0 * math.pi) % 1.0
@@ -70,7 +83,8 @@ def paint_wall(places):
     dark = (numpy.floor(24.0 * turn) + numpy.floor(radius / 0.22)) % 2.0 == 1.0
     picture = numpy.where(dark[..., None], 0.42 * picture, picture)
     tiles = (numpy.floor(x / 0.3) + numpy.floor(y / 0.3)) % 2.0
-    tiles = mix(numpy.full(x.shape + (3,), 0.86), (0.95, 0.95, 0.94), tiles)
+    near = numpy.clip(2.0 - radius / 3.0, 0.0, 1.0)
+    tiles = mix(numpy.full(x.shape + (3,), 0.86), (0.95, 0.95, 0.94), 0.5 + near * (tiles - 0.5))
     return numpy.where((radius > 1.32)[..., None], tiles, picture)
 
 
@@ -82,7 +96,7 @@ def draw_luneburg(_, size):
     squares = (places ** 2).sum(axis=1)
     panels = []
     for index in (numpy.sqrt(2.0 - squares), 2.0 / (1.0 + squares)):
-        picture = paint_wall(refine(see_through(mesh, index, panel), rays))
+        picture = paint_wall(see_through(mesh, index, rays))
         axis = (numpy.arange(rays[0]) + 0.5) / rays[0] * 2.0 - 1.0
         # The outline of the ball is where rays touch it.
         rim = numpy.hypot(*numpy.meshgrid(axis, axis)) * HALF * math.sqrt(EYE ** 2 - 1.0)

@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Opaque objects through a medium that bends light: a car on a hot road."""
 import numpy
-from meniscus import vtkTetrahedraSchlieren
+from meniscus import vtkTetrahedraMirage
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import mutable, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray, vtkImageData, vtkPolyData, vtkStaticCellLocator, vtkStructuredGrid)
+    vtkCellArray, vtkImageData, vtkPolyData, vtkStructuredGrid)
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 EYE = 1.35  # height above the road, in metres
 CAR = 300.0  # distance
 END = 1000.0  # distance at which the data end
+FAR = 10000.0  # distance at which the ground ends
 HALF = 9.5e-3  # half of the picture's height, in radians
 ROAD = 3.6  # half of its width
 
@@ -42,69 +43,13 @@ def make_air(begin, end, steps):
     return grid
 
 
-def refine(values, size):
-    """Interpolates values of pixels for a larger image, linearly."""
-    for axis in (0, 1):
-        count = values.shape[axis]
-        at = numpy.clip((numpy.arange(size[1 - axis]) + 0.5) * count / size[1 - axis] - 0.5,
-                        0.0, count - 1.0)
-        low = numpy.minimum(at.astype(int), count - 2)
-        share = (at - low).reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
-        values = (1.0 - share) * values.take(low, axis) + share * values.take(low + 1, axis)
-    return values
-
-
-def trace(mesh, camera, size, distance):
-    """Rays of a camera through a mesh with indices of refraction, a distance behind it.
-
-    Returns arrays of the pixels' places from the middle of the image, of their shifts in pixels,
-    and of the changes of their slopes.
-    """
-    light = vtkTetrahedraSchlieren()
-    light.SetInputData(mesh)
-    light.SetQuantityToRefractiveIndex()
-    light.SetCamera(camera)
-    light.SetImageSize(*size)
-    light.SetBackgroundDistance(distance)
-    light.Update()
-    found = light.GetOutput().GetPointData()
-
-    def read(name):
-        return vtk_to_numpy(found.GetArray(name)).reshape(size[1], size[0], 2).astype(float)
-
-    pixels = numpy.stack(numpy.meshgrid(numpy.arange(size[0]), numpy.arange(size[1])), axis=-1)
-    return pixels - 0.5 * (numpy.array(size) - 1.0), read("Displacement"), read("Deflection")
-
-
-class BentRays:
-    """Rays of a camera behind a medium: a place y, z in the plane x = `end`, and their slopes."""
-
-    def __init__(self, mesh, end, size):
-        camera = vtkCamera()
-        camera.SetPosition(0.0, 0.0, EYE)
-        camera.SetFocalPoint(1.0, 0.0, EYE)
-        camera.SetViewUp(0.0, 0.0, 1.0)
-        camera.SetViewAngle(numpy.degrees(2.0 * numpy.arctan(HALF)))
-        # To the far side of the mesh.
-        pixels, shifts, turns = trace(mesh, camera, size, 0.0)
-        step = 2.0 * HALF / size[1]
-        # Images have their first axis to the right, against the y axis.
-        mirror = numpy.array([-1.0, 1.0])
-        self.end = end
-        self.places = mirror * step * (pixels + shifts) * end + (0.0, EYE)
-        self.slopes = mirror * (step * pixels + turns)
-
-    def refine(self, size):
-        """Interpolates the rays of a larger image between those of this one."""
-        self.places = refine(self.places, size)
-        self.slopes = refine(self.slopes, size)
-
-    def meet_ground(self):
-        """Place on the road of rays that have met it: behind it, they are below z = 0."""
-        down = self.places[..., 1] < 0.0
-        slope = numpy.minimum(self.slopes[..., 1], -1e-9)
-        back = numpy.where(down, -self.places[..., 1] / slope, 0.0)
-        return down, self.end + back, self.places[..., 0] + back * self.slopes[..., 0]
+def make_camera():
+    camera = vtkCamera()
+    camera.SetPosition(0.0, 0.0, EYE)
+    camera.SetFocalPoint(1.0, 0.0, EYE)
+    camera.SetViewUp(0.0, 0.0, 1.0)
+    camera.SetViewAngle(numpy.degrees(2.0 * numpy.arctan(HALF)))
+    return camera
 
 
 class Model:
@@ -126,32 +71,17 @@ class Model:
         self.data.GetPolys().InsertNextCell(len(ids), ids)
         self.colors.InsertNextTuple3(*(255.0 * part for part in color))
 
+    def add_ground(self):
+        """A rectangle 0.1 mm below the air, so that no ray ends between the two."""
+        points = self.data.GetPoints()
+        corners = ((0.0, -FAR), (FAR, -FAR), (FAR, FAR), (0.0, FAR))
+        ids = [points.InsertNextPoint(x, y, -1e-4) for x, y in corners]
+        self.data.GetPolys().InsertNextCell(len(ids), ids)
+        self.colors.InsertNextTuple3(255, 255, 255)
+
     def add_twice(self, color, depth, corners):
         self.add(color, depth, corners)
         self.add(color, depth, [(-y, z) for y, z in corners])
-
-    def see(self, rays):
-        """Mask of the rays that meet a polygon, and their colours."""
-        locator = vtkStaticCellLocator()
-        locator.SetDataSet(self.data)
-        locator.BuildLocator()
-        box = self.data.GetBounds()
-        y, z = rays.places[..., 0], rays.places[..., 1]
-        near = (y > box[2] - 0.1) & (y < box[3] + 0.1) & (z > box[4] - 0.1) & (z < box[5] + 0.1)
-        seen = numpy.zeros(y.shape, dtype=bool)
-        found = numpy.zeros(y.shape + (3,))
-        colors = vtk_to_numpy(self.colors) / 255.0
-        place, where = [0.0] * 3, [0.0] * 3
-        share, part, cell = mutable(0.0), mutable(0), mutable(0)
-        reach = box[1] + 1.0 - rays.end
-        for row, column in zip(*numpy.nonzero(near)):
-            a, s = rays.places[row, column], rays.slopes[row, column]
-            if locator.IntersectWithLine(
-                    (rays.end - 0.5, *(a - 0.5 * s)), (rays.end + reach, *(a + reach * s)), 1e-6,
-                    share, place, where, part, cell):
-                seen[row, column] = True
-                found[row, column] = colors[int(cell)]
-        return seen, found
 
 
 def make_ellipse(y, z, width, height, count=20):
@@ -160,7 +90,7 @@ def make_ellipse(y, z, width, height, count=20):
 
 
 def make_car():
-    """A red car from the front."""
+    """A red car from the front, and the ground as its last polygon."""
     car = Model()
     red, dark, black = (0.78, 0.08, 0.07), (0.50, 0.03, 0.04), (0.03, 0.03, 0.035)
     tyre = [(0.64, 0.0), (0.84, 0.0), (0.84, 0.6), (0.64, 0.6)]
@@ -183,7 +113,9 @@ def make_car():
     car.add((0.92, 0.92, 0.88), 0.05, [(-0.26, 0.30), (0.26, 0.30), (0.26, 0.41), (-0.26, 0.41)])
     car.add_twice((0.86, 0.87, 0.88), 0.08, make_ellipse(0.69, 0.64, 0.15, 0.10))
     car.add_twice((1.0, 0.98, 0.86), 0.07, make_ellipse(0.69, 0.64, 0.095, 0.075))
-    return car
+    car.add_ground()
+    car.data.GetCellData().SetScalars(car.colors)
+    return car.data
 
 
 def mix(first, second, share):
@@ -219,22 +151,31 @@ def paint_far(slopes):
 
 def draw_mirage(_, size):
     """The road, the car and the sky, each by the rays that reach it."""
-    coarse = size if size[1] < 480 else (size[0] // 2, size[1] // 2)
     fine = (2 * size[0], 2 * size[1]) if size[1] >= 480 else size
-    steps = 20 if size[1] < 200 else 60
-    behind = BentRays(make_air(4.0, END, steps), END, coarse)
-    until = BentRays(make_air(4.0, CAR, steps // 3), CAR, coarse)
-    for rays in (behind, until):
-        rays.refine(fine)
-    picture = paint_far(behind.slopes)
-    ground, x, y = behind.meet_ground()
+    objects = make_car()
+    mirage = vtkTetrahedraMirage()
+    mirage.SetInputData(make_air(4.0, END, 20 if size[1] < 200 else 60))
+    mirage.SetQuantityToRefractiveIndex()
+    mirage.SetObjectData(objects)
+    mirage.SetAmbient(1.0)
+    mirage.SetCamera(make_camera())
+    mirage.SetImageSize(*fine)
+    mirage.Update()
+
+    def read(name):
+        values = vtk_to_numpy(mirage.GetOutput().GetPointData().GetArray(name))
+        return values.reshape((fine[1], fine[0]) + values.shape[1:])
+
+    ways, cells = read("Direction").astype(float), read("CellId")
+    picture = paint_far(ways[..., 1:] / ways[..., :1])
+    places = read("Position")
+    x, y = (numpy.nan_to_num(places[..., axis]) for axis in (0, 1))
     haze = numpy.clip((x - 150.0) / 1500.0, 0.0, 0.6)
+    ground = cells == objects.GetNumberOfCells() - 1
     picture = numpy.where(ground[..., None], mix(paint_ground(x, y), (0.80, 0.82, 0.84), haze),
                           picture)
-    # A pixel shows the car if its ray meets the car before the road.
-    seen, colors = make_car().see(until)
-    seen &= ~until.meet_ground()[0]
-    picture = numpy.where(seen[..., None], colors, picture)
+    car = (cells >= 0) & ~ground
+    picture = numpy.where(car[..., None], read("Color") / 255.0, picture)
     shares = picture.reshape(size[1], fine[1] // size[1], size[0], -1, 3)
     return make_image(shares.mean(axis=(1, 3)))
 
