@@ -136,13 +136,16 @@ protected:
   /**
    * Reads the mesh and computes the rays before they are bent. Returns false after an error, which
    * has been reported, or an abort.
+   * @param input the mesh, of port 0.
    * @param share share of the progress that this takes.
    */
   bool UpdateView(vtkDataObject* input, double share);
   /**
    * Calls body(first, end) for blocks of the image's rows, on several threads. Returns false after
    * an abort.
-   * @param from, share of the progress that this begins at and takes.
+   * @param body is given a block's first row and the row after its last.
+   * @param from progress at which this begins.
+   * @param share share of the progress that this takes.
    */
   bool RunRows(
     const std::function<void(std::size_t, std::size_t)>& body, double from, double share);
