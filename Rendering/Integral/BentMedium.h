@@ -46,7 +46,7 @@ public:
   /**
    * Reads mesh and indices, where they have changed.
    * @param wanted the filter's choice of a point array, by default the active scalars.
-   * @param goOn is told the progress from 0 to 1; false aborts.
+   * @param goOn receives the progress, from 0 to 1; if it returns false, the reading is aborted.
    * @return error and warnings; an error if no cell has an index.
    */
   InputReport Update(vtkDataObject* input, vtkInformation* wanted, const MediumQuantity& quantity,

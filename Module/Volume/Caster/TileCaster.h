@@ -85,7 +85,7 @@ public:
      */
     const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
-    /** NumberOfVertexLights numbers per vertex, for what is lit; null without shadows. */
+    /** Light at each vertex, NumberOfVertexLights values per vertex; null without shadows. */
     const glm::vec3* VertexLight = nullptr;
     /** True if Tables has a gradient opacity, a factor of the attenuation. */
     bool GradientOpacity = false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Pieces of the path of a bent ray, as they are told to a visitor. */
+/** Pieces of the path of a bent ray, which a visitor receives one by one. */
 #ifndef meniscus_Volume_Graded_GradedPiece_h
 #define meniscus_Volume_Graded_GradedPiece_h
 

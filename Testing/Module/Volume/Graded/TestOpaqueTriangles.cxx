@@ -261,7 +261,7 @@ TEST(OpaqueTriangles, LanesSeeTheSame)
   EXPECT_GT(hits, 100);
 }
 
-// Rays that never leave a cube of glass are stopped, and see nothing but what is in it.
+// Rays that never leave a cube of glass are stopped. They meet only triangles inside the cube.
 TEST(OpaqueTriangles, TrappedRaysAreTold)
 {
   GradedScene scene(

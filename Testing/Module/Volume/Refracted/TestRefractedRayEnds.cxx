@@ -169,8 +169,8 @@ TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
 }
 
 /**
- * Blocks beside a small mesh, that show it neither behind one surface nor straight on, are not
- * traced at all. The bound of a tile's ends holds for all rays that come to the mesh straight on.
+ * Blocks of rays that miss a small mesh, both refracted and straight on, are not traced at all. The
+ * bound of a tile's ends holds for all rays that reach the mesh straight on.
  */
 TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
 {
