@@ -13,9 +13,9 @@ namespace meniscus
 //------------------------------------------------------------------------------
 MembraneStatus FlatMembraneSolver::SetMembrane(const MembraneInput& input)
 {
-  const auto own = std::make_shared<RefractingSurface>();
-  const MembraneStatus status = own->SetMembrane(input, SurfaceParts::Facets);
-  this->SetSurface(own);
+  this->Own = this->Own ? this->Own : std::make_shared<RefractingSurface>();
+  const MembraneStatus status = this->Own->SetMembrane(input, SurfaceParts::Facets);
+  this->SetSurface(this->Own);
   return status;
 }
 

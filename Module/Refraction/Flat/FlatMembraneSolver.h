@@ -80,6 +80,7 @@ private:
   VirtualVertex MakeVertex(const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const;
 
   std::shared_ptr<const RefractingSurface> Surface = std::make_shared<RefractingSurface>();
+  std::shared_ptr<RefractingSurface> Own; ///< surface of SetMembrane()
   RayTubeTree Tree;
   RefractionCells Cells;
   double Exterior = 1.0;
