@@ -283,7 +283,7 @@ constexpr double RimTop = 0.2;
 vtkSmartPointer<vtkPolyData> MakeRoom()
 {
   vtkNew<vtkAppendPolyData> room;
-  constexpr int cells = 100;
+  constexpr int cells = 240; // also pixels of the light on the floor
   constexpr double tile = 2.0 * PoolHalf / 10.0;
   const auto floor = MakeSheet(PoolHalf, Floor, cells);
   ColorCells(floor,
@@ -300,7 +300,7 @@ vtkSmartPointer<vtkPolyData> MakeRoom()
     wall->SetOrigin(-PoolHalf, PoolHalf, Floor);
     wall->SetPoint1(PoolHalf, PoolHalf, Floor);
     wall->SetPoint2(-PoolHalf, PoolHalf, RimTop);
-    wall->SetResolution(36, 21); // rows of 0.1, of which the pane has one
+    wall->SetResolution(108, 63); // rows of 1 / 30, of which the pane has three
     const auto placed = Place(wall, [side](vtkTransform* move) { move->RotateZ(90.0 * side); });
     ColorCells(placed,
       [](const double p[3])
@@ -375,7 +375,7 @@ void ShineOn(vtkPolyData* data, vtkDataArray* irradiance)
   vtkDataArray* colors = data->GetCellData()->GetArray("Color");
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    const double light = 0.5 + 0.6 * std::min(irradiance->GetTuple1(i), 2.0);
+    const double light = 0.62 + 0.55 * std::min(irradiance->GetTuple1(i), 2.0);
     for (int c = 0; c < 3; ++c)
     {
       colors->SetComponent(i, c, std::min(light * colors->GetComponent(i, c), 255.0));
@@ -385,8 +385,8 @@ void ShineOn(vtkPolyData* data, vtkDataArray* irradiance)
 
 bool DrawPane(const std::string& folder)
 {
-  const DemoWater water(0.35, 0.55);
-  const auto waves = water.MakeMesh(56);
+  const DemoWater water(0.35, 0.3);
+  const auto waves = water.MakeMesh(96);
   const auto top = MakeSheet(2.4, PaneTop, 24);
   const auto bottom = MakeSheet(2.4, PaneBottom, 24);
   vtkNew<vtkRefractingInterfaceCollection> list;
@@ -413,7 +413,7 @@ bool DrawPane(const std::string& folder)
 
   const double eye[3] = { 0.2, -3.3, 5.4 };
   const double target[3] = { 0.02, -0.02, -0.35 };
-  StackWindow window(eye, target, 35.0);
+  StackWindow window(eye, target, 29.0);
   seen->SetInputData(0, room);
   seen->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   window.Follow(seen);

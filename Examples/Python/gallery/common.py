@@ -190,16 +190,15 @@ def make_bar(colors, title, color=(0.92, 0.92, 0.92)):
 
 
 def make_margin(renderer, bar, height):
-    """A renderer for a scalar bar at the right of a scene, in a picture of that height."""
+    """A renderer for a scalar bar over the right margin of a scene, in a picture of that height.
+    The scene fills the picture; its middle is that of the part beside the margin."""
     margin = vtkRenderer()
-    margin.SetBackground(renderer.GetBackground())
-    margin.SetBackground2(renderer.GetBackground2())
-    margin.GradientBackgroundOn()
+    margin.SetLayer(1)
     bar.GetTitleTextProperty().SetFontSize(height // 50)
     bar.GetLabelTextProperty().SetFontSize(height // 52)
     bar.SetVerticalTitleSeparation(height // 80)
     margin.AddViewProp(bar)
-    renderer.SetViewport(0.0, 0.0, 1.0 - MARGIN, 1.0)
+    renderer.GetActiveCamera().SetWindowCenter(MARGIN, 0.0)
     margin.SetViewport(1.0 - MARGIN, 0.0, 1.0, 1.0)
     return margin
 
@@ -208,7 +207,7 @@ def add_label(renderer, text, height, color):
     """A line of text at the top of a panel of that height."""
     label = vtkTextActor()
     label.SetInput(text)
-    size = max(height // 26, 12)
+    size = max(height // 26, 32)
     label.SetPosition(0.7 * size, height - 1.8 * size)
     label.GetTextProperty().SetFontSize(size)
     label.GetTextProperty().SetColor(*color)
@@ -223,6 +222,7 @@ def take(renderer, size, bar=None):
     window.SetSize(2 * size[0], 2 * size[1])
     window.AddRenderer(renderer)
     if bar:
+        window.SetNumberOfLayers(2)
         window.AddRenderer(make_margin(renderer, bar, 2 * size[1]))
     return _grab(window, size)
 

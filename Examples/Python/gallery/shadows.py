@@ -13,7 +13,7 @@ from . import common
 # label. Without occlusion, so much ambient light would leave no shade.
 PANELS = ((0.0, 0.0, False, 1.0, 1.0, "colour and opacity alone"),
           (0.0, 0.0, True, 0.5, 1.0, "lit at the gradient"),
-          (1.0, 2.0, True, 0.95, 1.6, "shadows and scattering"))
+          (1.0, 2.0, True, 0.9, 1.1, "shadows and scattering"))
 SKY = ((0.90, 0.94, 0.98), (0.55, 0.70, 0.88))
 SUN = (-3.0, 2.6, 2.2)
 
@@ -84,6 +84,12 @@ def make_scene(mesh, reach, scattering, lit, ambient, intensity):
     light.SetColor(1.0, 0.97, 0.90)
     light.SetIntensity(intensity)
     renderer.AddLight(light)
+    sky = vtkLight()
+    sky.SetLightTypeToSceneLight()
+    sky.SetPosition(2.0, 3.0, 4.0)
+    sky.SetColor(0.55, 0.72, 1.0)
+    sky.SetIntensity(0.5)
+    renderer.AddLight(sky)
     renderer.AddVolume(volume)
     return renderer
 
@@ -94,12 +100,12 @@ def get_points(size):
 
 def draw_shadows(_, size):
     """One cloud: unlit, lit at its gradient, and with shadows and the light that it scatters."""
-    panel = (size[0] // 3, size[1] // 3)
+    panel = (size[0] // 3, size[1] * 4 // 15)
     mesh = make_cloud(get_points(size))
     renderers = []
     for *light, label in PANELS:
         renderer = make_scene(mesh, *light)
-        common.look_from(renderer, (0.35, 0.0, 4.4), (0.02, 0.03, 0.0), (0, 1, 0), 21.0)
+        common.look_from(renderer, (0.35, 0.0, 4.4), (0.02, 0.01, 0.0), (0, 1, 0), 16.0)
         common.add_label(renderer, label, 2 * panel[1], common.INK)
         renderer.ResetCameraClippingRange()
         renderers.append(renderer)

@@ -63,11 +63,15 @@ class Waves:
 
 def make_metal(mesh):
     """A dense medium, grey where nothing moves."""
-    colors = common.make_colors(common.SIGNED, -0.2, 0.2)
+    colors = common.make_colors(common.SIGNED, -0.16, 0.16)
     opacity = common.make_opacity(((-0.3, 1.0), (-0.05, 0.8), (0.0, 0.6), (0.05, 0.8), (0.3, 1.0)))
     look = common.make_look(colors, opacity, 0.04)
-    look.SetAmbient(0.35)
-    return common.make_volume(mesh, look)
+    look.SetAmbient(0.55)
+    volume = common.make_volume(mesh, look)
+    # Scattered light alone: the gradient of the displacement says nothing about the metal's shape.
+    volume.GetMapper().SetGlobalIlluminationReach(0.6)
+    volume.GetMapper().SetVolumetricScatteringBlending(2.0)
+    return colors, volume
 
 
 def draw_blow(data, size):
@@ -76,7 +80,7 @@ def draw_blow(data, size):
     far = waves.places[:, 0].max() - waves.places[:, 0]
     mesh = data.can.NewInstance()
     mesh.ShallowCopy(data.can)
-    volume = make_metal(mesh)
+    colors, volume = make_metal(mesh)
     pictures = []
     for number, now in enumerate(waves.run(numpy.exp(-(far / 1.2) ** 2), 0.2, 80)):
         if number % 20 != 9:

@@ -20,9 +20,7 @@ def draw_lens(data, size):
         ((0.4, 0.5), (0.8, 0.08), (1.05, 0.0), (1.25, 0.35), (1.8, 0.2), (2.4, 0.7), (3.4, 1.0)))
     renderer = common.make_renderer()
     glasses = meniscus.vtkRefractingInterfaceCollection()
-    look = common.make_look(colors, opacity, 0.9)
-    look.SetAmbient(0.5)
-    look.SetDiffuse(1.0)
+    look = common.make_look(colors, opacity, 0.9, False)
     whole = common.make_volume(mesh, look)
     mapper = whole.GetMapper()
     focus, eye, target = (2.2, 2.4, 2.4), (-1.5, 4.5, 27.0), (-0.2, 1.4, 2.4)
@@ -62,7 +60,7 @@ def make_ring(center, axis, radius, thickness):
     x, y = make_axes(axis)
     line = vtkLineSource()
     points = vtkPoints()
-    for i in range(97):
+    for i in range(98):  # one piece twice, so that no seam is seen
         angle = 2.0 * math.pi * i / 96
         points.InsertNextPoint(*(center[k] + radius * (math.cos(angle) * x[k] +
                                                        math.sin(angle) * y[k]) for k in range(3)))

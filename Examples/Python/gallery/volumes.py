@@ -11,8 +11,14 @@ from . import common
 
 def draw_flames(data, size):
     """The combustor as a dense medium that scatters light."""
-    colors, look = common.make_flames(data.combustor, 0.35)
-    look.SetAmbient(0.6)
+    colors, look = common.make_flames(data.combustor, 0.5)
+    low, high = common.get_range(data.combustor)
+    # Sheets at two densities, and the densest jets.
+    look.SetScalarOpacity(common.make_opacity(
+        (low + share * (high - low), alpha) for share, alpha in (
+            (0.0, 0.0), (0.2, 0.0), (0.26, 0.12), (0.32, 0.0), (0.5, 0.0), (0.56, 0.7),
+            (0.62, 0.05), (0.8, 0.3), (1.0, 0.9))))
+    look.SetAmbient(0.7)
     volume = common.make_volume(data.combustor, look)
     volume.GetMapper().SetGlobalIlluminationReach(0.5)
     volume.GetMapper().SetVolumetricScatteringBlending(2.0)
