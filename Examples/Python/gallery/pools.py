@@ -113,8 +113,8 @@ def make_ball(center, radius):
 class Pool:
     """A pool [-1, 1]^2 below z = 0, lit by the sun through its water."""
 
-    def __init__(self, height, attenuation, cells=128):
-        self.cells = cells  # along each side of the water
+    def __init__(self, height, attenuation, cells=128, lights=112):
+        self.lights = lights  # cells along each side of the floor, which have their own light
         self.water = common.make_height_field(
             (-1, -1, 0), (1, -1, 0), (-1, 1, 0), (cells, cells), height)
         self.renderer = common.make_renderer(((0.80, 0.88, 0.95), (0.35, 0.58, 0.85)))
@@ -133,8 +133,9 @@ class Pool:
 
     def add_sides(self, texture):
         d, top = -DEPTH, DECK
-        floor = common.make_plane((-1, -1, d), (1, -1, d), (-1, 1, d), (self.cells * 7 // 8,) * 2)
-        walls = [common.make_plane(*corners, (26, 16)) for corners in (
+        floor = common.make_plane((-1, -1, d), (1, -1, d), (-1, 1, d), (self.lights,) * 2)
+        parts = (max(self.lights // 4, 26), max(self.lights // 7, 16))
+        walls = [common.make_plane(*corners, parts) for corners in (
             ((-1, 1, d), (1, 1, d), (-1, 1, top)), ((-1, -1, d), (-1, 1, d), (-1, -1, top)),
             ((1, 1, d), (1, -1, d), (1, 1, top)))]
         self.add_lit(floor, texture, 1.7)
@@ -210,7 +211,7 @@ class Pool:
 def draw_pool(data, size):
     """The crushed can and two balls in a tiled pool under a summer sky."""
     pool = Pool(lambda x, y: sum(a * math.sin(k * x + l * y + p) for a, k, l, p in WAVES),
-                (0.60, 0.10, 0.05))
+                (0.60, 0.10, 0.05), 128, 384)
     pool.add_sides(make_tiles())
     can = pool.add_colored(place(data.can, 1.25, 25, (0.0, -0.05, -0.42)), (0.85, 0.86, 0.88))
     can.GetProperty().SetSpecular(0.9)
@@ -221,7 +222,7 @@ def draw_pool(data, size):
     can.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[2:], low, high))
     pool.add_colored(make_ball((0.55, 0.55, -0.55), 0.2), (0.95, 0.35, 0.15))
     pool.add_colored(make_ball((-0.62, 0.5, -0.02), 0.17), (0.98, 0.80, 0.12))
-    common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.0, -0.25), (0, 0, 1), 32.0)
+    common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.02, -0.23), (0, 0, 1), 28.5)
     pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
     return common.take(pool.renderer, size)
 
@@ -242,7 +243,7 @@ def draw_rings(_data, size):
     strip.SetAppendAxis(0)
     panel = (size[0] // 3, size[1] // 3)
     for time in (0.2, 0.5, 0.85):
-        pool = Pool(rings(time), (0.60, 0.10, 0.05), 72)
+        pool = Pool(rings(time), (0.60, 0.10, 0.05), 72, 256)
         pool.add_sides(tiles)
         common.look_from(pool.renderer, (0.0, -1.9, 2.9), (0.0, -0.04, -0.25), (0, 0, 1), 31.0)
         pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
@@ -264,7 +265,7 @@ def draw_frames(size, frames):
         def height(x, y, turn=2.0 * math.pi * frame / frames):
             return sum(a * math.sin(k * x + l * y + p - n * turn) for a, k, l, p, n in SWELL)
 
-        pool = Pool(height, (0.60, 0.10, 0.05), 64)
+        pool = Pool(height, (0.60, 0.10, 0.05), 64, 56)
         pool.add_sides(tiles)
         pool.add_colored(make_ball((0.45, 0.3, -0.53), 0.22), (0.95, 0.35, 0.15))
         pool.add_colored(make_ball((-0.4, -0.1, 0.04 + height(-0.4, -0.1)), 0.19),
