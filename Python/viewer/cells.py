@@ -136,14 +136,16 @@ def _check_cells(cells, points, what="a cell"):
 
 def _check_faces(grid):
     """Checks the faces of polyhedra."""
-    if hasattr(grid, "GetPolyhedronFaces"):  # VTK 9.4
-        if grid.GetPolyhedronFaces():
-            _check_cells(grid.GetPolyhedronFaces(), grid.GetNumberOfPoints(), _FACE)
-        return
-    faces, places = grid.GetFaces(), grid.GetFaceLocations()
+    newer = hasattr(grid, "GetPolyhedronFaces")  # VTK 9.4
+    faces, places = (
+        (grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()) if newer
+        else (grid.GetFaces(), grid.GetFaceLocations()))
     polyhedra = numpy.flatnonzero(types_of(grid) == VTK_POLYHEDRON)
     if polyhedra.size and not (faces and places):
         raise ReadingError(f"The mesh is damaged: its {polyhedra.size} polyhedra have no faces")
+    if newer:
+        _check_cells(faces, grid.GetNumberOfPoints(), _FACE)
+        return
     stream, points = vtk_to_numpy(faces) if polyhedra.size else None, grid.GetNumberOfPoints()
     for cell in polyhedra:
         place = places.GetValue(int(cell)) + 1

@@ -8,7 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules import vtkCommonDataModel as model
 from vtkmodules.vtkCommonDataModel import (
-    VTK_POLYHEDRON, vtkImageData, vtkRectilinearGrid, vtkUnstructuredGrid)
+    VTK_EMPTY_CELL, VTK_POLYHEDRON, vtkImageData, vtkRectilinearGrid, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 
 from ..data import leaves_of
@@ -87,6 +87,9 @@ def _measure_others(grid, cells):
         kind = grid.GetCellType(cell)
         if kind == VTK_POLYHEDRON:
             grid.GetFaceStream(cell, ids)
+            if ids.GetNumberOfIds() == 0 or ids.GetId(0) == 0:  # no faces, which VTK 9.7 needs
+                kind = VTK_EMPTY_CELL
+                ids.Reset()
         else:
             grid.GetCellPoints(cell, ids)
         chosen.InsertNextCell(kind, ids)
