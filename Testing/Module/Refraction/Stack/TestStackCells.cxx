@@ -396,7 +396,7 @@ TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
 }
 
 //------------------------------------------------------------------------------
-// The eye is at any place over seas of 2, 8 or 200 facets.
+// The eye is at any place over seas of 2, 8 or 200 facets, or of long ones.
 TEST_P(HugeSeas, ImagesDoNotDependOnTheFacets)
 {
   const double half = this->GetParam();
@@ -407,9 +407,10 @@ TEST_P(HugeSeas, ImagesDoNotDependOnTheFacets)
     int Rows;
     glm::dvec2 Shift;
   };
-  for (const Trial& trial : { Trial{ 1, 1, { 0.3, -0.2 } }, Trial{ 1, 1, { 0.9, 0.05 } },
-         Trial{ 1, 1, { 0.0, 0.3 } }, Trial{ 1, 1, { 0.50001, -0.5 } }, Trial{ 2, 2, { 0.1, 0.1 } },
-         Trial{ 2, 2, { -0.77, 0.64 } }, Trial{ 10, 10, { 0.37, 0.37 } } })
+  for (const Trial& trial :
+    { Trial{ 1, 1, { 0.3, -0.2 } }, Trial{ 1, 1, { 0.9, 0.05 } }, Trial{ 1, 1, { 0.0, 0.3 } },
+      Trial{ 1, 1, { 0.50001, -0.5 } }, Trial{ 2, 2, { 0.1, 0.1 } }, Trial{ 2, 2, { -0.77, 0.64 } },
+      Trial{ 10, 10, { 0.37, 0.37 } }, Trial{ 1, 20, { -0.12, 0.45 } } })
   {
     SCOPED_TRACE(::testing::Message() << trial.Columns << " x " << trial.Rows << " cells, shift "
                                       << trial.Shift.x << ", " << trial.Shift.y);
