@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackPassage.h"
 
+#include "Refraction/Stack/StackShot.h"
+
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace meniscus
@@ -20,12 +23,15 @@ constexpr int DeepestLevel = 26;
 // be excluded, takes this many, or a few per facet.
 constexpr std::size_t MostTries = 1 << 12;
 
+// Patches of the second surface that rays are aimed at.
+constexpr std::size_t MostAims = 16;
+
 }
 
 //------------------------------------------------------------------------------
 bool StackPassage::Find()
 {
-  if (this->TryMiddles())
+  if (this->TryMiddles() || this->TryAims())
   {
     return true;
   }
@@ -71,6 +77,41 @@ bool StackPassage::TryMiddles()
       }
     }
     begin = stride / 2; // odd multiples of the next stride are new
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+// Rays to the middles of patches of the second surface, with strides over all of them. The second
+// surface may be much smaller than a facet of the first one, of which the parts that show it are
+// few.
+bool StackPassage::TryAims()
+{
+  const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
+  if (links.size() < 2)
+  {
+    return false;
+  }
+  const CurvedPatches& patches = links[1].Surface->GetPatches();
+  const std::size_t count = links[1].Surface->GetMembrane().GetFacets().size();
+  const std::size_t stride = (count + MostAims - 1) / MostAims;
+  for (std::size_t i = 0; i < count; i += stride)
+  {
+    const PatchPoint aim =
+      patches.GetPatch(static_cast<std::int32_t>(i)).Evaluate(glm::dvec2(1.0 / 3.0));
+    const StackTarget target{ aim.Position + links[1].Shift, 1 };
+    const glm::dvec3 straight = target.Point - this->Stack.GetEye();
+    const double distance = glm::length(straight);
+    SurfaceCrossing crossing;
+    this->Path.Forget(links.size());
+    if (distance > 0.0 &&
+      this->Stack.FindNext(0, this->Stack.GetEye(), straight / distance, crossing, distance) &&
+      Shoot(this->Stack, target, { crossing.Facet, crossing.B }, ShotSteps, this->Path) ==
+        ShotEnd::Converged &&
+      this->IsPassedAt(this->Path.Points[0].Place.Facet, this->Path.Points[0].Place.B))
+    {
+      return true;
+    }
   }
   return false;
 }

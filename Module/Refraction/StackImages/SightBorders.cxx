@@ -135,6 +135,10 @@ double GetDepthInCell(const SubCell& sights, const glm::dvec2& place)
   const glm::dvec3 u = sights[1].From.Ray - sights[0].From.Ray;
   const glm::dvec3 v = sights[2].From.Ray - sights[0].From.Ray;
   const double area = glm::length(glm::cross(u, v));
+  if (whole == 0.0 || area == 0.0)
+  {
+    return 0.0; // no place is inside
+  }
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -18,8 +18,7 @@ namespace
 constexpr int DeepestBlind = 5;
 
 // Cells of a patch, a hundred times as many as a patch with borders and critical angles usually
-// has. Where facets are so large that rounding is seen as an angle, limits are found in wrong
-// order, and cells next to them would be divided without end.
+// has: no surface makes the division endless.
 constexpr std::size_t MostCells = 1 << 17;
 
 }

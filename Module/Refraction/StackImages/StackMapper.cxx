@@ -23,6 +23,10 @@ constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 // the first guess: so many along a side of a part that is no wider than its distance from the eye.
 constexpr double Grid = 1024.0;
 
+// Halvings of the way from a place to the middle of its cell: down to a tolerance of the filter's
+// default in a cell that is seen at an angle of a radian.
+constexpr int MostHalvings = 14;
+
 // Error of a sum of areas, for thousands of parts with some roundings each.
 constexpr double Covered = 1e-10;
 
@@ -269,7 +273,8 @@ StackMapper::MappedPoint StackMapper::MakePoint(const Context& context, const Co
     // All coordinates have the same sign here.
     const glm::dvec3 value(corner.Value[1], corner.Value[2], corner.Value[3]);
     const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
-    return { this->Finish(context, isTraced ? &path : nullptr, primitive.GetPoint(weight), weight),
+    return { this->Finish(
+               context, isTraced ? &path : nullptr, node.B, primitive.GetPoint(weight), weight),
       Finding::Found };
   }
   const auto side = static_cast<std::size_t>(on.Side);
@@ -330,7 +335,7 @@ StackMapper::MappedPoint StackMapper::MakeOnSide(const Context& context, std::si
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
   weight[last] = l;
-  return { this->Finish(context, path, on.Line.GetPoint(l), weight), Finding::Found };
+  return { this->Finish(context, path, b, on.Line.GetPoint(l), weight), Finding::Found };
 }
 
 //------------------------------------------------------------------------------
@@ -375,13 +380,13 @@ StackMapper::MappedPoint StackMapper::MakeEnd(
   const bool isTraced = this->TracePlace(context, guess, context.Leg, path);
   if (context.Leg == 0 || !isTraced)
   {
-    return { this->Finish(context, nullptr, local, weight), without };
+    return { this->Finish(context, nullptr, guess, local, weight), without };
   }
   StackPath shot = path;
   const bool isFound = Shoot(this->Stack, { local, context.Leg }, { context.Facet, guess },
                          ShotSteps, shot) == ShotEnd::Converged &&
     glm::length(shot.Points[0].Ray.Origin - path.Points[0].Ray.Origin) <= size;
-  return { this->Finish(context, isFound ? &shot : &path, local, weight),
+  return { this->Finish(context, isFound ? &shot : &path, guess, local, weight),
     isFound ? Finding::Found : without };
 }
 
@@ -399,7 +404,7 @@ StackMapper::MappedPoint StackMapper::MakeOnSurface(
   weight /= weight.x + weight.y + weight.z;
   if (on.Membrane && context.Leg == 0)
   {
-    return { this->Finish(context, nullptr, primitive.GetPoint(weight), weight),
+    return { this->Finish(context, nullptr, corner.B, primitive.GetPoint(weight), weight),
       Finding::Elsewhere }; // at the eye
   }
   const std::size_t surface = context.Leg + (on.Membrane ? 0 : 1);
@@ -439,7 +444,7 @@ StackMapper::MappedPoint StackMapper::MakeOnSurface(
     if (weight[least] >= 0.0 && isTraced)
     {
       Context inFront{ primitive, surface - 1, context.Facet, context.Patch, cell };
-      return { this->Finish(inFront, &path, place, weight), Finding::Found };
+      return { this->Finish(inFront, &path, corner.B, place, weight), Finding::Found };
     }
     side = static_cast<int>(least) + 1;
   }
@@ -478,14 +483,14 @@ StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, s
   Context inFront{ primitive, surface - 1, context.Facet, context.Patch, context.Cell };
   if (surface == 1)
   {
-    return { this->Finish(inFront, nullptr, local, place), Finding::Found };
+    return { this->Finish(inFront, nullptr, b, local, place), Finding::Found };
   }
   StackPath path;
   const StackTarget target{ local, surface - 1 };
   const bool isFound = this->TracePlace(inFront, b, surface - 1, path) &&
     Shoot(this->Stack, target, { context.Facet, b }, ShotSteps, path) == ShotEnd::Converged &&
     this->ShootAgain(target, path);
-  return { this->Finish(inFront, isFound ? &path : nullptr, local, place),
+  return { this->Finish(inFront, isFound ? &path : nullptr, b, local, place),
     isFound ? Finding::Found : Finding::Elsewhere };
 }
 
@@ -522,9 +527,25 @@ bool StackMapper::TracePlace(
 }
 
 //------------------------------------------------------------------------------
-// The image of a point on the context's leg. Without a path the cell's first corner gives one: the
-// error is within that of the cell.
-ImagePoint StackMapper::Finish(const Context& context, const StackPath* path,
+// A ray of the context's leg next to a place in its cell. The limit of the leg, where a cell ends,
+// is within the tolerance of the cell's side: a ray a little farther inside passes.
+void StackMapper::TraceNear(const Context& context, const glm::dvec2& b, StackPath& path) const
+{
+  const SubCell& nodes = context.Cell.Nodes;
+  const glm::dvec2 middle = (nodes[0].B + nodes[1].B + nodes[2].B) / 3.0;
+  for (int k = MostHalvings; k >= 0; --k)
+  {
+    if (this->TracePlace(context, glm::mix(b, middle, std::ldexp(1.0, -k)), context.Leg, path))
+    {
+      return;
+    }
+  }
+  this->TracePlace(context, nodes[0].B, context.Leg, path);
+}
+
+//------------------------------------------------------------------------------
+// The image of a point on the context's leg. Without a path, a ray next to the place `b` gives one.
+ImagePoint StackMapper::Finish(const Context& context, const StackPath* path, const glm::dvec2& b,
   const glm::dvec3& local, const glm::dvec3& weight) const
 {
   const glm::dvec3 world = local + this->Stack.GetOrigin();
@@ -538,7 +559,7 @@ ImagePoint StackMapper::Finish(const Context& context, const StackPath* path,
     }
     else
     {
-      this->TracePlace(context, context.Cell.Nodes[0].B, context.Leg, own);
+      this->TraceNear(context, b, own);
     }
     own.Count = context.Leg;
     point.Vertex = this->Solver.MakeVertex(world, own);

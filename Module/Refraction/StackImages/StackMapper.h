@@ -118,8 +118,9 @@ private:
     StackPath& path) const;
   bool TracePlace(
     const Context& context, const glm::dvec2& b, std::size_t count, StackPath& path) const;
-  ImagePoint Finish(const Context& context, const StackPath* path, const glm::dvec3& local,
-    const glm::dvec3& weight) const;
+  void TraceNear(const Context& context, const glm::dvec2& b, StackPath& path) const;
+  ImagePoint Finish(const Context& context, const StackPath* path, const glm::dvec2& b,
+    const glm::dvec3& local, const glm::dvec3& weight) const;
   bool ShootAgain(const StackTarget& target, StackPath& path) const;
   double GetSize(const Context& context) const;
 

@@ -233,13 +233,23 @@ struct Difference
   int Covered = 0;
   int Wrong = 0;   ///< pixels that differ from the truth at all places within a fifth of a pixel
   int Missing = 0; ///< of these: pixels without an image
-  int Twice = 0;
+  int Twice = 0;   ///< pixels with several pieces at all of these places
 };
 
 Difference Compare(const Scene& scene, const Object& object, const glm::dvec3& eye)
 {
   constexpr double within = 0.2;
+  constexpr int around = 16;
   const std::vector<Piece> pieces = ListPieces(object, eye);
+  const auto countPieces = [&pieces](const glm::dvec3& direction)
+  {
+    return std::count_if(pieces.begin(), pieces.end(),
+      [&direction](const Piece& piece)
+      {
+        return glm::dot(direction, piece.Middle) >= piece.Cosine - 1e-12 &&
+          Covers(piece.Corners, direction);
+      });
+  };
   Difference result;
   for (int row = 0; row < Scene::Pixels; ++row)
   {
@@ -249,28 +259,21 @@ Difference Compare(const Scene& scene, const Object& object, const glm::dvec3& e
       const double y = row + 0.5;
       const glm::dvec3 direction = scene.GetDirection(x, y);
       const bool truth = scene.ShowsBoard(direction);
-      int count = 0;
-      for (const Piece& piece : pieces)
-      {
-        count += glm::dot(direction, piece.Middle) >= piece.Cosine - 1e-12 &&
-          Covers(piece.Corners, direction);
-      }
+      const auto count = countPieces(direction);
       result.Covered += truth;
-      result.Twice += count > 1;
-      if (truth == (count > 0))
+      bool isTwice = count > 1;
+      bool isWrong = truth != (count > 0);
+      for (int k = 0; k < around && (isTwice || isWrong); ++k)
       {
-        continue;
+        const double angle = 2.0 * std::acos(-1.0) * k / around;
+        const glm::dvec3 near =
+          scene.GetDirection(x + within * std::cos(angle), y + within * std::sin(angle));
+        isTwice = isTwice && countPieces(near) > 1;
+        isWrong = isWrong && scene.ShowsBoard(near) == truth;
       }
-      bool isNear = false;
-      for (int k = 0; k < 16; ++k)
-      {
-        const double angle = std::acos(-1.0) * k / 8.0;
-        isNear = isNear ||
-          scene.ShowsBoard(scene.GetDirection(
-            x + within * std::cos(angle), y + within * std::sin(angle))) != truth;
-      }
-      result.Wrong += !isNear;
-      result.Missing += !isNear && truth;
+      result.Twice += isTwice;
+      result.Wrong += isWrong;
+      result.Missing += isWrong && truth;
     }
   }
   return result;
@@ -295,9 +298,14 @@ TEST_P(RefractionStackWall, BordersAreFollowedToAFifthOfAPixel)
       { MakeSurface(scene.MakeBack()), { 1.5, scene.GetBehind() } } },
     GetParam().Eye);
   Object board;
-  constexpr double size = Scene::BoardSize;
-  board.AddQuad(
-    { -size, Scene::BoardAt, -size }, { 2.0 * size, 0.0, 0.0 }, { 0.0, 0.0, 2.0 * size });
+  constexpr int cells = 16; // their sides cross the border
+  constexpr double size = 2.0 * Scene::BoardSize / cells;
+  for (int i = 0; i < cells * cells; ++i)
+  {
+    board.AddQuad({ size * (i % cells) - Scene::BoardSize, Scene::BoardAt,
+                    size * (i / cells) - Scene::BoardSize },
+      { size, 0.0, 0.0 }, { 0.0, 0.0, size });
+  }
   board.Map(solver, FilterTolerance);
   const Difference result = Compare(scene, board, GetParam().Eye);
   EXPECT_GT(result.Covered, 5000);
