@@ -35,9 +35,10 @@ set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
 set(_meniscus_sources
-  __main__ arguments data integrals names pyvista rivals threads
-  api/__init__ api/accessor api/comparison api/functions api/mapper api/notebook api/picking
-  api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types api/volumes
+  __main__ arguments data integrals media names pyvista rivals threads
+  api/__init__ api/accessor api/comparison api/functions api/mapper api/mirages api/notebook
+  api/picking api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types
+  api/volumes
   viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/contest
   viewer/curves viewer/files viewer/furniture viewer/guard viewer/levels viewer/movies
   viewer/options viewer/pictures viewer/reading viewer/sample viewer/scene viewer/series

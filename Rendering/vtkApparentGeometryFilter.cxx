@@ -6,11 +6,10 @@
 #include "Filters/Common/Statistics.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
-#include "Rendering/Integral/ImagePlace.h"
 #include "Volume/Graded/ApparentPlaces.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
-#include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -21,6 +20,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
 #include "vtkTable.h"
 
 #include <glm/geometric.hpp>
@@ -30,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace
@@ -40,13 +41,12 @@ constexpr double LargestAngle = 89.9;
 
 }
 
-/** The medium, and counts of the last points. */
+/** Counts of the last points. */
 class vtkApparentGeometryFilter::vtkInternals
 {
 public:
   static const std::vector<meniscus::Statistic<vtkApparentGeometryFilter>>& List();
 
-  meniscus::BentMedium Medium;
   std::int64_t OneImage = 0;
   std::int64_t SeveralImages = 0;
   std::int64_t NoImage = 0;
@@ -55,18 +55,14 @@ public:
 
 vtkStandardNewMacro(vtkApparentGeometryFilter);
 meniscusStatisticsMacro(vtkApparentGeometryFilter);
-meniscusSetClampMacro(vtkApparentGeometryFilter, Quantity, int, DENSITY, REFRACTIVE_INDEX);
-meniscusSetClampMacro(vtkApparentGeometryFilter, OutsideIndex, double, 0.0, VTK_DOUBLE_MAX);
 meniscusSetClampMacro(vtkApparentGeometryFilter, SearchResolution, int, 1, 4096);
 
 //------------------------------------------------------------------------------
 vtkApparentGeometryFilter::vtkApparentGeometryFilter()
-  : GladstoneDale(meniscus::GladstoneDaleOfAir)
+  : vtkBentMediumAlgorithm(1)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetInputArrayToProcess(
-    0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 //------------------------------------------------------------------------------
@@ -79,7 +75,7 @@ vtkApparentGeometryFilter::vtkInternals::List()
   using Self = vtkApparentGeometryFilter;
   static const std::vector<meniscus::Statistic<Self>> list = {
     { "NumberOfMediumUpdates", "readings of the index of refraction",
-      [](Self& self) { return double(self.Internals->Medium.GetVersion().GetChanges()); } },
+      [](Self& self) { return double(self.Medium->GetVersion().GetChanges()); } },
     { "NumberOfPointsWithOneImage", "points that were seen in one direction",
       [](Self& self) { return double(self.Internals->OneImage); } },
     { "NumberOfPointsWithSeveralImages", "points that were seen in several directions",
@@ -87,9 +83,15 @@ vtkApparentGeometryFilter::vtkInternals::List()
     { "NumberOfPointsWithoutImage", "points for which no image was found",
       [](Self& self) { return double(self.Internals->NoImage); } },
     { "NumberOfUnusablePoints", "points of the mesh whose value cannot be used",
-      [](Self& self) { return double(self.Internals->Medium.GetFaults().GetNumberOfUnusable()); } },
+      [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
   };
   return list;
+}
+
+//------------------------------------------------------------------------------
+vtkPointSet* vtkApparentGeometryFilter::GetOutput()
+{
+  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
 }
 
 //------------------------------------------------------------------------------
@@ -106,21 +108,32 @@ int vtkApparentGeometryFilter::FillInputPortInformation(int port, vtkInformation
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
     return 1;
   }
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  // The executive looks at the first type only; otherwise it would iterate over the blocks.
-  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+//------------------------------------------------------------------------------
+int vtkApparentGeometryFilter::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
   return 1;
 }
 
 //------------------------------------------------------------------------------
-int vtkApparentGeometryFilter::ComputeInputUpdateExtent(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
+int vtkApparentGeometryFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  meniscus::RequestWholeInputs(inputs);
-  return 1;
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
+    vtkPointSet* output = vtkPointSet::GetData(outputs);
+    if (input && (!output || output->GetDataObjectType() != input->GetDataObjectType()))
+    {
+      outputs->GetInformationObject(0)->Set(
+        vtkDataObject::DATA_OBJECT(), vtkSmartPointer<vtkDataObject>::Take(input->NewInstance()));
+    }
+    return input ? 1 : 0;
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
 }
 
 //------------------------------------------------------------------------------
@@ -138,43 +151,14 @@ std::string vtkApparentGeometryFilter::FindFault() const
   {
     return "The search angle must be between 0 and 89.9 degrees";
   }
-  return std::isfinite(this->GladstoneDale) ? std::string()
-                                            : "The Gladstone-Dale constant is not finite";
-}
-
-//------------------------------------------------------------------------------
-/** Reads the mesh. Returns false after an error or an abort. */
-bool vtkApparentGeometryFilter::UpdateMedium(vtkDataObject* mesh)
-{
-  const std::string fault = this->FindFault();
-  meniscus::InputReport report;
-  report.Error = fault;
-  if (fault.empty())
-  {
-    report = this->Internals->Medium.Update(mesh, this->GetInputArrayInformation(0),
-      { this->Quantity == DENSITY, this->GladstoneDale },
-      [this](double fraction)
-      {
-        this->UpdateProgress(meniscus::ShareOfMedium * fraction);
-        return !this->GetAbortExecute();
-      });
-  }
-  if (!report.Warning.empty())
-  {
-    vtkWarningMacro(<< report.Warning);
-  }
-  if (!report.Error.empty() && !this->GetAbortExecute())
-  {
-    vtkErrorMacro(<< report.Error << "; the output is empty.");
-  }
-  return report.Error.empty() && !this->GetAbortExecute();
+  return {};
 }
 
 //------------------------------------------------------------------------------
 void vtkApparentGeometryFilter::MovePoints(vtkPointSet* output)
 {
   vtkInternals& internals = *this->Internals;
-  const meniscus::TetrahedralMesh& mesh = internals.Medium.GetMesh();
+  const meniscus::TetrahedralMesh& mesh = this->Medium->GetMesh();
   const glm::dvec3 eye = glm::make_vec3(this->EyePosition);
   std::vector<glm::dvec3> points(static_cast<std::size_t>(output->GetNumberOfPoints()));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -183,7 +167,7 @@ void vtkApparentGeometryFilter::MovePoints(vtkPointSet* output)
     output->GetPoint(static_cast<vtkIdType>(i), glm::value_ptr(point));
     points[i] = (point - mesh.GetCenter()) / mesh.GetRadius();
   }
-  const meniscus::GradedRayWalk walk(internals.Medium.MakeField(this->OutsideIndex, false));
+  const meniscus::GradedRayWalk walk(this->Medium->MakeField(this->GetOutsideIndex(), false));
   meniscus::ApparentPlaces places(walk, (eye - mesh.GetCenter()) / mesh.GetRadius(),
     std::tan(vtkMath::RadiansFromDegrees(this->SearchAngle)), this->SearchResolution);
   const std::vector<meniscus::ApparentPlace> found = places.Find(points, meniscus::ThreadedLoop);
@@ -230,7 +214,8 @@ int vtkApparentGeometryFilter::RequestData(
 {
   vtkPointSet* output = vtkPointSet::GetData(outputs);
   output->Initialize();
-  if (!this->UpdateMedium(vtkDataObject::GetData(inputs[1])))
+  if (!this->TellError(this->FindFault()) ||
+    !this->UpdateMedium(vtkDataObject::GetData(inputs[1]), meniscus::ShareOfMedium))
   {
     return this->GetAbortExecute() ? 1 : 0;
   }
@@ -249,10 +234,6 @@ void vtkApparentGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
-  os << indent << "Quantity: " << (this->Quantity == DENSITY ? "DENSITY" : "REFRACTIVE_INDEX")
-     << "\n";
-  os << indent << "GladstoneDale: " << this->GladstoneDale << "\n";
-  os << indent << "OutsideIndex: " << this->OutsideIndex << "\n";
   os << indent << "SearchAngle: " << this->SearchAngle << "\n";
   os << indent << "SearchResolution: " << this->SearchResolution << "\n";
   meniscus::PrintStatistics(meniscus::MeasureStatistics(*this, vtkInternals::List()), os, indent);

@@ -10,8 +10,7 @@
  * points has one image; it is what vtkRefractedGeometryFilter makes behind surfaces. Cells and
  * arrays are those of port 0.
  *
- * The mesh and its values are those of vtkBentRayAlgorithm: SetInputArrayToProcess(0, 1, 0,
- * association, name) chooses a point array of port 1, by default the active scalars.
+ * The mesh is read as vtkBentMediumAlgorithm describes.
  *
  * A point may have several images, as in a mirage, or none, in a shadow of the medium. Images are
  * searched within SearchAngle of the straight direction, from a grid of SearchResolution^2 cells;
@@ -23,8 +22,8 @@
  * A warning counts points with several images or none, and GetStatistics() has the numbers. That
  * an image is hidden by other objects does not count.
  *
- * **Bad input.** Points that are not finite or at the eye have no image. The mesh is checked as by
- * vtkBentRayAlgorithm. Errors: an eye that is not finite, a search angle that is not in (0, 89.9)
+ * **Bad input.** Points that are not finite or at the eye have no image. Errors,
+ * besides those of the mesh: an eye that is not finite, a search angle that is not in (0, 89.9)
  * degrees.
  *
  * @sa vtkTetrahedraMirage vtkRefractedGeometryFilter
@@ -32,28 +31,24 @@
 #ifndef vtkApparentGeometryFilter_h
 #define vtkApparentGeometryFilter_h
 
+#include "vtkBentMediumAlgorithm.h"
 #include "vtkMeniscusModule.h" // For export macro
-#include "vtkPointSetAlgorithm.h"
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
-class vtkDataObject;
+class vtkPointSet;
 class vtkTable;
 
-class VTKMENISCUS_EXPORT vtkApparentGeometryFilter : public vtkPointSetAlgorithm
+class VTKMENISCUS_EXPORT vtkApparentGeometryFilter : public vtkBentMediumAlgorithm
 {
 public:
   static vtkApparentGeometryFilter* New();
-  vtkTypeMacro(vtkApparentGeometryFilter, vtkPointSetAlgorithm);
+  vtkTypeMacro(vtkApparentGeometryFilter, vtkBentMediumAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Meanings of the mesh's values. */
-  enum
-  {
-    DENSITY = 0,         ///< density of a gas
-    REFRACTIVE_INDEX = 1 ///< index of refraction
-  };
+  /** The moved points, of the type of port 0. */
+  vtkPointSet* GetOutput();
 
   /** @{ */
   /** Set the mesh, port 1. */
@@ -65,26 +60,6 @@ public:
   /** Set/Get the eye in world coordinates; it may be in the mesh. Default is (0, 0, 1). */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
-  /** @} */
-
-  /** @{ */
-  /** Set/Get the meaning of the mesh's values. Default is DENSITY. */
-  virtual void SetQuantity(int quantity);
-  vtkGetMacro(Quantity, int);
-  void SetQuantityToDensity() { this->SetQuantity(DENSITY); }
-  void SetQuantityToRefractiveIndex() { this->SetQuantity(REFRACTIVE_INDEX); }
-  /** @} */
-
-  /** @{ */
-  /** Set/Get the Gladstone-Dale constant, as vtkBentRayAlgorithm::SetGladstoneDale(). */
-  vtkSetMacro(GladstoneDale, double);
-  vtkGetMacro(GladstoneDale, double);
-  /** @} */
-
-  /** @{ */
-  /** Set/Get the index outside of the mesh, as vtkBentRayAlgorithm::SetOutsideIndex(). */
-  virtual void SetOutsideIndex(double index);
-  vtkGetMacro(OutsideIndex, double);
   /** @} */
 
   /** @{ */
@@ -117,9 +92,10 @@ protected:
   vtkApparentGeometryFilter();
   ~vtkApparentGeometryFilter() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int ComputeInputUpdateExtent(
+  int ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
@@ -130,13 +106,9 @@ private:
   class vtkInternals;
 
   std::string FindFault() const;
-  bool UpdateMedium(vtkDataObject* mesh);
   void MovePoints(vtkPointSet* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
-  int Quantity = DENSITY;
-  double GladstoneDale;
-  double OutsideIndex = 0.0;
   double SearchAngle = 2.0;
   int SearchResolution = 64;
   std::unique_ptr<vtkInternals> Internals;

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBentRayAlgorithm.h"
 
-#include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
 #include "Rendering/Integral/ImagePlace.h"
 
 #include "vtkCamera.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -18,7 +17,8 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <string>
 
 namespace
 {
@@ -30,16 +30,10 @@ constexpr std::size_t RowsPerBlock = 8;
 
 }
 
-meniscusSetClampMacro(vtkBentRayAlgorithm, Quantity, int, DENSITY, REFRACTIVE_INDEX);
-meniscusSetClampMacro(vtkBentRayAlgorithm, OutsideIndex, double, 0.0, VTK_DOUBLE_MAX);
-
 //------------------------------------------------------------------------------
 vtkBentRayAlgorithm::vtkBentRayAlgorithm()
   : View(new meniscus::BentRayView)
-  , GladstoneDale(meniscus::GladstoneDaleOfAir)
 {
-  this->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 //------------------------------------------------------------------------------
@@ -69,18 +63,6 @@ vtkMTimeType vtkBentRayAlgorithm::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-int vtkBentRayAlgorithm::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  // The executive looks at the first type only; otherwise it would iterate over the blocks.
-  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 int vtkBentRayAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
@@ -94,24 +76,6 @@ int vtkBentRayAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
 }
 
 //------------------------------------------------------------------------------
-int vtkBentRayAlgorithm::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
-{
-  meniscus::RequestWholeInputs(inputs);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-bool vtkBentRayAlgorithm::TellError(const std::string& error)
-{
-  if (!error.empty())
-  {
-    vtkErrorMacro(<< error << "; the output is empty.");
-  }
-  return error.empty();
-}
-
-//------------------------------------------------------------------------------
 bool vtkBentRayAlgorithm::UpdateView(vtkDataObject* input, double share)
 {
   if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
@@ -119,26 +83,11 @@ bool vtkBentRayAlgorithm::UpdateView(vtkDataObject* input, double share)
     return this->TellError("ImageSize must be at least 1 by 1, not " +
       std::to_string(this->ImageSize[0]) + " by " + std::to_string(this->ImageSize[1]));
   }
-  if (!std::isfinite(this->GladstoneDale))
-  {
-    return this->TellError("The Gladstone-Dale constant is not finite");
-  }
-  const meniscus::InputReport report = this->View->Medium.Update(input,
-    this->GetInputArrayInformation(0), { this->Quantity == DENSITY, this->GladstoneDale },
-    [this, share](double fraction)
-    {
-      this->UpdateProgress(share * fraction);
-      return !this->GetAbortExecute();
-    });
-  if (!report.Warning.empty())
-  {
-    vtkWarningMacro(<< report.Warning);
-  }
-  if (this->GetAbortExecute() || !this->TellError(report.Error))
+  if (!this->UpdateMedium(input, share))
   {
     return false;
   }
-  const meniscus::TetrahedralMesh& mesh = this->View->Medium.GetMesh();
+  const meniscus::TetrahedralMesh& mesh = this->Medium->GetMesh();
   if (this->Camera)
   {
     return this->TellError(
@@ -196,11 +145,7 @@ void vtkBentRayAlgorithm::PlaceImage(vtkImageData* image)
 void vtkBentRayAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Quantity: " << (this->Quantity == DENSITY ? "DENSITY" : "REFRACTIVE_INDEX")
-     << "\n";
-  os << indent << "GladstoneDale: " << this->GladstoneDale << "\n";
   os << indent << "BendRays: " << this->BendRays << "\n";
-  os << indent << "OutsideIndex: " << this->OutsideIndex << "\n";
   os << indent << "Direction: (" << this->Direction[0] << ", " << this->Direction[1] << ", "
      << this->Direction[2] << ")\n";
   os << indent << "ViewUp: (" << this->ViewUp[0] << ", " << this->ViewUp[1] << ", "

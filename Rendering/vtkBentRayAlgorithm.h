@@ -4,34 +4,25 @@
  * @class   vtkBentRayAlgorithm
  * @brief   base of the filters that cast rays of an image through a medium that bends light
  *
- * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayIntegral
- * takes. SetInputArrayToProcess(0, 0, 0, association, name) chooses a point array, by default the
- * active scalars: densities of a gas (Quantity DENSITY), from which n = 1 + GladstoneDale *
- * density, or values of n (REFRACTIVE_INDEX). n^2 is quadratic in each tetrahedron, linear at
- * jumps, and rays are exact in it; there is no step size. Errors are of second order in the size of
- * the cells.
+ * Input port 0 is the mesh, read as vtkBentMediumAlgorithm describes. Rays are parallel along
+ * Direction, around the mesh's bounding box, or come from Camera, one per pixel of ImageSize. The
+ * output is a vtkImageData with one point per pixel.
  *
- * Rays are parallel along Direction, around the mesh's bounding box, or come from Camera, one per
- * pixel of ImageSize. The output is a vtkImageData with one point per pixel, unless a subclass
- * overrides FillOutputPortInformation().
- *
- * Cells with a value that is not finite, with n <= 0 or with a negative density are holes; indices
- * below 1 are used. Warnings report both. Errors, with an empty output: no cells, no such point
- * array, no usable values, an image size below 1, a direction that is zero or parallel to ViewUp.
+ * Errors, with an empty output, besides those of the mesh: an image size below 1, a direction that
+ * is zero or parallel to ViewUp.
  *
  * @sa vtkTetrahedraSchlieren vtkTetrahedraMirage
  */
 #ifndef vtkBentRayAlgorithm_h
 #define vtkBentRayAlgorithm_h
 
-#include "vtkImageAlgorithm.h"
+#include "vtkBentMediumAlgorithm.h"
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkSmartPointer.h"   // For members
 
 #include <cstddef>    // For std::size_t
 #include <functional> // For std::function
 #include <memory>     // For std::unique_ptr
-#include <string>     // For std::string
 
 class vtkCamera;
 class vtkDataObject;
@@ -41,35 +32,11 @@ namespace meniscus
 struct BentRayView;
 }
 
-class VTKMENISCUS_EXPORT vtkBentRayAlgorithm : public vtkImageAlgorithm
+class VTKMENISCUS_EXPORT vtkBentRayAlgorithm : public vtkBentMediumAlgorithm
 {
 public:
-  vtkTypeMacro(vtkBentRayAlgorithm, vtkImageAlgorithm);
+  vtkTypeMacro(vtkBentRayAlgorithm, vtkBentMediumAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /** Meanings of the input's values. */
-  enum
-  {
-    DENSITY = 0,         ///< density of a gas
-    REFRACTIVE_INDEX = 1 ///< index of refraction
-  };
-
-  /** @{ */
-  /** Set/Get the meaning of the input's values. Default is DENSITY. */
-  virtual void SetQuantity(int quantity);
-  vtkGetMacro(Quantity, int);
-  void SetQuantityToDensity() { this->SetQuantity(DENSITY); }
-  void SetQuantityToRefractiveIndex() { this->SetQuantity(REFRACTIVE_INDEX); }
-  /** @} */
-
-  /** @{ */
-  /**
-   * Set/Get the Gladstone-Dale constant, volume per mass. Default is 2.26157e-4 m^3/kg: dry air at
-   * 589.3 nm, by Ciddor's equations (Applied Optics 35, 1996).
-   */
-  vtkSetMacro(GladstoneDale, double);
-  vtkGetMacro(GladstoneDale, double);
-  /** @} */
 
   /** @{ */
   /**
@@ -80,16 +47,6 @@ public:
   vtkSetMacro(BendRays, vtkTypeBool);
   vtkGetMacro(BendRays, vtkTypeBool);
   vtkBooleanMacro(BendRays, vtkTypeBool);
-  /** @} */
-
-  /** @{ */
-  /**
-   * Set/Get the index of refraction outside of the mesh, >= 0, for Snell's law on its boundary:
-   * for lenses and solids. With 0, the default, nothing is refracted there: the boundary is the end
-   * of the data, not of the medium. Has no effect on straight rays.
-   */
-  virtual void SetOutsideIndex(double index);
-  vtkGetMacro(OutsideIndex, double);
   /** @} */
 
   /** @{ */
@@ -125,14 +82,9 @@ protected:
   vtkBentRayAlgorithm();
   ~vtkBentRayAlgorithm() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  int RequestUpdateExtent(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
-  /** Reports an error, if there is one. Returns true if there is none. */
-  bool TellError(const std::string& error);
   /**
    * Reads the mesh and computes the rays before they are bent. Returns false after an error, which
    * has been reported, or an abort.
@@ -152,17 +104,14 @@ protected:
   /** Gives an image its size and, for parallel rays, its place. */
   void PlaceImage(vtkImageData* image);
 
-  /** The medium and the rays of the last UpdateView(). */
+  /** The rays of the last UpdateView(). */
   std::unique_ptr<meniscus::BentRayView> View;
 
 private:
   vtkBentRayAlgorithm(const vtkBentRayAlgorithm&) = delete;
   void operator=(const vtkBentRayAlgorithm&) = delete;
 
-  int Quantity = DENSITY;
-  double GladstoneDale;
   vtkTypeBool BendRays = 1;
-  double OutsideIndex = 0.0;
   double Direction[3] = { 0.0, 0.0, -1.0 };
   double ViewUp[3] = { 0.0, 1.0, 0.0 };
   int ImageSize[2] = { 256, 256 };

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/Statistics.h"
+#include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Rendering/Integral/SeenObjects.h"
@@ -89,7 +90,7 @@ vtkTetrahedraMirage::vtkInternals::List()
       "doubles",
       [](Self& self) { return double(self.Internals->Statistics.Lost); } },
     { "NumberOfUnusablePoints", "points of the mesh whose value cannot be used",
-      [](Self& self) { return double(self.View->Medium.GetFaults().GetNumberOfUnusable()); } },
+      [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
     { "NumberOfBrokenCells",
       "polygons of the objects with a point that is not finite or is missing",
       [](Self& self) { return double(self.Internals->Objects.GetNumberOfBrokenCells()); } },
@@ -151,7 +152,7 @@ int vtkTetrahedraMirage::RequestInformation(
 void vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
 {
   meniscus::SeenObjects& read = this->Internals->Objects;
-  read.Read(objects, this->View->Medium.GetMesh());
+  read.Read(objects, this->Medium->GetMesh());
   if (read.GetNumberOfBrokenCells() > 0)
   {
     vtkWarningMacro(<< read.GetNumberOfBrokenCells()
@@ -169,8 +170,7 @@ bool vtkTetrahedraMirage::TraceRays()
 {
   vtkInternals& internals = *this->Internals;
   const bool isStraight = this->GetBendRays() == 0;
-  const meniscus::GradedRayWalk walk(
-    this->View->Medium.MakeField(this->GetOutsideIndex(), isStraight));
+  const meniscus::GradedRayWalk walk(this->Medium->MakeField(this->GetOutsideIndex(), isStraight));
   const meniscus::SchlierenRays rays(this->View->Rays, this->GetImageSize());
   const auto width = static_cast<std::size_t>(this->GetImageSize()[0]);
   const auto height = static_cast<std::size_t>(this->GetImageSize()[1]);

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/Statistics.h"
+#include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Volume/Graded/GradedRayWalk.h"
@@ -83,7 +84,7 @@ vtkTetrahedraSchlieren::vtkInternals::List()
   using Self = vtkTetrahedraSchlieren;
   static const std::vector<meniscus::Statistic<Self>> list = {
     { "NumberOfMediumUpdates", "readings of the index of refraction",
-      [](Self& self) { return double(self.View->Medium.GetVersion().GetChanges()); } },
+      [](Self& self) { return double(self.Medium->GetVersion().GetChanges()); } },
     { "NumberOfCasts", "casts of all rays of an image",
       [](Self& self) { return double(self.Internals->Casts); } },
     { "NumberOfRays", "rays of the last image that met the mesh",
@@ -97,7 +98,7 @@ vtkTetrahedraSchlieren::vtkInternals::List()
       "doubles",
       [](Self& self) { return double(self.Internals->Statistics.Lost); } },
     { "NumberOfUnusablePoints", "points whose value cannot be used",
-      [](Self& self) { return double(self.View->Medium.GetFaults().GetNumberOfUnusable()); } },
+      [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
   };
   return list;
 }
@@ -138,7 +139,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   vtkInternals& internals = *this->Internals;
   RayKey key;
   const meniscus::IntegralView& view = this->View->Rays;
-  key.Medium = this->View->Medium.GetVersion();
+  key.Medium = this->Medium->GetVersion();
   key.Frame = view.Rays;
   key.BeginDepth = view.BeginDepth;
   key.Size = glm::make_vec2(this->GetImageSize());
@@ -151,8 +152,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   internals.CastFor = RayKey();
   internals.Statistics = meniscus::GradedRayStatistics();
   ++internals.Casts;
-  const meniscus::GradedRayWalk walk(
-    this->View->Medium.MakeField(key.OutsideIndex, key.IsStraight));
+  const meniscus::GradedRayWalk walk(this->Medium->MakeField(key.OutsideIndex, key.IsStraight));
   const meniscus::SchlierenRays rays(view, this->GetImageSize());
   const auto width = static_cast<std::size_t>(key.Size.x);
   const auto height = static_cast<std::size_t>(key.Size.y);
@@ -209,8 +209,7 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
   const meniscus::SchlierenRays rays(this->View->Rays, this->GetImageSize());
-  if (!meniscus::WriteImages(
-        rays, internals.Rays, this->View->Medium.GetMesh(), instruments, output))
+  if (!meniscus::WriteImages(rays, internals.Rays, this->Medium->GetMesh(), instruments, output))
   {
     vtkWarningMacro(<< "The knife edge cuts off all light, of all pixels; KnifeCutOff is "
                     << this->KnifeCutOff << ".");

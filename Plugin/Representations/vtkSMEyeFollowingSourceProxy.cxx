@@ -289,13 +289,15 @@ bool vtkSMEyeFollowingSourceProxy::MoveEye(vtkSMRenderViewProxy* view)
     moved |= isParallel && SetIfOther(this, "ViewParallelScale", &scale, 1);
   }
   // Unused values must not make the filter run again.
-  const bool culls = vtkSMPropertyHelper(this, "ViewCulling", true).GetAsInt() != 0;
-  if (culls || (knowsParallel && isParallel))
+  const bool usesView = this->GetProperty("ViewCulling")
+    ? vtkSMPropertyHelper(this, "ViewCulling").GetAsInt() != 0
+    : this->GetProperty("ViewAngle") != nullptr;
+  if (usesView || (knowsParallel && isParallel))
   {
     moved |= SetIfOther(this, "ViewFocalPoint", camera->GetFocalPoint(), 3);
     moved |= SetIfOther(this, "ViewUp", camera->GetViewUp(), 3);
   }
-  if (culls)
+  if (usesView)
   {
     const double angle = camera->GetViewAngle();
     moved |= SetIfOther(this, "ViewAngle", &angle, 1);

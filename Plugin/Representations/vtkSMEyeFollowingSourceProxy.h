@@ -9,9 +9,9 @@
  * use it. If there are several such views, it is the first by name, so that a second one can be
  * rotated freely; if there is none, it is the active view. The eye follows before a view is
  * updated, so that each image belongs to its own camera, also while the camera moves. If an update
- * takes longer than MaximumUpdateTime, the eye follows only when the camera rests. If the
- * properties ViewCulling, ViewFocalPoint, ViewUp and ViewAngle exist and ViewCulling is on, the
- * last three follow, too.
+ * takes longer than MaximumUpdateTime, the eye follows only when the camera rests. The properties
+ * ViewFocalPoint, ViewUp and ViewAngle follow, too, if they exist and there is no property
+ * ViewCulling, or it is on.
  *
  * In a parallel view the eye is at infinity. ViewParallelProjection, ViewParallelScale,
  * ViewFocalPoint and ViewUp follow if they exist; otherwise EyePosition is a point 1e5 sizes of the

@@ -13,6 +13,8 @@ MODULES = {
     "integral": "rays",
     "schlieren": "schlieren",
     "zernike": "schlieren",
+    "mirage": "mirages",
+    "apparent": "mirages",
     "refracted": "refraction",
     "true_positions": "points",
     "triangulate": "points",

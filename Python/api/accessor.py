@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Generic, TypeVar, overload
 import pyvista
 
 from .comparison import compare
+from .mirages import apparent, mirage
 from .picking import pick
 from .rays import integral, radiograph
 from .refraction import refracted
@@ -55,7 +56,8 @@ class _OfMesh(Generic[P, R]):
 
 
 class MeniscusAccessor:
-    """Exact volume rendering, ray integrals, schlieren images and refraction: `mesh.meniscus`.
+    """Exact volume rendering, ray integrals, schlieren images, mirages and refraction:
+    `mesh.meniscus`.
 
     The methods are the functions of the package meniscus of the same names, without their first
     argument.
@@ -73,6 +75,8 @@ class MeniscusAccessor:
     compare = _OfMesh(compare)
     refracted = _OfMesh(refracted)
     schlieren = _OfMesh(schlieren)
+    mirage = _OfMesh(mirage)
+    apparent = _OfMesh(apparent)
 
 
 def register() -> None:

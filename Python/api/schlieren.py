@@ -3,17 +3,15 @@
 """Schlieren images, shadowgraphs and interferograms of a mesh, as arrays; needs no PyVista."""
 from __future__ import annotations
 
-import numbers
 from math import factorial
 from typing import TYPE_CHECKING, Any
 
 import numpy
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
 
-from ..arguments import check_dataset, check_name, check_names, check_numbers
-from ..data import run
-from ..names import choose, set_properties
+from ..arguments import check_names
+from ..media import cast, connect_medium
 from ..vtkMeniscus import vtkTetrahedraSchlieren
 
 if TYPE_CHECKING:
@@ -30,8 +28,6 @@ _IMAGES = {
     "displacement": "Displacement",
     "background": "Background",
 }
-_QUANTITIES = {"density": vtkTetrahedraSchlieren.DENSITY,
-               "refractive_index": vtkTetrahedraSchlieren.REFRACTIVE_INDEX}
 
 
 def _make_picture(values):
@@ -72,37 +68,13 @@ def schlieren(
     dictionary by name. Lengths are in the mesh's unit. Raises ValueError for names that do not
     exist and input that cannot be used.
     """
-    check_dataset("mesh", mesh)
-    check_name("scalars", scalars)
-    check_numbers("size", size, 2, numbers.Integral)
-    check_numbers("direction", direction, 3)
-    check_numbers("up", up, 3)
-    names = check_names("image", image)
-    arrays = [choose("image", name, _IMAGES) for name in names]
-    if "background" in names and background is None:
-        raise ValueError("The image 'background' needs a background")
     rays = vtkTetrahedraSchlieren()
-    if hasattr(mesh, "GetOutputPort"):
-        rays.SetInputConnection(mesh.GetOutputPort())
-    else:
-        rays.SetInputData(mesh)
+    connect_medium(rays, 0, "mesh", mesh, scalars, quantity)
+    if "background" in check_names("image", image) and background is None:
+        raise ValueError("The image 'background' needs a background")
     if background is not None:
         rays.SetInputData(1, _make_picture(background))
-    if scalars is not None:
-        rays.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, scalars)
-    rays.SetQuantity(choose("quantity", quantity, _QUANTITIES))
-    rays.SetImageSize(*size)
-    rays.SetDirection(*direction)
-    rays.SetViewUp(*up)
-    rays.SetCamera(camera)
-    set_properties(rays, properties)
-    run(rays)
-    points = rays.GetOutput().GetPointData()
-    found = {}
-    for name, array in zip(names, arrays):
-        values = vtk_to_numpy(points.GetArray(array))
-        found[name] = values.reshape((size[1], size[0]) + values.shape[1:])
-    return found[image] if isinstance(image, str) else found
+    return cast(rays, image, _IMAGES, size, direction, up, camera, properties)
 
 
 def _find_orders(term):

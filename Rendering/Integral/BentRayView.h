@@ -3,7 +3,6 @@
 #ifndef meniscus_Rendering_Integral_BentRayView_h
 #define meniscus_Rendering_Integral_BentRayView_h
 
-#include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/IntegralView.h"
 
 namespace meniscus
@@ -12,10 +11,9 @@ namespace meniscus
 /** Share of the progress that rays take after the medium; the rest is that of the images. */
 constexpr double ShareOfRays = 0.6;
 
-/** A medium that bends light, and the rays of an image before they are bent. */
+/** Rays of an image before a medium bends them. */
 struct BentRayView
 {
-  BentMedium Medium;
   /** Image of parallel rays. */
   ParallelRectangle Rectangle;
   IntegralView Rays;

@@ -12,7 +12,8 @@ import subprocess
 import sys
 import xml.etree.ElementTree
 
-NUMBERS = "no one two three four five six seven eight nine ten eleven twelve thirteen".split()
+NUMBERS = ("no one two three four five six seven eight nine ten eleven twelve thirteen "
+           "fourteen").split()
 
 # Commands, and the files that run each of them.
 COMMANDS = [

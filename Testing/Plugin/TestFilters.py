@@ -7,7 +7,10 @@ from paraview import servermanager, simple
 
 # The properties of filters with refracting surfaces.
 SURFACES = {"ExteriorIndexOfRefraction": 1.0, "InteriorIndexOfRefraction": 1.333, "Interfaces": []}
+# The properties of media that bend light.
+MEDIUM = {"Quantity": "Density", "GladstoneDale": 2.26157e-4, "OutsideIndex": 0}
 FILTERS = {
+    "ApparentGeometry": {**MEDIUM, "FollowCamera": 0, "SearchAngle": 2, "SearchResolution": 64},
     "DepthImagePoints": {"DepthType": "Depth buffer", "ViewAngle": 30,
                          "ViewClippingRange": [0.01, 1000.01]},
     "MembraneCells": {**SURFACES, "CellLength": 1, "FollowCamera": 0},
@@ -19,13 +22,16 @@ FILTERS = {
     "RefractedLight": {**SURFACES, "Positional": 0, "OneSided": 0},
     "RefractionErrorVolume": {**SURFACES, "MembraneModel": "Curved", "AngularErrors": 0},
     "SightRays": {**SURFACES, "EyeArrayName": "", "FollowCamera": 0},
+    "TetrahedraMirage": {
+        **MEDIUM, "BendRays": 1, "FollowCamera": 0, "ViewAngle": 30, "ImageSize": [256, 256],
+        "LightDirection": [0, 0, 0], "Ambient": 0.3, "BackgroundColor": [0, 0, 0]},
     "TetrahedraRayIntegral": {
         **SURFACES, "FrameMode": "Fitted", "ComputeIntegral": 1, "ComputePathLength": 0,
         "ArrayComponent": 0, "CellDivision": "Fixed", "ImageSize": [256, 256],
         "AttenuationArrayName": "", "EmissionArrayName": ""},
     "TetrahedraSchlieren": {
-        "Quantity": "Density", "GladstoneDale": 2.26157e-4, "BendRays": 1, "OutsideIndex": 0,
-        "ReferenceIndex": 1, "Direction": [0, 0, -1], "ViewUp": [0, 1, 0], "ImageSize": [256, 256],
+        **MEDIUM, "BendRays": 1, "ReferenceIndex": 1, "Direction": [0, 0, -1], "ViewUp": [0, 1, 0],
+        "ImageSize": [256, 256],
         "KnifeAngle": 90, "KnifeCutOff": 0.5, "KnifeRange": 0, "ScreenDistance": 1,
         "Wavelength": 589.3e-9, "Fringes": [0, 0], "BackgroundDistance": 1},
     "TetrahedralizeSurface": {"Mesher": "Automatic", "MaximumRadiusEdgeRatio": 2,

@@ -31,7 +31,7 @@ CELLS = 8
 SIZE = (120, 90)
 VIEW = [(2.5, -1.8, 1.7), (0.5, 0.5, 0.5), (0.0, 0.0, 1.0)]
 METHODS = ("plot", "add_to", "radiograph", "integral", "pick", "compare", "refracted",
-           "schlieren")
+           "schlieren", "mirage", "apparent")
 
 
 def make_cube():
@@ -119,6 +119,20 @@ class TestAccessor(unittest.TestCase):
         numpy.testing.assert_allclose(
             methods.integral("y", size=(4, 4))[1:3, 1:3].mean(axis=1), [0.375, 0.625], rtol=1e-5)
         self.assertEqual(methods.radiograph("y", [0.1, 1.0], size=(4, 3)).shape, (3, 4, 2))
+
+    def test_mirage(self):
+        """Blocks, and a dataset of the kind of the mesh; 1 + 1e-6 y bends next to nothing."""
+        cube, ball = make_cube(), pyvista.Sphere(radius=0.4, center=(0.5, 0.5, 0.5))
+        named = {"GladstoneDale": 1e-6}
+        for objects in (ball, pyvista.MultiBlock([ball, None])):
+            found = accessor.MeniscusAccessor(cube).mirage(
+                objects, "y", "position", size=(9, 9), **named)
+            self.assertAlmostEqual(found[4, 4, 2], 0.9, delta=1e-3)
+        seen = accessor.MeniscusAccessor(ball).apparent(
+            halves_of(cube), (0.5, 0.5, 3.0), "y", SearchResolution=8, **named)
+        self.assertIs(type(seen), type(ball))
+        numpy.testing.assert_allclose(seen.points, ball.points, atol=1e-5)
+        self.assertEqual(set(seen["NumberOfImages"]), {1})
 
     def test_plot(self):
         methods = accessor.MeniscusAccessor(make_cube())

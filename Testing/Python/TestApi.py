@@ -14,8 +14,8 @@ import meniscus
 import numpy
 from meniscus.viewer.colors import COLOR_MAPS, fill_colors, find_colors, list_colors, make_table
 from TestRayIntegral import make_block
-from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkColorTransferFunction
 
 INDEX = 1.333
 # Water in the plane z = 0, wound towards positive z.
@@ -217,6 +217,75 @@ class TestRays(unittest.TestCase):
                       {"Wavelength": 0.0}):
             with self.assertRaises(ValueError):
                 meniscus.schlieren(self.block, "density", **wrong)
+
+    def test_mirage(self):
+        """Along -y, (dn/dz) / n bends a ray over the length 1 of the block, and as far again
+        behind it, where a wall is; second order is below the tolerance."""
+        constant = 1e-3
+        wall = vtkPlaneSource()
+        wall.SetOrigin(-1, -1, -1)
+        wall.SetPoint1(3, -1, -1)
+        wall.SetPoint2(-1, -1, 4)
+        options = {"GladstoneDale": constant, "size": (6, 4), "direction": (0, -1, 0),
+                   "up": (0, 0, 1)}
+        found = meniscus.mirage(self.block, wall, "density",
+                                ["color", "seen", "cell_id", "position", "depth", "direction"],
+                                LightDirection=(0, 1, 0), Ambient=0.25, **options)
+        straight = meniscus.mirage(self.block, wall, "density", "position", BendRays=False,
+                                   **options)
+        index = 1 + constant * (1 + straight[1, 3, 2])
+        numpy.testing.assert_allclose((found["position"] - straight)[1, 3],
+                                      [0, 0, 1.5 * constant / index], atol=3 * constant ** 2)
+        numpy.testing.assert_allclose(found["direction"][1, 3], [0, -1, constant / index],
+                                      atol=3 * constant ** 2)
+        self.assertEqual(found["color"].dtype, numpy.uint8)
+        # The light falls onto the other side of the wall.
+        numpy.testing.assert_array_equal(found["color"], numpy.full((4, 6, 3), 64))
+        numpy.testing.assert_array_equal(found["seen"], numpy.ones((4, 6)))
+        numpy.testing.assert_array_equal(found["cell_id"], numpy.zeros((4, 6)))
+        self.assertEqual(found["depth"].shape, (4, 6))
+        arrays = (numpy.array([[0.0, -1, 0], [2, -1, 0], [2, -1, 3]]), numpy.array([[0, 1, 2]]))
+        seen = meniscus.mirage(self.block, arrays, "density", "seen", **options)
+        self.assertTrue(0 < seen.sum() < seen.size)
+        for wrong in ({"image": "photo"}, {"quantity": "mass"}, {"size": (0, 3)}):
+            with self.assertRaises(ValueError):
+                meniscus.mirage(self.block, wall, "density", **wrong)
+        with self.assertRaisesRegex(TypeError, "A surface is a dataset"):
+            meniscus.mirage(self.block, 3, "density")
+
+    def test_apparent(self):
+        """An eye 1 before the block and a point 1 behind it: the direction in which it is seen
+        takes half of the deflection back."""
+        constant = 1e-3
+        point = vtkPointSource()
+        point.SetNumberOfPoints(1)
+        point.SetRadius(0)
+        point.SetCenter(1, -1, 1.5)
+        eye = (1, 2, 1.5)
+        seen = meniscus.apparent(point, self.block, eye, "density", GladstoneDale=constant)
+        self.assertEqual(seen.GetPointData().GetArray("NumberOfImages").GetValue(0), 1)
+        place = numpy.array(seen.GetPoint(0))
+        numpy.testing.assert_allclose(
+            place, [1, -1, 1.5 - 1.5 * constant / (1 + 2.5 * constant)], atol=3 * constant ** 2)
+        camera = vtkCamera()
+        camera.SetPosition(eye)
+        camera.SetFocalPoint(place)
+        camera.SetViewUp(0, 0, 1)
+        arrays = (numpy.array([[0.0, -1, 0], [2, -1, 0], [2, -1, 3], [0, -1, 3]]),
+                  numpy.array([[0, 1, 2], [0, 2, 3]]))
+        # The ray of a picture in that direction ends at the point.
+        position = meniscus.mirage(self.block, arrays, "density", "position", camera=camera,
+                                   size=(1, 1), GladstoneDale=constant)
+        numpy.testing.assert_allclose(position[0, 0], [1, -1, 1.5], atol=1e-7)
+        for wrong in ({"quantity": "mass"}, {"SearchAngle": 90}):
+            with self.assertRaises(ValueError):
+                meniscus.apparent(point, self.block, eye, "density", **wrong)
+        with self.assertRaisesRegex(TypeError, "^eye must be 3 numbers"):
+            meniscus.apparent(point, self.block, (1, 2), "density")
+        with self.assertRaisesRegex(TypeError, "^medium must be a dataset"):
+            meniscus.apparent(point, 5, eye, "density")
+        with self.assertWarnsRegex(RuntimeWarning, "1 points have no image"):
+            meniscus.apparent(point, self.block, (1, -1, 1.5), "density")
 
     def test_zernike(self):
         """A wave front of known terms, by their formulas in Cartesian coordinates."""

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import numpy
 import pyvista
-from meniscus import add_to, integral, pick, plot, true_positions, triangulate
+from meniscus import add_to, integral, mirage, pick, plot, true_positions, triangulate
 from meniscus.api.accessor import MeniscusAccessor
 from meniscus.api.picking import Pick
 
@@ -44,10 +44,13 @@ accessor.integral("T", "path_length")
 for each in accessor.compare("T"):
     print(each.name, each.milliseconds + each.rms)
 accessor.refracted(mesh, plotter, [1.5, 1.333])
+accessor.mirage(mesh, "T", ["color", "depth"], size=(3, 4))
+accessor.apparent(mesh, (0.0, 0.0, 1.0), "T")
 plot(mesh, "T")
 add_to(mesh, plotter)
 integral(mesh)
 pick(mesh, plotter, 0, 0)
+mirage(mesh, mesh, camera=plotter)
 places = numpy.zeros((3, 3))
 true_positions(places, (0, 0, 1), mesh, 1.333)
 triangulate(places[None], places[:1], (places, places), [1.0, 1.333])
@@ -58,6 +61,7 @@ accessor.pick(plotter, "left", 2)
 accessor.radiograph(3)
 accessor.compare("T", frames="many")
 accessor.refracted()
+accessor.mirage(mesh, 3)
 add_to(plotter, mesh)
 true_positions(places, (0, 0, 1), 5)
 """
