@@ -284,9 +284,13 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     this->MaximumNumberOfPieces };
   division.Fields = parts;
   division.Component = mixed ? meniscus::ScalarSelection::Only : component;
-  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+  const meniscus::InputReport ofProperty = internals.Property.Reduce(volume->GetProperty(),
+    this->GetBlendModel().Mode, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
     mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
+  if (!this->Tell(ofProperty))
+  {
+    return false;
+  }
   division.Picture = internals.Property.GetPictureFunction();
   division.UnitLength =
     std::cbrt(std::abs(glm::determinant(glm::dmat3(meniscus::ToGlm(volume->GetMatrix())))));

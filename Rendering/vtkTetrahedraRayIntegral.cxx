@@ -408,11 +408,13 @@ bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
   const bool usesProperty = request.Choice.NeedsProperty();
   const meniscus::EventChoice& events = request.Choice.Events;
   const bool hasSurfaces = events.IsAnyWanted() && events.HasSurfaces();
-  internals.Property.Reduce(usesProperty ? this->VolumeProperty.Get() : internals.NoProperty.Get(),
+  const meniscus::InputReport ofProperty = internals.Property.Reduce(
+    usesProperty ? this->VolumeProperty.Get() : internals.NoProperty.Get(),
     hasSurfaces ? meniscus::BlendMode::Isosurfaces : meniscus::BlendMode::Composite,
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, meniscus::ComponentMixture::None, 1);
-  if (!this->Tell(input.UpdateScalars(request.Scalars, component,
-        usesProperty ? internals.Property.GetFeatures() : internals.NoFeatures)))
+  if (!this->Tell(ofProperty) ||
+    !this->Tell(input.UpdateScalars(request.Scalars, component,
+      usesProperty ? internals.Property.GetFeatures() : internals.NoFeatures)))
   {
     return false;
   }

@@ -122,11 +122,12 @@ struct RayCastRays
   RayCastAffineMap Direction;
   double NearDepth = 0.0;
   /**
-   * A window depth w ends the ray at depth (d * Numerator[0] + Numerator[1]) / (d * Denominator[0]
-   * + Denominator[1]), d = 2 w - 1.
+   * A window depth w < 1 ends the ray at depth (d * Numerator[0] + Numerator[1]) / (d *
+   * Denominator[0] + Denominator[1]), d = 2 w - 1; one of 1, at FarDepth.
    */
   double DepthNumerator[2];
   double DepthDenominator[2];
+  double FarDepth = 0.0;
   /** World vector of a model vector, rows of a matrix; its length is the world length. */
   double ModelToWorld[3][3];
 };

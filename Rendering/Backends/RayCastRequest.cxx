@@ -96,11 +96,15 @@ RayCastRays RayCastRequest::GetRays() const
   rays.Origin = ToModel(toModel, frame.Origin, 0.0);
   rays.Direction = ToModel(toModel, frame.Slope, 1.0);
   rays.NearDepth = frame.NearDepth;
-  for (int i = 0; i < 2; ++i)
+  rays.FarDepth = frame.FarDepth;
+  // The shares of both planes are 0.5 (1 + d) and 0.5 (1 - d).
+  const auto setLine = [](const glm::dvec2& ends, double(&line)[2])
   {
-    rays.DepthNumerator[i] = frame.DepthNumerator[i];
-    rays.DepthDenominator[i] = frame.DepthDenominator[i];
-  }
+    line[0] = 0.5 * (ends.x - ends.y);
+    line[1] = 0.5 * (ends.x + ends.y);
+  };
+  setLine(frame.DepthNumerator, rays.DepthNumerator);
+  setLine(frame.DepthDenominator, rays.DepthDenominator);
   const glm::dmat3 rows = glm::transpose(toWorld);
   for (int row = 0; row < 3; ++row)
   {

@@ -39,10 +39,10 @@ void CropToPixel(const PickedPixel& pixel, RayCastFrame& frame)
 /** Window depth of a depth of the frame: the inverse of RayFrame::DepthAt(). */
 float WindowDepthOf(const RayFrame& frame, double depth)
 {
-  const glm::dvec2& numerator = frame.DepthNumerator;
-  const glm::dvec2& denominator = frame.DepthDenominator;
-  const double clip = (depth * denominator.y - numerator.y) / (numerator.x - depth * denominator.x);
-  return static_cast<float>(std::clamp(0.5 + 0.5 * clip, 0.0, 1.0));
+  // The window depth is the share of the far plane.
+  const glm::dvec2 distance = depth * frame.DepthDenominator - frame.DepthNumerator;
+  const double share = distance.y / (distance.y - distance.x);
+  return static_cast<float>(std::clamp(share, 0.0, 1.0));
 }
 
 }

@@ -217,6 +217,7 @@ std::string RayCastPipeline::ComputeWorldFrame(vtkVolume* volume, ViewContext& p
   place.Frame.Origin = AffinePixelMap();
   place.Frame.Slope = AffinePixelMap();
   place.Frame.NearDepth = 0.0;
+  place.Frame.FarDepth = RayFrame::FarthestDepth;
   place.Frame.DepthNumerator = glm::dvec2(0.0);
   place.Frame.DepthDenominator = glm::dvec2(1.0);
   return error;

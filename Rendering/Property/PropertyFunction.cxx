@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Property/PropertyFunction.h"
 
+#include "Rendering/Property/FiniteFunctions.h"
+
 #include "vtkColorTransferFunction.h"
 #include "vtkDiscretizableColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"
@@ -35,10 +37,6 @@ std::vector<FunctionNode> CollectNodes(int count, NodeAt&& nodeAt)
   for (int i = 0; i < count; ++i)
   {
     const TransferFunctionPoint value = nodeAt(i);
-    if (!std::isfinite(value.Scalar))
-    {
-      continue;
-    }
     if (nodes.empty() || nodes.back().Scalar != value.Scalar)
     {
       nodes.push_back({ value.Scalar, {} });
@@ -68,7 +66,7 @@ double PropertyFunction::GetSampledScalar(double first, double last, int count, 
 //------------------------------------------------------------------------------
 OpacityFunction::OpacityFunction(
   vtkPiecewiseFunction* opacity, OpacityMeaning meaning, double unitDistance)
-  : Opacity(opacity)
+  : Opacity(KeepFiniteNodes(opacity))
   , Meaning(meaning)
   , Unit(unitDistance)
 {
@@ -126,7 +124,7 @@ double OpacityFunction::Difference(
 
 //------------------------------------------------------------------------------
 GrayFunction::GrayFunction(vtkPiecewiseFunction* gray)
-  : Gray(gray)
+  : Gray(KeepFiniteNodes(gray))
 {
 }
 
@@ -164,16 +162,16 @@ double GrayFunction::Difference(
 
 //------------------------------------------------------------------------------
 ColorFunction::ColorFunction(vtkColorTransferFunction* color)
-  : Color(color)
+  : Color(KeepFiniteNodes(color))
 {
-  auto* discrete = vtkDiscretizableColorTransferFunction::SafeDownCast(color);
+  auto* discrete = vtkDiscretizableColorTransferFunction::SafeDownCast(this->Color);
   this->IsDiscrete = discrete && (discrete->GetDiscretize() || discrete->GetIndexedLookup());
   if (this->IsDiscrete)
   {
     discrete->Build();
   }
-  this->IsLogarithmic =
-    !this->IsDiscrete && color->GetScale() == VTK_CTF_LOG10 && color->GetRange()[0] > 0.0;
+  this->IsLogarithmic = !this->IsDiscrete && this->Color->GetScale() == VTK_CTF_LOG10 &&
+    this->Color->GetRange()[0] > 0.0;
 }
 
 //------------------------------------------------------------------------------

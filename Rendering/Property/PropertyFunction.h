@@ -7,6 +7,8 @@
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/TransferFunction.h"
 
+#include "vtkSmartPointer.h"
+
 #include <vector>
 
 class vtkColorTransferFunction;
@@ -27,7 +29,7 @@ class PropertyFunction
 {
 public:
   virtual ~PropertyFunction() = default;
-  /** Nodes at finite scalars, in ascending order. */
+  /** Nodes of finite numbers, in ascending order. */
   virtual std::vector<FunctionNode> GetNodes() const = 0;
   /**
    * Scalar of an entry of Sample(): evenly spaced, unless the function has a logarithmic scale.
@@ -60,7 +62,7 @@ public:
 private:
   TransferFunctionPoint MakePoint(double scalar, double opacity) const;
 
-  vtkPiecewiseFunction* Opacity;
+  vtkSmartPointer<vtkPiecewiseFunction> Opacity;
   OpacityMeaning Meaning;
   double Unit;
 };
@@ -75,7 +77,7 @@ public:
   double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const override;
 
 private:
-  vtkPiecewiseFunction* Gray;
+  vtkSmartPointer<vtkPiecewiseFunction> Gray;
 };
 
 /** Colours, of a function with discrete colours as well. */
@@ -91,7 +93,7 @@ public:
   bool HasCostlyCalls() const override;
 
 private:
-  vtkColorTransferFunction* Color;
+  vtkSmartPointer<vtkColorTransferFunction> Color;
   bool IsDiscrete;
   /** True if the scalars of a table are evenly spaced on a logarithmic scale. */
   bool IsLogarithmic;

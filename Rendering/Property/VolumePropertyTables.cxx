@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Property/VolumePropertyTables.h"
 
+#include "Rendering/Property/FiniteFunctions.h"
 #include "Rendering/Property/RayCastOptics.h"
 
 #include "vtkContourValues.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <string>
 
 namespace meniscus
 {
@@ -53,8 +55,8 @@ PropertyPoints ReduceWeighted(vtkVolumeProperty* property, int component, Opacit
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
-  ComponentMixture mixture, int components)
+InputReport VolumePropertyTables::Reduce(vtkVolumeProperty* property, BlendMode mode,
+  bool perUnitDistance, ComponentMixture mixture, int components)
 {
   MakeDefaultFunctions(property, NumberOfUsedComponents(mixture, components));
   const ObjectVersion version(property);
@@ -73,7 +75,38 @@ void VolumePropertyTables::Reduce(vtkVolumeProperty* property, BlendMode mode, b
     this->BuiltMixture = mixture;
     this->BuiltNumberOfComponents = components;
     this->FindFeatures();
+    const std::string told = this->Report.Warning;
+    this->Report = this->Check(property);
+    return { this->Report.Error, this->Report.Warning == told ? "" : this->Report.Warning };
   }
+  return { this->Report.Error, std::string() };
+}
+
+//------------------------------------------------------------------------------
+/** Report of the functions that are used. */
+InputReport VolumePropertyTables::Check(vtkVolumeProperty* property) const
+{
+  InputReport report;
+  const int functions = NumberOfUsedComponents(this->BuiltMixture, this->BuiltNumberOfComponents);
+  for (int component = 0; component < functions; ++component)
+  {
+    const InputReport found = CheckFunctions(property, component, this->BuiltMeaning);
+    const std::string where =
+      functions > 1 ? "Component " + std::to_string(component) + ": " : std::string();
+    if (report.Error.empty() && !found.Error.empty())
+    {
+      report.Error = where + found.Error;
+    }
+    if (!found.Warning.empty())
+    {
+      report.Warning += (report.Warning.empty() ? "" : " ") + where + found.Warning;
+    }
+  }
+  if (GetBlendModel(this->BuiltMode).Visible == VisibleBy::Isovalues)
+  {
+    report.Warning += CheckIsovalues(property);
+  }
+  return report;
 }
 
 //------------------------------------------------------------------------------

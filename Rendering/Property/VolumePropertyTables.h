@@ -40,8 +40,10 @@ public:
    * @param mode blend mode; determines the meaning of opacity.
    * @param perUnitDistance for composite blending: opacity is the alpha of one unit distance.
    * @param components number of components of the scalars, used if they are independent.
+   * Returns an error as long as numbers of the property permit no picture; a warning about numbers
+   * that are left out once.
    */
-  void Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
+  InputReport Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
     ComponentMixture mixture, int components);
   /**
    * Converts the tables to normalised scalars.
@@ -88,6 +90,7 @@ public:
 private:
   void ReduceProperty(vtkVolumeProperty* property, BlendMode mode, OpacityMeaning meaning,
     ComponentMixture mixture, int components);
+  InputReport Check(vtkVolumeProperty* property) const;
   void FindFeatures();
   void NormalizeTables(
     const ScalarNormalization& normalization, const VolumeComponents& components);
@@ -106,6 +109,8 @@ private:
   std::vector<Isosurface> Isosurfaces;
   ObjectVersion BuiltProperty;
   ObjectVersion BuiltIsovalues;
+  /** Report of the last property that was reduced. */
+  InputReport Report;
   OpacityMeaning BuiltMeaning = OpacityMeaning::Attenuation;
   BlendMode BuiltMode = BlendMode::Composite;
   ScalarNormalization BuiltNormalization;

@@ -12,12 +12,11 @@ float lengthPerGridDepth()
   return min(viewToWorldUnit * perDepth, LARGEST_LENGTH_PER_DEPTH);
 }
 
-// Depth on the sight ray of a window depth.
+// Depth on the sight ray of a window depth, see RayFrame::DepthAt().
 float depthOf(float opaque)
 {
-  vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
-    vec2(depthNumerator.y, depthDenominator.y);
-  return fraction.x / fraction.y;
+  vec2 shares = vec2(opaque, 1.0 - opaque);
+  return opaque < 1.0 ? dot(shares, depthNumerator) / dot(shares, depthDenominator) : farDepth;
 }
 
 // Narrows the ray to the part where height + depth * perDepth, with the depth in the frame, is not

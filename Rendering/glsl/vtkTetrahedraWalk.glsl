@@ -36,6 +36,7 @@ uniform float tileSize;
 uniform mat3 viewToWorld;            // in units of viewToWorldUnit
 uniform float viewToWorldUnit;
 uniform float nearDepth;
+uniform float farDepth;
 uniform vec2 depthNumerator;
 uniform vec2 depthDenominator;
 #if NUMBER_OF_CLIPPING_PLANES > 0

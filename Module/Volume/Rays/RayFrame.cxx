@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace meniscus
@@ -64,6 +65,36 @@ bool IsFinite(const AffinePixelMap& map)
   return std::isfinite(sum.x) && std::isfinite(sum.y);
 }
 
+/** Bound of the rounding error of a - b, where both were computed by three roundings, as VTK does.
+ */
+double DifferenceError(double a, double b)
+{
+  return 1.5 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+}
+
+/**
+ * The planes at the clip depths d = 1 and d = -1. With the distance -z from the eye, d * w = P_2 is
+ * -z = (d P_33 - P_23) / (d P_32 - P_22), and depth = (center.z - z) / unit. If the ratio of the
+ * planes' distances is large, the denominator of the far plane is the small difference of two
+ * rounded numbers; in a parallel projection the numerator of the near plane is.
+ */
+void SetClippingPlanes(const glm::dmat4& p, double center, double unit, RayFrame& frame)
+{
+  const double sign = At(p, 3, 2) + At(p, 2, 2) > 0.0 ? -1.0 : 1.0;
+  const double ofNear = sign * (-At(p, 3, 2) - At(p, 2, 2));
+  double ofFar = sign * (At(p, 3, 2) - At(p, 2, 2)) / ofNear;
+  ofFar =
+    ofFar < 0.0 ? ofFar : std::max(0.0, ofFar - DifferenceError(At(p, 3, 2), At(p, 2, 2)) / ofNear);
+  const double nearest =
+    (sign * (-At(p, 3, 3) - At(p, 2, 3)) - DifferenceError(At(p, 3, 3), At(p, 2, 3))) / ofNear;
+  const double farthest = sign * (At(p, 3, 3) - At(p, 2, 3)) / ofNear;
+  frame.DepthDenominator = { ofFar, 1.0 };
+  frame.DepthNumerator = glm::dvec2(center * ofFar + farthest, center + nearest) / unit;
+  frame.NearDepth = frame.DepthNumerator.y;
+  frame.FarDepth = ofFar == 0.0 ? RayFrame::FarthestDepth
+                                : std::min(frame.DepthNumerator.x / ofFar, RayFrame::FarthestDepth);
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -74,7 +105,8 @@ bool operator==(const RayFrame& a, const RayFrame& b)
   const auto rest = [](const RayFrame& frame)
   {
     return std::tie(frame.RowX, frame.RowY, frame.RowDepth, frame.ViewToWorld, frame.Handedness,
-      frame.NearDepth, frame.SmallestCell, frame.DepthNumerator, frame.DepthDenominator);
+      frame.NearDepth, frame.FarDepth, frame.SmallestCell, frame.DepthNumerator,
+      frame.DepthDenominator);
   };
   return mapOf(a.Origin) == mapOf(b.Origin) && mapOf(a.Slope) == mapOf(b.Slope) &&
     rest(a) == rest(b);
@@ -156,11 +188,7 @@ RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
     return RayFrameStatus::Singular;
   }
 
-  // d * w = P_2: z = (P_23 - d P_33) / (d P_32 - P_22), depth = (center.z - z) / unit.
-  frame.DepthDenominator = glm::dvec2(At(p, 3, 2), -At(p, 2, 2)) * unit;
-  frame.DepthNumerator = { center.z * At(p, 3, 2) + At(p, 3, 3),
-    -center.z * At(p, 2, 2) - At(p, 2, 3) };
-  frame.NearDepth = frame.DepthAt(-1.0);
+  SetClippingPlanes(p, center.z, unit, frame);
   return std::isfinite(frame.NearDepth) ? RayFrameStatus::Ok : RayFrameStatus::Singular;
 }
 

@@ -64,21 +64,34 @@ struct RayFrame
    * 1.
    */
   int Handedness = 1;
-  /** Depth of the near clipping plane. */
+  /**
+   * Depths of the clipping planes. Where the rounding of the matrix leaves a plane open, it is the
+   * outermost place, which is FarthestDepth for a far plane that may be at infinity.
+   */
   double NearDepth = 0.0;
+  double FarDepth = FarthestDepth;
   /** RayFrameInput::SmallestCell. */
   double SmallestCell = 1.0;
   /**
-   * Depth = (d * DepthNumerator.x + .y) / (d * DepthDenominator.x + .y), with the clip depth d in
-   * [-1, 1].
+   * Depth = dot(share, DepthNumerator) / dot(share, DepthDenominator) between the planes, where the
+   * share of the far plane, x, is the window depth in [0, 1], and that of the near plane, y, the
+   * rest of 1. The denominator of the near plane is 1.
    */
   glm::dvec2 DepthNumerator{ 0.0 };
   glm::dvec2 DepthDenominator{ 1.0 };
 
+  static constexpr double FarthestDepth = 1.0e+30;
+
+  /** @param clipDepth in [-1, 1]. */
   double DepthAt(double clipDepth) const
   {
-    return (clipDepth * this->DepthNumerator.x + this->DepthNumerator.y) /
-      (clipDepth * this->DepthDenominator.x + this->DepthDenominator.y);
+    if (!(clipDepth < 1.0))
+    {
+      return this->FarDepth;
+    }
+    const glm::dvec2 shares(0.5 + 0.5 * clipDepth, 0.5 - 0.5 * clipDepth);
+    return (shares.x * this->DepthNumerator.x + shares.y * this->DepthNumerator.y) /
+      (shares.x * this->DepthDenominator.x + shares.y * this->DepthDenominator.y);
   }
 };
 

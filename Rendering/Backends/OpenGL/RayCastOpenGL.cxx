@@ -502,6 +502,7 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   program->SetUniformf("viewToWorldUnit", static_cast<float>(unit));
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
+  program->SetUniformf("farDepth", static_cast<float>(rays.FarDepth));
   program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
   program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
   program->SetUniformf(

@@ -275,6 +275,48 @@ TEST(TetrahedraRayCastScenes, ClippingRangeThroughTheMesh)
   }
 }
 
+// A near plane nearly at the eye, and a far plane at a distance that no float holds, cut nothing
+// off and take no digits from anything.
+TEST(TetrahedraRayCastScenes, ClippingRangesOfAnyRatio)
+{
+  // The planes of the truth remove this from rays that begin inside, in units of the mesh's radius;
+  // a volume of which 1 / 30 is nearly opaque takes thirty times as much of the light.
+  constexpr double removed = 1.0e-6;
+  constexpr double ranges[][2] = { { 1.0e-4, 1.0e+9 }, { 1.0e-7, 30.0 }, { 1.0e-12, 30.0 },
+    { 1.0e-12, 1.0e+30 }, { 1.0e-30, 30.0 }, { 1.0e-300, 30.0 }, { 1.0e-300, 1.0e+300 } };
+  const Block block;
+  for (const bool inside : { false, true })
+  {
+    RayCastScene scene(block.Mesh, block.Property, Size, Size);
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+    vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
+    if (inside)
+    {
+      camera->SetPosition(0.31, 0.12, 0.07);
+      camera->SetFocalPoint(1.0, 0.4, -0.3);
+      camera->SetViewAngle(70.0);
+    }
+    camera->SetClippingRange(removed, 30.0);
+    const FloatImage truth = scene.RenderFloat();
+    for (const double(&range)[2] : ranges)
+    {
+      camera->SetClippingRange(range[0], range[1]);
+      const FloatImage picture = scene.RenderFloat();
+      double worst = 0.0;
+      double most = 0.0;
+      for (int i = 0; i < Size * Size; ++i)
+      {
+        const double opacity = picture.GetPixel(i % Size, i / Size)[3];
+        worst = std::max(worst, std::fabs(opacity - truth.GetPixel(i % Size, i / Size)[3]));
+        most = std::max(most, opacity);
+      }
+      EXPECT_GT(most, 0.5);
+      EXPECT_LT(worst, 30.0 * (inside ? std::max(removed, range[0]) : removed))
+        << range[0] << " to " << range[1];
+    }
+  }
+}
+
 TEST(TetrahedraRayCastScenes, OpaqueGeometryInFrontInsideAndBehind)
 {
   const Block block;

@@ -221,8 +221,8 @@ TEST_P(PacketWalkTest, OpaqueDepthAndNearPlaneCutTheRay)
   PictureScene scene = MakeScene(KuhnGrid(2), 1.0);
   scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
   // Window depth of the mesh's centre, where the depth is 0: half of the cube is in front of it.
-  const double clipDepth = -scene.Frame.DepthNumerator.y / scene.Frame.DepthNumerator.x;
-  const auto half = static_cast<float>(0.5 * clipDepth + 0.5);
+  const glm::dvec2& numerator = scene.Frame.DepthNumerator;
+  const auto half = static_cast<float>(numerator.y / (numerator.y - numerator.x));
   const double expected = 1.0 - std::exp(-0.5);
   EXPECT_NEAR(CastPicture(scene, 60, GetParam(), half).Alpha(33, 31), expected, 1e-6);
   scene.Frame.NearDepth = 0.0;

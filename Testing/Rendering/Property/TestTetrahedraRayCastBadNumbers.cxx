@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers of a volume property that are not finite: they are told, and the picture is that of the
+// others.
+#include "RayCastScene.h"
+
+#include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 64;
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+using Edit = std::function<void(vtkVolumeProperty*)>;
+
+vtkPiecewiseFunction* OpacityOf(vtkVolumeProperty* property)
+{
+  return property->GetScalarOpacity();
+}
+
+struct Drawn
+{
+  ByteImage Picture;
+  vtkSmartPointer<ErrorObserver> Told;
+};
+
+/** The second of two frames, and what both of them told. */
+Drawn Draw(int blendMode, const Edit& edit)
+{
+  const Grid grid = MakeBlock(4, WavyField(2.0));
+  vtkNew<vtkVolumeProperty> property;
+  property->SetScalarOpacityUnitDistance(1.0);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(-1.0, 0.1);
+  opacity->AddPoint(0.2, 0.9);
+  opacity->AddPoint(1.0, 0.4);
+  property->SetScalarOpacity(opacity);
+  vtkNew<vtkColorTransferFunction> color;
+  color->AddRGBPoint(-1.0, 1.0, 0.2, 0.1);
+  color->AddRGBPoint(1.0, 0.1, 0.5, 1.0);
+  property->SetColor(color);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.1);
+  edit(property);
+  RayCastScene scene(grid, property, Size, Size);
+  scene.GetRayCaster()->SetBlendMode(blendMode);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  Drawn drawn;
+  drawn.Told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  drawn.Told->Observe(scene.GetRayCaster());
+  scene.RenderBytes();
+  drawn.Picture = scene.RenderBytes();
+  return drawn;
+}
+
+/** Expects the picture of another edit of the property, and one warning with these words. */
+void ExpectWarning(
+  int blendMode, const Edit& edit, const Edit& same, const std::vector<std::string>& words)
+{
+  const Drawn drawn = Draw(blendMode, edit);
+  const Drawn expected = Draw(blendMode, same);
+  EXPECT_TRUE(expected.Told->Warnings.empty());
+  EXPECT_TRUE(drawn.Picture.Rgb == expected.Picture.Rgb) << words.front();
+  EXPECT_TRUE(drawn.Told->Errors.empty());
+  ASSERT_EQ(drawn.Told->Warnings.size(), 1u) << words.front();
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(drawn.Told->Warnings.front().find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << drawn.Told->Warnings.front();
+  }
+}
+
+/** Expects an empty picture, and an error with these words. */
+void ExpectError(const Edit& edit, const std::vector<std::string>& words)
+{
+  const Drawn drawn = Draw(vtkVolumeMapper::COMPOSITE_BLEND, edit);
+  const Drawn empty = Draw(vtkVolumeMapper::COMPOSITE_BLEND,
+    [](vtkVolumeProperty* property) { OpacityOf(property)->RemoveAllPoints(); });
+  EXPECT_TRUE(drawn.Picture.Rgb == empty.Picture.Rgb);
+  EXPECT_FALSE(drawn.Told->Errors.empty());
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(drawn.Told->GetText().find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << drawn.Told->GetText();
+  }
+}
+
+void Keep(vtkVolumeProperty*) {}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastBadNumbers, NodesOfTheOpacity)
+{
+  const int composite = vtkVolumeMapper::COMPOSITE_BLEND;
+  for (const double bad : { NaN, Infinity, -Infinity })
+  {
+    ExpectWarning(composite,
+      [&](vtkVolumeProperty* property) { OpacityOf(property)->AddPoint(bad, 0.7); }, Keep,
+      { "1 of the 4 nodes of the scalar opacity is not finite", ", 0.7)" });
+    ExpectWarning(composite,
+      [&](vtkVolumeProperty* property) { OpacityOf(property)->AddPoint(0.5, bad); }, Keep,
+      { "1 of the 4 nodes of the scalar opacity is not finite", "(0.5, " });
+  }
+  ExpectWarning(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+    [](vtkVolumeProperty* property)
+    {
+      OpacityOf(property)->AddPoint(0.5, NaN);
+      OpacityOf(property)->AddPoint(0.6, NaN);
+      OpacityOf(property)->AddPoint(0.7, 0.2, NaN, 0.0);
+    },
+    Keep,
+    { "3 of the 6 nodes of the scalar opacity are not finite, the first of them (0.5, nan)" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, NodesOfTheColor)
+{
+  for (const double bad : { NaN, Infinity, -Infinity })
+  {
+    ExpectWarning(vtkVolumeMapper::COMPOSITE_BLEND,
+      [&](vtkVolumeProperty* property)
+      { property->GetRGBTransferFunction()->AddRGBPoint(0.1, 0.2, bad, 0.3); },
+      Keep, { "1 of the 3 nodes of the colour function is not finite, (0.1, 0.2, " });
+    ExpectWarning(vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
+      [&](vtkVolumeProperty* property)
+      { property->GetRGBTransferFunction()->AddRGBPoint(bad, 0.2, 0.3, 0.3); },
+      Keep, { "1 of the 3 nodes of the colour function is not finite" });
+  }
+  const auto setGray = [](vtkVolumeProperty* property, bool bad)
+  {
+    vtkNew<vtkPiecewiseFunction> gray;
+    gray->AddPoint(-1.0, 0.2);
+    gray->AddPoint(1.0, 0.9);
+    if (bad)
+    {
+      gray->AddPoint(0.0, NaN);
+    }
+    property->SetColor(gray);
+  };
+  ExpectWarning(
+    vtkVolumeMapper::COMPOSITE_BLEND, [&](vtkVolumeProperty* property) { setGray(property, true); },
+    [&](vtkVolumeProperty* property) { setGray(property, false); },
+    { "1 of the 3 nodes of the grey levels is not finite, (0, nan)" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, NodesOfTheGradientOpacity)
+{
+  const auto setGradient = [](vtkVolumeProperty* property, bool bad)
+  {
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->AddPoint(0.0, 0.1);
+    opacity->AddPoint(4.0, 1.0);
+    if (bad)
+    {
+      opacity->AddPoint(2.0, NaN);
+    }
+    property->SetGradientOpacity(opacity);
+  };
+  ExpectWarning(
+    vtkVolumeMapper::COMPOSITE_BLEND,
+    [&](vtkVolumeProperty* property) { setGradient(property, true); },
+    [&](vtkVolumeProperty* property) { setGradient(property, false); },
+    { "1 of the 3 nodes of the gradient opacity is not finite, (2, nan)" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, Isovalues)
+{
+  ExpectWarning(vtkVolumeMapper::ISOSURFACE_BLEND,
+    [](vtkVolumeProperty* property) { property->GetIsoSurfaceValues()->SetValue(1, NaN); }, Keep,
+    { "isovalue of number 1 is nan" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, NothingIsLeft)
+{
+  ExpectError(
+    [](vtkVolumeProperty* property)
+    {
+      OpacityOf(property)->RemoveAllPoints();
+      OpacityOf(property)->AddPoint(0.0, NaN);
+      OpacityOf(property)->AddPoint(1.0, NaN);
+    },
+    { "2 of the 2 nodes of the scalar opacity are not finite", "(0, nan)", "no other node",
+      "nothing is rendered" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, UnitDistance)
+{
+  for (const double bad : { 0.0, -1.0, NaN, Infinity, -Infinity })
+  {
+    std::ostringstream number;
+    number << bad;
+    const Edit edit = [bad](vtkVolumeProperty* property)
+    { property->SetScalarOpacityUnitDistance(bad); };
+    ExpectError(edit, { "ScalarOpacityUnitDistance", number.str(), "above 0" });
+    // A projection does not use it.
+    const Drawn projected = Draw(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND, edit);
+    const Drawn expected = Draw(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND, Keep);
+    EXPECT_TRUE(projected.Picture.Rgb == expected.Picture.Rgb);
+    EXPECT_TRUE(projected.Told->Errors.empty());
+  }
+}
