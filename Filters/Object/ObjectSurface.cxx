@@ -4,6 +4,7 @@
 
 #include "Filters/Common/TouchingPolygon.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -13,6 +14,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
 
@@ -21,6 +23,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 namespace meniscus
@@ -147,10 +150,10 @@ public:
   }
 
 private:
-  /** Divides all concave polygons at once. */
+  /** Divides all concave polygons at once, at a size of 1: tolerances of VTK are lengths. */
   void Triangulate()
   {
-    vtkNew<vtkCellArray> polygons;
+    this->Scaled->SetDataTypeToDouble();
     vtkNew<vtkIdTypeArray> numbers;
     numbers->SetName(CellIds);
     const vtkIdType before = this->From->GetNumberOfVerts() + this->From->GetNumberOfLines();
@@ -159,17 +162,44 @@ private:
       vtkIdType count = 0;
       const vtkIdType* ids = nullptr;
       this->From->GetPolys()->GetCellAtId(cell - before, count, ids);
-      polygons->InsertNextCell(count, ids);
+      this->AddScaled(count, ids);
       numbers->InsertNextValue(cell);
     }
     vtkNew<vtkPolyData> data;
-    data->SetPoints(this->From->GetPoints());
-    data->SetPolys(polygons);
+    data->SetPoints(this->Scaled);
+    data->SetPolys(this->ScaledPolygons);
     data->GetCellData()->AddArray(numbers);
     vtkNew<vtkTriangleFilter> division;
     division->SetInputData(data);
     division->Update();
     this->Triangles = division->GetOutput();
+  }
+
+  void AddScaled(vtkIdType count, const vtkIdType* ids)
+  {
+    vtkBoundingBox box;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      box.AddPoint(this->From->GetPoint(ids[i]));
+    }
+    glm::dvec3 middle;
+    box.GetCenter(&middle.x);
+    const double size = box.GetMaxLength();
+    this->ScaledPolygons->InsertNextCell(static_cast<int>(count));
+    std::unordered_map<vtkIdType, vtkIdType> known; // a polygon may touch itself at a point
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const auto [place, isNew] = known.emplace(ids[i], this->Scaled->GetNumberOfPoints());
+      if (isNew)
+      {
+        glm::dvec3 point;
+        this->From->GetPoint(ids[i], &point.x);
+        point = (point - middle) / size;
+        this->Scaled->InsertNextPoint(&point.x);
+        this->Originals.push_back(ids[i]);
+      }
+      this->ScaledPolygons->InsertCellPoint(place->second);
+    }
   }
 
   /** Cells in the order of the input; the triangles of a polygon are in the order of their ids. */
@@ -187,24 +217,41 @@ private:
         vtkIdType count = 0;
         const vtkIdType* ids = nullptr;
         this->Triangles->GetPolys()->GetCellAtId(next, count, ids);
-        this->Add(count, ids, cell);
+        this->AddTriangle(ids, cell);
         isDivided = true;
       }
-      if (!isDivided)
+      if (!isDivided && !this->DivideTouching(cell))
       {
         vtkIdType count = 0;
         const vtkIdType* ids = nullptr;
         iterator->GetCurrentCell(count, ids);
-        const bool isConcave = std::binary_search(this->Concave.begin(), this->Concave.end(), cell);
-        if (!isConcave ||
-          !DivideTouchingPolygon(this->From->GetPoints(), count, ids,
-            [&](const vtkIdType* three) { this->Add(3, three, cell); }))
-        {
-          this->Add(count, ids, cell);
-        }
+        this->Add(count, ids, cell);
       }
       ++cell;
     }
+  }
+
+  /** Divides a concave polygon that vtkTriangleFilter has left out. */
+  bool DivideTouching(vtkIdType cell)
+  {
+    const auto place = std::lower_bound(this->Concave.begin(), this->Concave.end(), cell);
+    if (place == this->Concave.end() || *place != cell)
+    {
+      return false;
+    }
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    this->ScaledPolygons->GetCellAtId(place - this->Concave.begin(), count, ids);
+    return DivideTouchingPolygon(this->Scaled, count, ids,
+      [this, cell](const vtkIdType* three) { this->AddTriangle(three, cell); });
+  }
+
+  void AddTriangle(const vtkIdType* scaled, vtkIdType cell)
+  {
+    const auto get = [this, scaled](int k)
+    { return this->Originals[static_cast<std::size_t>(scaled[k])]; };
+    const vtkIdType ids[3] = { get(0), get(1), get(2) };
+    this->Add(3, ids, cell);
   }
 
   void Add(vtkIdType count, const vtkIdType* ids, vtkIdType cell)
@@ -240,6 +287,9 @@ private:
 
   vtkPolyData* From;
   const std::vector<vtkIdType>& Concave;
+  vtkNew<vtkPoints> Scaled; ///< of the concave polygons, each about the origin
+  vtkNew<vtkCellArray> ScaledPolygons;
+  std::vector<vtkIdType> Originals; ///< points of the input, by the scaled ones
   vtkSmartPointer<vtkPolyData> Triangles;
   vtkNew<vtkCellArray> Polygons;
   vtkNew<vtkIdTypeArray> Sources;

@@ -14,13 +14,18 @@ namespace meniscus
 namespace
 {
 
-// Roots closer than this, in units of the facet, are the same: near a caustic two roots merge, and
-// Newton's last step of 1e-5 leaves an error of that order.
+// Roots closer than this are the same, in units of the facet or, where that is smaller, of the
+// distance from the eye or the point: near a caustic two roots merge, and Newton's last step of
+// 1e-5 of the same units leaves an error of that order.
 constexpr double SameRoot = 1e-5;
 
-// Parts have at least 2^-14 of the facet's size. A smaller undecided triangle holds a double root,
-// on a caustic, and Newton's method decides.
+// Parts have at least 2^-14 of the facet's size, or of that distance. A smaller undecided triangle
+// holds a double root, on a caustic, and Newton's method decides.
 constexpr int DeepestLevel = 14;
+
+// Level of the smallest parts, wherever eye and point are. Their sides still have 13 exact binary
+// digits.
+constexpr int LastLevel = 40;
 
 // Isolated roots take at most a dozen divisions each, a few more near a caustic. A ring of roots
 // would need a division of every triangle that it crosses, on every level.
@@ -171,9 +176,17 @@ PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle, double cone)
 }
 
 //------------------------------------------------------------------------------
+bool PatchRoots::IsDeepest(const Triangle& triangle, int depth) const
+{
+  const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
+  return depth >= DeepestLevel &&
+    (depth >= LastLevel || std::ldexp(this->Size, DeepestLevel - depth) <= nearest);
+}
+
+//------------------------------------------------------------------------------
 void PatchRoots::Search(const Triangle& triangle, int depth)
 {
-  const bool isDeepest = depth == DeepestLevel;
+  const bool isDeepest = this->IsDeepest(triangle, depth);
   const bool isLast = isDeepest || this->Divisions >= MostDivisions;
   // At the last level a cone is as small as the resolution of Newton's method.
   const Verdict verdict = Judge(triangle, isLast ? 0.0 : this->BoundCone(triangle, depth));
@@ -274,9 +287,11 @@ void PatchRoots::Divide(const Triangle& t, int depth)
 //------------------------------------------------------------------------------
 void PatchRoots::Add(const SightRoot& root)
 {
+  const double nearest = std::sqrt(this->Equation.GetSquaredDistance(root.At.Position));
+  const double same = SameRoot * std::min(1.0, nearest / this->Size);
   for (const SightRoot& other : *this)
   {
-    if (std::max(std::fabs(root.B.x - other.B.x), std::fabs(root.B.y - other.B.y)) < SameRoot)
+    if (std::max(std::fabs(root.B.x - other.B.x), std::fabs(root.B.y - other.B.y)) < same)
     {
       return;
     }

@@ -79,6 +79,7 @@ private:
   };
 
   bool IsFar() const;
+  bool IsDeepest(const Triangle& triangle, int depth) const;
   void Search(const Triangle& triangle, int depth);
   void Divide(const Triangle& triangle, int depth);
   bool TakeRoot(const Triangle& triangle);

@@ -16,16 +16,20 @@ namespace
 {
 
 // An edge is divided into at most 32 parts, except next to the limit of incidence. Finer details
-// lie within 1/32 of a facet of a focus.
+// lie within 1/32 of a facet of a focus. Divisions of wide sub-cells do not count.
 constexpr int DeepestSides = 5;
 
 // Chords of the limit are divided until they are within the tolerance, but not below 1/256 of a
 // facet.
 constexpr int DeepestChords = 8;
 
+// Sides that are longer than their distance from the eye are wide, down to this part of the facet,
+// about PatchCrossings::Border.
+constexpr double ShortestWideSide = 0x1p-26;
+
 // The limit on a side is bracketed to 2^-16 of it, far below the tolerance. Coordinates of nodes
-// then have at most 24 binary digits, and midpoints are exact: both patches that share an edge
-// compute them alike.
+// then have at most 24 binary digits, and 26 more in wide sub-cells. Midpoints are exact: both
+// patches that share an edge compute them alike.
 constexpr int LimitSteps = 16;
 
 const double RightAngle = std::acos(0.0);
@@ -97,24 +101,51 @@ bool SubCellDivision::FindSplit(const CurvedPatch& patch, const SubCellNode& a,
     {
       return false; // the part without rays of a side that has been divided
     }
+    if (this->IsWide(a, b))
+    {
+      split = this->MakeNode(patch, 0.5 * (a.B + b.B));
+      return true;
+    }
     split = a.From.IsValid ? this->FindLimit(patch, a, b) : this->FindLimit(patch, b, a);
     return true;
   }
   const bool isChord = a.IsAtLimit && b.IsAtLimit;
-  if (depth >= (isChord ? DeepestChords : DeepestSides))
+  const bool isWide = this->IsWide(a, b);
+  if (depth >= (isChord ? DeepestChords : DeepestSides) && !isWide)
   {
     return false;
   }
   split = this->MakeNode(patch, 0.5 * (a.B + b.B));
   if (!a.From.IsValid)
   {
-    return split.From.IsValid || this->MayReachLimit(a, split, b);
+    return split.From.IsValid || isWide || this->MayReachLimit(a, split, b);
   }
   if (isChord)
   {
     return this->IsOffLimit(a, split, b);
   }
   return !split.From.IsValid || this->IsBent(a, split, b);
+}
+
+//------------------------------------------------------------------------------
+// True if a side is longer than its distance from the eye: places on it are seen in directions that
+// its ends and its middle do not show.
+bool SubCellDivision::IsWide(const SubCellNode& a, const SubCellNode& b) const
+{
+  const glm::dvec3& first = a.From.At.Position;
+  const glm::dvec3& second = b.From.At.Position;
+  const glm::dvec3 along = second - first;
+  const glm::dvec3 middle = 0.5 * (first + second) - this->Geometry.GetMedia().Eye;
+  const glm::dvec2 part = glm::abs(b.B - a.B);
+  return glm::dot(along, along) > glm::dot(middle, middle) &&
+    std::max(part.x, part.y) > ShortestWideSide;
+}
+
+//------------------------------------------------------------------------------
+bool SubCellDivision::IsWide(const SubCell& nodes) const
+{
+  return this->IsWide(nodes[0], nodes[1]) || this->IsWide(nodes[1], nodes[2]) ||
+    this->IsWide(nodes[2], nodes[0]);
 }
 
 //------------------------------------------------------------------------------

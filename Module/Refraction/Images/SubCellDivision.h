@@ -6,7 +6,8 @@
  * Whether and where a side of a sub-cell is divided depends on that side alone, so that neighbours,
  * of the same patch or of two, have the same nodes. Rays exist up to a limit of the angle of
  * incidence: the critical angle, or a right angle at a silhouette of the membrane. A side that
- * crosses the limit is divided there, and sub-cells end there, too.
+ * crosses the limit is divided there, and sub-cells end there, too. Facets may be much wider than
+ * their distance from the eye, which sees such a limit in a small part of them.
  */
 #ifndef meniscus_Refraction_Images_SubCellDivision_h
 #define meniscus_Refraction_Images_SubCellDivision_h
@@ -93,8 +94,6 @@ private:
       split[k] = this->FindSplit(patch, nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth, middle[k]);
     }
     const int count = split[0] + split[1] + split[2];
-    const auto divide = [this, &patch, depth, &isOutside, &map](const SubCell& part)
-    { this->Divide(patch, part, depth + 1, isOutside, map); };
     if (count == 0)
     {
       if (allValid)
@@ -103,6 +102,9 @@ private:
       }
       return;
     }
+    const int next = this->IsWide(nodes) ? depth : depth + 1;
+    const auto divide = [this, &patch, next, &isOutside, &map](const SubCell& part)
+    { this->Divide(patch, part, next, isOutside, map); };
     if (count == 3)
     {
       for (std::size_t k = 0; k < 3; ++k)
@@ -137,6 +139,8 @@ private:
   SubCellNode MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const;
   bool FindSplit(const CurvedPatch& patch, const SubCellNode& a, const SubCellNode& b, int depth,
     SubCellNode& split) const;
+  bool IsWide(const SubCellNode& a, const SubCellNode& b) const;
+  bool IsWide(const SubCell& nodes) const;
   SubCellNode FindLimit(
     const CurvedPatch& patch, const SubCellNode& valid, const SubCellNode& invalid) const;
   bool IsBent(const SubCellNode& a, const SubCellNode& middle, const SubCellNode& b) const;

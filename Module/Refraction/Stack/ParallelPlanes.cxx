@@ -22,16 +22,16 @@ constexpr double LargestDeviation = 16.0 * std::numeric_limits<float>::epsilon()
 // The same for coordinates of double precision.
 constexpr double LargestRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-// Depth of a surface's plane along the axis, and whether it is exact. Returns false if the surface
-// is not a plane at right angles to the axis.
+// Depth of a surface's plane along the axis, and the deviation from it in units of the surface's
+// radius. Returns false if the surface is not a plane at right angles to the axis.
 bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const glm::dvec3& eye,
-  double& depth, bool& isExact)
+  double& depth, double& deviation)
 {
   const Membrane& membrane = link.Surface->GetMembrane();
   const std::vector<glm::dvec3>& positions = membrane.GetPositions();
   const double side = link.Passage.FromFront ? -1.0 : 1.0;
   depth = glm::dot(axis, positions[0] + link.Shift - eye);
-  double deviation = 0.0;
+  deviation = 0.0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
     const glm::dvec3& normal = membrane.GetNormals()[i];
@@ -46,7 +46,6 @@ bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const 
     }
     deviation = std::max({ deviation, height, lean });
   }
-  isExact = isExact && deviation <= LargestRounding;
   return depth > 0.0 &&
     IsConvexField(membrane, link.Surface->GetPatches(), HeightFrame(side * axis));
 }
@@ -86,14 +85,19 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   for (const RefractionStack::Link& link : stack.GetLinks())
   {
     double depth = 0.0;
-    if (!FindPlane(link, this->Axis, this->Eye, depth, this->Exact) || depth <= layers.back().Begin)
+    double deviation = 0.0;
+    if (!FindPlane(link, this->Axis, this->Eye, depth, deviation) || depth <= layers.back().Begin)
     {
       return;
     }
+    this->Exact = this->Exact && deviation <= LargestRounding;
     layers.back().End = depth;
     layers.push_back({ depth, std::numeric_limits<double>::infinity(), link.Passage.Behind, 0.0 });
-    this->Slack =
-      std::max(this->Slack, 2.0 * LargestDeviation * link.Surface->GetMembrane().GetRadius());
+    // The point may be as far from its plane; the coordinates of both are rounded.
+    const RefractingSurface& surface = *link.Surface;
+    this->Slack = std::max(this->Slack,
+      2.0 * deviation * surface.GetMembrane().GetRadius() +
+        surface.GetSlack(glm::length(stack.GetOrigin() + link.Shift)));
   }
   const double least = FindLeastIndex(layers, layers.size());
   for (PlaneLayer& layer : layers)

@@ -4,6 +4,7 @@
 
 #include "Refraction/Stack/StackShot.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ constexpr std::size_t MostAims = 16;
 //------------------------------------------------------------------------------
 bool StackPassage::Find()
 {
-  if (this->TryMiddles() || this->TryAims())
+  if (this->TryMiddles() || this->TryFeet() || this->TryAims())
   {
     return true;
   }
@@ -77,6 +78,26 @@ bool StackPassage::TryMiddles()
       }
     }
     begin = stride / 2; // odd multiples of the next stride are new
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+// Rays to the places of facets next to the eye's foot: where large facets are seen at a slant,
+// rays may be totally reflected nearly everywhere.
+bool StackPassage::TryFeet()
+{
+  const RefractionStack::Link& first = this->Stack.GetLinks().front();
+  const auto count = static_cast<std::int32_t>(first.Surface->GetMembrane().GetFacets().size());
+  for (std::int32_t i = 0; i < count; ++i)
+  {
+    const glm::dvec2 foot =
+      first.Surface->GetPatches().GetPatch(i).ProjectToFacet(this->Stack.GetEye() - first.Shift);
+    const glm::dvec2 inside = glm::max(foot, glm::dvec2(0.0));
+    if (this->IsPassedAt(i, inside / std::max(1.0, inside.x + inside.y)))
+    {
+      return true;
+    }
   }
   return false;
 }

@@ -17,8 +17,8 @@ namespace meniscus
  * meets all others. At the last one it may be totally reflected, since it is there on the right
  * side, too.
  *
- * Rays to the middles of all patches are tried first, then some that are aimed at the second
- * surface. Patches that interval arithmetic does not
+ * Rays to the middles of all patches are tried first, then those next to the eye's foot, and
+ * some that are aimed at the second surface. Patches that interval arithmetic does not
  * exclude are divided, so that a share of a patch that passes is found even if it is small: next to
  * a critical angle or a border.
  */
@@ -41,6 +41,7 @@ private:
   };
 
   bool TryMiddles();
+  bool TryFeet();
   bool TryAims();
   bool TryParts(std::vector<Part>& parts);
   bool IsPassedAt(std::int32_t facet, const glm::dvec2& b);

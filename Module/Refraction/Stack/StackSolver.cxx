@@ -195,6 +195,7 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory) con
   if (!isFound)
   {
     memory.Changes.clear();
+    isFound = this->FindBehindPlanes(local, memory.Next);
   }
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
   {
@@ -280,6 +281,29 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
 }
 
 //------------------------------------------------------------------------------
+// The only image of a point behind parallel planes. Newton's method moves the sight ray by
+// rounding. Returns false if there is none, or if the point is seen within rounding of a critical
+// angle.
+bool StackSolver::FindBehindPlanes(const glm::dvec3& local, StackPath& path) const
+{
+  const int inFront = this->Planes.CountInFront(local);
+  if (inFront <= 0)
+  {
+    return false;
+  }
+  const StackTarget target{ local, static_cast<std::size_t>(inFront) };
+  SurfaceCrossing crossing;
+  path.Forget(this->Stack.GetLinks().size());
+  return this->Stack.FindNext(
+           0, this->Stack.GetEye(), this->Planes.FindSight(local, target.Count), crossing) &&
+    this->Stack.Trace({ crossing.Facet, crossing.B }, target.Count, false, path) ==
+    PathEnd::Passed &&
+    Shoot(this->Stack, target, { crossing.Facet, crossing.B }, ShotSteps, path) ==
+    ShotEnd::Converged &&
+    IsImage(this->Stack, target, path);
+}
+
+//------------------------------------------------------------------------------
 ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPath>& images) const
 {
   images.clear();
@@ -289,6 +313,11 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
     return ImageState::NotFinite;
   }
   StackPath path;
+  if (this->FindBehindPlanes(local, path))
+  {
+    images.push_back(path);
+    return ImageState::Found;
+  }
   bool isComplete = true;
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0; --count)
   {

@@ -222,6 +222,32 @@ TEST(ObjectSurfaces, ConcavePolygonsAreDividedAndTheirGlobalIdsAreNot)
   EXPECT_NE(view->GetOutput()->GetCellData()->GetGlobalIds(), nullptr) << "no cell is cut";
 }
 
+// VTK's division has tolerances that are lengths.
+TEST(ObjectSurfaces, ConcavePolygonsOfAnySizeAreDivided)
+{
+  for (const double unit : { 1e-9, 1e-6, 1e-3, 1e6 })
+  {
+    const auto scale = [unit](vtkSmartPointer<vtkPolyData> data)
+    {
+      vtkNew<vtkPoints> points;
+      points->SetDataTypeToDouble();
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+      {
+        const glm::dvec3 point = unit * PointOf(data, i);
+        points->InsertNextPoint(point.x, point.y, point.z);
+      }
+      data->SetPoints(points);
+      return data;
+    };
+    const auto view = MakeView(scale(MakeConcave()));
+    view->SetMembraneData(scale(MakeFlatMembrane()));
+    view->SetEyePosition(15.0 * unit, 1e6 * unit, 15.0 * unit);
+    view->Update();
+    EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 8) << unit;
+    EXPECT_NEAR(AreaOfTriangles(view->GetOutput(), 1) / (unit * unit), 700.0, 1e-2) << unit;
+  }
+}
+
 /** A frame: a square with a square hole that a bridge joins to its border. */
 vtkSmartPointer<vtkPolyData> MakeFrame(double half, double y)
 {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Curved patches and the sight points on them: closed forms, analytic membranes, a dense search.
+#include "ExactStack.h"
 #include "HeightField.h"
 #include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -64,6 +65,42 @@ TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
     EXPECT_LT(ours.Mean, 1e-8) << row.Table << " " << row.SphereRatio << " " << row.EyeHeight;
     EXPECT_LT(ours.Largest, 1e-6) << row.Table << " " << row.SphereRatio << " " << row.EyeHeight;
     EXPECT_GE(ours.Points, static_cast<std::size_t>(0.98 * row.Points)) << row.Table;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Parts of a facet that may be a million times as wide as the eye is high.
+TEST(RefractionCurved, ImagesInHugeFacetsAreDecided)
+{
+  for (const double half : { 1e2, 1e4, 1e5, 1e6, 1e7 })
+  {
+    for (const double interior : { 1.333, 0.75 })
+    {
+      SCOPED_TRACE(::testing::Message() << "half width " << half << ", index " << interior);
+      MembraneMesh sea = meniscus::reference::MakePlane(0.0, 2.0 * half, 1);
+      sea.Translate(half * glm::dvec3(0.37, 0.0, -0.2));
+      const glm::dvec3 eye(0.3, 1.1, -0.4);
+      CurvedMembraneSolver geometry;
+      Set(geometry, sea, eye, 1.0, interior);
+      // Coordinates of the sea's rim and Newton's method have about 2e-16 of its width each.
+      const double rounding = 1e-11 + 1e-14 * half;
+      Random random(13);
+      for (int i = 0; i < 100; ++i)
+      {
+        const glm::dvec3 point(random(-0.8, 0.8), random(-2.2, -0.05), random(-0.8, 0.8));
+        std::vector<VirtualVertex> images;
+        ASSERT_EQ(geometry.FindImages(point, images), ImageState::Found);
+        ASSERT_EQ(images.size(), 1u);
+        const auto sine = [&images](const glm::dvec3& from)
+        {
+          const glm::dvec3 way = images[0].SightPoint - from;
+          return std::hypot(way.x, way.z) / glm::length(way);
+        };
+        EXPECT_NEAR(sine(eye), interior * sine(point), 20.0 * rounding);
+        EXPECT_NEAR(images[0].SightPoint.y, 0.0, rounding);
+      }
+      EXPECT_EQ(geometry.GetNumberOfUndecidedSearches(), 0);
+    }
   }
 }
 

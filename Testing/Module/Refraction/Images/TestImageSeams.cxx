@@ -386,6 +386,31 @@ TEST(RefractionSeamsCriticalAngle, SnellsWindowShowsWholeTriangles)
 }
 
 //------------------------------------------------------------------------------
+// Snell's window is a small part of facets that are up to a million times as wide as the eye is
+// deep, which reflect totally everywhere else.
+TEST(RefractionSeamsCriticalAngle, SnellsWindowIsFoundInHugeFacets)
+{
+  for (const double width : { 400.0, 2e3, 1e5, 1e7 })
+  {
+    for (const int cells : { 1, 2, 8 })
+    {
+      const HeightField field{ HeightField::Shape::Waves, width, 0.0, 0.03 * Pi, 1.333, 1.0 };
+      MembraneMesh mesh = field.MakeMesh(cells);
+      mesh.Translate(0.21 * width * glm::dvec3(1.0, 0.0, -0.7));
+      CurvedMembraneSolver geometry;
+      geometry.SetMembrane(mesh.AsInput());
+      geometry.SetEye({ 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
+      const std::array<glm::dvec3, 3> corners = { glm::dvec3(-9.0, -8.0, 1.0),
+        glm::dvec3(3.0, -8.0, 7.0), glm::dvec3(1.0, -8.0, -6.0) };
+      const double area =
+        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      EXPECT_NEAR(MapWholeTriangle(geometry, corners), area, 1e-9 * area)
+        << width << ", " << cells << " cells";
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 // Rays into the thinner medium below a dome leave it through the far flank and meet corners of the
 // ball that are in front of the flank. A place that Snell's law shows at a sight point is drawn in
 // the direction of this sight point.

@@ -17,6 +17,8 @@ namespace
 using meniscus::EyeStatus;
 using meniscus::ImageState;
 using meniscus::Interface;
+using meniscus::RayJet;
+using meniscus::StackPath;
 using meniscus::StackSolver;
 using meniscus::StackVertex;
 using meniscus::reference::ExactSurface;
@@ -24,6 +26,7 @@ using meniscus::reference::MakeCap;
 using meniscus::reference::MakeImage;
 using meniscus::reference::MakePlane;
 using meniscus::reference::MakeSphere;
+using meniscus::reference::MembraneMesh;
 using meniscus::reference::TraceExactly;
 using meniscus::testing::MakeSurface;
 using meniscus::testing::Random;
@@ -451,6 +454,74 @@ TEST(RefractionStack, ListBeginsAtFacetsMuchLargerThanTheNextSurface)
     SetStack(solver, list, { 7.0, 80.0, 3.0 });
     EXPECT_TRUE(solver.GetStack().HasPassage()) << half;
     EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u) << half;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Large facets that reflect nearly everywhere: the eye is in the denser medium. The surface behind
+// them is as large.
+TEST(RefractionStack, ListBeginsAtFacetsThatReflectNearlyEverywhere)
+{
+  for (const double half : { 300.0, 4e3, 7e4, 5e6 })
+  {
+    for (const double index : { 1.0003, 1.35 })
+    {
+      MembraneMesh first = MakePlane(0.0, 2.0 * half, 2);
+      first.Translate(half * glm::dvec3(0.3, 0.0, -0.2));
+      MembraneMesh second = MakePlane(-0.5, 200.0 * half, 1);
+      second.Translate(100.0 * half * glm::dvec3(-0.6, 0.0, 0.45));
+      StackSolver solver;
+      SetStack(solver,
+        { { MakeSurface(first), { index, 1.0 } }, { MakeSurface(second), { 1.0, 2.3 } } },
+        { 0.2, 1.5, 0.1 });
+      EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u) << half << ", index " << index;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Behind parallel planes a point has one image, which no search has to find: next to critical
+// angles searches end undecided. Truth: n sin t is the same in all layers.
+TEST(RefractionStack, PointsBehindPlanesNeedNoSearch)
+{
+  struct Trial
+  {
+    double Indices[3];
+    double HalfWidth;
+  };
+  for (const Trial& trial : { Trial{ { 2.4, 1.6115, 2.4 }, 60.0 }, Trial{ { 2.1, 1.5, 2.1 }, 60.0 },
+         Trial{ { 2.4, 1.6115, 2.4 }, 5e4 }, Trial{ { 1.5, 1.0, 1.333 }, 2e6 },
+         Trial{ { 2.4, 1.5, 2.3956 }, 2e6 } })
+  {
+    SCOPED_TRACE(::testing::Message() << trial.Indices[0] << ", " << trial.Indices[1] << ", "
+                                      << trial.Indices[2] << ", half width " << trial.HalfWidth);
+    const double* n = trial.Indices;
+    MembraneMesh first = MakePlane(0.0, 2.0 * trial.HalfWidth, 1);
+    first.Translate(trial.HalfWidth * glm::dvec3(0.3, 0.0, -0.2));
+    const glm::dvec3 eye(0.3, 2.1, -0.4);
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(first), { n[0], n[1] } },
+        { MakeSurface(MakePlane(-0.1, 120.0, 2)), { n[1], n[2] } } },
+      eye);
+    ASSERT_EQ(solver.GetStack().GetLinks().size(), 2u);
+    Random random(36);
+    for (int i = 0; i < 100; ++i)
+    {
+      const glm::dvec3 point(random(-0.8, 0.8), random(-2.2, -0.15), random(-0.8, 0.8));
+      std::vector<StackPath> images;
+      solver.FindImages(point, images);
+      ASSERT_EQ(images.size(), 1u);
+      ASSERT_EQ(images[0].Count, 2u);
+      const RayJet& last = images[0].GetLast();
+      const glm::dvec3 away = point - solver.GetStack().GetOrigin() - last.Origin;
+      // Coordinates have about 2e-16 of the half width; the tests' points are 0.05 away at least.
+      const double rounding = 1e-11 + 1e-14 * trial.HalfWidth;
+      EXPECT_LT(glm::length(glm::cross(away, last.Direction)), rounding);
+      const auto sine = [](const glm::dvec3& way) { return std::hypot(way.x, way.z); };
+      EXPECT_NEAR(n[0] * sine(images[0].Sight), n[2] * sine(last.Direction), rounding);
+    }
+    EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
   }
 }
 
