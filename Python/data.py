@@ -37,6 +37,23 @@ def with_array(leaf, name, in_points, values):
     return copy
 
 
+def replace_leaves(data, leaves, copies):
+    """Shallow copy of a data set or a composite one with other data sets in place of its leaves;
+    blocks that are not among the leaves are empty."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return copies[0]
+    blocks = data.NewInstance()
+    blocks.CopyStructure(data)
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        for leaf, copy in zip(leaves, copies):
+            if iterator.GetCurrentDataObject() is leaf:
+                blocks.SetDataSet(iterator, copy)
+        iterator.GoToNextItem()
+    return blocks
+
+
 def check_component(name, count, component):
     """Raises a ValueError unless a component of an array is a number below count or "magnitude";
     None is allowed if there is only one."""

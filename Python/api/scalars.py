@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of a mesh that are drawn: one, colours, or one for colours and one for opacity."""
+import warnings
+
 import numpy
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from ..arguments import check_name, check_values, refuse
-from ..data import check_component, with_array
+from ..data import check_component, replace_leaves, with_array
 from ..viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of
 from ..viewer.files import ReadingError
+from ..viewer.shown import choose_of_range
 
 # Array that is added to shallow copies of the data sets where several arrays are mixed.
 _MIXED = "Meniscus"
@@ -19,18 +22,8 @@ def copy_with(mesh, name, in_points, leaves, arrays):
     """Shallow copy of a mesh whose leaves have further arrays of a name, of points or cells; blocks
     that are not among the leaves are empty. arrays: numpy arrays, one per leaf."""
     copies = [with_array(leaf, name, in_points, array) for leaf, array in zip(leaves, arrays)]
-    if not isinstance(mesh, vtkCompositeDataSet):
-        return pyvista.wrap(copies[0])
-    blocks = mesh.NewInstance()
-    blocks.CopyStructure(mesh)
-    iterator = mesh.NewIterator()
-    iterator.InitTraversal()
-    while not iterator.IsDoneWithTraversal():
-        for leaf, copy in zip(leaves, copies):
-            if iterator.GetCurrentDataObject() is leaf:
-                blocks.SetDataSet(iterator, copy)
-        iterator.GoToNextItem()
-    return blocks
+    copy = replace_leaves(mesh, leaves, copies)
+    return copy if isinstance(mesh, vtkCompositeDataSet) else pyvista.wrap(copy)
 
 
 class Scalars:
@@ -63,6 +56,7 @@ class Scalars:
             self._take_colors(component)
         else:
             self._choose_component(component)
+            self._check_nearness()
 
     def _find(self, mesh, scalars, preference):
         """An array that is given is added to a shallow copy under PyVista's name for it."""
@@ -124,6 +118,21 @@ class Scalars:
         if count > 1:
             self.title += "-%s" % component
         self.component = None if component == "magnitude" else component
+
+    def _check_nearness(self):
+        """Warns of values for which functions have no nodes that are near enough."""
+        values = self.get_values()
+        whole = values.dtype.kind in "iu"
+        values = values[numpy.isfinite(values)]
+        if not values.size:
+            return
+        extremes = values.min(), values.max()
+        low, high = map(int if whole else float, extremes)
+        shown = choose_of_range(low, high, whole)
+        if not shown.is_plain():
+            warnings.warn("The values of '%s', from %r to %r, are too near to each other, or too "
+                          "large or small, for functions of colour and opacity; draw %s instead" % (
+                              self.name, low, high, shown.name_of(self.name)), stacklevel=4)
 
     def _take_colors(self, component):
         """Mixes the components as colour and opacity."""

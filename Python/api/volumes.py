@@ -106,6 +106,22 @@ def _choose_look(arguments, blending, light):
         arguments.setdefault("opacity", [ISOSURFACE_OPACITY] * 2)
 
 
+def _check_finite(arguments, unit_distance):
+    """Raises a ValueError for numbers that PyVista and VTK take without a word, and that leave
+    nothing to be seen."""
+    if unit_distance is not None and not 0.0 < unit_distance < math.inf:
+        raise ValueError("opacity_unit_distance must be a finite length above 0, not %r"
+                         % unit_distance)
+    for name in ("clim", "rng", "opacity"):
+        value = arguments.get(name)
+        if value is None or isinstance(value, str) or not hasattr(value, "__len__"):
+            continue
+        numbers_of = numpy.asarray(value)
+        if numbers_of.dtype.kind == "f" and not numpy.isfinite(numbers_of).all():
+            raise ValueError("%s must be finite numbers, not %r" % (
+                name, float(numbers_of[~numpy.isfinite(numbers_of)][0])))
+
+
 def _choose_blending(blending, isovalues, scalars):
     """Name of the blend mode, of which isovalues select isosurfaces if none is given."""
     if blending is None:
@@ -197,8 +213,9 @@ def add_to(
         opacity depend on the logarithm of the value; without clim, from the least value above 0 on.
 
     Raises ValueError for a mesh without volume, for several components without a choice, for
-    scalars that are missing or not finite, and for names of modes and colour maps that do not exist
-    (the message lists those that do); KeyError for the name of an array that does not exist.
+    scalars that are missing or not finite, for a unit distance, limits or opacities that are not
+    finite, and for names of modes and colour maps that do not exist (the message lists those that
+    do); KeyError for the name of an array that does not exist.
     """
     source, mesh = mesh, _wrap(mesh)
     if not hasattr(plotter, "add_volume"):
@@ -217,6 +234,7 @@ def add_to(
             raise ValueError("rgba=True has an opacity of its own; leave opacity_array out")
         chosen.add_opacity(opacity_array, opacity_component, opacity_clim)
     blending = _choose_blending(blending, isovalues, chosen)
+    _check_finite(arguments, opacity_unit_distance)
     properties = {key: arguments.pop(key) for key in list(arguments) if key[0].isupper()}
     check_color_map(arguments.get("cmap"))
     _choose_limits(arguments, chosen)

@@ -114,15 +114,16 @@ def _count_types(leaves):
                      for kind, count in sorted(counts.items()))
 
 
-def _check_ids(ids, points, what):
+def _check_ids(ids, points, what, of="point"):
     if ids.size and (ids.min() < 0 or ids.max() >= points):
         wrong = (ids < 0) | (ids >= points)
-        raise ReadingError(f"The mesh is damaged: {what} uses point {ids[wrong][0]}, but there "
-                           f"are {points} points")
+        raise ReadingError(f"The mesh is damaged: {what} uses {of} {ids[wrong][0]}, but there "
+                           f"are {points} {of}s")
 
 
-def _check_cells(cells, points, what="a cell"):
-    """Checks a vtkCellArray of a mesh with a number of points; None has no cells."""
+def _check_cells(cells, points, what="a cell", of="point"):
+    """Checks a vtkCellArray of a mesh with a number of points, or of what `of` names; None has no
+    cells."""
     if cells is None:
         return
     ids = vtk_to_numpy(cells.GetConnectivityArray())
@@ -131,20 +132,25 @@ def _check_cells(cells, points, what="a cell"):
                          or offsets[-1] > ids.size):
         raise ReadingError("The mesh is damaged: the offsets of the cells are not ascending "
                            f"numbers up to {ids.size}, the number of point indices")
-    _check_ids(ids, points, what)
+    _check_ids(ids, points, what, of)
 
 
 def _check_faces(grid):
     """Checks the faces of polyhedra."""
-    newer = hasattr(grid, "GetPolyhedronFaces")  # VTK 9.4
-    faces, places = (
-        (grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()) if newer
-        else (grid.GetFaces(), grid.GetFaceLocations()))
+    has_arrays = hasattr(grid, "GetPolyhedronFaces")  # VTK 9.4
+    faces, places = ((grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()) if has_arrays
+                     else (grid.GetFaces(), grid.GetFaceLocations()))
     polyhedra = numpy.flatnonzero(types_of(grid) == VTK_POLYHEDRON)
     if polyhedra.size and not (faces and places):
         raise ReadingError(f"The mesh is damaged: its {polyhedra.size} polyhedra have no faces")
-    if newer:
-        _check_cells(faces, grid.GetNumberOfPoints(), _FACE)
+    if has_arrays:
+        if polyhedra.size:
+            _check_cells(faces, grid.GetNumberOfPoints(), _FACE)
+            _check_cells(places, faces.GetNumberOfCells(), "a polyhedron", "face")
+            if places.GetNumberOfCells() != grid.GetNumberOfCells():
+                raise ReadingError("The mesh is damaged: it has the faces of "
+                                   f"{places.GetNumberOfCells()} cells, but there are "
+                                   f"{grid.GetNumberOfCells()}")
         return
     stream, points = vtk_to_numpy(faces) if polyhedra.size else None, grid.GetNumberOfPoints()
     for cell in polyhedra:
@@ -173,13 +179,18 @@ def _check_arrays(leaf):
 
 
 def _check_axes(grid):
-    """Checks that a rectilinear grid has a coordinate for each point of an axis."""
+    """Checks that a rectilinear grid has a coordinate for each point of an axis. Readers fill up
+    missing ones with anything."""
     axes = (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates())
     for axis, coordinates, size in zip("xyz", axes, grid.GetDimensions()):
         found = coordinates.GetNumberOfTuples() if coordinates else 0
         if found != size:
             raise ReadingError(f"The mesh is damaged: it has {found} coordinates for {size} points "
                                f"along {axis}")
+        steps = numpy.diff(vtk_to_numpy(coordinates).astype(float))
+        if not ((steps >= 0.0).all() or (steps <= 0.0).all()):
+            raise ReadingError(f"The mesh is damaged: its coordinates along {axis} do not ascend: "
+                               "some are missing or wrong")
 
 
 def check_damage(data):

@@ -147,12 +147,14 @@ def _split_clip(text):
 def make_scene(options, report=lambda line: None):
     """The scene of the options. report: see MeshScene."""
     limits = options.range and tuple(options.range)
-    scene = MeshScene(MeshSeries(options.mesh), options.array, limits, report)
-    steps = len(scene.series.get_times())
+    series = MeshSeries(options.mesh)
+    steps = len(series.get_times())
     if not -steps <= options.step < steps:
         raise ReadingError(f"There is no time step {options.step}; the mesh has {steps}")
-    if options.step % steps:
-        scene.set_step(options.step % steps)
+    step = options.step % steps
+    scene = MeshScene(series, options.array, limits, report, step)
+    if step != scene.step:
+        scene.set_step(step)
     scene.set_colors(options.colors)
     scene.set_density(options.density)
     scene.set_opacities(options.opacity)

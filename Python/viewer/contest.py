@@ -34,7 +34,7 @@ def format_row(found: Comparison) -> str:
 
 
 def _make_grid(scene: Any, association: str) -> Any:
-    leaves = [leaf for leaf in drawn_leaves_of(scene.data)
+    leaves = [leaf for leaf in drawn_leaves_of(scene.get_drawn())
               if _attributes_of(leaf, association).HasArray(scene.array)]
     values = [values_of(_attributes_of(leaf, association).GetArray(scene.array), None)
               for leaf in leaves]

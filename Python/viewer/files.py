@@ -13,6 +13,7 @@ import warnings
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
+from .appended import find_fault
 from .guard import noting_file
 
 _EXODUS = ("vtkIOExodus", "vtkExodusIIReader")
@@ -52,6 +53,8 @@ READERS = {
     ".obj": ("vtkIOGeometry", "vtkOBJReader"),
     ".ply": ("vtkIOPLY", "vtkPLYReader"),
 }
+# Endings of files of XML with data of their own.
+_WITH_APPENDED = (".vtu", ".vti", ".vtr", ".vts", ".vtp")
 # First bytes of files of libraries whose messages do not say that a file is of another kind, or
 # that end the process.
 _HDF = b"\x89HDF\r\n\x1a\n"
@@ -210,6 +213,9 @@ class _VTKFile:
     def __init__(self, name):
         self.name = name
         self.reader = _make_reader(name)
+        fault = find_fault(name) if ending_of(name) in _WITH_APPENDED else None
+        if fault:
+            raise ReadingError(f"{name}: {fault}")
         for method in ("SetFileName", "SetCaseFileName", "SetGeometryFileName"):
             if hasattr(self.reader, method):
                 getattr(self.reader, method)(name)

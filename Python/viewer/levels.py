@@ -231,7 +231,7 @@ class Levels:
         width = (self.high - self.low) / BINS
         self.areas = numpy.zeros(BINS)
         self.volumes = numpy.zeros(BINS)
-        if not lows.size or width <= 0.0:
+        if not lows.size or not 0.0 < width < numpy.inf:
             return
         # Changes of the areas and the volumes by bin, of each block.
         found = {}

@@ -19,6 +19,7 @@ from .curves import check_curve, fill_function, simplify
 from .furniture import Furniture
 from .levels import BINS, Levels
 from .reading import MeshSeries, ReadingError, arrays_of
+from .shown import Shown, choose_shown
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 # Modes with a curve of opacity of their own, by blend mode. In a projection and for isosurfaces an
@@ -36,6 +37,17 @@ SHADOW_AMBIENT = 0.5
 SHADOW_LAMP = (-1.2, 1.6, 1.0)
 SHADOW_INTENSITY = 2.2
 
+# Characters of the name of an array that are shown: a longer name covers the picture.
+LONGEST_NAME = 40
+
+
+def shorten(name):
+    """A name of at most LONGEST_NAME characters, in one line, with an ellipsis in place of the
+    rest."""
+    name = " ".join(name.split())
+    half = (LONGEST_NAME - 3) // 2
+    return name if len(name) <= LONGEST_NAME else f"{name[:half]}...{name[-half:]}"
+
 
 class MeshScene:
     """The volume of a MeshSeries in a vtkRenderer (attribute renderer).
@@ -43,12 +55,16 @@ class MeshScene:
     Every setter takes effect with the next frame. A name that does not exist is a ReadingError.
     """
 
-    def __init__(self, series, array=None, limits=None, report=lambda line: None):
+    def __init__(self, series, array=None, limits=None, report=lambda line: None,
+                 step=0):
         """array, limits: see set_array(); default: the first array. report: gets a line about the
-        mesh as soon as it is read, before work that may take long."""
+        mesh as soon as it is read, before work that may take long. step: shown first if the first
+        time step lacks the array."""
         self.series = series
         self.step = 0
         self.data = series.read(0)
+        if step and array is not None and array not in arrays_of(self.data):
+            self.step, self.data = step, series.read(step)
         report(self.describe())
         self.colors = COLOR_MAPS[0]
         self._curves = {}  # by the kinds of _KINDS; without one it is the default
@@ -63,7 +79,7 @@ class MeshScene:
         self.direction = (1.0, 0.7, 1.0)
         self.up = (0.0, 1.0, 0.0)
         self.mapper = vtkTetrahedraRayCastMapper()
-        self.mapper.SetInputData(self.data)
+        self.shown = Shown()
         self.volume = vtkVolume()
         self.volume.SetMapper(self.mapper)
         self.renderer = vtkRenderer()
@@ -149,34 +165,50 @@ class MeshScene:
         return list(arrays_of(self.data))
 
     def get_range(self):
-        """Range of the colour map."""
+        """Range of the colour map, in the numbers that are shown."""
         return self.limits or (self.levels.low, self.levels.high)
 
     def set_array(self, name, limits=None):
         """Shows an array; of one with several components, the magnitude.
 
-        limits: range of the colour map; default: the range of the values.
+        limits: range of the colour map; default: the range of the values. If the values need it,
+        differences are shown instead of them, see choose_shown().
         """
         arrays = arrays_of(self.data)
         if name not in arrays:
             raise ReadingError(f"The mesh has no array '{name}'; it has " + ", ".join(arrays))
-        association, components = arrays[name]
+        association, _ = arrays[name]
         if limits and not -math.inf < limits[0] < limits[1] < math.inf:
             raise ReadingError("The range of the colour map must have a lower end below the upper")
         levels = Levels(self.data, name, association)
         if levels.is_empty:
             raise ReadingError(f"The array '{name}' has no finite values")
+        shown = choose_shown(self.data, name, association, levels.low, levels.high)
+        if not shown.is_plain():
+            levels = Levels(shown.apply(self.data, name, association), name, association)
+        self.shown = shown
         self.array = name
-        self.limits = limits
+        self.limits = limits and tuple(map(shown.number_of, limits))
+        self.levels = levels
+        self._select()
+        self._update_functions()
+
+    def get_drawn(self):
+        """The data that are drawn: those of the time step, with the numbers that are shown."""
+        association, _ = arrays_of(self.data)[self.array]
+        return self.shown.apply(self.data, self.array, association)
+
+    def _select(self):
+        """Gives the mapper the data and the array of a time step."""
+        association, components = arrays_of(self.data)[self.array]
+        self.mapper.SetInputData(self.get_drawn())
         if association == "points":
             self.mapper.SetScalarModeToUsePointFieldData()
         else:
             self.mapper.SetScalarModeToUseCellFieldData()
-        self.mapper.SelectScalarArray(name)
-        self.mapper.SetVectorMode(self.mapper.MAGNITUDE if components > 1
+        self.mapper.SelectScalarArray(self.array)
+        self.mapper.SetVectorMode(self.mapper.MAGNITUDE if components > 1 and self.shown.is_plain()
                                   else self.mapper.DISABLED)
-        self.levels = levels
-        self._update_functions()
 
     def _get_kind(self):
         return _KINDS.get(self.blend, _VOLUME)
@@ -219,7 +251,8 @@ class MeshScene:
         else:
             fill_function(opacity, self.get_curve(), (low, high), kind == _VOLUME)
         contours = look.GetIsoSurfaceValues()
-        values = self.isovalues or self.levels.get_isovalues()
+        values = (list(map(self.shown.number_of, self.isovalues)) if self.isovalues
+                  else self.levels.get_isovalues())
         contours.SetNumberOfContours(len(values))
         for index, value in enumerate(values):
             contours.SetValue(index, value)
@@ -228,8 +261,9 @@ class MeshScene:
         self.bar.SetTitle(self.get_title())
 
     def get_title(self):
-        """Name of the array, with its unit if there is one."""
-        return f"{self.array} ({self.unit})" if self.unit else self.array
+        """Name of the numbers that are shown, with their unit if there is one."""
+        name = self.shown.name_of(shorten(self.array))
+        return f"{name} ({self.unit})" if self.unit else name
 
     def set_units(self, length="", value=""):
         """Units of lengths and of the array, such as "m" and "K", for the axes and the legend."""
@@ -354,8 +388,9 @@ class MeshScene:
             raise ReadingError(f"Time step {step} has no array '{self.array}'; it has "
                                + (", ".join(arrays) or "none"))
         self.series, self.step, self.data = series, step, data
-        self.mapper.SetInputData(data)
-        self.furniture.set_data(data, self.mapper.GetBounds())
+        self._select()
+        self.bounds = tuple(self.mapper.GetBounds())
+        self.furniture.set_data(data, self.bounds)
 
     def set_surface(self, surface, index, before=1.0):
         """Shows the volume through a refracting surface, whose border is drawn.
@@ -410,12 +445,13 @@ class MeshScene:
         """Reason why a picture of the scene shows nothing of the mesh."""
         low, high = self.levels.low, self.levels.high
         opacity = self.volume.GetProperty().GetScalarOpacity()
+        name = self.shown.name_of(self.array)
         opacities = numpy.empty(BINS + 1)
         opacity.GetTable(low, high, BINS + 1, opacities)
         if not opacities.any():
-            return f"the opacity is 0 for all values of '{self.array}', from {low:g} to {high:g}"
+            return f"the opacity is 0 for all values of '{name}', from {low:g} to {high:g}"
         if self.clip_axis is not None and self.mapper.GetNumberOfActiveCells() > 0:
             return "the clipping plane removes all of it"
         if self.blend == "isosurface":
-            return f"no cell has one of the isovalues; '{self.array}' goes from {low:g} to {high:g}"
+            return f"no cell has one of the isovalues; '{name}' goes from {low:g} to {high:g}"
         return "no ray through a pixel meets a cell that can be seen"

@@ -16,7 +16,7 @@ from .colors import COLOR_MAPS
 from .files import ReadingError
 from .furniture import INK
 from .pictures import grab_picture, make_window, write_picture
-from .scene import AXES
+from .scene import AXES, shorten
 from .watching import PERIOD
 
 KEYS = """a      next array
@@ -243,7 +243,8 @@ class Window:
         if not picker.Pick(*self.interactor.GetEventPosition(), 0, self.scene.renderer):
             return "Nothing is under the cursor"
         place = ", ".join(f"{x:.4g}" for x in picker.GetPickPosition())
-        return f"{self.scene.array} {picker.GetValue():.5g} at ({place}), cell {picker.GetCellId()}"
+        name = self.scene.shown.name_of(shorten(self.scene.array))
+        return f"{name} {picker.GetValue():.5g} at ({place}), cell {picker.GetCellId()}"
 
     def _save(self):
         """Writes a picture to a new file."""
@@ -271,7 +272,7 @@ class Window:
 
     def _tell(self):
         scene = self.scene
-        parts = [scene.array, scene.blend]
+        parts = [shorten(scene.array), scene.blend]
         times = scene.series.get_times()
         if len(times) > 1:
             parts.append(f"time {times[scene.step]:g} ({scene.step + 1} of {len(times)})")

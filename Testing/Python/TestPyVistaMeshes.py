@@ -11,6 +11,7 @@ import os
 import pathlib
 import sys
 import unittest
+import warnings
 
 try:
     import pyvista
@@ -180,6 +181,34 @@ class TestArguments(unittest.TestCase):
                 with self.assertRaisesRegex(TypeError, "^%s must be " % argument):
                     add_volume(plotter, cube, name, **{argument: value}, **others)
         add_volume(plotter, cube, numpy.str_(name))
+
+    def test_numbers_that_are_not_finite(self):
+        cube = make_cube()
+        plotter = pyvista.Plotter(off_screen=True)
+        self.addCleanup(plotter.close)
+        nan, infinity = float("nan"), float("inf")
+        for argument, values in {"opacity_unit_distance": (0, -1.0, nan, infinity),
+                                 "clim": ((0.0, nan), [-infinity, 1.0]),
+                                 "opacity": ([0.0, nan, 1.0], numpy.array([0.1, infinity])),
+                                 }.items():
+            for value in values:
+                with self.assertRaisesRegex(ValueError, "^%s must be .*finite" % argument):
+                    add_volume(plotter, cube, "y", **{argument: value})
+
+    def test_values_that_are_too_near(self):
+        cube = make_cube()
+        plotter = pyvista.Plotter(off_screen=True)
+        self.addCleanup(plotter.close)
+        for values, hint in ((1e15 + numpy.rint(16 * cube["y"]) / 8, "draw near - 1e\\+15 instead"),
+                             (1e308 * (2 * cube["y"] - 1), "draw near / 1e\\+300 instead"),
+                             (numpy.rint(9 * cube["y"]).astype(numpy.int64) + 2 ** 60,
+                              "draw near - 1152921504606846980 instead")):
+            cube["near"] = values
+            with self.assertWarnsRegex(UserWarning, hint):
+                add_volume(plotter, cube, "near")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            add_volume(plotter, cube, "y")
 
 
 class TestLogarithms(unittest.TestCase):

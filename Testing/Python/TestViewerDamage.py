@@ -4,13 +4,23 @@
 message and status 1, or the right picture."""
 import contextlib
 import io
+import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+from meniscus.viewer.appended import find_fault
+from meniscus.viewer.cells import check_damage
 from meniscus.viewer.command import main, make_parser, make_scene
+from meniscus.viewer.reading import ReadingError
 
 POINTS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)]
 CELLS = [0, 1, 4, 3, 6, 7, 10, 9, 1, 2, 5, 4, 7, 8, 11, 10]
@@ -33,6 +43,26 @@ def make_file(scale=1.0, cells=2, kind=12, point_data=None, cell_data="", shape=
             + _array("connectivity", CELLS, "Int64") + _array("offsets", [8, 16], "Int64")
             + _array("types", [kind] * 2, "UInt8")
             + "</Cells></Piece></UnstructuredGrid></VTKFile>")
+
+
+def make_appended(encoding, compressor):
+    """A .vtu of two cubes with appended data."""
+    reader = vtkXMLUnstructuredGridReader()
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "mesh.vtu")
+        with open(name, "w", encoding="ascii") as file:
+            file.write(make_file())
+        reader.SetFileName(name)
+        reader.Update()
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(reader.GetOutput())
+    writer.SetDataModeToAppended()
+    writer.SetEncodeAppendedData(encoding == "base64")
+    getattr(writer, "SetCompressorTypeTo" + compressor)()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    text = writer.GetOutputString()
+    return text if isinstance(text, bytes) else text.encode("latin-1")
 
 
 def make_series(names):
@@ -90,6 +120,67 @@ class Damage(unittest.TestCase):
                     status, errors = self.run_command(*arguments)
                     self.assertEqual(status, 1)
                     self.assertIn("a pipe or a device", errors)
+
+    def test_axes_without_coordinates(self):
+        """A rectilinear grid needs one for each of its points along an axis."""
+        for axis, coordinates, message in (
+                ("x", (0, 1), "2 coordinates for 3 points along x"),
+                ("y", (0,), "1 coordinates for 2 points along y"),
+                ("z", (0, 1, 2), "3 coordinates for 2 points along z"),
+                ("x", (0, 2, 1), "along x do not ascend"),
+                ("z", (0, math.nan), "along z do not ascend"),
+                ("y", (1, 0), None)):
+            with self.subTest(axis=axis, coordinates=coordinates):
+                grid = vtkRectilinearGrid()
+                grid.SetDimensions(3, 2, 2)
+                for name, size in (("X", 3), ("Y", 2), ("Z", 2)):
+                    places = coordinates if name.lower() == axis else range(size)
+                    getattr(grid, f"Set{name}Coordinates")(
+                        numpy_to_vtk(numpy.array(places, float), deep=True))
+                if message is None:
+                    check_damage(grid)
+                else:
+                    with self.assertRaisesRegex(ReadingError, message):
+                        check_damage(grid)
+        # The reader has filled up the axis.
+        axes = [_array("", range(size)) for size in (3, 2, 2)]
+        name = self.write("axes.vtr", (
+            '<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian">'
+            '<RectilinearGrid WholeExtent="0 2 0 1 0 1"><Piece Extent="0 2 0 1 0 1">'
+            "<PointData>" + _array("T", range(12)) + "</PointData><Coordinates>"
+            + _array("", (5, 6)) + "".join(axes[1:])
+            + "</Coordinates></Piece></RectilinearGrid></VTKFile>"))
+        status, errors = self.run_command(name)
+        self.assertEqual(status, 1)
+        self.assertIn("along x", errors)
+
+    def test_appended_data(self):
+        """Arrays that are not where the file says are not read from elsewhere in the memory."""
+        for encoding in ("raw", "base64"):
+            for compressor in ("None", "ZLib"):
+                good = make_appended(encoding, compressor)
+                self.assertIsNone(self.find_fault(good))
+                offsets = [int(text) for text in re.findall(b'offset="([0-9]+)"', good)]
+                self.assertGreater(len(offsets), 4)
+                for index, offset in enumerate(offsets):
+                    place = b'offset="%d"' % offset
+                    # The number of indices of points is not known beforehand.
+                    near = () if index == 2 else (offset + 1, offset + 4)
+                    for wrong in (-5, 10 ** 8, 2 ** 63, *near):
+                        with self.subTest(encoding=encoding, compressor=compressor, index=index,
+                                          offset=wrong):
+                            damaged = good.replace(place, b'offset="%d"' % wrong)
+                            self.assertIsNotNone(self.find_fault(damaged))
+                begin = good.index(b"_", good.index(b"<AppendedData")) + 1
+                self.assertIsNotNone(self.find_fault(good[:begin + offsets[-1] + 3]))
+        name = self.write("wrong.vtu", make_appended("raw", "None").replace(
+            b'offset="0"', b'offset="123456"'))
+        status, errors = self.run_command(name)
+        self.assertEqual(status, 1)
+        self.assertIn("123456, is wrong", errors)
+
+    def find_fault(self, text):
+        return find_fault(self.write("appended.vtu", text))
 
     def test_bits(self):
         bits = self.write("bits.vtu", make_file(point_data=_array("B", [1, 0] * 6, "Bit")))

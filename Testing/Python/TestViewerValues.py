@@ -1,0 +1,201 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Values of any size, names of any length, and time steps that differ, by the command's scene."""
+import os
+import tempfile
+import unittest
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from meniscus.viewer.command import make_parser, make_scene
+from meniscus.viewer.pictures import draw_picture, make_window
+from meniscus.viewer.reading import ReadingError
+from meniscus.viewer.scene import LONGEST_NAME, MeshScene
+from meniscus.viewer.shown import Shown, choose_of_range
+
+SIDE = 4
+# Whole numbers from 0 to 16 at the points, no two differences alike.
+STEPS = numpy.array([(5 * x * x + 3 * y + 7 * x * z + 2 * z * z) % 17
+                     for z in range(SIDE) for y in range(SIDE) for x in range(SIDE)])
+# One step of 8 bits: functions and rays round in other places.
+ROUNDING = 1
+
+
+# An X server without a client starts anew, and refuses others meanwhile.
+KEPT = []
+
+
+def setUpModule():
+    KEPT.append(make_window(vtkRenderer(), (8, 8), offscreen=True))
+    KEPT[0].Render()
+
+
+def make_image(values, name="T", cells=False, origin=0.0):
+    image = vtkImageData()
+    image.SetDimensions(SIDE, SIDE, SIDE)
+    image.SetOrigin(origin, 0.0, 0.0)
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    (image.GetCellData() if cells else image.GetPointData()).AddArray(array)
+    return image
+
+
+class Steps:
+    """Time steps in the memory, as a MeshSeries."""
+
+    def __init__(self, *steps):
+        self.steps = steps
+
+    def get_times(self):
+        return list(range(len(self.steps)))
+
+    def read(self, step):
+        return self.steps[step]
+
+
+def draw(scene):
+    scene.bar.VisibilityOff()
+    picture, warnings = draw_picture(scene, (96, 80))
+    if warnings:
+        raise AssertionError(warnings)
+    return vtk_to_numpy(picture.GetPointData().GetScalars()).astype(int)
+
+
+def make(*steps, **arguments):
+    scene = MeshScene(Steps(*steps), **arguments)
+    scene.reset_camera()
+    return scene
+
+
+class Values(unittest.TestCase):
+    def expect_same(self, first, second):
+        self.assertLessEqual(abs(draw(first) - draw(second)).max(), ROUNDING)
+
+    def test_values_of_any_size(self):
+        """Each field is a multiple of STEPS plus a number, without rounding; so is its picture."""
+        smallest = numpy.nextafter(0.0, 1.0)
+        for name, values in (
+                ("1e15", 1e15 + 0.125 * STEPS),
+                ("-1e15", -1e15 - 0.125 * (16 - STEPS)),
+                ("1e300", 1e300 + numpy.spacing(1e300) * STEPS),
+                ("denormal", 200 * smallest * STEPS),
+                ("small", 1e-305 * STEPS),
+                ("all numbers", (STEPS - 8) * 0.125 * 1.7e308),
+                ("huge", 1e307 * STEPS),
+                ("odd", 2 ** 53 + 1 + 2 * STEPS.astype(numpy.int64)),
+                ("negative", -2 ** 63 + STEPS.astype(numpy.int64)),
+                ("without a sign", numpy.uint64(2 ** 64 - 20) + STEPS.astype(numpy.uint64)),
+                ("float", (16777216 + STEPS).astype(numpy.float64))):
+            with self.subTest(name=name), numpy.errstate(over="raise", invalid="raise"):
+                plain = make(make_image(STEPS.astype(float)))
+                self.assertTrue(plain.shown.is_plain())
+                self.expect_same(make(make_image(values)), plain)
+
+    def test_cells_magnitudes_and_blocks(self):
+        cells = STEPS[:(SIDE - 1) ** 3]
+        self.expect_same(make(make_image(1e15 + 0.125 * cells, cells=True)),
+                         make(make_image(0.125 * cells, cells=True)))
+        vectors = numpy.zeros((STEPS.size, 3))
+        vectors[:, 1] = 1e15 + 0.125 * STEPS
+        self.expect_same(make(make_image(vectors)), make(make_image(0.125 * STEPS)))
+        blocks = [vtkMultiBlockDataSet(), vtkMultiBlockDataSet()]
+        for data, offset in zip(blocks, (1e15, 0.0)):
+            for index in range(2):
+                data.SetBlock(index, make_image(offset + 0.125 * (STEPS + index),
+                                                origin=index * (SIDE - 1.0)))
+        self.expect_same(*map(make, blocks))
+
+    def test_isosurfaces_and_ranges_are_of_the_values(self):
+        shifted = make(make_image(1e15 + 0.125 * STEPS), limits=(1e15 + 0.25, 1e15 + 1.0))
+        plain = make(make_image(0.125 * STEPS), limits=(0.25, 1.0))
+        self.assertEqual(shifted.get_range(), (0.25, 1.0))
+        self.expect_same(shifted, plain)
+        shifted.set_isovalues([1e15 + 0.5])
+        plain.set_isovalues([0.5])
+        self.expect_same(shifted, plain)
+
+    def test_the_legend_says_what_is_shown(self):
+        scene = make(make_image(1e15 + 0.125 * STEPS))
+        scene.set_units("m", "K")
+        self.assertEqual(scene.bar.GetTitle(), "T - 1e+15 (K)")
+        self.assertEqual(scene.bar.GetLookupTable().GetRange(), (0.0, 2.0))
+        for low, high, whole, name in (
+                (0.0, 1.0, False, "T"), (300.0, 300.001, False, "T"), (7.0, 7.0, False, "T"),
+                (-1e308, 1e308, False, "T / 1e+300"), (0.0, 1e-320, False, "T / 1e-300"),
+                (-1e15, -1e15 + 2, False, "T + 1e+15"), (2 ** 53, 2 ** 53 + 4, True,
+                                                         "T - 9007199254740990"),
+                (-2 ** 63, -2 ** 63 + 4, True, "T + 9223372036854775810")):
+            with self.subTest(low=low, high=high):
+                self.assertEqual(choose_of_range(low, high, whole).name_of("T"), name)
+        self.assertEqual(Shown(3, 2.0).number_of(5.0), 4.0)
+
+    def test_long_names(self):
+        for name in ("T" * 5000, "a\nb" * 50, " " * 99 + "x" * 99):
+            with self.subTest(name=name[:9]):
+                scene = make(make_image(STEPS.astype(float), name))
+                self.assertLessEqual(len(scene.bar.GetTitle()), LONGEST_NAME)
+                self.assertIn("...", scene.bar.GetTitle())
+                self.assertNotIn("\n", scene.bar.GetTitle())
+                scene.set_array(name)  # it is not renamed
+
+
+class TimeSteps(unittest.TestCase):
+    def expect_like(self, scene, step):
+        """Expects the picture of a scene of that step alone."""
+        alone = make(step, array=scene.array, limits=scene.get_range())
+        alone.volume.GetProperty().SetScalarOpacityUnitDistance(
+            scene.volume.GetProperty().GetScalarOpacityUnitDistance())
+        alone.levels = scene.levels
+        alone.set_curve(None)
+        scene.reset_camera()
+        self.assertEqual(abs(draw(scene) - draw(alone)).max(), 0)
+
+    def test_an_array_that_moves_to_cells(self):
+        steps = (make_image(STEPS.astype(float)),
+                 make_image(STEPS[:(SIDE - 1) ** 3].astype(float), cells=True))
+        scene = make(*steps)
+        scene.set_step(1)
+        self.expect_like(scene, steps[1])
+        scene.set_step(0)
+        self.expect_like(scene, steps[0])
+
+    def test_an_array_with_other_components(self):
+        vectors = numpy.zeros((STEPS.size, 3))
+        vectors[:, 2] = -STEPS
+        steps = (make_image(STEPS.astype(float)), make_image(vectors))
+        scene = make(*steps)
+        scene.set_step(1)
+        self.expect_like(scene, steps[1])
+
+    def test_a_mesh_that_moves(self):
+        steps = (make_image(STEPS.astype(float)), make_image(STEPS.astype(float), origin=100.0))
+        scene = make(*steps)
+        scene.set_step(1)
+        self.assertEqual(scene.bounds[:2], (100.0, 103.0))
+        self.expect_like(scene, steps[1])
+
+    def test_arrays_that_come_and_go(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        names = []
+        for index, array in enumerate("AB"):
+            names.append(os.path.join(folder.name, f"{index}.vti"))
+            writer = vtkXMLImageDataWriter()
+            writer.SetFileName(names[-1])
+            writer.SetInputData(make_image(STEPS.astype(float) + index, array))
+            writer.Write()
+        for step in ("1", "-1"):
+            scene = make_scene(make_parser().parse_args([*names, "--array", "B", "--step", step]))
+            self.assertEqual((scene.step, scene.get_range()), (1, (1.0, 17.0)))
+        for options, message in ((["--array", "B"], "no array 'B'; it has A"),
+                                 (["--step", "1"], "Time step 1 has no array 'A'; it has B")):
+            with self.subTest(options=options), self.assertRaisesRegex(ReadingError, message):
+                make_scene(make_parser().parse_args([*names, *options]))
+
+
+if __name__ == "__main__":
+    unittest.main()
