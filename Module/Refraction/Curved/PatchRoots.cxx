@@ -28,7 +28,8 @@ constexpr int DeepestLevel = 14;
 constexpr int LastLevel = 40;
 
 // Isolated roots take at most a dozen divisions each, a few more near a caustic. A ring of roots
-// would need a division of every triangle that it crosses, on every level.
+// would need a division of every triangle that it crosses, on every level. Triangles that are wider
+// than their distance from eye or point are few on each level, and do not count.
 constexpr int MostDivisions = 1000;
 
 // Newton's method starts from the root of a nearly linear map.
@@ -253,7 +254,8 @@ bool PatchRoots::TakeRoot(const Triangle& triangle)
 //------------------------------------------------------------------------------
 void PatchRoots::Divide(const Triangle& t, int depth)
 {
-  ++this->Divisions;
+  const double nearest = *std::min_element(t.Nearest.begin(), t.Nearest.end());
+  this->Divisions += std::ldexp(this->Size, -depth) <= nearest ? 1 : 0;
   // Three children at the corners, and one in the middle whose corners are the midpoints of the
   // edges.
   Triangle middle;

@@ -95,30 +95,29 @@ SubCellNode SubCellDivision::MakeNode(const CurvedPatch& patch, const glm::dvec2
 bool SubCellDivision::FindSplit(const CurvedPatch& patch, const SubCellNode& a,
   const SubCellNode& b, int depth, SubCellNode& split) const
 {
+  if (this->IsWide(a, b))
+  {
+    split = this->MakeNode(patch, 0.5 * (a.B + b.B));
+    return true;
+  }
   if (a.From.IsValid != b.From.IsValid)
   {
     if (a.IsAtLimit || b.IsAtLimit)
     {
       return false; // the part without rays of a side that has been divided
     }
-    if (this->IsWide(a, b))
-    {
-      split = this->MakeNode(patch, 0.5 * (a.B + b.B));
-      return true;
-    }
     split = a.From.IsValid ? this->FindLimit(patch, a, b) : this->FindLimit(patch, b, a);
     return true;
   }
   const bool isChord = a.IsAtLimit && b.IsAtLimit;
-  const bool isWide = this->IsWide(a, b);
-  if (depth >= (isChord ? DeepestChords : DeepestSides) && !isWide)
+  if (depth >= (isChord ? DeepestChords : DeepestSides))
   {
     return false;
   }
   split = this->MakeNode(patch, 0.5 * (a.B + b.B));
   if (!a.From.IsValid)
   {
-    return split.From.IsValid || isWide || this->MayReachLimit(a, split, b);
+    return split.From.IsValid || this->MayReachLimit(a, split, b);
   }
   if (isChord)
   {
@@ -128,10 +127,15 @@ bool SubCellDivision::FindSplit(const CurvedPatch& patch, const SubCellNode& a,
 }
 
 //------------------------------------------------------------------------------
-// True if a side is longer than its distance from the eye: places on it are seen in directions that
-// its ends and its middle do not show.
+// True if a side is longer than its distance from the eye, so that places on it are seen in
+// directions that its ends and its middle do not show. All of these sides are divided, so that
+// sub-cells keep their shape. Where rays exist at all angles, it is enough to divide bent sides.
 bool SubCellDivision::IsWide(const SubCellNode& a, const SubCellNode& b) const
 {
+  if (this->Limit >= RightAngle)
+  {
+    return false;
+  }
   const glm::dvec3& first = a.From.At.Position;
   const glm::dvec3& second = b.From.At.Position;
   const glm::dvec3 along = second - first;

@@ -69,16 +69,29 @@ TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
 }
 
 //------------------------------------------------------------------------------
-// Parts of a facet that may be a million times as wide as the eye is high.
+// Parts of a facet that may be a million times as wide as the eye is high, and much longer than
+// wide.
 TEST(RefractionCurved, ImagesInHugeFacetsAreDecided)
 {
-  for (const double half : { 1e2, 1e4, 1e5, 1e6, 1e7 })
+  struct Sea
   {
+    double HalfWidth;
+    double Slenderness;
+  };
+  for (const Sea& size : { Sea{ 1e2, 1.0 }, Sea{ 1e4, 1.0 }, Sea{ 1e5, 1.0 }, Sea{ 1e6, 1.0 },
+         Sea{ 1e7, 1.0 }, Sea{ 1e4, 20.0 }, Sea{ 1e6, 8.0 } })
+  {
+    const double half = size.HalfWidth;
     for (const double interior : { 1.333, 0.75 })
     {
-      SCOPED_TRACE(::testing::Message() << "half width " << half << ", index " << interior);
+      SCOPED_TRACE(::testing::Message()
+        << "half width " << half << ", slenderness " << size.Slenderness << ", index " << interior);
       MembraneMesh sea = meniscus::reference::MakePlane(0.0, 2.0 * half, 1);
       sea.Translate(half * glm::dvec3(0.37, 0.0, -0.2));
+      for (std::size_t i = 0; i < sea.Points.size(); i += 3)
+      {
+        sea.Points[i] /= size.Slenderness;
+      }
       const glm::dvec3 eye(0.3, 1.1, -0.4);
       CurvedMembraneSolver geometry;
       Set(geometry, sea, eye, 1.0, interior);

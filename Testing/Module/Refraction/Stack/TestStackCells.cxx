@@ -343,7 +343,7 @@ public:
    * Expects the exact area and places. The sides of the image are off by the tolerance at most,
    * each way; no place of the sea is farther than 2.2 from the eye, nor seen at a cosine below 0.9.
    */
-  void ExpectImage(MembraneMesh sea, const glm::dvec2& shift) const
+  void ExpectImage(MembraneMesh sea, const glm::dvec2& shift, double window = 4.0) const
   {
     const double unit = this->Unit;
     const glm::dvec3 eye(0.0, Layers::Height * unit, 0.0);
@@ -351,7 +351,7 @@ public:
     StackSolver solver;
     SetStack(solver,
       { { MakeSurface(sea), { 1.0, 1.333 } },
-        { MakeSurface(MakePlane(-Layers::Window * unit, 4.0 * unit, 1)), { 1.333, 1.5 } } },
+        { MakeSurface(MakePlane(-Layers::Window * unit, window * unit, 1)), { 1.333, 1.5 } } },
       eye);
     Object object;
     object.AddQuad(
@@ -416,6 +416,15 @@ TEST_P(HugeSeas, ImagesDoNotDependOnTheFacets)
                                       << trial.Shift.x << ", " << trial.Shift.y);
     floor.ExpectImage(MakeSea(half, trial.Columns, trial.Rows), half * trial.Shift);
   }
+}
+
+//------------------------------------------------------------------------------
+// Facets that are as wide as the view and much longer are divided into slender cells.
+TEST(RefractionStackCells, ImagesInLongFacetsAreComplete)
+{
+  const SeenFloor floor(1.0);
+  floor.ExpectImage(MakeSea(247.0, 1, 30), 247.0 * glm::dvec2(0.267, 0.059), 8e5);
+  floor.ExpectImage(MakeSea(4e3, 1, 30), 4e3 * glm::dvec2(-0.603, 0.385), 6e3);
 }
 
 INSTANTIATE_TEST_SUITE_P(RefractionStackCells, HugeSeas,
