@@ -3,6 +3,7 @@
 #ifndef meniscus_Refraction_Tubes_BoxTree_h
 #define meniscus_Refraction_Tubes_BoxTree_h
 
+#include "Common/Prefetch.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
 #include <glm/common.hpp>
@@ -185,6 +186,9 @@ void BoxTree::Visit(const TubeBounds& tube, double most, const Test& mayMeet, Vi
       if (child.Range.From <= child.Range.To)
       {
         stack[depth++] = child;
+        // The second child of a node is far from it in memory.
+        Prefetch(
+          &this->Nodes[static_cast<std::size_t>(this->Nodes[child.Node].Right)], sizeof(Node));
       }
     }
   }

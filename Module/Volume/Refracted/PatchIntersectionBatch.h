@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 namespace meniscus
 {
@@ -134,17 +133,6 @@ struct PatchIntersectionBatch
     }
     this->Index[this->Count] = index;
     ++this->Count;
-  }
-  /** Sets lanes 0 to `count` - 1 to rays of the same numbers. */
-  void Take(int count, const double (&starts)[3][Size], const double (&directions)[3][Size])
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      std::copy_n(starts[axis], count, this->Start[axis]);
-      std::copy_n(directions[axis], count, this->Direction[axis]);
-    }
-    std::iota(this->Index, this->Index + count, 0);
-    this->Count = count;
   }
   /** Copies lane `from` to lane `to`, except for Move and the members after it. */
   void Keep(int to, int from)

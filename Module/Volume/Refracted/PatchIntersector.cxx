@@ -3,6 +3,7 @@
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Simd/InstructionSets.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -96,43 +97,73 @@ PatchReach PatchIntersector::BoundReach() const
 }
 
 //------------------------------------------------------------------------------
-/** Rays of the block that may meet the patch, with their intersections with the plane. */
-PatchIntersectionBatch PatchIntersector::SiftNear(RayBlock& rays) const
+/**
+ * The heights of the rays above the plane of the facet are linear in the parameter. The margin is
+ * that of the boxes around patches, which covers the rounding of positions.
+ */
+bool PatchIntersector::MayMeet(const TubeBounds& tube, const TubeRange& range) const
 {
-  MeetPatchReach(this->GetReach(), this->Set, rays);
+  const glm::dvec3& normal = this->Plane.Normal;
+  const glm::dvec3 toLow = normal * (tube.StartLow - this->Plane.Corner);
+  const glm::dvec3 toHigh = normal * (tube.StartHigh - this->Plane.Corner);
+  const glm::dvec3 byLow = normal * tube.DirectionLow;
+  const glm::dvec3 byHigh = normal * tube.DirectionHigh;
+  const auto sum = [](const glm::dvec3& v) { return v.x + v.y + v.z; };
+  const double least = sum(glm::min(toLow, toHigh));
+  const double most = sum(glm::max(toLow, toHigh));
+  const double leastBy = sum(glm::min(byLow, byHigh));
+  const double mostBy = sum(glm::max(byLow, byHigh));
+  const double lowest = least + std::min(range.From * leastBy, range.To * leastBy);
+  const double highest = most + std::max(range.From * mostBy, range.To * mostBy);
+  const PatchReach& reach = this->GetReach();
+  const double margin = PatchCrossings::Margin * this->Size;
+  // The comparisons are false for a NaN, which an infinite range may lead to.
+  return !(lowest > (reach.High + margin) * this->NormalLength ||
+    highest < (reach.Low - margin) * this->NormalLength);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Rays of a range that may meet the patch, with their intersections with the plane. For a flat
+ * patch these are the results, and the rays themselves are left out.
+ */
+PatchIntersectionBatch PatchIntersector::SiftNear(RayBlock& rays, const RayRange& range) const
+{
+  MeetPatchReach(this->GetReach(), range, this->Set, rays);
   PatchIntersectionBatch lanes;
-  if (std::all_of(rays.Meets, rays.Meets + rays.Count, [](std::int64_t ray) { return ray != 0; }))
-  {
-    lanes.Take(rays.Count, rays.Start, rays.Direction);
-    std::copy_n(rays.Depth, rays.Count, lanes.Depth);
-    std::copy_n(rays.X, rays.Count, lanes.X);
-    std::copy_n(rays.Y, rays.Count, lanes.Y);
-    std::copy_n(rays.Slant, rays.Count, lanes.Slant);
-    return lanes;
-  }
   // Without branches, since no prediction of them would hold.
   std::int32_t near[RayBlock::Size];
   int count = 0;
-  for (int i = 0; i < rays.Count; ++i)
+  for (int i = range.First; i < range.End; ++i)
   {
     near[count] = i;
     count += rays.Meets[i] != 0 ? 1 : 0;
   }
-  for (int lane = 0; lane < count; ++lane)
+  lanes.Count = count;
+  std::copy_n(near, count, lanes.Index);
+  if (count == rays.Count)
+  {
+    std::copy_n(rays.Depth, count, lanes.Depth);
+    std::copy_n(rays.X, count, lanes.X);
+    std::copy_n(rays.Y, count, lanes.Y);
+  }
+  for (int lane = 0; lane < count && count < rays.Count; ++lane)
   {
     const int i = near[lane];
-    lanes.Index[lane] = i;
+    lanes.Depth[lane] = rays.Depth[i];
+    lanes.X[lane] = rays.X[i];
+    lanes.Y[lane] = rays.Y[i];
+  }
+  for (int lane = 0; lane < count && !this->IsFlat; ++lane)
+  {
+    const int i = near[lane];
     for (int axis = 0; axis < 3; ++axis)
     {
       lanes.Start[axis][lane] = rays.Start[axis][i];
       lanes.Direction[axis][lane] = rays.Direction[axis][i];
     }
-    lanes.Depth[lane] = rays.Depth[i];
-    lanes.X[lane] = rays.X[i];
-    lanes.Y[lane] = rays.Y[i];
     lanes.Slant[lane] = rays.Slant[i];
   }
-  lanes.Count = count;
   return lanes;
 }
 

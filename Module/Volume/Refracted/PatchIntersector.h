@@ -5,6 +5,7 @@
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Surface/PatchCrossings.h"
+#include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "Simd/InstructionSets.h"
@@ -38,13 +39,21 @@ public:
   /** Prepares for other rays. */
   void SetRayLength(double rayLength) { this->Scale = this->Size / rayLength; }
 
+  /** False if no ray of a tube meets the patch at a parameter in the range. */
+  bool MayMeet(const TubeBounds& tube, const TubeRange& range) const;
   /**
-   * Intersects the rays of a block with the patch; overwrites the block's results. Intersections
+   * Intersects some rays of a block with the patch; overwrites the block's results. Intersections
    * that are outside of First and Last, or do not agree with Facing, may be left out.
    * @param visit called with the number of each ray that meets the patch, and the hit.
    */
   template <typename Visit>
-  void Meet(RayBlock& rays, const Visit& visit) const;
+  void Meet(RayBlock& rays, const RayRange& range, const Visit& visit) const;
+  /** The same for all rays of the block. */
+  template <typename Visit>
+  void Meet(RayBlock& rays, const Visit& visit) const
+  {
+    this->Meet(rays, { 0, rays.Count }, visit);
+  }
   /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
   std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
@@ -61,7 +70,7 @@ private:
   const PatchReach& GetReach() const;
   const PatchStart& GetStart() const;
   PatchReach BoundReach() const;
-  PatchIntersectionBatch SiftNear(RayBlock& rays) const;
+  PatchIntersectionBatch SiftNear(RayBlock& rays, const RayRange& range) const;
   template <typename Visit>
   void MeetSteep(PatchIntersectionBatch& lanes, const Visit& visit) const;
   template <typename Visit>
@@ -114,9 +123,9 @@ private:
 
 //------------------------------------------------------------------------------
 template <typename Visit>
-void PatchIntersector::Meet(RayBlock& rays, const Visit& visit) const
+void PatchIntersector::Meet(RayBlock& rays, const RayRange& range, const Visit& visit) const
 {
-  PatchIntersectionBatch lanes = this->SiftNear(rays);
+  PatchIntersectionBatch lanes = this->SiftNear(rays, range);
   if (!this->IsFlat)
   {
     this->MeetCurved(lanes, visit);

@@ -84,113 +84,150 @@ struct ReachKernel
 {
   PatchReach Patch;
 
-  void operator()(RayBlock& rays, int i) const
+  void operator()(RayGroup& group, int i) const
   {
+    RayBlock& rays = group.Rays;
+    const int ray = group.First + i;
     const PatchReach& patch = this->Patch;
-    const FacetPlane::Meeting meeting = patch.Plane.Meet(rays.GetStart(i), rays.GetDirection(i));
-    rays.Depth[i] = meeting.Depth;
-    rays.X[i] = meeting.X;
-    rays.Y[i] = meeting.Y;
-    rays.Slant[i] = rays.Length[i] * std::fabs(patch.NormalLength / meeting.Along);
-    const double facing = rays.Facing[i] * patch.Front * meeting.Along;
-    const bool isAverted = facing < -patch.Spread * patch.NormalLength * rays.Length[i];
+    const glm::dvec3 direction = rays.GetDirection(ray);
+    const FacetPlane::Meeting meeting = patch.Plane.Meet(rays.GetStart(ray), direction);
+    rays.Depth[ray] = meeting.Depth;
+    rays.X[ray] = meeting.X;
+    rays.Y[ray] = meeting.Y;
+    rays.Slant[ray] = rays.Length[ray] * std::fabs(patch.NormalLength / meeting.Along);
+    const double facing = rays.Facing[ray] * patch.Front * meeting.Along;
+    const bool isAverted = facing < -patch.Spread * patch.NormalLength * rays.Length[ray];
     const bool meets =
-      patch.MayMeet(meeting, rays.GetDirection(i), rays.First[i], rays.Last[i]) & !isAverted;
-    rays.Meets[i] = meets ? 1 : 0;
+      patch.MayMeet(meeting, direction, rays.First[ray], rays.Last[ray]) & !isAverted;
+    rays.Meets[ray] = meets ? 1 : 0;
   }
 };
 
-/**
- * Extremes of the numbers of rays, one for each lane of a group: beginnings, directions and unit
- * directions.
+/** The least or the largest of eight values, without a loop: loops within lanes are not unrolled.
  */
-struct TubeGroup
+template <typename Value>
+double FindLeast(const Value& at)
 {
-  static constexpr int Numbers = 9;
+  return std::min(std::min(std::min(at(0), at(1)), std::min(at(2), at(3))),
+    std::min(std::min(at(4), at(5)), std::min(at(6), at(7))));
+}
 
-  explicit TubeGroup(const RayBlock& rays)
-    : Rays(rays)
-  {
-    std::fill_n(this->Low[0], Numbers * GroupSize, std::numeric_limits<double>::max());
-    std::fill_n(this->High[0], Numbers * GroupSize, std::numeric_limits<double>::lowest());
-  }
+template <typename Value>
+double FindMost(const Value& at)
+{
+  return std::max(std::max(std::max(at(0), at(1)), std::max(at(2), at(3))),
+    std::max(std::max(at(4), at(5)), std::max(at(6), at(7))));
+}
 
-  const RayBlock& Rays;
-  int First = 0;
-  int Count = GroupSize;
-  double Low[Numbers][GroupSize];
-  double High[Numbers][GroupSize];
-};
-
+/** Extremes of every eighth ray from a lane on. */
+template <bool HasUnitDirections>
 struct TubeKernel
 {
+  static_assert(RayBlock::Size == 8 * GroupSize, "a lane has eight rays");
+
+  explicit TubeKernel(double first)
+    : First(first)
+  {
+  }
+  void operator()(RayGroup& group, int i) const
+  {
+    // Not a loop, which would be too long for the compiler to unroll.
+    this->Bound(group.Rays, 0, i);
+    this->Bound(group.Rays, 1, i);
+    this->Bound(group.Rays, 2, i);
+  }
+
+private:
+  void Bound(RayBlock& rays, int axis, int i) const
+  {
+    const auto start = [this, &rays, axis, i](int k)
+    {
+      const int ray = i + k * GroupSize;
+      return rays.Start[axis][ray] + this->First * rays.Direction[axis][ray];
+    };
+    const auto direction = [&rays, axis, i](int k)
+    {
+      const int ray = i + k * GroupSize;
+      const double value = rays.Direction[axis][ray];
+      return HasUnitDirections ? value * (1.0 / rays.Length[ray]) : value;
+    };
+    rays.Low[axis][i] = FindLeast(start);
+    rays.High[axis][i] = FindMost(start);
+    rays.Low[3 + axis][i] = FindLeast(direction);
+    rays.High[3 + axis][i] = FindMost(direction);
+  }
+
   /** Depth at which the tube begins. */
   double First;
-
-  void operator()(TubeGroup& group, int i) const
-  {
-    const RayBlock& rays = group.Rays;
-    const int ray = group.First + i;
-    const double perLength = 1.0 / rays.Length[ray];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double direction = rays.Direction[axis][ray];
-      const double start = rays.Start[axis][ray] + this->First * direction;
-      const double unit = direction * perLength;
-      group.Low[axis][i] = std::min(group.Low[axis][i], start);
-      group.High[axis][i] = std::max(group.High[axis][i], start);
-      group.Low[3 + axis][i] = std::min(group.Low[3 + axis][i], direction);
-      group.High[3 + axis][i] = std::max(group.High[3 + axis][i], direction);
-      group.Low[6 + axis][i] = std::min(group.Low[6 + axis][i], unit);
-      group.High[6 + axis][i] = std::max(group.High[6 + axis][i], unit);
-    }
-  }
 };
+
+template <bool HasUnitDirections>
+TubeBounds BoundRays(double first, InstructionSet set, RayBlock& rays)
+{
+  RayGroup group{ rays, 0, GroupSize };
+  RunLanes(TubeKernel<HasUnitDirections>(first), set, group);
+  TubeBounds tube;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto least = [&rays](int k)
+    { return *std::min_element(rays.Low[k], rays.Low[k] + GroupSize); };
+    const auto most = [&rays](int k)
+    { return *std::max_element(rays.High[k], rays.High[k] + GroupSize); };
+    tube.StartLow[axis] = least(axis);
+    tube.StartHigh[axis] = most(axis);
+    tube.DirectionLow[axis] = least(3 + axis);
+    tube.DirectionHigh[axis] = most(3 + axis);
+  }
+  return tube;
+}
 
 }
 
 //------------------------------------------------------------------------------
 double RayBlock::GetFarthest() const
 {
-  return this->Count > 0 ? *std::max_element(this->Last, this->Last + this->Count) : 0.0;
+  if (this->Count < Size)
+  {
+    return this->Count > 0 ? *std::max_element(this->Last, this->Last + this->Count) : 0.0;
+  }
+  // Maxima of groups, which the compiler computes in lanes.
+  double farthest[GroupSize];
+  std::copy_n(this->Last, GroupSize, farthest);
+  for (int first = GroupSize; first < Size; first += GroupSize)
+  {
+    for (int i = 0; i < GroupSize; ++i)
+    {
+      farthest[i] = std::max(farthest[i], this->Last[first + i]);
+    }
+  }
+  return *std::max_element(farthest, farthest + GroupSize);
 }
 
 //------------------------------------------------------------------------------
 void CompleteRays(InstructionSet set, RayBlock& rays)
 {
-  for (int i = rays.Count; i % GroupSize != 0; ++i)
+  RunLanes(LengthKernel(), set, rays);
+  for (int i = rays.Count; i < RayBlock::Size && rays.Count > 0; ++i)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
       rays.Start[axis][i] = rays.Start[axis][0];
       rays.Direction[axis][i] = rays.Direction[axis][0];
     }
+    rays.Length[i] = rays.Length[0];
   }
-  RunLanes(LengthKernel(), set, rays);
 }
 
 //------------------------------------------------------------------------------
-RayTubes FindTubes(double first, InstructionSet set, const RayBlock& rays)
+TubeBounds FindTube(double first, InstructionSet set, RayBlock& rays)
 {
-  TubeGroup group(rays);
-  for (; group.First < rays.Count; group.First += GroupSize)
-  {
-    RunLanes(TubeKernel{ first }, set, group);
-  }
-  double low[TubeGroup::Numbers];
-  double high[TubeGroup::Numbers];
-  for (int k = 0; k < TubeGroup::Numbers; ++k)
-  {
-    low[k] = *std::min_element(group.Low[k], group.Low[k] + GroupSize);
-    high[k] = *std::max_element(group.High[k], group.High[k] + GroupSize);
-  }
-  RayTubes tubes;
-  tubes.ByDepth = { { low[0], low[1], low[2] }, { high[0], high[1], high[2] },
-    { low[3], low[4], low[5] }, { high[3], high[4], high[5] } };
-  tubes.ByLength = tubes.ByDepth;
-  tubes.ByLength.DirectionLow = { low[6], low[7], low[8] };
-  tubes.ByLength.DirectionHigh = { high[6], high[7], high[8] };
-  return tubes;
+  return BoundRays<false>(first, set, rays);
+}
+
+//------------------------------------------------------------------------------
+TubeBounds FindUnitTube(double first, InstructionSet set, RayBlock& rays)
+{
+  return BoundRays<true>(first, set, rays);
 }
 
 //------------------------------------------------------------------------------
@@ -217,9 +254,11 @@ bool MeetsBox(const AxisBox& box, InstructionSet set, RayBlock& rays)
 }
 
 //------------------------------------------------------------------------------
-void MeetPatchReach(const PatchReach& patch, InstructionSet set, RayBlock& rays)
+void MeetPatchReach(
+  const PatchReach& patch, const RayRange& range, InstructionSet set, RayBlock& rays)
 {
-  RunLanes(ReachKernel{ patch }, set, rays);
+  RayGroup group{ rays, range.First, range.End - range.First };
+  RunLanes(ReachKernel{ patch }, set, group);
 }
 
 }

@@ -46,6 +46,9 @@ struct RayBlock
   double X[Size];
   double Y[Size];
   double Slant[Size];
+  /** Extremes of beginnings and directions of some rays each: buffers of FindTube(). */
+  double Low[6][Size / 8];
+  double High[6][Size / 8];
 
   /** Adds a ray from `first` on, without an end. CompleteRays() has to follow. */
   void Add(const glm::dvec3& start, const glm::dvec3& direction, double first, double facing)
@@ -73,20 +76,24 @@ struct RayBlock
 };
 
 /**
- * Computes Length, and repeats a ray in the lanes that fill the last group.
+ * Computes Length, and repeats the first ray in the lanes behind the last one.
  * @pre GetInstructionSets() has the set; also for the functions that follow
  */
 void CompleteRays(InstructionSet set, RayBlock& rays);
-/** Bounds of rays. */
-struct RayTubes
+/**
+ * Bounds of the rays from the depth `first` on, whose parameters are depths. CompleteRays() has to
+ * come before, also for the next function.
+ */
+TubeBounds FindTube(double first, InstructionSet set, RayBlock& rays);
+/** The same with directions of unit length. */
+TubeBounds FindUnitTube(double first, InstructionSet set, RayBlock& rays);
+/** Rays of a block one after another: from First, a multiple of 8, to before End. */
+struct RayRange
 {
-  /** With parameters that are depths. */
-  TubeBounds ByDepth;
-  /** With directions of unit length. */
-  TubeBounds ByLength;
+  int First = 0;
+  int End = 0;
 };
-/** Bounds the rays from the depth `first` on. CompleteRays() has to come before. */
-RayTubes FindTubes(double first, InstructionSet set, const RayBlock& rays);
+
 /** Computes Inverse. */
 void InvertDirections(InstructionSet set, RayBlock& rays);
 
@@ -140,11 +147,12 @@ struct PatchReach
 };
 
 /**
- * Computes Depth, X, Y, Slant and Meets. Meets is 0 for rays that pass the patch, meet it at depths
- * outside of First and Last only, or meet it from a side that does not count.
+ * Computes Depth, X, Y, Slant and Meets of some rays. Meets is 0 for rays that pass the patch, meet
+ * it at depths outside of First and Last only, or meet it from a side that does not count.
  * @pre GetInstructionSets() has the set
  */
-void MeetPatchReach(const PatchReach& patch, InstructionSet set, RayBlock& rays);
+void MeetPatchReach(
+  const PatchReach& patch, const RayRange& range, InstructionSet set, RayBlock& rays);
 
 }
 

@@ -18,6 +18,13 @@ namespace
 constexpr int TileSize = RefractedRayTiles::TileSize;
 constexpr int BlocksOfTile = RefractedRayTiles::SquaresOfTile;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
+/** Below this number of facets, the bounds of groups of rays cost more than they save. */
+constexpr int FewFacets = 192;
+/**
+ * From this number of facets on, the tree of the boxes serves refracted rays better: their bounds
+ * are wide.
+ */
+constexpr int ManyFacets = 512;
 
 /** First pixel of a block of a tile, from the tile's. */
 glm::ivec2 FirstOfBlock(int number)
@@ -133,8 +140,8 @@ RefractedRayStack::Counts RefractedRayStack::GetCounts() const
     {
       if ((this->Untraced[tile] >> number & 1u) != 0)
       {
-        this->MeetFirst(
-          this->FirstPixel(static_cast<int>(tile)) + FirstOfBlock(number), block, counts);
+        this->MeetFirst(this->FirstPixel(static_cast<int>(tile)) + FirstOfBlock(number),
+          StackBlock::Side, block, counts);
         this->TraceBlock(nullptr, block, counts);
       }
     }
@@ -178,31 +185,37 @@ void RefractedRayStack::PrepareTile(int tile, bool mayShow)
 }
 
 //------------------------------------------------------------------------------
-/** Leaves out the rays of a tile, which show nothing of the mesh, refracted or not. */
-void RefractedRayStack::HideTile(int tile)
+/**
+ * Leaves out the rays of a tile, none of which shows the mesh behind the first interface.
+ * @param farthest bound of the depths at which rays that may show the mesh meet it.
+ * @param untraced the blocks with rays that may meet it.
+ */
+void RefractedRayStack::ClearTile(int tile, double farthest, TileSquares untraced)
 {
   for (RefractedRayTiles& rays : this->Rays)
   {
     rays.ChangeTile(tile) = std::vector<RefractedRay>();
     rays.SetSquares(tile, 0, 0);
-    rays.SetFarthest(tile, -Infinity);
+    rays.SetFarthest(tile, farthest);
   }
-  constexpr TileSquares all = static_cast<TileSquares>((1u << BlocksOfTile) - 1u);
-  this->Untraced[static_cast<std::size_t>(tile)] = all;
+  this->Untraced[static_cast<std::size_t>(tile)] = untraced;
 }
 
 //------------------------------------------------------------------------------
-/** The same for a block of a tile. */
-void RefractedRayStack::HideBlock(int tile, int number)
+/**
+ * Leaves out the rays of a block of a tile.
+ * @param ray all of them at the first interface.
+ */
+void RefractedRayStack::HideBlock(int tile, int number, const RefractedRay& ray)
 {
   const glm::ivec2 first = FirstOfBlock(number);
-  for (RefractedRayTiles& tiles : this->Rays)
+  for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
-    std::vector<RefractedRay>& rays = tiles.ChangeTile(tile);
+    std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
     for (int row = 0; row < StackBlock::Side && !rays.empty(); ++row)
     {
-      std::fill_n(
-        rays.begin() + (first.y + row) * TileSize + first.x, StackBlock::Side, RefractedRay());
+      std::fill_n(rays.begin() + (first.y + row) * TileSize + first.x, StackBlock::Side,
+        k == 0 ? ray : RefractedRay());
     }
   }
   TileSquares& untraced = this->Untraced[static_cast<std::size_t>(tile)];
@@ -210,37 +223,98 @@ void RefractedRayStack::HideBlock(int tile, int number)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * True if rays of a rectangle of pixels show nothing of the mesh: because they do not come to it,
+ * or because all of them meet the first interface before.
+ * @param first one of the pixels.
+ * @param ray is set to all of them at the first interface, to be drawn as if they met it.
+ */
+bool RefractedRayStack::ShowNothing(const Showing& showing, const glm::ivec2& first,
+  const CornerRays& corners, const StackVisibility& sight, StackBlock& block,
+  RefractedRay& ray) const
+{
+  ray = RefractedRay();
+  if (!showing.Refracted && !showing.Straight)
+  {
+    return true;
+  }
+  FacetBoxes* facets = block.OfTile.Find(0);
+  if (showing.Refracted || !facets || !sight.HidesMesh(corners, *facets) ||
+    !this->MeetsFirst(first, block))
+  {
+    return false;
+  }
+  ray.Depth = this->Of.EyeDepth;
+  return true;
+}
+
+//------------------------------------------------------------------------------
 RefractedRayStack::TileSum RefractedRayStack::TraceTile(
   int tile, const StackVisibility& sight, StackBlock& block)
 {
-  TileSum sum;
   const glm::ivec2 first = this->FirstPixel(tile);
   const CornerRays corners = this->CornersOf(first, TileSize);
   const bool mayShow = sight.MayShowMesh(corners, block.OfTile);
-  const bool mayShowStraight = sight.MayShowMeshUnrefracted(corners);
-  if (!mayShow && !mayShowStraight)
+  const Showing showing{ sight.MayShowMeshUnrefracted(corners), mayShow };
+  const FacetBoxes* facets = block.OfTile.Find(0);
+  RefractedRay instead;
+  if (showing.Straight && facets && facets->Count == 0)
   {
-    this->HideTile(tile);
-    return sum;
+    this->ClearTile(tile, Infinity, 0);
+    return TileSum();
   }
-  this->PrepareTile(tile, mayShow);
+  if (this->ShowNothing(showing, first, corners, sight, block, instead))
+  {
+    this->ClearTile(tile, -Infinity, RefractedRayTiles::AllSquares);
+    const bool isHidden = instead.MeetsInterface();
+    this->Rays.front().ChangeTile(tile).assign(
+      isHidden ? RefractedRayTiles::RaysOfTile : 0, instead);
+    return TileSum();
+  }
+  return this->TraceBlocks(
+    tile, showing, showing.Straight && sight.AllMeetBoundsUnrefracted(corners), sight, block);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Traces the blocks of a tile.
+ * @param areStraight true if all rays, on straight ways, reach the bounds of the mesh.
+ */
+RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showing& ofTile,
+  bool areStraight, const StackVisibility& sight, StackBlock& block)
+{
+  TileSum sum;
+  this->PrepareTile(tile, ofTile.Refracted);
   double farthest = -Infinity;
+  // False if rays of the block before met the first interface and did not show the mesh behind it:
+  // bounds may prove that for the next block as well.
+  bool hasShown = ofTile.Refracted;
   for (int number = 0; number < BlocksOfTile; ++number)
   {
-    const CornerRays ofBlock = this->CornersOf(first + FirstOfBlock(number), StackBlock::Side);
-    if (!(mayShowStraight && sight.MayShowMeshUnrefracted(ofBlock)) &&
-      !(mayShow && sight.MayShowMesh(ofBlock, block.OfTile, block.Facets)))
+    const glm::ivec2 first = this->FirstPixel(tile) + FirstOfBlock(number);
+    Showing showing = ofTile;
+    if (!areStraight || !hasShown)
     {
-      this->HideBlock(tile, number);
-      continue;
+      const CornerRays corners = this->CornersOf(first, StackBlock::Side);
+      showing.Straight &= areStraight || sight.MayShowMeshUnrefracted(corners);
+      showing.Refracted &=
+        (showing.Straight && hasShown) || sight.MayShowMesh(corners, block.OfTile, block.Facets);
+      RefractedRay instead;
+      if (this->ShowNothing(showing, first, corners, sight, block, instead))
+      {
+        this->HideBlock(tile, number, instead);
+        continue;
+      }
     }
     Counts counts;
-    this->MeetFirst(first + FirstOfBlock(number), block, counts);
+    this->MeetFirst(first, StackBlock::Side, block, counts);
     farthest = std::max(farthest, block.Lanes.GetFarthest());
-    if (mayShow && this->TraceBlock(&sight, block, counts))
+    const bool isMet = block.Lanes.IsAnyHit();
+    const bool isTraced = isMet && showing.Refracted && this->TraceBlock(&sight, block, counts);
+    hasShown = !isMet || (isTraced && block.EndBeside(this->MeshCenter, this->MeshHalf));
+    sum.Rays.Add(isTraced || !isMet ? counts : Counts());
+    if (isTraced)
     {
-      sum.Rays.Add(counts);
-      block.EndBeside(this->MeshCenter, this->MeshHalf);
       this->StoreBlock(block, tile, number, sum);
     }
     else
@@ -262,13 +336,23 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(
 }
 
 //------------------------------------------------------------------------------
-/** Traces the rays of the block whose first pixel is `first` to the first interface. */
-void RefractedRayStack::MeetFirst(const glm::ivec2& first, StackBlock& block, Counts& sums) const
+/** Traces the rays of a square of pixels, a block or a part of it, to the first interface. */
+void RefractedRayStack::MeetFirst(
+  const glm::ivec2& first, int side, StackBlock& block, Counts& sums) const
 {
-  block.Start(this->Of.Frame, first, this->Of.Width, this->Of.Height);
+  block.Start(this->Of.Frame, first, side, this->Of.Width, this->Of.Height);
   this->SetLanes(0, block, sums);
   this->MeetInterface(0, block, sums);
   std::copy_n(block.Lanes.Last, StackBlock::Size, block.Sights);
+}
+
+//------------------------------------------------------------------------------
+/** True if the ray of a pixel meets the first interface. */
+bool RefractedRayStack::MeetsFirst(const glm::ivec2& pixel, StackBlock& block) const
+{
+  Counts unused;
+  this->MeetFirst(pixel, 1, block, unused);
+  return block.Lanes.IsAnyHit();
 }
 
 //------------------------------------------------------------------------------
@@ -303,7 +387,7 @@ bool RefractedRayStack::TraceBlock(
 /** False if the rays in the lanes, on their way to the second interface, show no mesh. */
 bool RefractedRayStack::MayShowMesh(const StackVisibility& sight, StackBlock& block) const
 {
-  const StackLanes& lanes = block.Lanes;
+  StackLanes& lanes = block.Lanes;
   const double* medium = nullptr;
   for (int ray = 0; ray < block.Count; ++ray)
   {
@@ -318,7 +402,7 @@ bool RefractedRayStack::MayShowMesh(const StackVisibility& sight, StackBlock& bl
   {
     return true; // all rays have ended
   }
-  TubeBounds tube = block.Tubes.ByLength;
+  TubeBounds tube = FindUnitTube(lanes.First[0], this->Set, lanes);
   const glm::dvec3 toSurface = this->ToSurface(1);
   tube.StartLow -= toSurface;
   tube.StartHigh -= toSurface;
@@ -346,6 +430,56 @@ void RefractedRayStack::SetLanes(std::size_t number, StackBlock& block, Counts& 
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Visits facets of interface `number` that rays in the lanes may meet, from near to far.
+ * @param meet called with the intersector of the patch and the rays. It returns the largest
+ *   parameter of the tube that counts from then on.
+ */
+template <typename Meet>
+void RefractedRayStack::VisitFacets(std::size_t number, StackBlock& block, const Meet& meet) const
+{
+  const Interface& interface = this->Interfaces[number];
+  RayBlock& lanes = block.Lanes;
+  const double rayLength = lanes.Length[0];
+  const RayRange all{ 0, lanes.Count };
+  const auto tracerOf = [&](std::int32_t facet) -> const PatchIntersector&
+  { return block.GetTracer(interface, number, facet, rayLength); };
+  const auto request = [&interface](std::int32_t facet)
+  { interface.Surface->GetPatches().PrefetchPatch(facet); };
+  double farthest = Infinity;
+  FacetBoxes* facets = block.FindFacets(number);
+  if (!facets || (number > 0 && facets->Count > ManyFacets))
+  {
+    InvertDirections(this->Set, lanes);
+    interface.Surface->GetTree().Visit(
+      block.Tube, farthest,
+      [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
+      [&](std::int32_t facet, const TubeRange&) { return meet(tracerOf(facet), all); });
+  }
+  else if (facets->Count < FewFacets)
+  {
+    VisitBoxesNearFirst(block.Tube, this->Set, *facets, request,
+      [&](std::int32_t facet, const TubeRange& range, const AxisBox&)
+      {
+        const PatchIntersector& tracer = tracerOf(facet);
+        farthest = tracer.MayMeet(block.Tube, range) ? meet(tracer, all) : farthest;
+        return farthest;
+      });
+  }
+  else
+  {
+    GroupTubes groups(lanes.First[0], lanes);
+    VisitBoxesNearFirst(block.Tube, this->Set, *facets, request,
+      [&](std::int32_t facet, const TubeRange&, const AxisBox& box)
+      {
+        const RayRange rays = groups.FindRays(box, this->Set);
+        farthest = rays.First < rays.End ? meet(tracerOf(facet), rays) : farthest;
+        return farthest;
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
 /** Intersects the lanes with interface `number`, and ends legs that miss it. */
 void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Counts& sums) const
 {
@@ -354,9 +488,6 @@ void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Cou
   {
     return;
   }
-  const Interface& interface = this->Interfaces[number];
-  const double rayLength = lanes.Length[0];
-  const double first = lanes.First[0];
   bool isNearer = false;
   const auto keepNearest = [&](std::int32_t index, const MembraneHit& hit)
   {
@@ -374,28 +505,17 @@ void RefractedRayStack::MeetInterface(std::size_t number, StackBlock& block, Cou
     }
   };
   double farthest = Infinity;
-  const auto meet = [&](std::int32_t facet, const TubeRange&)
-  {
-    const PatchIntersector& tracer = block.GetTracer(interface, number, facet, rayLength);
-    isNearer = false;
-    sums.Undecided -= tracer.GetNumberOfUndecidedRays();
-    tracer.Meet(lanes, keepNearest);
-    sums.Undecided += tracer.GetNumberOfUndecidedRays();
-    // Parameters of the tube count from its beginning.
-    farthest = isNearer ? lanes.GetFarthest() - first : farthest;
-    return farthest;
-  };
-  if (FacetBoxes* facets = block.FindFacets(number))
-  {
-    VisitBoxesNearFirst(block.Tubes.ByDepth, this->Set, *facets, meet);
-  }
-  else
-  {
-    InvertDirections(this->Set, lanes);
-    interface.Surface->GetTree().Visit(
-      block.Tubes.ByDepth, farthest,
-      [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); }, meet);
-  }
+  this->VisitFacets(number, block,
+    [&](const PatchIntersector& tracer, const RayRange& range)
+    {
+      isNearer = false;
+      sums.Undecided -= tracer.GetNumberOfUndecidedRays();
+      tracer.Meet(lanes, range, keepNearest);
+      sums.Undecided += tracer.GetNumberOfUndecidedRays();
+      // Parameters of the tube count from its beginning.
+      farthest = isNearer ? lanes.GetFarthest() - lanes.First[0] : farthest;
+      return farthest;
+    });
   for (int lane = 0; lane < lanes.Count && number > 0; ++lane)
   {
     if (lanes.Last[lane] == Infinity)

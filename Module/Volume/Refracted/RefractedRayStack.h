@@ -34,9 +34,9 @@ namespace meniscus
  * are straight. A ray also ends at an interface behind which it does not reach the mesh.
  *
  * Blocks of rays descend the trees of boxes around the patches. Those that show nothing of the mesh
- * by their bounds (StackVisibility) are not traced behind the first interface. Tiles of the image
- * in which the mesh is not seen either way, refracted or not, are left out: their rays are
- * straight.
+ * by their bounds (StackVisibility) are not traced behind the first interface. Tiles and blocks of
+ * the image in which the mesh is not seen either way, refracted or not, are left out: their rays
+ * are straight, or end at the depth of the eye if they meet the first interface before the mesh.
  */
 class RefractedRayStack
 {
@@ -116,10 +116,21 @@ private:
     Counts Rays;
   };
 
+  /** Ways on which rays may show the mesh: straight on, and behind the first interface. */
+  struct Showing
+  {
+    bool Straight;
+    bool Refracted;
+  };
+
   TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
   void PrepareTile(int tile, bool mayShow);
-  void HideTile(int tile);
-  void HideBlock(int tile, int number);
+  void ClearTile(int tile, double farthest, TileSquares untraced);
+  void HideBlock(int tile, int number, const RefractedRay& ray);
+  bool ShowNothing(const Showing& showing, const glm::ivec2& first, const CornerRays& corners,
+    const StackVisibility& sight, StackBlock& block, RefractedRay& ray) const;
+  TileSum TraceBlocks(int tile, const Showing& ofTile, bool areStraight,
+    const StackVisibility& sight, StackBlock& block);
   /** First pixel of a tile. */
   glm::ivec2 FirstPixel(int tile) const
   {
@@ -131,10 +142,13 @@ private:
   {
     return this->Of.Center - this->Interfaces[number].Surface->GetMembrane().GetOrigin();
   }
-  void MeetFirst(const glm::ivec2& first, StackBlock& block, Counts& sums) const;
+  void MeetFirst(const glm::ivec2& first, int side, StackBlock& block, Counts& sums) const;
+  bool MeetsFirst(const glm::ivec2& pixel, StackBlock& block) const;
   bool TraceBlock(const StackVisibility* sight, StackBlock& block, Counts& sums) const;
   bool MayShowMesh(const StackVisibility& sight, StackBlock& block) const;
   void SetLanes(std::size_t number, StackBlock& block, Counts& sums) const;
+  template <typename Meet>
+  void VisitFacets(std::size_t number, StackBlock& block, const Meet& meet) const;
   void MeetInterface(std::size_t number, StackBlock& block, Counts& sums) const;
   void StoreBlock(const StackBlock& block, int tile, int number, TileSum& sum);
   void StoreSights(const StackBlock& block, int tile, int number);

@@ -203,11 +203,12 @@ std::int64_t CountOnes(const std::int64_t* numbers, int count)
 }
 
 //------------------------------------------------------------------------------
-void StackBlock::Start(const RayFrame& frame, const glm::ivec2& first, int width, int height)
+void StackBlock::Start(
+  const RayFrame& frame, const glm::ivec2& first, int side, int width, int height)
 {
   constexpr int tileSize = RefractedRayTiles::TileSize;
-  const int columns = std::min(Side, width - first.x);
-  const int rows = std::min(Side, height - first.y);
+  const int columns = std::min(side, width - first.x);
+  const int rows = std::min(side, height - first.y);
   SightLegs sight;
   this->Count = 0;
   for (int row = 0; row < rows; ++row)
@@ -260,7 +261,7 @@ void StackBlock::SetLanes(
     }
   }
   CompleteRays(this->Set, lanes);
-  this->Tubes = FindTubes(first, this->Set, lanes);
+  this->Tube = FindTube(first, this->Set, lanes);
 }
 
 //------------------------------------------------------------------------------
@@ -293,12 +294,13 @@ void StackBlock::Refract(std::size_t number, const Interface& interface)
 }
 
 //------------------------------------------------------------------------------
-void StackBlock::EndBeside(const glm::dvec3& meshCenter, const glm::dvec3& meshHalf)
+bool StackBlock::EndBeside(const glm::dvec3& meshCenter, const glm::dvec3& meshHalf)
 {
   const EndKernel kernel{ meshCenter, meshHalf };
   EndedLegs rays;
   rays.Count = this->Count;
   std::fill_n(rays.Stays, Size, 0);
+  bool mayShow = false;
   for (std::size_t k = this->Legs.size() - 1; k > 0; --k)
   {
     WorldLegs& legs = this->Legs[k];
@@ -312,7 +314,9 @@ void StackBlock::EndBeside(const glm::dvec3& meshCenter, const glm::dvec3& meshH
     RunLanes(kernel, this->Set, rays);
     std::copy_n(rays.Step[0], 3 * Size, legs.Step[0]);
     legs.MayShow = CountOnes(rays.Meets, this->Count) > 0;
+    mayShow = mayShow || legs.MayShow;
   }
+  return mayShow;
 }
 
 //------------------------------------------------------------------------------
@@ -328,18 +332,32 @@ void StackBlock::FindFrameSteps(
 const PatchIntersector& StackBlock::GetTracer(
   const Interface& interface, std::size_t number, std::int32_t facet, double rayLength)
 {
-  const auto place = static_cast<std::uint32_t>(facet) + 17u * static_cast<std::uint32_t>(number);
-  std::optional<KeptPatch>& kept = this->Kept[place % KeptPatches];
-  if (kept && kept->Number == number && kept->Facet == facet)
+  // The upper bits of this product differ for facets that are close to each other.
+  const std::uint32_t key =
+    static_cast<std::uint32_t>(facet) + 7919u * static_cast<std::uint32_t>(number);
+  std::uint16_t& place = this->Places[key * 2654435769u >> (32 - PlaceBits)];
+  if (place < this->Kept.size())
   {
-    kept->Tracer.SetRayLength(rayLength);
+    KeptPatch& kept = this->Kept[place];
+    if (kept.Number == number && kept.Facet == facet)
+    {
+      kept.Tracer.SetRayLength(rayLength);
+      return kept.Tracer;
+    }
+  }
+  const KeptPatch added{ number, facet,
+    PatchIntersector(interface.Surface->GetPatches().GetPatch(facet), rayLength, this->Set) };
+  place = static_cast<std::uint16_t>(this->NextPlace);
+  this->NextPlace = (this->NextPlace + 1) % KeptPatches;
+  if (this->Kept.size() < KeptPatches)
+  {
+    this->Kept.push_back(added);
   }
   else
   {
-    kept.emplace(KeptPatch{ number, facet,
-      PatchIntersector(interface.Surface->GetPatches().GetPatch(facet), rayLength, this->Set) });
+    this->Kept[place] = added;
   }
-  return kept->Tracer;
+  return this->Kept[place].Tracer;
 }
 
 }

@@ -20,7 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace meniscus
@@ -72,6 +71,18 @@ struct StackLanes : RayBlock
   /** Not 0 for rays in a medium that the interface does not have. */
   std::int64_t IsMismatched[Size];
 
+  /** True if any ray meets the interface. */
+  bool IsAnyHit() const
+  {
+    for (int lane = 0; lane < this->Count; ++lane)
+    {
+      if (this->IsHit(lane))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
   /** True if the ray of a lane meets the interface. */
   bool IsHit(int lane) const
   {
@@ -98,8 +109,9 @@ struct StackBlock
   /**
    * Sets leg 0 of the rays.
    * @param first first pixel of the block, in an image of the given width and height.
+   * @param side side length in pixels, up to Side.
    */
-  void Start(const RayFrame& frame, const glm::ivec2& first, int width, int height);
+  void Start(const RayFrame& frame, const glm::ivec2& first, int side, int width, int height);
   /**
    * Sets the lanes to the rays that may meet interface `number`, from the depth `first` on; there
    * are no lanes if there is no such ray. IsMismatched is set in any case.
@@ -111,9 +123,9 @@ struct StackBlock
   void Refract(std::size_t number, const Interface& interface);
   /**
    * Ends rays at the last interface behind which they may meet a box about the mesh, and determines
-   * MayShow of their legs.
+   * MayShow of their legs. Returns false if no leg may meet it.
    */
-  void EndBeside(const glm::dvec3& meshCenter, const glm::dvec3& meshHalf);
+  bool EndBeside(const glm::dvec3& meshCenter, const glm::dvec3& meshHalf);
   /** Computes the steps of leg `number` in the frame of the view. */
   void FindFrameSteps(
     std::size_t number, const glm::dmat3& worldToFrame, double (&steps)[3][Size]) const;
@@ -136,8 +148,8 @@ struct StackBlock
   /** Depths of the intersections with the first interface; infinite without one. */
   double Sights[Size];
   StackLanes Lanes;
-  /** Bounds of the lanes. */
-  RayTubes Tubes;
+  /** Bounds of the lanes, whose parameters are depths. */
+  TubeBounds Tube;
   /** Normals at the intersections of the lanes. */
   double Normals[3][Size] = {};
   /** Not 0 if the ray of a lane passes the interface. */
@@ -147,15 +159,20 @@ struct StackBlock
   BundleFacets Facets;
 
 private:
-  /** Patches that earlier blocks met; a new patch takes the place of an older one. */
+  /** A patch that an earlier block met. */
   struct KeptPatch
   {
     std::size_t Number; ///< of the interface
     std::int32_t Facet;
     PatchIntersector Tracer;
   };
-  static constexpr std::uint32_t KeptPatches = 256;
-  std::vector<std::optional<KeptPatch>> Kept{ KeptPatches };
+  static constexpr std::uint32_t KeptPatches = 1024;
+  static constexpr int PlaceBits = 12;
+  /** The latest patches, and the place among them of the next one. */
+  std::vector<KeptPatch> Kept;
+  std::uint32_t NextPlace = 0;
+  /** Places in `Kept` by a hash of the facet. */
+  std::array<std::uint16_t, 1 << PlaceBits> Places{};
 };
 
 }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/StackVisibility.h"
 
+#include "Common/Prefetch.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace meniscus
@@ -34,6 +37,27 @@ TubeBounds BoundSight(const CornerRays& rays)
     BoundDirections(0.25 * (along[0] + along[1] + along[2] + along[3]), along, 4, 0.0);
   return BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, rays.Starts, 4, 0.0);
 }
+
+TubeBounds Moved(TubeBounds tube, const glm::dvec3& by)
+{
+  tube.StartLow += by;
+  tube.StartHigh += by;
+  return tube;
+}
+
+/** Bounds of the normals at intersections with a patch. */
+AxisBox NormalsOf(const RefractingSurface::PatchBounds& patch)
+{
+  const glm::dvec3 half = patch.Normals.Half + PatchIntersector::NormalMargin;
+  return { patch.Normals.Middle - half, patch.Normals.Middle + half };
+}
+
+/** A facet whose box rays of a tube may meet. */
+struct FoundFacet
+{
+  std::int32_t Facet;
+  TubeRange Range;
+};
 
 /** Unit vectors in a box. */
 DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
@@ -76,27 +100,42 @@ StackVisibility::Meeting StackVisibility::Meet(const Interface& interface, const
 {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
-  const glm::dvec3 toSurface = this->Origin - interface.Surface->GetMembrane().GetOrigin();
-  TubeBounds shifted = tube;
-  shifted.StartLow += toSurface;
-  shifted.StartHigh += toSurface;
+  const glm::dvec3 toSurface = this->ToSurface(interface);
+  const TubeBounds shifted = Moved(tube, toSurface);
   Meeting meeting;
-  const auto add = [&](std::int32_t facet, const TubeRange& range)
+  const auto meet = [&](const FoundFacet& found)
   {
-    const RefractingSurface::PatchBounds& patch = interface.Surface->GetBounds(facet);
-    const glm::dvec3 half = patch.Normals.Half + PatchIntersector::NormalMargin;
-    const CosineBounds cosine = BoundCosine(sight, { patch.Normals.Middle, half });
-    const double most = facing > 0.0 ? cosine.Most : -cosine.Least;
-    if (facing == 0.0 || most > 0.0)
+    const RefractingSurface::PatchBounds& patch = interface.Surface->GetBounds(found.Facet);
+    const AxisBox normals = NormalsOf(patch);
+    const auto mayFace = [&]()
     {
-      const AxisBox part = BoundPart(shifted, range);
+      const CosineBounds cosine = BoundCosine(sight, InBox(normals.Low, normals.High));
+      return (facing > 0.0 ? cosine.Most : -cosine.Least) > 0.0;
+    };
+    if (facing == 0.0 || mayFace())
+    {
+      const AxisBox part = BoundPart(shifted, found.Range);
       meeting.Exists = true;
       meeting.Places.Add({ glm::max(part.Low, patch.Box.Low) - toSurface,
         glm::min(part.High, patch.Box.High) - toSurface });
-      meeting.Normals.Add({ patch.Normals.Middle - half, patch.Normals.Middle + half });
-      meeting.Last = std::max(meeting.Last, range.To);
-      facets.Add(facet, patch.Box);
+      meeting.Normals.Add(normals);
+      meeting.Last = std::max(meeting.Last, found.Range.To);
+      facets.Add(found.Facet, patch.Box);
     }
+  };
+  // Bounds of patches are far apart in memory: they are requested a few facets before their use.
+  std::array<FoundFacet, 8> waiting;
+  std::size_t count = 0;
+  const auto add = [&](std::int32_t facet, const TubeRange& range)
+  {
+    Prefetch(&interface.Surface->GetBounds(facet), sizeof(RefractingSurface::PatchBounds));
+    FoundFacet& place = waiting[count % waiting.size()];
+    if (count >= waiting.size())
+    {
+      meet(place);
+    }
+    place = { facet, range };
+    ++count;
     return anywhere;
   };
   if (within)
@@ -106,6 +145,10 @@ StackVisibility::Meeting StackVisibility::Meet(const Interface& interface, const
   else
   {
     interface.Surface->GetTree().Visit(shifted, anywhere, add);
+  }
+  for (std::size_t k = count - std::min(count, waiting.size()); k < count; ++k)
+  {
+    meet(waiting[k % waiting.size()]);
   }
   return meeting;
 }
@@ -127,7 +170,65 @@ bool StackVisibility::MayShowMesh(
 //------------------------------------------------------------------------------
 bool StackVisibility::MayShowMeshUnrefracted(const CornerRays& rays) const
 {
-  return this->Mesh.Meets(BoundSight(rays));
+  TubeBounds tube;
+  for (int i = 0; i < 4; ++i)
+  {
+    tube.Add(rays.Starts[i], rays.Directions[i]);
+  }
+  return this->Mesh.Meets(tube);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * The hull of points of the four corner rays, one of each, meets all rays between them. It is
+ * within the bounds, which are convex, if these points are.
+ */
+bool StackVisibility::AllMeetBoundsUnrefracted(const CornerRays& rays) const
+{
+  for (int i = 0; i < 4; ++i)
+  {
+    TubeBounds ray;
+    ray.Add(rays.Starts[i], rays.Directions[i]);
+    if (!this->Mesh.Meets(ray))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * The rays that meet the surface end, among those of a rectangle of pixels, where they pass an edge
+ * of the surface, are along it, or meet it at their beginning. Without such a place all or none
+ * meet it.
+ */
+bool StackVisibility::HidesMesh(const CornerRays& rays, FacetBoxes& facets) const
+{
+  const RefractingSurface& surface = *this->Interfaces.front().Surface;
+  const TubeBounds tube = BoundSight(rays);
+  const glm::dvec3 toSurface = this->ToSurface(this->Interfaces.front());
+  bool mayEnd = false;
+  double last = 0.0;
+  AxisBox normals;
+  VisitBoxes(Moved(tube, toSurface), this->Set, facets,
+    [&](std::int32_t facet, const TubeRange& range)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        mayEnd |= surface.GetPatches().GetNeighbour(facet, corner) == CurvedPatches::NoFacet;
+      }
+      mayEnd |= !(range.From > 0.0);
+      last = std::max(last, range.To);
+      normals.Add(NormalsOf(surface.GetBounds(facet)));
+    });
+  if (mayEnd || this->Mesh.Meets(tube, last))
+  {
+    return false;
+  }
+  const CosineBounds cosine =
+    BoundCosine(InBox(tube.DirectionLow, tube.DirectionHigh), InBox(normals.Low, normals.High));
+  return cosine.Most < 0.0 || cosine.Least > 0.0;
 }
 
 //------------------------------------------------------------------------------

@@ -82,6 +82,14 @@ public:
   bool MayShowMesh(const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const;
   /** False if these rays, on straight ways, do not reach the bounds of the mesh. */
   bool MayShowMeshUnrefracted(const CornerRays& rays) const;
+  /** True if all of these rays, on straight ways, reach the bounds of the mesh. */
+  bool AllMeetBoundsUnrefracted(const CornerRays& rays) const;
+  /**
+   * True if either none of these rays meets the first interface, or all do, and before they reach
+   * the bounds of the mesh.
+   * @param facets all facets of the first interface that the rays may meet.
+   */
+  bool HidesMesh(const CornerRays& rays, FacetBoxes& facets) const;
   /**
    * The same for a part of the rays of the rectangle behind the first interface.
    * @param rays beginnings, and directions of unit length.
@@ -102,6 +110,11 @@ private:
     /** Largest parameter of the tube at which a ray may meet the surface. */
     double Last = 0.0;
   };
+  /** The origin of sight rays, relative to the origin of an interface's surface. */
+  glm::dvec3 ToSurface(const Interface& interface) const
+  {
+    return this->Origin - interface.Surface->GetMembrane().GetOrigin();
+  }
   bool FollowLegs(std::size_t number, TubeBounds tube, double medium, BundleFacets& within,
     BundleFacets& facets) const;
   Meeting Meet(const Interface& interface, const TubeBounds& tube, double facing,

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Intersections of rays with one surface, and rays that may be skipped.
+// Intersections of rays with one surface.
 #include "RefractionTestRandom.h"
 #include "StackedRays.h"
-
-#include "Refraction/Membrane/Membrane.h"
 
 #include <glm/geometric.hpp>
 
@@ -17,84 +15,6 @@
 using namespace meniscus;
 using namespace meniscus::test;
 using meniscus::testing::Random;
-
-namespace
-{
-
-struct Counts
-{
-  int Shown = 0;
-  int Hidden = 0;
-  int Wrong = 0;
-};
-
-/** Compares the rays that reach the box, refracted or not, with rays of which none is skipped. */
-void Compare(const RefractedRayStack& all, const RefractedRayStack& some,
-  const RefractedRayStack::View& view, const WorldBox& box, Counts& counts)
-{
-  const glm::dmat3& toWorld = view.Frame.ViewToWorld;
-  for (int row = 0; row < Size; ++row)
-  {
-    for (int column = 0; column < Size; ++column)
-    {
-      const double i = column + 0.5 - 0.5 * Size;
-      const double j = row + 0.5 - 0.5 * Size;
-      const RefractedRay exact = RayOf(all.GetRays()[0], column, row);
-      const RefractedRay ray = RayOf(some.GetRays()[0], column, row);
-      const bool same = exact.Depth == ray.Depth && exact.Step == ray.Step;
-      const glm::dvec3 start = view.Center + toWorld * glm::dvec3(view.Frame.Origin.At(i, j), 0.0);
-      const glm::dvec3 along = toWorld * glm::dvec3(view.Frame.Slope.At(i, j), 1.0);
-      const glm::dvec3 eye = start + view.EyeDepth * along;
-      const glm::dvec3 sightPoint = start + exact.Depth * along;
-      const bool isStraight = box.Meets(eye, along, 1e30);
-      const bool comes = exact.GoesOn() && box.Meets(sightPoint, toWorld * exact.Step, 1e30);
-      const double length = exact.MeetsInterface() ? exact.Depth - view.EyeDepth : 1e30;
-      counts.Shown += comes || box.Meets(eye, along, length) ? 1 : 0;
-      counts.Hidden += exact.GoesOn() && !ray.GoesOn() ? 1 : 0;
-      // Behind the membrane a ray may be skipped that does not reach the box there; in front of it,
-      // a ray that does not reach the box straight on.
-      const bool isRightBefore = exact.Depth == ray.Depth || !isStraight;
-      counts.Wrong += same || (!comes && !ray.GoesOn() && isRightBefore) ? 0 : 1;
-    }
-  }
-}
-
-}
-
-TEST(RefractedRayStack, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
-{
-  Random random(11);
-  Counts counts;
-  for (const auto& shape : Shapes)
-  {
-    for (const int cells : { 1, 3, 12, 48 })
-    {
-      const Sheet sheet(shape, cells);
-      for (int view = 0; view < 24; ++view)
-      {
-        const double side = view % 4 == 3 ? -1.0 : 1.0;
-        const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
-        const glm::dvec3 target =
-          random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1));
-        RefractedRayStack::View looking =
-          LookAt(eye, target, random(0.5, 3.0), view % 3 == 0, Size);
-        const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.5)),
-          random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
-        SetMesh(looking, Everywhere);
-        const std::vector<Interface> water{ sheet.Between(1.0, 1.333) };
-        RefractedRayStack all;
-        all.Build(water, looking);
-        SetMesh(looking, box);
-        RefractedRayStack some;
-        some.Build(water, looking);
-        Compare(all, some, looking, box, counts);
-        ASSERT_EQ(counts.Wrong, 0) << cells << " cells, view " << view;
-      }
-    }
-  }
-  EXPECT_GT(counts.Shown, 100000);
-  EXPECT_GT(counts.Hidden, 100000);
-}
 
 /**
  * Every ray meets a coarse sphere at its exact intersection, including the outline, where a ray

@@ -73,6 +73,45 @@ TEST(RayBlock, NoRayMissesItsBox)
   EXPECT_EQ(meets, 200 * RayBlock::Size * static_cast<int>(GetInstructionSets().size()));
 }
 
+/** Tubes are as narrow as their rays, of any number and in any instruction set. */
+TEST(RayBlock, TubesBoundRays)
+{
+  Random random(31);
+  for (int count = 1; count <= RayBlock::Size; ++count)
+  {
+    RayBlock rays;
+    TubeBounds expected;
+    TubeBounds ofUnits;
+    const double first = random(-1.0, 1.0);
+    for (int ray = 0; ray < count; ++ray)
+    {
+      const glm::dvec3 start = random.Point(glm::dvec3(-1.0), glm::dvec3(1.0));
+      const glm::dvec3 direction = random.Point(glm::dvec3(-1.0), glm::dvec3(1.0));
+      rays.Add(start, direction, first, 0.0);
+      expected.Add(start + first * direction, direction);
+      ofUnits.Add(start + first * direction, direction * (1.0 / glm::length(direction)));
+    }
+    CompleteRays(BestInstructionSet(), rays);
+    const auto expectEqual = [](const TubeBounds& a, const TubeBounds& b)
+    {
+      EXPECT_EQ(a.StartLow, b.StartLow);
+      EXPECT_EQ(a.StartHigh, b.StartHigh);
+      EXPECT_EQ(a.DirectionLow, b.DirectionLow);
+      EXPECT_EQ(a.DirectionHigh, b.DirectionHigh);
+    };
+    for (const InstructionSet set : GetInstructionSets())
+    {
+      expectEqual(FindTube(first, set, rays), expected);
+      expectEqual(FindUnitTube(first, set, rays), ofUnits);
+    }
+    for (int ray = 0; ray < count; ++ray)
+    {
+      rays.Last[ray] = random(-1.0, 1.0);
+    }
+    EXPECT_EQ(rays.GetFarthest(), *std::max_element(rays.Last, rays.Last + count));
+  }
+}
+
 /**
  * The bounds of a patch about its facet's plane leave out no ray that meets the patch, at any
  * slant, on the side and between the depths that count, and few others.
@@ -86,6 +125,8 @@ TEST(RayBlock, NoRayMissesThePatchThatItMeets)
   int met = 0;
   int passing = 0;
   int taken = 0;
+  const auto planeOf = [](const CurvedPatch& patch)
+  { return glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]); };
   const auto test = [&](const CurvedPatch& patch, double unit)
   {
     const PatchIntersector tracer(patch, 1.0, BestInstructionSet());
@@ -119,6 +160,20 @@ TEST(RayBlock, NoRayMissesThePatchThatItMeets)
       }
     }
     CompleteRays(BestInstructionSet(), rays);
+    // The tube of all rays, and the tube of each by itself between depths about the place.
+    const TubeBounds tube = FindTube(0.0, BestInstructionSet(), rays);
+    EXPECT_TRUE(tracer.MayMeet(tube, { 0.0, 2.0 }));
+    for (int ray = 0; ray < RayBlock::Size; ++ray)
+    {
+      TubeBounds own;
+      own.Add(rays.GetStart(ray), rays.GetDirection(ray));
+      const bool mayMeet = tracer.MayMeet(own, { depths[ray] - 1e-3, depths[ray] + 1e-3 });
+      EXPECT_TRUE(mayMeet || !meets[ray]);
+      const glm::dvec3 away = 2.0 * patch.GetSize() * glm::normalize(planeOf(patch));
+      own.StartLow += away;
+      own.StartHigh += away;
+      EXPECT_FALSE(tracer.MayMeet(own, { depths[ray], depths[ray] }));
+    }
     bool found[RayBlock::Size] = {};
     tracer.Meet(rays,
       [&](std::int32_t ray, const MembraneHit& hit)
@@ -261,7 +316,7 @@ TEST(RayBlock, InstructionSetsSeeTheSame)
   {
     RayBlock block = rays;
     CompleteRays(set, block);
-    MeetPatchReach(reach, set, block);
+    MeetPatchReach(reach, { 0, rays.Count }, set, block);
     PatchIntersectionBatch result = lanes;
     for (int i = 0; i < result.Count; ++i)
     {

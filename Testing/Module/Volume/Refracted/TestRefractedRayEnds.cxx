@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays behind several interfaces that are traced only as far as the mesh needs them.
+// Rays behind interfaces that are traced only as far as the mesh needs them.
 #include "RefractionTestRandom.h"
 #include "StackedRays.h"
 
@@ -27,8 +27,10 @@ struct EndedRays
 {
   int Shown = 0;
   int Ended = 0;
+  int Hidden = 0;
   int Wrong = 0;
   std::int64_t Untraced = 0;
+  std::int64_t UntracedOfAll = 0;
 
   void Compare(
     const std::vector<Interface>& list, RefractedRayStack::View view, const WorldBox& box)
@@ -41,7 +43,7 @@ struct EndedRays
     some.Build(list, view);
     EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
     EXPECT_EQ(some.GetCounts().Reflected, all.GetCounts().Reflected);
-    EXPECT_EQ(all.GetNumberOfUntracedBlocks(), 0);
+    this->UntracedOfAll += all.GetNumberOfUntracedBlocks();
     this->Untraced += some.GetNumberOfUntracedBlocks();
     const RayLegs legs = LegsOf(all, view);
     for (int pixel = 0; pixel < Size * Size; ++pixel)
@@ -61,19 +63,52 @@ struct EndedRays
         this->Ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
         this->Wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
       }
-      // Only rays that do not come to the mesh straight on may miss the first interface.
+      // Rays that do not come to the mesh straight on may miss the first interface. Rays that show
+      // nothing of the mesh, since they meet the interface before, may end where they begin.
       const WorldRay sight = LegOf(legs, view, pixel % Size, pixel / Size, 0);
       const glm::dvec3 eye = sight.Start + view.EyeDepth * sight.Direction;
-      this->Wrong +=
-        rayOf(all, 0).Depth != rayOf(some, 0).Depth && box.Meets(eye, sight.Direction, 1e30) ? 1
-                                                                                             : 0;
+      const double depth = rayOf(all, 0).Depth;
+      const double found = rayOf(some, 0).Depth;
+      const bool isHidden = depth < 1e30 && found == view.EyeDepth && !comes;
+      const double length = isHidden ? depth - view.EyeDepth : 1e30;
+      this->Hidden += isHidden ? 1 : 0;
+      this->Wrong += depth != found && box.Meets(eye, sight.Direction, length) ? 1 : 0;
     }
   }
 };
 
 }
 
-/** Rays end early only where they do not come to the mesh. */
+/** The same for one surface, of few and of many facets, from both sides. */
+TEST(RefractedRayStack, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
+{
+  Random random(11);
+  EndedRays rays;
+  for (const auto& shape : Shapes)
+  {
+    for (const int cells : { 1, 3, 12, 48 })
+    {
+      const Sheet sheet(shape, cells);
+      for (int view = 0; view < 24; ++view)
+      {
+        const double side = view % 4 == 3 ? -1.0 : 1.0;
+        const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
+        const glm::dvec3 target =
+          random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1));
+        const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.5)),
+          random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
+        rays.Compare({ sheet.Between(1.0, 1.333) },
+          LookAt(eye, target, random(0.5, 3.0), view % 3 == 0, Size), box);
+        ASSERT_EQ(rays.Wrong, 0) << cells << " cells, view " << view;
+      }
+    }
+  }
+  EXPECT_GT(rays.Shown, 50000);
+  EXPECT_GT(rays.Ended, 100000);
+  EXPECT_GT(rays.Hidden, 1000);
+}
+
+/** Rays through a pane end early only where they do not come to the mesh. */
 TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
 {
   Random random(23);
@@ -93,6 +128,7 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   EXPECT_EQ(rays.Wrong, 0);
   EXPECT_GT(rays.Shown, 10000);
   EXPECT_GT(rays.Ended, 10000);
+  EXPECT_EQ(rays.UntracedOfAll, 0);
   // Half of the blocks of 8 x 8 rays.
   EXPECT_GT(rays.Untraced, 96 * Size * Size / (8 * 8) / 2);
 }
@@ -127,6 +163,7 @@ TEST(RefractedRayStack, BoundsOfLegsHoldFromEachSide)
   EXPECT_EQ(rays.Wrong, 0);
   EXPECT_GT(rays.Shown, 5000);
   EXPECT_GT(rays.Ended, 5000);
+  EXPECT_EQ(rays.UntracedOfAll, 0);
   EXPECT_GT(rays.Untraced, 48 * Size * Size / (8 * 8) / 4);
 }
 
@@ -170,7 +207,7 @@ TEST(RefractedRayStack, StraightRaysToTheMeshDoNotMatter)
 
 /**
  * Blocks of rays that miss a small mesh, both refracted and straight on, are not traced at all. The
- * bound of a tile's ends holds for all rays that reach the mesh straight on.
+ * bound of a tile's ends holds for all rays that reach the mesh.
  */
 TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
 {
@@ -204,13 +241,15 @@ TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
       const int row = pixel / Size;
       const WorldRay ray = LegOf(legs, view, column, row, 1);
       const WorldRay sight = LegOf(legs, view, column, row, 0);
-      const bool isStraight = box.Meets(sight.Start, sight.Direction, 1e30);
-      const auto block = static_cast<std::size_t>(row / side * (Size / side) + column / side);
-      shows[block] = shows[block] || isStraight || box.Meets(ray.Start, ray.Direction, 1e30);
       const double end = RayOf(all.GetRays()[0], column, row).Depth;
+      const bool isStraight = box.Meets(sight.Start, sight.Direction, 1e30);
+      const bool comes =
+        box.Meets(ray.Start, ray.Direction, 1e30) || box.Meets(sight.Start, sight.Direction, end);
+      const auto block = static_cast<std::size_t>(row / side * (Size / side) + column / side);
+      shows[block] = shows[block] || isStraight || comes;
       const double farthest = fewer.GetFarthestEnd(row / TileSize * Columns + column / TileSize);
-      EXPECT_TRUE(!isStraight || end <= farthest);
-      ends += isStraight && farthest < 1e30 ? 1 : 0;
+      EXPECT_TRUE(!comes || end <= farthest);
+      ends += comes && farthest < 1e30 ? 1 : 0;
     }
     shown += static_cast<int>(std::count(shows.begin(), shows.end(), true));
   }
