@@ -146,6 +146,7 @@ DivisionMeasure MeasureFor(const DivisionRequest& request, const PointFields& fi
   measure.OfPlace = diagonal > 0.0 ? displacement / diagonal : 0.0;
   measure.PlaceRounding = RoundingOf(LargestCoordinate(fields));
   measure.ValuesMayMove = request.Picture.Use != ScalarUse::Values;
+  measure.HasSurfaces = request.Picture.Use == ScalarUse::Surfaces;
   for (std::size_t field = 0; field < fields.GetNumberOfFields(); ++field)
   {
     const ScalarRange range = RangeOf(fields, field);

@@ -175,7 +175,7 @@ def draw_hexahedra(_data, size):
         volume = common.make_volume(mesh, look, (LEVEL,))
         if adaptive:
             volume.GetMapper().SetCellDivisionToAdaptive()
-            volume.GetMapper().SetDivisionTolerance(3e-4)
+            volume.GetMapper().SetDivisionTolerance(1e-3)
             volume.GetMapper().SetMaximumNumberOfPieces(10000000)
         renderer = common.make_renderer(common.PAPER)
         renderer.AddVolume(volume)

@@ -63,15 +63,16 @@ class Waves:
 
 def make_metal(mesh):
     """A dense medium, grey where nothing moves."""
-    colors = common.make_colors(common.SIGNED, -0.16, 0.16)
+    colors = common.make_colors(common.SIGNED, -0.15, 0.15)
     opacity = common.make_opacity(((-0.3, 1.0), (-0.05, 0.8), (0.0, 0.6), (0.05, 0.8), (0.3, 1.0)))
     look = common.make_look(colors, opacity, 0.04)
-    look.SetAmbient(0.55)
+    look.SetAmbient(0.7)
+    look.SetDiffuse(0.8)
+    look.SetSpecular(0.0)
     volume = common.make_volume(mesh, look)
-    # Scattered light alone: the gradient of the displacement says nothing about the metal's shape.
-    volume.GetMapper().SetGlobalIlluminationReach(0.6)
+    volume.GetMapper().SetGlobalIlluminationReach(0.3)
     volume.GetMapper().SetVolumetricScatteringBlending(2.0)
-    return colors, volume
+    return volume
 
 
 def draw_blow(data, size):
@@ -80,9 +81,11 @@ def draw_blow(data, size):
     far = waves.places[:, 0].max() - waves.places[:, 0]
     mesh = data.can.NewInstance()
     mesh.ShallowCopy(data.can)
-    colors, volume = make_metal(mesh)
+    volume = make_metal(mesh)
     pictures = []
-    for number, now in enumerate(waves.run(numpy.exp(-(far / 1.2) ** 2), 0.2, 80)):
+    panel = (size[0] // 2, size[1] * 3 // 8)
+    step = 0.2
+    for number, now in enumerate(waves.run(numpy.exp(-(far / 1.2) ** 2), step, 80)):
         if number % 20 != 9:
             continue
         displacement = numpy_to_vtk(now, deep=True)
@@ -92,9 +95,10 @@ def draw_blow(data, size):
         renderer.AddVolume(volume)
         common.add_lights(renderer, ((-0.5, 0.9, 0.9), (1.0, 0.98, 0.94), 1.1),
                           ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
-        common.look_from(renderer, (-6.5, -8.5, 14.5), (-3.1, 0.8, -15.9), (0, 1, 0), 20.0)
+        common.look_from(renderer, (-6.5, -8.5, 14.5), (-3.1, 0.7, -15.9), (0, 1, 0), 19.6)
+        common.add_label(renderer, f"t = {step * (number + 1):.0f}", 2 * panel[1], common.INK)
         renderer.ResetCameraClippingRange()
-        pictures.append(common.take(renderer, (size[0] // 2, size[1] * 3 // 8)))
+        pictures.append(common.take(renderer, panel))
         renderer.RemoveVolume(volume)
     return stack([stack(pictures[:2], 0), stack(pictures[2:], 0)][::-1], 1)
 

@@ -3,6 +3,7 @@
 #include "Volume/Caster/ImageEdges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -19,7 +20,20 @@ struct ThreeRows
   const float* Above;
 };
 
-/** Largest second difference of a number in the four directions. `left`, `right`: offsets. */
+/** Numbers between a pixel and its left and right neighbours; 0 at the image's border. */
+struct Neighbours
+{
+  std::ptrdiff_t Left;
+  std::ptrdiff_t Right;
+};
+
+/** Second difference of a number between two opposite neighbours. */
+inline float SecondDifference(const float* before, const float* middle, const float* after)
+{
+  return *before + *after - 2.0f * *middle;
+}
+
+/** Largest second difference of a number in the four directions. */
 inline float LargestDifference(
   const ThreeRows& rows, std::ptrdiff_t i, std::ptrdiff_t left, std::ptrdiff_t right)
 {
@@ -31,16 +45,41 @@ inline float LargestDifference(
   return std::max(std::max(across, along), std::max(rising, falling));
 }
 
-/** Marks the edges in the columns [left, right) of a row of an image. */
+/** Squared height of the second differences of a pixel between two opposite neighbours. */
+inline float SquaredHeight(const float* before, const float* middle, const float* after)
+{
+  const float opacity = SecondDifference(before + 3, middle + 3, after + 3);
+  ColorChange change;
+  for (int i = 0; i < 3; ++i)
+  {
+    change.OverBlack[i] = SecondDifference(before + i, middle + i, after + i);
+    change.OverWhite[i] = change.OverBlack[i] - opacity;
+  }
+  return change.GetSquare();
+}
+
+/** Edge of the pixel whose numbers begin at i. */
+PixelEdge EdgeOf(const ThreeRows& rows, std::ptrdiff_t i, const Neighbours& next)
+{
+  const float* middle = rows.Middle + i;
+  const float across = SquaredHeight(middle + next.Left, middle, middle + next.Right);
+  const float along = SquaredHeight(rows.Below + i, middle, rows.Above + i);
+  const float rising =
+    SquaredHeight(rows.Below + i + next.Left, middle, rows.Above + i + next.Right);
+  const float falling =
+    SquaredHeight(rows.Above + i + next.Left, middle, rows.Below + i + next.Right);
+  const float largest = std::max(std::max(across, along), std::max(rising, falling));
+  return largest > EdgeThreshold * EdgeThreshold
+    ? PixelEdge::Make(std::sqrt(largest), falling > rising)
+    : PixelEdge();
+}
+
+/** Finds the edges in the columns [left, right) of a row of an image. */
 void MarkRow(const ThreeRows& rows, int width, int left, int right, std::vector<float>& differences,
   std::uint8_t* edges)
 {
-  const auto mark = [edges, &differences](int column)
-  {
-    const float* difference = differences.data() + std::ptrdiff_t{ 4 } * column;
-    const float largest =
-      std::max(std::max(difference[0], difference[1]), std::max(difference[2], difference[3]));
-    edges[column] = largest > EdgeThreshold ? 1 : 0;
+  const auto neighbours = [width](int column) {
+    return Neighbours{ column > 0 ? -4 : 0, column < width - 1 ? 4 : 0 };
   };
   const std::ptrdiff_t begin = std::ptrdiff_t{ 4 } * std::max(left, 1);
   const std::ptrdiff_t end = std::ptrdiff_t{ 4 } * std::min(right, width - 1);
@@ -56,10 +95,46 @@ void MarkRow(const ThreeRows& rows, int width, int left, int right, std::vector<
   }
   for (int column = left; column < right; ++column)
   {
-    mark(column);
+    const std::ptrdiff_t i = std::ptrdiff_t{ 4 } * column;
+    const float* difference = differences.data() + i;
+    // The height of a change is at most that of its largest colour and of its opacity together.
+    const float bound =
+      std::max(std::max(difference[0], difference[1]), difference[2]) + difference[3];
+    edges[column] =
+      bound > EdgeThreshold ? EdgeOf(rows, i, neighbours(column)).GetCode() : std::uint8_t{ 0 };
   }
 }
 
+/**
+ * Rays that a pixel gets in the mean (PixelRays), by the level of its edge above the tolerated one.
+ * Measured on isosurfaces, narrow peaks and shadows of two meshes: there, they differ by less than
+ * a third from picture to picture, and by less than a tenth for twice the tolerance.
+ */
+double MeanNumberOfRays(int level)
+{
+  constexpr int octave = PixelEdge::LevelsPerOctave;
+  if (level <= 0)
+  {
+    return 0.0;
+  }
+  return level <= octave ? 2.2 : level <= 2 * octave ? 4.4 : level <= 4 * octave ? 6.5 : 9.0;
+}
+
+}
+
+//------------------------------------------------------------------------------
+PixelEdge PixelEdge::Make(float height, bool isFalling)
+{
+  const float octaves = std::log2(height * (1.0f / EdgeThreshold));
+  const int level = static_cast<int>(std::ceil(octaves * LevelsPerOctave));
+  const int inside = std::min(std::max(level, 1), HighestLevel);
+  return PixelEdge(static_cast<std::uint8_t>(inside + (isFalling ? HighestLevel + 1 : 0)));
+}
+
+//------------------------------------------------------------------------------
+float StepOfLevel(int level)
+{
+  return EdgeThreshold * std::exp2(static_cast<float>(level) / PixelEdge::LevelsPerOctave);
 }
 
 //------------------------------------------------------------------------------
@@ -67,7 +142,8 @@ void FindImageEdges(const std::vector<float>& rgba, int width, int height,
   const BoundaryRaster::PixelBox& filled, const RangeLoop& loop, std::vector<std::uint8_t>& edges)
 {
   const bool isLine = width == 1 || height == 1;
-  edges.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), isLine ? 1 : 0);
+  edges.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+    isLine ? PixelEdge::HighestLevel : 0);
   if (isLine || filled.IsEmpty())
   {
     return;
@@ -93,6 +169,36 @@ void FindImageEdges(const std::vector<float>& rgba, int width, int height,
           edges.data() + std::ptrdiff_t{ row } * width);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+int ChooseEdgeLevel(const std::vector<std::uint8_t>& edges, std::int64_t rays)
+{
+  std::array<std::int64_t, PixelEdge::HighestLevel + 1> pixels{};
+  for (const std::uint8_t edge : edges)
+  {
+    ++pixels[static_cast<std::size_t>(PixelEdge(edge).GetLevel())];
+  }
+  const auto further = [&pixels](int tolerated)
+  {
+    double sum = 0.0;
+    for (int level = tolerated + 1; level <= PixelEdge::HighestLevel; ++level)
+    {
+      sum += MeanNumberOfRays(level - tolerated) *
+        static_cast<double>(pixels[static_cast<std::size_t>(level)]);
+    }
+    return sum;
+  };
+  // The error grows with the step's height, and with the root of the share of pixels.
+  const auto others = static_cast<double>(pixels[0]);
+  const double share = 1.0 - others / static_cast<double>(edges.size());
+  int level = 0;
+  while (StepOfLevel(level + 1) * std::sqrt(share) <= EdgeThreshold &&
+    further(level) > 0.6 * static_cast<double>(rays))
+  {
+    ++level;
+  }
+  return level;
 }
 
 }

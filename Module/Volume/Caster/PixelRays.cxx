@@ -16,35 +16,111 @@ namespace
 
 constexpr std::size_t RaysOfTile = std::size_t{ PixelRays::TileSize } * PixelRays::TileSize;
 
-/**
- * Height of a step for which four rays are enough. They find the covered part of the pixel in steps
- * of 1/4, so that they have the error of a single ray at a step of a quarter of the height.
- */
-constexpr float FewRaysThreshold = 4.0f * EdgeThreshold;
+/** Rows of four rays in the four columns of a square: a rotated square, and its mirror image. */
+constexpr int FirstFour[4] = { 1, 3, 0, 2 };
+constexpr int NextFour[4] = { 2, 0, 3, 1 };
 
-/** A rotated square of four rays in the square of a pixel's rays. */
-std::array<int, 4> FirstRaysOf(int across)
+/** Steps up to twice the tolerated one begin with two rays, which are enough for them. */
+constexpr int LevelOfTwoRays = PixelEdge::LevelsPerOctave;
+
+/** Range of premultiplied colours, over a black and over a white background. */
+class ColorRange
 {
-  constexpr int rows[4] = { 1, 3, 0, 2 };
-  const auto at = [across](int quarter) { return (2 * quarter + 1) * across / 8; };
-  std::array<int, 4> rays{};
-  for (int column = 0; column < 4; ++column)
+public:
+  explicit ColorRange(const float* color)
+    : Lowest(OverBackgrounds(color))
+    , Highest(Lowest)
   {
-    rays[static_cast<std::size_t>(column)] = at(rows[column]) * PixelRays::TileSize + at(column);
   }
-  return rays;
-}
+  void Add(const float* color)
+  {
+    const std::array<float, 6> shown = OverBackgrounds(color);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+    {
+      this->Lowest[i] = std::min(this->Lowest[i], shown[i]);
+      this->Highest[i] = std::max(this->Highest[i], shown[i]);
+    }
+  }
+  ColorChange GetChange() const
+  {
+    ColorChange change;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      change.OverBlack[i] = this->Highest[i] - this->Lowest[i];
+      change.OverWhite[i] = this->Highest[i + 3] - this->Lowest[i + 3];
+    }
+    return change;
+  }
+
+private:
+  static std::array<float, 6> OverBackgrounds(const float* color)
+  {
+    const float white = 1.0f - color[3];
+    return { color[0], color[1], color[2], color[0] + white, color[1] + white, color[2] + white };
+  }
+
+  std::array<float, 6> Lowest;
+  std::array<float, 6> Highest;
+};
 
 }
 
 //------------------------------------------------------------------------------
-void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across,
-  const std::uint8_t* selected, std::int64_t width)
+/** Selects a ray of a pixel's square that is not known. */
+void PixelRays::Select(Pixel& pixel, int row, int column)
+{
+  const auto ray = static_cast<std::size_t>(pixel.FirstRay + row * TileSize + column);
+  if (this->Known[ray] == 0)
+  {
+    this->Known[ray] = 1;
+    this->Selected[ray] = 1;
+    ++pixel.Rays;
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Selects four rays of a pixel by their rows in a square of 4 x 4. */
+void PixelRays::SelectFour(Pixel& pixel, const int (&rows)[4])
+{
+  const auto at = [this](int quarter) { return (2 * quarter + 1) * this->Across / 8; };
+  for (int column = 0; column < 4; ++column)
+  {
+    this->Select(pixel, at(rows[column]), at(column));
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Selects the rays of a pixel's next round. */
+void PixelRays::SelectNext(Pixel& pixel)
+{
+  switch (pixel.Next)
+  {
+    case Round::Four:
+      this->SelectFour(pixel, FirstFour);
+      pixel.Next = Round::Eight;
+      return;
+    case Round::Eight:
+      this->SelectFour(pixel, NextFour);
+      pixel.Next = Round::All;
+      return;
+    default:
+      for (int ray = 0; ray < this->Across * this->Across; ++ray)
+      {
+        this->Select(pixel, ray / this->Across, ray % this->Across);
+      }
+      pixel.Next = Round::None;
+  }
+}
+
+//------------------------------------------------------------------------------
+void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across, const std::uint8_t* edges,
+  std::int64_t width, int level)
 {
   this->Across = across;
-  this->FirstRays = FirstRaysOf(across);
+  this->Tolerated = StepOfLevel(level);
   this->Pixels.clear();
   this->Selected.assign(RaysOfTile, 0);
+  this->Known.assign(RaysOfTile, 0);
   // A ray that misses the mesh has no colour.
   this->Colors.assign(4 * RaysOfTile, 0.0f);
   this->Wanted = { rays.Right, rays.Left, rays.Top, rays.Bottom };
@@ -52,16 +128,22 @@ void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across,
   {
     for (int left = rays.Left; left < rays.Right; left += across)
     {
-      const std::int64_t pixel = bottom / across * width + left / across;
-      if (selected[pixel] == 0)
+      const std::int64_t number = bottom / across * width + left / across;
+      const PixelEdge edge(edges[number]);
+      if (edge.GetLevel() <= level)
       {
         continue;
       }
       const int first = (bottom - rays.Bottom) * TileSize + left - rays.Left;
-      this->Pixels.push_back({ pixel, first, false });
-      for (const int ray : this->FirstRays)
+      Pixel& pixel = this->Pixels.emplace_back(Pixel{ number, first, 0, Round::Four });
+      if (edge.GetLevel() - level <= LevelOfTwoRays)
       {
-        this->Selected[static_cast<std::size_t>(first + ray)] = 1;
+        this->Select(pixel, edge.IsFalling() ? across - 1 : 0, 0);
+        this->Select(pixel, edge.IsFalling() ? 0 : across - 1, across - 1);
+      }
+      else
+      {
+        this->SelectNext(pixel);
       }
       this->Wanted = { std::min(this->Wanted.Left, left),
         std::max(this->Wanted.Right, left + across), std::min(this->Wanted.Bottom, bottom),
@@ -71,53 +153,48 @@ void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across,
 }
 
 //------------------------------------------------------------------------------
-/** True if a number of the colours differs by no more than the threshold among the rays. */
-bool PixelRays::FirstRaysAgree(const Pixel& pixel, const float* center) const
+/** Calls visit(colour) for each ray of a pixel that has been cast. */
+template <class Visit>
+void PixelRays::VisitRays(const Pixel& pixel, const Visit& visit) const
 {
-  for (int i = 0; i < 4; ++i)
+  for (int row = 0; row < this->Across; ++row)
   {
-    float lowest = center[i];
-    float highest = center[i];
-    for (const int ray : this->FirstRays)
+    const int first = pixel.FirstRay + row * TileSize;
+    for (int ray = first; ray < first + this->Across; ++ray)
     {
-      const float value = this->Colors[static_cast<std::size_t>(4 * (pixel.FirstRay + ray) + i)];
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-    }
-    if (highest - lowest > FewRaysThreshold)
-    {
-      return false;
+      if (this->Known[static_cast<std::size_t>(ray)] != 0)
+      {
+        visit(this->Colors.data() + std::ptrdiff_t{ 4 } * ray);
+      }
     }
   }
-  return true;
 }
 
 //------------------------------------------------------------------------------
-bool PixelRays::SelectOthers(const float* image)
+/** True if the rays of a pixel and that through its centre differ by what is tolerated for them. */
+bool PixelRays::Agree(const Pixel& pixel, const float* center) const
+{
+  ColorRange range(center);
+  this->VisitRays(pixel, [&range](const float* color) { range.Add(color); });
+  const float tolerated = static_cast<float>(pixel.Rays) * this->Tolerated;
+  return range.GetChange().GetSquare() <= tolerated * tolerated;
+}
+
+//------------------------------------------------------------------------------
+bool PixelRays::SelectMore(const float* image)
 {
   std::fill(this->Selected.begin(), this->Selected.end(), std::uint8_t{ 0 });
-  if (this->Across == 2)
-  {
-    return false; // the first rays are all rays
-  }
   bool isAny = false;
   for (Pixel& pixel : this->Pixels)
   {
-    pixel.HasAll = !this->FirstRaysAgree(pixel, image + 4 * pixel.InImage);
-    if (!pixel.HasAll)
+    if (pixel.Next == Round::None || this->Agree(pixel, image + 4 * pixel.InImage))
     {
+      pixel.Next = Round::None;
       continue;
     }
-    isAny = true;
-    for (int row = 0; row < this->Across; ++row)
-    {
-      const auto first = this->Selected.begin() + pixel.FirstRay + std::ptrdiff_t{ row } * TileSize;
-      std::fill_n(first, this->Across, std::uint8_t{ 1 });
-    }
-    for (const int ray : this->FirstRays)
-    {
-      this->Selected[static_cast<std::size_t>(pixel.FirstRay + ray)] = 0;
-    }
+    const int before = pixel.Rays;
+    this->SelectNext(pixel);
+    isAny = isAny || pixel.Rays > before;
   }
   return isAny;
 }
@@ -127,26 +204,17 @@ void PixelRays::Finish(float* image)
 {
   for (const Pixel& pixel : this->Pixels)
   {
+    float* color = image + 4 * pixel.InImage;
+    const bool hasAll = pixel.Rays == this->Across * this->Across;
     float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
-    const auto add = [this, &pixel, &sum](int ray)
+    if (!hasAll)
     {
-      const float* color = this->Colors.data() + std::ptrdiff_t{ 4 } * (pixel.FirstRay + ray);
-      std::transform(color, color + 4, sum, sum, std::plus<float>());
-    };
-    if (pixel.HasAll)
-    {
-      for (int ray = 0; ray < this->Across * this->Across; ++ray)
-      {
-        add(ray / this->Across * TileSize + ray % this->Across);
-      }
+      std::copy_n(color, 4, sum);
     }
-    else
-    {
-      std::for_each(this->FirstRays.begin(), this->FirstRays.end(), add);
-    }
-    const int count = pixel.HasAll ? this->Across * this->Across : 4;
-    std::transform(sum, sum + 4, image + 4 * pixel.InImage,
-      [count](float value) { return value / static_cast<float>(count); });
+    this->VisitRays(pixel,
+      [&sum](const float* ray) { std::transform(ray, ray + 4, sum, sum, std::plus<float>()); });
+    const auto count = static_cast<float>(hasAll ? pixel.Rays : pixel.Rays + 1);
+    std::transform(sum, sum + 4, color, [count](float value) { return value / count; });
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include "Volume/Entries/BoundaryRaster.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,10 +12,17 @@ namespace meniscus
 {
 
 /**
- * The several rays of selected pixels of a tile. A pixel has a square of n x n rays. Four of them,
- * in different rows and columns where n is at least 4, are cast first. If they and the ray through
- * the pixel's centre agree within FewRaysThreshold, the pixel gets the mean of the four; otherwise
- * the others are cast, too, and it gets the mean of all of them.
+ * The several rays of pixels of a tile that are at edges. A pixel has a square of n x n rays, and
+ * gets them in up to four rounds:
+ * - at a low step, two rays on the diagonal along which the colour changes more;
+ * - four rays, in different rows and columns where n is at least 4; pixels at high steps begin
+ * here;
+ * - four more, so that each row and column of four has two;
+ * - all others.
+ * It gets no further round if its k rays and that of the first image, through its centre, differ by
+ * no more than k times the step that is tolerated: they find the covered part of the pixel in steps
+ * of 1/k or less, so that they have the error of a single ray at the tolerated step. A pixel has
+ * the mean colour of these rays or, if all have been cast, of its square.
  */
 class PixelRays
 {
@@ -24,20 +30,21 @@ public:
   static constexpr int TileSize = BoundaryRaster::TileSize;
 
   /**
-   * Selects the first four rays of each pixel.
+   * Selects the first rays of each pixel.
    * @param rays box of the tile's rays in an image of rays, with whole pixels.
    * @param across number of rays n.
-   * @param selected nonzero for each pixel of the image of pixels that is selected.
+   * @param edges the code of each pixel's PixelEdge in the image of pixels.
    * @param width pixels of a row of this image.
+   * @param level of edges that is tolerated: pixels up to this level get no rays.
    */
-  void Begin(const BoundaryRaster::PixelBox& rays, int across, const std::uint8_t* selected,
-    std::int64_t width);
+  void Begin(const BoundaryRaster::PixelBox& rays, int across, const std::uint8_t* edges,
+    std::int64_t width, int level);
   /**
-   * Selects the other rays of the pixels that need them; returns false if there is none.
+   * Selects further rays of the pixels that need them; returns false if there is none.
    * @param image premultiplied RGBA of the rays through the centres of the pixels.
    */
-  bool SelectOthers(const float* image);
-  /** Writes the mean colours to the image. */
+  bool SelectMore(const float* image);
+  /** Writes the mean colours to the image that has the colours of the centres. */
   void Finish(float* image);
 
   /** Nonzero for each selected ray, in rows of TileSize; and the box that contains them. */
@@ -47,19 +54,34 @@ public:
   float* GetColors() { return this->Colors.data(); }
 
 private:
-  /** A selected pixel: its number in the image, and its first ray in the tile. */
+  enum class Round
+  {
+    Four,
+    Eight,
+    All,
+    None
+  };
+  /** A pixel at an edge: its number in the image, and its first ray in the tile. */
   struct Pixel
   {
     std::int64_t InImage;
     int FirstRay;
-    bool HasAll;
+    /** Rays of the square that are selected or have been cast. */
+    int Rays;
+    Round Next;
   };
-  bool FirstRaysAgree(const Pixel& pixel, const float* center) const;
+  void Select(Pixel& pixel, int row, int column);
+  void SelectFour(Pixel& pixel, const int (&rows)[4]);
+  void SelectNext(Pixel& pixel);
+  bool Agree(const Pixel& pixel, const float* center) const;
+  template <class Visit>
+  void VisitRays(const Pixel& pixel, const Visit& visit) const;
 
   int Across = 1;
-  /** The first four rays of a pixel, counted from its lower left ray. */
-  std::array<int, 4> FirstRays{};
+  float Tolerated = 0.0f;
   std::vector<Pixel> Pixels;
+  /** Nonzero for each ray that is selected or has been cast. */
+  std::vector<std::uint8_t> Known;
   std::vector<std::uint8_t> Selected;
   BoundaryRaster::PixelBox Wanted{ 0, 0, 0, 0 };
   std::vector<float> Colors;

@@ -369,21 +369,21 @@ BoundaryRaster::PixelBox TileCaster::GetPixels(int tile) const
 }
 
 //------------------------------------------------------------------------------
-RayStatistics TileCaster::Refine(int tile, const float* opaqueDepth, const std::uint8_t* selected,
+RayStatistics TileCaster::Refine(int tile, const float* opaqueDepth, const EdgesOfImage& edges,
   float* image, Workspace& workspace) const
 {
   PixelRays& rays = workspace.Refining;
   const std::int64_t width = this->Legs.GetWidth() / this->Input.RaysAcross;
-  rays.Begin(this->GetBox(tile), this->Input.RaysAcross, selected, width);
+  rays.Begin(this->GetBox(tile), this->Input.RaysAcross, edges.Codes, width, edges.Tolerated);
   TileWork work{ PacketJob{}, workspace, rays.GetColors(), PixelRays::TileSize, RayStatistics() };
   this->SetPictureOptics(work.Job);
   TileLeg leg = this->FirstLeg(tile, opaqueDepth);
   leg.Wanted = rays.GetWanted();
   leg.Selected = rays.GetSelected();
   this->CastLegs(leg, work);
-  if (rays.SelectOthers(image))
+  leg.HasEntries = true;
+  while (rays.SelectMore(image))
   {
-    leg.HasEntries = true;
     this->CastLegs(leg, work);
   }
   rays.Finish(image);

@@ -151,14 +151,19 @@ public:
    * @param image premultiplied RGBA per pixel; pixels whose rays miss the mesh are not written.
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
+  /** Codes of the edges of an image's pixels (PixelEdge), and the highest level without rays. */
+  struct EdgesOfImage
+  {
+    const std::uint8_t* Codes;
+    int Tolerated;
+  };
   /**
-   * Casts several rays for each selected pixel (PixelRays), and sets it to the mean of their
+   * Casts several rays for each pixel at an edge (PixelRays), and sets it to the mean of their
    * colours. Tiles consist of whole pixels.
    * @param opaqueDepth,image as in Cast(), per pixel, with the colour of one ray per pixel.
-   * @param selected nonzero for each pixel of the image that is selected.
    */
-  RayStatistics Refine(int tile, const float* opaqueDepth, const std::uint8_t* selected,
-    float* image, Workspace& workspace) const;
+  RayStatistics Refine(int tile, const float* opaqueDepth, const EdgesOfImage& edges, float* image,
+    Workspace& workspace) const;
   /** Pixels of a tile, in the image of Refine(). */
   BoundaryRaster::PixelBox GetPixels(int tile) const;
   /**

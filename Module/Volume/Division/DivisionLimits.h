@@ -28,6 +28,11 @@ struct DivisionMeasure
    * jump of the function that shows the values has an error of its place only.
    */
   bool ValuesMayMove = false;
+  /**
+   * True if values are seen as isosurfaces: a place of an edge has an error if the difference there
+   * moves a surface that meets the edge anywhere. At the place itself, it is mostly not seen.
+   */
+  bool HasSurfaces = false;
 };
 
 /** Accuracy and size of a division. */

@@ -68,10 +68,12 @@ double ShapeTest::MeasureEdge(std::int32_t cell, const glm::vec3& from, const gl
   const glm::dvec3 chord = b.Position - a.Position;
   const double square = glm::dot(chord, chord);
   const double length = std::sqrt(square);
-  std::array<double, CellSample::MostFields> slopes{};
+  DrawnValues edge;
   for (std::size_t field = 0; field < this->NumberOfFields; ++field)
   {
-    slopes[field] = length > 0.0 ? std::abs(b.Values[field] - a.Values[field]) / length : 0.0;
+    const auto ends = std::minmax(a.Values[field], b.Values[field]);
+    edge[field] = { ends.first, ends.second,
+      length > 0.0 ? (ends.second - ends.first) / length : 0.0, length };
   }
   double most = 0.0;
   for (int i = 1; i < parts; ++i)
@@ -88,8 +90,7 @@ double ShapeTest::MeasureEdge(std::int32_t cell, const glm::vec3& from, const gl
     {
       drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
     }
-    most =
-      std::max(most, this->ErrorOf(sample, drawn, glm::length(offset - drawn.Position), slopes));
+    most = std::max(most, this->ErrorOf(sample, drawn, glm::length(offset - drawn.Position), edge));
   }
   return most;
 }
@@ -121,28 +122,42 @@ double ShapeTest::MeasureMiddle(
 }
 
 //------------------------------------------------------------------------------
+/** Error of a value that is drawn as another one. */
+double ShapeTest::ValueError(
+  std::size_t field, double value, double drawn, const DrawnValue& edge) const
+{
+  const ErrorScale& scale = this->Measure.OfValues[field];
+  const double difference = std::abs(value - drawn);
+  double error = scale.Measure(value, drawn);
+  double slope = edge.Slope;
+  if (this->Measure.HasSurfaces && edge.Length > 0.0)
+  {
+    error = std::max(error, scale.Bound(edge.Lowest, edge.Highest, difference));
+    // That of a parabola at one of the ends: an edge that a surface touches has hardly any slope.
+    slope += 4.0 * difference / edge.Length;
+  }
+  return this->Measure.ValuesMayMove && slope > 0.0
+    ? std::min(error, this->Measure.OfPlace * difference / slope)
+    : error;
+}
+
+//------------------------------------------------------------------------------
 /**
  * Differences that are not finite are no errors: no division would make them smaller.
- * @param slopes of the values that are drawn, by length; 0 if they are not known.
+ * @param edge the values that are drawn; without slopes if they are not known.
  */
-double ShapeTest::ErrorOf(const CellSample& sample, const CellSample& drawn, double distance,
-  const std::array<double, CellSample::MostFields>& slopes) const
+double ShapeTest::ErrorOf(
+  const CellSample& sample, const CellSample& drawn, double distance, const DrawnValues& edge) const
 {
   const DivisionMeasure& measure = this->Measure;
   double most = distance > measure.PlaceRounding ? measure.OfPlace * distance : 0.0;
   for (std::size_t field = 0; field < this->NumberOfFields; ++field)
   {
-    const double difference = std::abs(sample.Values[field] - drawn.Values[field]);
-    if (!(difference > measure.ValueRounding[field]))
+    const double value = sample.Values[field];
+    if (std::abs(value - drawn.Values[field]) > measure.ValueRounding[field])
     {
-      continue;
+      most = std::max(most, this->ValueError(field, value, drawn.Values[field], edge[field]));
     }
-    double error = measure.OfValues[field].Measure(sample.Values[field], drawn.Values[field]);
-    if (measure.ValuesMayMove && slopes[field] > 0.0)
-    {
-      error = std::min(error, measure.OfPlace * difference / slopes[field]);
-    }
-    most = std::max(most, error);
   }
   return std::isfinite(most) ? most : 0.0;
 }

@@ -43,8 +43,19 @@ public:
     const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points);
 
 private:
+  /** A value as an edge draws it: its ends, and its slope by length; 0 where there is no edge. */
+  struct DrawnValue
+  {
+    double Lowest = 0.0;
+    double Highest = 0.0;
+    double Slope = 0.0;
+    double Length = 0.0;
+  };
+  using DrawnValues = std::array<DrawnValue, CellSample::MostFields>;
+
   double ErrorOf(const CellSample& sample, const CellSample& drawn, double distance,
-    const std::array<double, CellSample::MostFields>& slopes) const;
+    const DrawnValues& edge) const;
+  double ValueError(std::size_t field, double value, double drawn, const DrawnValue& edge) const;
 
   CellSampler Sampler;
   const DivisionMeasure& Measure;

@@ -23,6 +23,19 @@ bool IsFilled(const RayStatistics& tile)
   return tile.Rays > 0;
 }
 
+RayStatistics SumOf(const std::vector<RayStatistics>& tiles)
+{
+  RayStatistics sum;
+  for (const RayStatistics& tile : tiles)
+  {
+    sum.Steps += tile.Steps;
+    sum.Rays += tile.Rays;
+    sum.Lost += tile.Lost;
+    sum.Overlaps += tile.Overlaps;
+  }
+  return sum;
+}
+
 /** Sets the box of an image of four numbers per pixel to zero. */
 void ClearRows(const BoundaryRaster::PixelBox& box, int width, std::vector<float>& image)
 {
@@ -102,8 +115,9 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     const BoundaryRaster::PixelBox& box = this->Filled;
     return target.WriteImage(this->Image, { box.Left, box.Right, box.Bottom, box.Top });
   }
-  const bool finished = this->Refined.Refine(this->Image, width, this->Filled, depths, target,
-    [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
+  const bool finished =
+    this->Refined.Refine(this->Image, width, this->Filled, SumOf(this->OfTile).Rays, depths, target,
+      [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
   return finished ? target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled())
                   : std::string();
 }
@@ -172,14 +186,12 @@ void RayCastNative::BoundFilled(const TileCaster& caster)
 //------------------------------------------------------------------------------
 RayCastStatistics RayCastNative::GetStatistics()
 {
+  const RayStatistics sum = SumOf(this->OfTile);
   RayCastStatistics total;
-  for (const RayStatistics& tile : this->OfTile)
-  {
-    total.Steps += tile.Steps;
-    total.Rays += tile.Rays;
-    total.Lost += tile.Lost;
-    total.Overlaps += tile.Overlaps;
-  }
+  total.Steps = sum.Steps;
+  total.Rays = sum.Rays;
+  total.Lost = sum.Lost;
+  total.Overlaps = sum.Overlaps;
   this->Refined.AddTo(total);
   return total;
 }

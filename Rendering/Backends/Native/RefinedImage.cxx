@@ -18,13 +18,19 @@ namespace
 
 using PixelBox = BoundaryRaster::PixelBox;
 
-/** True if a pixel of the box is at an edge. */
-bool HasEdges(const PixelBox& box, int width, const std::vector<std::uint8_t>& edges)
+/** True for the pixels with an edge above a level. */
+auto IsAbove(int level)
+{
+  return [level](std::uint8_t edge) { return PixelEdge(edge).GetLevel() > level; };
+}
+
+/** True if a pixel of the box has an edge above a level. */
+bool HasEdges(const PixelBox& box, int width, const std::vector<std::uint8_t>& edges, int level)
 {
   for (int row = box.Bottom; row < box.Top; ++row)
   {
     const auto begin = edges.begin() + std::ptrdiff_t{ row } * width;
-    if (std::find(begin + box.Left, begin + box.Right, std::uint8_t{ 1 }) != begin + box.Right)
+    if (std::any_of(begin + box.Left, begin + box.Right, IsAbove(level)))
     {
       return true;
     }
@@ -47,13 +53,16 @@ void CopyRows(
 
 //------------------------------------------------------------------------------
 bool RefinedImage::Refine(const std::vector<float>& image, int width, const PixelBox& filled,
-  const ImageDepths& depths, RayCastTarget& target,
+  std::int64_t rays, const ImageDepths& depths, RayCastTarget& target,
   const std::function<TileCaster::Scene()>& makeScene)
 {
   this->EdgesBefore.swap(this->Edges);
   const int height = static_cast<int>(depths.Now.size()) / width;
   FindImageEdges(image, width, height, filled, ThreadedLoop, this->Edges);
-  this->NumberOfEdges = std::count(this->Edges.begin(), this->Edges.end(), std::uint8_t{ 1 });
+  const int levelBefore = this->Tolerated;
+  this->Tolerated = ChooseEdgeLevel(this->Edges, rays);
+  this->NumberOfEdges =
+    std::count_if(this->Edges.begin(), this->Edges.end(), IsAbove(this->Tolerated));
   this->Filled = { filled.Left, filled.Right, filled.Bottom, filled.Top };
   if (this->NumberOfEdges == 0)
   {
@@ -62,7 +71,8 @@ bool RefinedImage::Refine(const std::vector<float>& image, int width, const Pixe
     return true;
   }
   const TileCaster caster(makeScene(), ThreadedLoop);
-  const bool isKept = depths.Before && this->Pixels.size() == image.size() &&
+  const bool isKept = depths.Before && this->Tolerated == levelBefore &&
+    this->Pixels.size() == image.size() &&
     this->OfTile.size() == static_cast<std::size_t>(caster.GetNumberOfTiles());
   this->Pixels.resize(image.size());
   this->OfTile.resize(static_cast<std::size_t>(caster.GetNumberOfTiles()));
@@ -89,9 +99,10 @@ bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>&
     {
       const PixelBox box = caster.GetPixels(tile);
       CopyRows(box, width, image, this->Pixels);
-      this->OfTile[static_cast<std::size_t>(tile)] = HasEdges(box, width, this->Edges)
-        ? caster.Refine(
-            tile, depths.Now.data(), this->Edges.data(), this->Pixels.data(), workspaces.Local())
+      this->OfTile[static_cast<std::size_t>(tile)] =
+        HasEdges(box, width, this->Edges, this->Tolerated)
+        ? caster.Refine(tile, depths.Now.data(), { this->Edges.data(), this->Tolerated },
+            this->Pixels.data(), workspaces.Local())
         : RayStatistics();
     });
 }

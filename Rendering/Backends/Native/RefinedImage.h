@@ -27,12 +27,13 @@ public:
   /**
    * @param image one ray per pixel, premultiplied RGBA, rows from below.
    * @param filled pixels of the image outside this box are zero.
+   * @param rays rays of the image that met the mesh.
    * @param target of the image, which is asked whether to go on.
    * @param makeScene scene of the rays of a refined image; called if there is an edge.
    * @return false if the application gives up the frame.
    */
   bool Refine(const std::vector<float>& image, int width, const BoundaryRaster::PixelBox& filled,
-    const ImageDepths& depths, RayCastTarget& target,
+    std::int64_t rays, const ImageDepths& depths, RayCastTarget& target,
     const std::function<TileCaster::Scene()>& makeScene);
   /** Makes the next image anew in all tiles. */
   void Forget() { this->Tiles = TilesToCast(); }
@@ -52,12 +53,14 @@ private:
   void BoundFilled(const TileCaster& caster);
 
   std::vector<float> Pixels;
-  /** Nonzero for each pixel at an edge, in this image and in the image before it. */
+  /** Edges of the pixels (PixelEdge), in this image and in the image before it. */
   std::vector<std::uint8_t> Edges;
   std::vector<std::uint8_t> EdgesBefore;
   std::vector<RayStatistics> OfTile;
   TilesToCast Tiles;
   RayCastImageBox Filled{ 0, 0, 0, 0 };
+  /** Edges up to this level are left as they are. */
+  int Tolerated = 0;
   std::int64_t NumberOfEdges = 0;
 };
 

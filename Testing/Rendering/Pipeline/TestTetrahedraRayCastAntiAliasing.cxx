@@ -209,6 +209,26 @@ INSTANTIATE_TEST_SUITE_P(Looks, TetrahedraRayCastEdges,
   testing::Values(Look::Silhouette, Look::Isosurfaces, Look::Clipped, Look::Peaks, Look::Shadows,
     Look::PreIntegrated, Look::Membrane));
 
+// Pictures that consist of edges take a bounded number of steps, with the error of others.
+TEST(TetrahedraRayCastAntiAliasing, CostOfManyEdgesIsBounded)
+{
+  constexpr int size = 480;
+  for (const Look look : { Look::Peaks, Look::Isosurfaces, Look::Shadows })
+  {
+    EdgeScene scene(look, BackendUnderTest(), size);
+    const FloatImage oneRay = scene.Draw(1.0);
+    if (scene.GetMapper()->GetActiveBackend() != Mapper::NATIVE)
+    {
+      return; // shaders draw all rays
+    }
+    const auto steps = static_cast<double>(scene.GetMapper()->GetNumberOfTraversalSteps());
+    const FloatImage image = scene.Draw(0.25);
+    EXPECT_LT(static_cast<double>(scene.GetMapper()->GetNumberOfTraversalSteps()), 2.5 * steps)
+      << int(look);
+    EXPECT_LT(Compare(image, DrawReference(look, 4, size), oneRay).Rms, 2.0 * Level) << int(look);
+  }
+}
+
 TEST(TetrahedraRayCastAntiAliasing, OtherDistances)
 {
   for (const int across : { 2, 3, 10 })

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -66,9 +68,9 @@ TEST(ImageEdges, BothSidesOfAStep)
       {
         const std::size_t pixel = static_cast<std::size_t>(row * Width + column);
         const bool isBeside = column == 4 || column == 5;
-        EXPECT_EQ(upright[pixel], isEdge && isBeside ? 1 : 0) << column << ", " << row;
+        EXPECT_EQ(upright[pixel], isEdge && isBeside ? 2 : 0) << column << ", " << row;
         const bool isNear = column == row || column == row - 1;
-        EXPECT_TRUE(diagonal[pixel] == 1 || !(isEdge && isNear)) << column << ", " << row;
+        EXPECT_TRUE(diagonal[pixel] != 0 || !(isEdge && isNear)) << column << ", " << row;
         EXPECT_TRUE(diagonal[pixel] == 0 || isEdge) << column << ", " << row;
       }
     }
@@ -78,9 +80,9 @@ TEST(ImageEdges, BothSidesOfAStep)
 TEST(ImageEdges, OneRowOrColumn)
 {
   const auto nothing = [](int, int) { return 0.0f; };
-  EXPECT_EQ(EdgesOf(nothing, 1, 1), std::vector<std::uint8_t>(1, 1));
-  EXPECT_EQ(EdgesOf(nothing, 7, 1), std::vector<std::uint8_t>(7, 1));
-  EXPECT_EQ(EdgesOf(nothing, 1, 7), std::vector<std::uint8_t>(7, 1));
+  EXPECT_EQ(EdgesOf(nothing, 1, 1), std::vector<std::uint8_t>(1, PixelEdge::HighestLevel));
+  EXPECT_EQ(EdgesOf(nothing, 7, 1), std::vector<std::uint8_t>(7, PixelEdge::HighestLevel));
+  EXPECT_EQ(EdgesOf(nothing, 1, 7), std::vector<std::uint8_t>(7, PixelEdge::HighestLevel));
   EXPECT_EQ(EdgesOf(nothing, 2, 2), std::vector<std::uint8_t>(4, 0));
 }
 
@@ -95,9 +97,59 @@ TEST(ImageEdges, PixelsNextToTheFilledBoxCount)
     for (int column = 0; column < Width; ++column)
     {
       const bool isNear = std::abs(column - 5) <= 1 && std::abs(row - 4) <= 1;
-      EXPECT_EQ(edges[row * Width + column], isNear ? 1 : 0) << column << ", " << row;
+      EXPECT_EQ(edges[row * Width + column] != 0, isNear) << column << ", " << row;
     }
   }
   FindImageEdges(image, Width, Height, { Width, 0, Height, 0 }, SerialLoop, edges);
   EXPECT_EQ(edges, std::vector<std::uint8_t>(Width * Height, 0));
+}
+
+TEST(ImageEdges, LevelsFollowHeights)
+{
+  for (const float octaves : { 0.01f, 0.5f, 1.0f, 3.3f, 6.0f })
+  {
+    const float height = EdgeThreshold * std::exp2(octaves);
+    const PixelEdge edge = PixelEdge::Make(height, true);
+    EXPECT_TRUE(edge.IsFalling());
+    EXPECT_EQ(PixelEdge(edge.GetCode()).GetLevel(), edge.GetLevel());
+    EXPECT_GE(StepOfLevel(edge.GetLevel()), 0.9999f * height);
+    EXPECT_LE(StepOfLevel(edge.GetLevel() - 1), 1.0001f * height);
+  }
+  EXPECT_EQ(PixelEdge::Make(1.0e+30f, false).GetLevel(), PixelEdge::HighestLevel);
+  EXPECT_FALSE(PixelEdge::Make(1.0f, false).IsFalling());
+}
+
+TEST(ImageEdges, TheDiagonalOfTheLargerChangeIsKnown)
+{
+  // An edge that rises to the right changes the colour along the falling diagonal.
+  const auto rising = EdgesOf([](int column, int row) { return column < row ? 0.0f : 1.0f; });
+  const auto falling = EdgesOf([](int column, int row) { return column + row < 8 ? 0.0f : 1.0f; });
+  const std::size_t middle = 4 * Width + 4;
+  EXPECT_TRUE(PixelEdge(rising[middle]).IsFalling());
+  EXPECT_GT(PixelEdge(falling[middle]).GetLevel(), 0);
+  EXPECT_FALSE(PixelEdge(falling[middle]).IsFalling());
+}
+
+TEST(ImageEdges, ToleratedLevelBoundsRaysAndError)
+{
+  constexpr std::size_t pixels = 10000;
+  const auto picture = [](std::size_t edges, float height)
+  {
+    std::vector<std::uint8_t> codes(pixels, 0);
+    std::fill_n(codes.begin(), edges, PixelEdge::Make(height, false).GetCode());
+    return codes;
+  };
+  EXPECT_EQ(ChooseEdgeLevel(picture(0, 1.0f), 0), 0);
+  // One pixel of a hundred has edges: they get all rays that they need.
+  EXPECT_EQ(ChooseEdgeLevel(picture(100, 1.0f), pixels), 0);
+  // A ninth: the error of each may be three times as large.
+  const float limit = StepOfLevel(ChooseEdgeLevel(picture(pixels / 9, 1.0f), 100));
+  EXPECT_LE(limit, 3.0f * EdgeThreshold);
+  EXPECT_GT(limit, 2.7f * EdgeThreshold);
+  // Edges everywhere.
+  EXPECT_EQ(ChooseEdgeLevel(picture(pixels, 1.0f), 100), 0);
+  // They get 2.2 rays each, of 0.6 for each of the image.
+  const float low = 1.5f * EdgeThreshold;
+  EXPECT_EQ(ChooseEdgeLevel(picture(1000, low), 3680), 0);
+  EXPECT_GE(StepOfLevel(ChooseEdgeLevel(picture(1000, low), 3600)), low);
 }

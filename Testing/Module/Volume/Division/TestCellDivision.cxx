@@ -353,6 +353,53 @@ TEST(CellDivision, TheErrorFollowsTheTolerance)
   }
 }
 
+/** Largest distance from the surface x y = value of the points where edges of pieces meet it. */
+double LargestDisplacement(const CellDivision& division, const PointFields& fields, double value)
+{
+  const std::vector<double> positions = PositionsOf(division, fields);
+  double most = 0.0;
+  for (const CellPiece& piece : division.GetPieces())
+  {
+    for (std::size_t edge = 0; edge < 12; ++edge)
+    {
+      const glm::dvec3 from = PositionAt(positions, piece.Points[edge / 3]);
+      const glm::dvec3 to = PositionAt(positions, piece.Points[(edge / 3 + 1 + edge % 3) % 4]);
+      const double above = from.x * from.y - value;
+      const double below = value - to.x * to.y;
+      if (above > 0.0 && below > 0.0)
+      {
+        const glm::dvec3 drawn = from + above / (above + below) * (to - from);
+        most = std::max(most, std::fabs(drawn.x * drawn.y - value) / std::hypot(drawn.x, drawn.y));
+      }
+    }
+  }
+  return most;
+}
+
+// No place where edges are measured needs to be between the surface and its drawn image.
+TEST(CellDivision, IsosurfacesAreWhereTheToleranceSays)
+{
+  Block block(1, 0.0, 5);
+  block.SetValues([](const glm::dvec3& at) { return at.x * at.y; });
+  for (const double tolerance : { 1e-2, 3e-3, 1e-3 })
+  {
+    for (const double value : { 0.13, 0.3, 0.62 })
+    {
+      DivisionLimits limits = LimitsOf(tolerance, 1.0);
+      limits.Measure.OfValues.fill(ErrorScale({ { value, 0.0 }, { value, 0.0 }, { value, 10.0 } }));
+      limits.Measure.ValuesMayMove = true;
+      limits.Measure.HasSurfaces = true;
+      CellDivision division;
+      ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+      // The error of an edge is largest in its middle, which is measured, and the surface is not
+      // farther away than along the edge. Its slope at the drawn point is that of the value there
+      // to the first order; the rest is less than a tenth.
+      EXPECT_LE(LargestDisplacement(division, block.Fields, value), 1.1 * tolerance) << value;
+      EXPECT_LT(division.GetCounts().Pieces, 50.0 / tolerance) << value;
+    }
+  }
+}
+
 TEST(CellDivision, LinearFieldsAreNotDivided)
 {
   Block block(4, 0.0, 3);
