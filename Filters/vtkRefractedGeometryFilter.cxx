@@ -8,6 +8,7 @@
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
+#include "Refraction/Images/EdgeSubdivision.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCamera.h"
@@ -547,6 +548,14 @@ void vtkRefractedGeometryFilter::ReportCells(
   {
     vtkErrorMacro(<< report.BrokenCells << " of " << input->GetNumberOfCells()
                   << " cells refer to points that do not exist; they are left out.");
+  }
+  if (report.CoarseTriangles > 0 && this->Internals->WarnedOfCoarse != this->Internals->GetShapes())
+  {
+    this->Internals->WarnedOfCoarse = this->Internals->GetShapes();
+    vtkWarningMacro(<< "The images of " << report.CoarseTriangles << " triangles have the largest "
+                    << "number of points, " << meniscus::EdgeSubdivision::MostNodes
+                    << ", and larger errors than AngularTolerance: raise it, or divide the "
+                    << "triangles before.");
   }
   if (report.ArraysOfWrongSize > 0)
   {

@@ -69,6 +69,7 @@ public:
   // Shapes of the last warning of each kind.
   vtkTypeInt64 WarnedOfNoImage = -1;
   vtkTypeInt64 WarnedOfUndecided = -1;
+  vtkTypeInt64 WarnedOfCoarse = -1;
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
 };

@@ -95,7 +95,7 @@ struct Part
 
 template <typename MapRange>
 bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, ImageMesh& pieces,
-  ImageMesh& whole, vtkIdType& without)
+  ImageMesh& whole, AllImages& result)
 {
   const std::size_t size = GetCellsPerPart(count);
   std::vector<Part> parts((count + size - 1) / size);
@@ -117,7 +117,8 @@ bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, 
   {
     pieces.Append(part.Pieces);
     whole.Append(part.Whole);
-    without += static_cast<vtkIdType>(part.Report.Without);
+    result.CellsWithoutImage += static_cast<vtkIdType>(part.Report.Without);
+    result.CoarseTriangles += static_cast<vtkIdType>(part.Report.Coarse);
   }
   return done;
 }
@@ -167,6 +168,7 @@ public:
     MakeCellArrays(this->Assembly.CellSources, orientations, geometry);
     this->Assembly.Report.BrokenCells = this->Topology.BrokenCells;
     this->Assembly.Report.SkippedCells += this->Cells.CellsWithoutImage;
+    this->Assembly.Report.CoarseTriangles = this->Cells.CoarseTriangles;
     this->Assembly.Options = options;
     this->Assembly.IsReady = true;
   }
@@ -384,7 +386,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
       part.Report = images.MapLines(
         topology.Lines.AsObject(), topology.Lines.Ids.data(), begin, end, part.Pieces, part.Whole);
     },
-    result.Lines, result.WholeLines, result.CellsWithoutImage);
+    result.Lines, result.WholeLines, result);
   std::vector<unsigned char> isMapped(topology.Polygons.GetCount(), 0);
   const bool done = linesDone &&
     MapParts(
@@ -394,7 +396,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImag
         part.Report = images.MapPolygons(topology.Polygons.AsObject(), topology.Polygons.Ids.data(),
           begin, end, split, part.Pieces, part.Whole, isMapped.data());
       },
-      result.Polygons, result.WholePolygons, result.CellsWithoutImage);
+      result.Polygons, result.WholePolygons, result);
   if (done)
   {
     images.MeetNeighbours(topology.Polygons.AsObject(), topology.Polygons.GetCount(),

@@ -26,6 +26,8 @@ struct AllImages
   ImageMesh WholeLines;
   ImageMesh WholePolygons;
   vtkIdType CellsWithoutImage = 0;
+  /** Triangles of the object whose images have errors above the tolerance: CellReport::Coarse. */
+  vtkIdType CoarseTriangles = 0;
 };
 
 /**

@@ -21,9 +21,10 @@ struct ViewSelection;
 /** Parts of the input that are missing in the output. */
 struct VirtualPolyDataReport
 {
-  vtkIdType SkippedCells = 0; ///< cells that need a point without an image
-  vtkIdType BrokenCells = 0;  ///< cells that refer to a point that does not exist
-  int ArraysOfWrongSize = 0;  ///< attribute arrays of the wrong size, which are not passed on
+  vtkIdType SkippedCells = 0;    ///< cells that need a point without an image
+  vtkIdType BrokenCells = 0;     ///< cells that refer to a point that does not exist
+  vtkIdType CoarseTriangles = 0; ///< triangles whose images have errors above the tolerance
+  int ArraysOfWrongSize = 0;     ///< attribute arrays of the wrong size, which are not passed on
 };
 
 /**

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace meniscus
 {
@@ -156,6 +158,30 @@ std::vector<double> GatherValues(const InputBlocks& input, int component,
       }
     });
   return values;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeRounding(const InputBlocks& input, const ScalarDistribution& scalars)
+{
+  const bool hasWhole = std::any_of(input.Parts.begin(), input.Parts.end(),
+    [](const InputPart& part)
+    { return part.Scalars->GetDataTypeSize() == 8 && part.Scalars->GetDataType() != VTK_DOUBLE; });
+  if (!hasWhole || scalars.IsEmpty())
+  {
+    return std::string();
+  }
+  const double largest = std::max(std::abs(scalars.GetLowest()), std::abs(scalars.GetHighest()));
+  const double step = std::nextafter(largest, HUGE_VAL) - largest;
+  if (step <= 1.0 || step <= (scalars.GetHighest() - scalars.GetLowest()) / 256.0)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << "The scalars are whole numbers from "
+       << scalars.GetLowest() << " to " << scalars.GetHighest()
+       << ", where numbers of double precision are " << step
+       << " apart: they are rounded to those; subtract a number near them before.";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -54,6 +55,12 @@ private:
 /** Values with the given indices, as stored in the arrays, or interpolated. */
 std::vector<double> GatherValues(const InputBlocks& input, int component,
   const std::vector<std::int32_t>& numbers, const WeightedPoints* points);
+
+/**
+ * Warning about whole numbers that double precision rounds by more than 1/256 of their range; empty
+ * if there are none.
+ */
+std::string DescribeRounding(const InputBlocks& input, const ScalarDistribution& scalars);
 
 /** The finite values of a list. */
 struct FiniteValues

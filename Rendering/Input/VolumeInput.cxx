@@ -335,6 +335,7 @@ InputReport VolumeInput::UpdateScalars(
         " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
         " are not finite; cells that use them are transparent.";
     }
+    report.Warning += DescribeRounding(input, finite.Distribution);
   }
   const ScalarNormalization normalization =
     ChooseNormalization(this->Distribution, features.Of(0), same ? &this->Normalization : nullptr);

@@ -226,6 +226,28 @@ bool Follow(const PropertyFunction& function, double node, double next, Stretch&
   return true;
 }
 
+/**
+ * Where only few numbers lie between two nodes, the samples next to them are no limits. The values
+ * of the nodes are, and the samples are points between them.
+ */
+void TakeNodesAsLimits(const FunctionNode& node, const FunctionNode& next, Stretch& stretch)
+{
+  const double width = next.Scalar - node.Scalar;
+  const double away =
+    std::max(stretch.First.Scalar - node.Scalar, next.Scalar - stretch.Last.Scalar);
+  if (away <= SamplingBound * width)
+  {
+    return;
+  }
+  stretch.Between.insert(stretch.Between.begin(), stretch.First);
+  if (stretch.First.Scalar < stretch.Last.Scalar)
+  {
+    stretch.Between.push_back(stretch.Last);
+  }
+  stretch.First = node.Values.back();
+  stretch.Last = next.Values.front();
+}
+
 /** The value of a node where the limit is that, but for rounding; otherwise the limit. */
 TransferFunctionPoint Settle(
   const PropertyFunction& function, const FunctionNode& node, TransferFunctionPoint limit)
@@ -266,6 +288,10 @@ std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyFunction& functi
       stretch.Between.clear();
       above = nodes[i].Values.back();
       stretch.Last = nodes[i + 1].Values.front();
+    }
+    else
+    {
+      TakeNodesAsLimits(nodes[i], nodes[i + 1], stretch);
     }
     const bool jump = function.Difference(below, above) > SmallestJump;
     points.push_back(Settle(function, nodes[i], below));

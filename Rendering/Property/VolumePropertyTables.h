@@ -36,12 +36,11 @@ class VolumePropertyTables
 {
 public:
   /**
-   * Reduces a property to points, without using scalars.
+   * Reduces a property to points, without using scalars. Returns an error as long as numbers of the
+   * property permit no picture, and once a warning about numbers that are left out.
    * @param mode blend mode; determines the meaning of opacity.
    * @param perUnitDistance for composite blending: opacity is the alpha of one unit distance.
    * @param components number of components of the scalars, used if they are independent.
-   * Returns an error as long as numbers of the property permit no picture; a warning about numbers
-   * that are left out once.
    */
   InputReport Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
     ComponentMixture mixture, int components);

@@ -36,6 +36,7 @@ struct CellReport
   std::size_t Divided = 0; ///< have one image, which is curved: divided into several cells
   std::size_t Mapped = 0;  ///< mapped from the membrane, to any number of pieces
   std::size_t Without = 0; ///< have no image
+  std::size_t Coarse = 0;  ///< triangles of divided cells that have errors above the tolerance
 
   void Count(bool isDivided, bool hasPieces)
   {

@@ -279,6 +279,7 @@ void EdgeSubdivision::MoveOntoEdge(
 void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size_t count)
 {
   this->Failed = false;
+  this->IsFull = false;
   this->Nodes.clear();
   this->EdgeCount = 0;
   ++this->Round; // empties the table without clearing it
@@ -338,7 +339,8 @@ std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
   const Shape shape = this->FindShape(first.Point, first.Vertex, second.Point, second.Vertex);
   std::int32_t result = NotSplit;
   this->Failed = this->Failed || shape == Shape::Open;
-  if (shape == Shape::Bent)
+  this->IsFull = this->IsFull || (shape == Shape::Bent && this->Nodes.size() >= MostNodes);
+  if (shape == Shape::Bent && !this->IsFull)
   {
     result = static_cast<std::int32_t>(this->Nodes.size());
     const Node node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point),
@@ -473,6 +475,7 @@ bool EdgeSubdivision::AddTriangle(
   this->Start(corners, 3);
   this->Divide({ { corners[0].Id, corners[1].Id, corners[2].Id }, sourceCell,
     corners[0].Image->Orientation, &images });
+  this->Coarse += this->IsFull && !this->Failed ? 1 : 0;
   if (this->Failed)
   {
     images.ReturnTo(before);

@@ -9,7 +9,9 @@
  * middles of its halves and so on, until their sight points are as close as the membrane's
  * vertices, between which the membrane has no waves. The result depends on the edge alone, on its
  * two ends and their images, so neighbours agree on every point and no cracks appear. A triangle is
- * divided at the middles of its divided edges until none of its edges needs division.
+ * divided at the middles of its divided edges until none of its edges needs division, or until it
+ * has MostNodes: its parts are then as they are, with larger errors, and there may be cracks of
+ * that size next to its neighbours.
  */
 #ifndef meniscus_Refraction_Images_EdgeSubdivision_h
 #define meniscus_Refraction_Images_EdgeSubdivision_h
@@ -35,6 +37,9 @@ struct ImagedPoint
 class EdgeSubdivision
 {
 public:
+  /** Points of one triangle, which take 10 MB. */
+  static constexpr std::size_t MostNodes = 65536;
+
   /** `tolerance` is an angle in radians at the eye. */
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
   ~EdgeSubdivision();
@@ -70,6 +75,9 @@ public:
    * tolerance.
    */
   void MoveOntoEdge(const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image);
+
+  /** Number of triangles whose division has ended at MostNodes. */
+  std::int64_t GetNumberOfCoarse() const { return this->Coarse; }
 
 private:
   struct Node
@@ -175,6 +183,8 @@ private:
   std::size_t EdgeCount = 0;
   std::uint32_t Round = 0;
   bool Failed = false;
+  bool IsFull = false; ///< an edge was not divided because of MostNodes
+  std::int64_t Coarse = 0;
 };
 
 }

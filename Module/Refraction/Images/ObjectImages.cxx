@@ -465,6 +465,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     isMapped[i] = isDivided ? 0 : 1;
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
+  report.Coarse = static_cast<std::size_t>(division.GetNumberOfCoarse());
   return report;
 }
 

@@ -46,11 +46,14 @@ double Distance(double a, double b)
   return std::min(std::abs(a - b), Largest);
 }
 
-/** 1 / x, or 1 if that is not a positive number. */
+/**
+ * 1 / x, or 1 if x or that is not a positive number. The largest number for a denormal x: a range
+ * of such scalars becomes a small part of [-1, 1], in which floats have as many digits.
+ */
 double ReciprocalOf(double x)
 {
-  const double reciprocal = 1.0 / x;
-  return reciprocal <= Largest && reciprocal > 0.0 ? reciprocal : 1.0;
+  const double reciprocal = x > 0.0 ? std::min(1.0 / x, Largest) : 0.0;
+  return reciprocal > 0.0 ? reciprocal : 1.0;
 }
 
 std::vector<ScalarFeature> FeaturesInRange(

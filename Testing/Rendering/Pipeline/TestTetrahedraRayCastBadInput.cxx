@@ -10,6 +10,7 @@
 #include <vtkCubeSource.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
+#include <vtkLongLongArray.h>
 #include <vtkOutputWindow.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
@@ -174,6 +175,36 @@ TEST(TetrahedraRayCastBadInput, ScalarsThatAreNotFinite)
       ->SetValue(MiddlePoint(grid), bad);
     // Transparent, not left out of the mesh.
     ExpectRest(grid, 0, "scalar " + std::to_string(bad));
+  }
+}
+
+TEST(TetrahedraRayCastBadInput, WholeNumbersThatAreRounded)
+{
+  // 2^60 and more, where doubles are 256 apart.
+  for (const int width : { 1, 40000, 400000 })
+  {
+    const Grid grid = MakeBlock(4, WavyField(2.0));
+    vtkNew<vtkLongLongArray> scalars;
+    scalars->SetName(ScalarName);
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      scalars->InsertNextValue((1LL << 60) + width * (i % 2));
+    }
+    grid->GetPointData()->SetScalars(scalars);
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    const auto told = Render(scene).Errors;
+    EXPECT_TRUE(told->Errors.empty());
+    if (width > 256 * 256)
+    {
+      EXPECT_TRUE(told->Warnings.empty()) << told->Warnings.front();
+      continue;
+    }
+    ASSERT_EQ(told->Warnings.size(), 1u);
+    for (const char* words :
+      { "whole numbers from 1152921504606846976 to 11529215046068", "256 apart" })
+    {
+      EXPECT_NE(told->Warnings.front().find(words), std::string::npos) << told->Warnings.front();
+    }
   }
 }
 

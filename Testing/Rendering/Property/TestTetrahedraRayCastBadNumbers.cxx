@@ -6,15 +6,21 @@
 
 #include <vtkColorTransferFunction.h>
 #include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace meniscus::test;
@@ -194,6 +200,53 @@ TEST(TetrahedraRayCastBadNumbers, NothingIsLeft)
     },
     { "2 of the 2 nodes of the scalar opacity are not finite", "(0, nan)", "no other node",
       "nothing is rendered" });
+}
+
+// A field of whole steps, and functions of it, in other units: the same picture.
+TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
+{
+  constexpr int steps = 16;
+  const auto draw = [](double offset, double step)
+  {
+    const Grid grid = MakeBlock(4, WavyField(2.0));
+    // Halves, because the width may be larger than the largest number.
+    const auto at = [offset, step](double number)
+    { return 2.0 * (0.5 * offset + 0.5 * step * number); };
+    vtkNew<vtkDoubleArray> scalars;
+    scalars->SetName(ScalarName);
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      scalars->InsertNextValue(at(static_cast<double>(7 * i * i % (steps + 1))));
+    }
+    grid->GetPointData()->SetScalars(scalars);
+    vtkNew<vtkVolumeProperty> property;
+    vtkNew<vtkPiecewiseFunction> opacity;
+    vtkNew<vtkColorTransferFunction> color;
+    opacity->AddPoint(at(0.0), 0.1);
+    opacity->AddPoint(at(4.0), 0.9);
+    opacity->AddPoint(at(steps), 0.3);
+    color->AddRGBPoint(at(0.0), 1.0, 0.2, 0.1);
+    color->AddRGBPoint(at(steps), 0.1, 0.5, 1.0);
+    property->SetScalarOpacity(opacity);
+    property->SetColor(color);
+    RayCastScene scene(grid, property, Size, Size);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    return scene.RenderBytes();
+  };
+  const double smallest = std::numeric_limits<double>::denorm_min();
+  const ByteImage expected = draw(0.0, 1.0);
+  for (const auto& [offset, step] : std::vector<std::pair<double, double>>{ { 1.0e+15, 0.125 },
+         { -1.0e+300, 8.0 * (1.0e+300 - std::nextafter(1.0e+300, 0.0)) }, { 0.0, 1.0e+307 },
+         { -0.8e+308, 1.0e+307 }, { 0.0, 1.0e-305 }, { 0.0, 4096.0 * smallest } })
+  {
+    const ByteImage picture = draw(offset, step);
+    int worst = 0;
+    for (std::size_t i = 0; i < picture.Rgb.size(); ++i)
+    {
+      worst = std::max(worst, std::abs(int{ picture.Rgb[i] } - int{ expected.Rgb[i] }));
+    }
+    EXPECT_LE(worst, 1) << offset << " + " << step;
+  }
 }
 
 TEST(TetrahedraRayCastBadNumbers, UnitDistance)

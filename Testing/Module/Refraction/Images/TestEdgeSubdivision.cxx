@@ -81,6 +81,57 @@ TEST(EdgeSubdivision, LargeTrianglesBelowWavesAreDivided)
 }
 
 //------------------------------------------------------------------------------
+// A tolerance that would need 2^28 parts: the division ends, and tells it.
+TEST(EdgeSubdivision, ATriangleHasSoManyNodesAndIsCounted)
+{
+  reference::HeightField field;
+  field.Side = 120.0;
+  field.Amplitude = 2.0;
+  field.K = 0.12;
+  CurvedMembraneSolver geometry;
+  const reference::MembraneMesh mesh = field.MakeMesh(24);
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  ASSERT_EQ(geometry.SetEye(glm::dvec3(60.0, 260.0, -130.0), 1.0, 1.333), EyeStatus::Ready);
+  const ImagedTriangle triangle(geometry,
+    { glm::dvec3(-40.0, -70.0, -35.0), glm::dvec3(42.0, -71.0, -30.0),
+      glm::dvec3(-5.0, -60.0, 45.0) });
+  for (const double tolerance : { 1e-3, 1e-11 })
+  {
+    EdgeSubdivision division(geometry, tolerance);
+    ImageMesh images;
+    ASSERT_TRUE(division.AddTriangle(triangle.Get(), 0, images));
+    const bool isCoarse = tolerance < 1e-10;
+    EXPECT_EQ(division.GetNumberOfCoarse(), isCoarse ? 1 : 0);
+    if (isCoarse)
+    {
+      EXPECT_EQ(images.Points.size(), EdgeSubdivision::MostNodes);
+    }
+    else
+    {
+      EXPECT_LT(images.Points.size(), EdgeSubdivision::MostNodes);
+    }
+    // The triangles cover the object's triangle once.
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < images.Connectivity.size(); i += 3)
+    {
+      glm::dvec3 weight[3];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const ImagePoint& point =
+          images.Points[static_cast<std::size_t>(images.Connectivity[i + k])];
+        weight[k] = glm::dvec3(0.0);
+        for (std::size_t j = 0; j < point.GetNumberOfSources(); ++j)
+        {
+          weight[k][static_cast<glm::length_t>(point.Source[j])] = point.Weight[j];
+        }
+      }
+      area += glm::dot(weight[0], glm::cross(weight[1], weight[2]));
+    }
+    EXPECT_NEAR(area, 1.0, 1e-9);
+  }
+}
+
+//------------------------------------------------------------------------------
 // Lines over tens of degrees behind one facet of flat water, whose images are S-shaped: the middle
 // of the first one is drawn within the tolerance, and other places 23 tolerances away.
 TEST(EdgeSubdivision, LongLinesWithTheirMiddleOnTheChordAreDivided)

@@ -78,6 +78,23 @@ TEST(ScalarNormalization, OrdinaryDataMapsItsRange)
     NormalizeRange(5.0, 5.0));
 }
 
+TEST(ScalarNormalization, DenormalScalarsKeepTheirProportions)
+{
+  const double smallest = std::numeric_limits<double>::denorm_min();
+  for (const double step : { smallest, 40.0 * smallest, 1.0e-310 })
+  {
+    const ScalarNormalization normalization = NormalizeRange(0.0, 16.0 * step);
+    const auto normalized = [&](int steps) -> double
+    { return static_cast<float>(normalization(steps * step)); };
+    const double width = normalized(16) - normalized(0);
+    EXPECT_GT(width, 0.0);
+    for (int steps = 0; steps <= 16; ++steps)
+    {
+      EXPECT_NEAR((normalized(steps) - normalized(0)) / width, steps / 16.0, 1.0e-6) << step;
+    }
+  }
+}
+
 TEST(ScalarNormalization, FillValuesLeaveTheFunctionItsPrecision)
 {
   for (const double fill : FillValues)
