@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace meniscus
@@ -22,6 +23,12 @@ constexpr double LargestDeviation = 16.0 * std::numeric_limits<float>::epsilon()
 // The same for coordinates of double precision.
 constexpr double LargestRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
+// Joined vertices and those of facets without area are not used.
+std::size_t GetFirstVertex(const Membrane& membrane)
+{
+  return static_cast<std::size_t>(membrane.GetFacets().front().front());
+}
+
 // Depth of a surface's plane along the axis, and the deviation from it in units of the surface's
 // radius. Returns false if the surface is not a plane at right angles to the axis.
 bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const glm::dvec3& eye,
@@ -30,21 +37,25 @@ bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const 
   const Membrane& membrane = link.Surface->GetMembrane();
   const std::vector<glm::dvec3>& positions = membrane.GetPositions();
   const double side = link.Passage.FromFront ? -1.0 : 1.0;
-  depth = glm::dot(axis, positions[0] + link.Shift - eye);
+  const glm::dvec3 origin = positions[GetFirstVertex(membrane)];
+  depth = glm::dot(axis, origin + link.Shift - eye);
   deviation = 0.0;
-  for (std::size_t i = 0; i < positions.size(); ++i)
+  for (const Membrane::Facet& facet : membrane.GetFacets())
   {
-    const glm::dvec3& normal = membrane.GetNormals()[i];
-    const double height =
-      std::fabs(glm::dot(axis, positions[i] - positions[0])) / membrane.GetRadius();
-    const double lean = glm::length(glm::cross(axis, normal));
-    // Written so that a NaN fails.
-    if (!(height <= LargestDeviation) || !(lean <= LargestDeviation) ||
-      !(side * glm::dot(axis, normal) > 0.0))
+    for (const std::int32_t vertex : facet)
     {
-      return false;
+      const auto i = static_cast<std::size_t>(vertex);
+      const glm::dvec3& normal = membrane.GetNormals()[i];
+      const double height = std::fabs(glm::dot(axis, positions[i] - origin)) / membrane.GetRadius();
+      const double lean = glm::length(glm::cross(axis, normal));
+      // Written so that a NaN fails.
+      if (!(height <= LargestDeviation) || !(lean <= LargestDeviation) ||
+        !(side * glm::dot(axis, normal) > 0.0))
+      {
+        return false;
+      }
+      deviation = std::max({ deviation, height, lean });
     }
-    deviation = std::max({ deviation, height, lean });
   }
   return depth > 0.0 &&
     IsConvexField(membrane, link.Surface->GetPatches(), HeightFrame(side * axis));
@@ -72,12 +83,13 @@ void ParallelPlanes::Set(const RefractionStack& stack)
     return;
   }
   const RefractionStack::Link& first = stack.GetLinks().front();
-  const std::vector<glm::dvec3>& normals = first.Surface->GetMembrane().GetNormals();
-  if (normals.empty())
+  const Membrane& membrane = first.Surface->GetMembrane();
+  if (membrane.GetFacets().empty())
   {
     return;
   }
-  this->Axis = (first.Passage.FromFront ? -1.0 : 1.0) * glm::normalize(normals.front());
+  this->Axis = (first.Passage.FromFront ? -1.0 : 1.0) *
+    glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]);
   this->Eye = stack.GetEye();
   this->Exact = true;
   this->Slack = 0.0;

@@ -497,6 +497,9 @@ TEST(RefractionStack, PointsBehindPlanesNeedNoSearch)
                                       << trial.Indices[2] << ", half width " << trial.HalfWidth);
     const double* n = trial.Indices;
     MembraneMesh first = MakePlane(0.0, 2.0 * trial.HalfWidth, 1);
+    // A vertex of a facet without area does not count.
+    first.AddPoint({ first.Points[0], 0.0, first.Points[2] }, glm::dvec3(0.0));
+    first.AddTriangle(0, 4, 1);
     first.Translate(trial.HalfWidth * glm::dvec3(0.3, 0.0, -0.2));
     const glm::dvec3 eye(0.3, 2.1, -0.4);
     StackSolver solver;
