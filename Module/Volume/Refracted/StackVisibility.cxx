@@ -199,9 +199,9 @@ bool StackVisibility::AllMeetBoundsUnrefracted(const CornerRays& rays) const
 
 //------------------------------------------------------------------------------
 /**
- * The rays that meet the surface end, among those of a rectangle of pixels, where they pass an edge
+ * Among the rays of a rectangle of pixels, those that meet the surface end where they pass an edge
  * of the surface, are along it, or meet it at their beginning. Without such a place all or none
- * meet it.
+ * meet it. None is along it, since MayShowMesh() is true where rays may come from both sides.
  */
 bool StackVisibility::HidesMesh(const CornerRays& rays, FacetBoxes& facets) const
 {
@@ -210,7 +210,6 @@ bool StackVisibility::HidesMesh(const CornerRays& rays, FacetBoxes& facets) cons
   const glm::dvec3 toSurface = this->ToSurface(this->Interfaces.front());
   bool mayEnd = false;
   double last = 0.0;
-  AxisBox normals;
   VisitBoxes(Moved(tube, toSurface), this->Set, facets,
     [&](std::int32_t facet, const TubeRange& range)
     {
@@ -220,15 +219,8 @@ bool StackVisibility::HidesMesh(const CornerRays& rays, FacetBoxes& facets) cons
       }
       mayEnd |= !(range.From > 0.0);
       last = std::max(last, range.To);
-      normals.Add(NormalsOf(surface.GetBounds(facet)));
     });
-  if (mayEnd || this->Mesh.Meets(tube, last))
-  {
-    return false;
-  }
-  const CosineBounds cosine =
-    BoundCosine(InBox(tube.DirectionLow, tube.DirectionHigh), InBox(normals.Low, normals.High));
-  return cosine.Most < 0.0 || cosine.Least > 0.0;
+  return !mayEnd && !this->Mesh.Meets(tube, last);
 }
 
 //------------------------------------------------------------------------------

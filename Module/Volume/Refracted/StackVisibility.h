@@ -88,6 +88,7 @@ public:
    * True if either none of these rays meets the first interface, or all do, and before they reach
    * the bounds of the mesh.
    * @param facets all facets of the first interface that the rays may meet.
+   * @pre MayShowMesh() is false for the rays, or for rays of which they are a part
    */
   bool HidesMesh(const CornerRays& rays, FacetBoxes& facets) const;
   /**
