@@ -179,6 +179,7 @@ bool vtkTetrahedraMirage::TraceRays()
   internals.Eyes.assign(width * height, {});
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
   const bool mayBeInMesh = isStraight || internals.Objects.MayBeInMesh();
+  const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   const auto traceBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
     std::vector<meniscus::GradedRay> ofBlock;
@@ -190,8 +191,11 @@ bool vtkTetrahedraMirage::TraceRays()
       internals.Eyes[i] = ofBlock.back().Origin;
     }
     meniscus::OpaqueSight* sights = internals.Sights.data() + first;
-    meniscus::SeeTriangles(
-      walk, internals.Objects.GetTriangles(), mayBeInMesh, ofBlock, ofRows[firstRow], sights);
+    const meniscus::EntryFaces faces = raster.Collect({ 0, firstRow }, { width, endRow },
+      [width, first](int column, int row)
+      { return static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column) - first; });
+    meniscus::SeeTriangles(walk, internals.Objects.GetTriangles(), mayBeInMesh, ofBlock,
+      ofRows[firstRow], sights, raster.IsUsable() ? &faces : nullptr);
     for (std::size_t i = 0; isStraight && i < ofBlock.size(); ++i)
     {
       // Without the turn that stands for the bending.

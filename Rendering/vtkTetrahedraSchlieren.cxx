@@ -157,6 +157,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   const auto width = static_cast<std::size_t>(key.Size.x);
   const auto height = static_cast<std::size_t>(key.Size.y);
   internals.Rays.assign(width * height, {});
+  const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
   // The rays of a block of pixels, which are in the same cells, go on at the same time.
   const auto castBlock = [&](std::size_t firstRow, std::size_t endRow)
@@ -172,8 +173,14 @@ bool vtkTetrahedraSchlieren::UpdateRays()
         pixels.push_back(row * width + column);
       }
     }
+    const std::size_t rows = endRow - firstRow;
+    const meniscus::EntryFaces faces = raster.Collect({ 0, firstRow }, { width, endRow },
+      [&](int column, int row) {
+        return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - firstRow;
+      });
     std::vector<meniscus::GradedRayResult> results(ofBlock.size());
-    walk.WalkAll(ofBlock, ofRows[firstRow], results.data());
+    walk.WalkAll(ofBlock, ofRows[firstRow], results.data(), meniscus::BestInstructionSet(),
+      raster.IsUsable() ? &faces : nullptr);
     for (std::size_t i = 0; i < results.size(); ++i)
     {
       internals.Rays[pixels[i]] = results[i];
@@ -205,7 +212,9 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.ReferenceIndex = this->ReferenceIndex;
   instruments.ScreenDistance = this->ScreenDistance;
   instruments.BackgroundDistance = this->BackgroundDistance;
-  instruments.Knife = { this->KnifeAngle, this->KnifeCutOff, this->KnifeRange };
+  instruments.Knife.SetAngle(this->KnifeAngle);
+  instruments.Knife.CutOff = this->KnifeCutOff;
+  instruments.Knife.Range = this->KnifeRange;
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
   const meniscus::SchlierenRays rays(this->View->Rays, this->GetImageSize());

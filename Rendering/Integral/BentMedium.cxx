@@ -90,6 +90,7 @@ std::string BentMedium::ReadIndices(const InputBlocks& blocks, const MediumQuant
   this->Mesh = this->Input.GetMesh();
   const std::int64_t holes = ActivateCellsWithIndex(this->Mesh, this->SquaredIndices, ThreadedLoop);
   this->Tree.Build(this->Mesh);
+  this->Cones.Build(this->Mesh, this->Tree);
   this->Terms = ComputeEdgeTerms(this->Mesh, this->SquaredIndices, FacetLoop);
   this->Table.Build(this->Mesh, this->SquaredIndices, &this->Terms, ThreadedLoop);
   std::string warning;
@@ -109,11 +110,18 @@ std::string BentMedium::ReadIndices(const InputBlocks& blocks, const MediumQuant
 }
 
 //------------------------------------------------------------------------------
+EntryRaster BentMedium::DrawBoundary(const RayImage& image) const
+{
+  return { this->Mesh, this->Tree, image, ThreadedLoop };
+}
+
+//------------------------------------------------------------------------------
 GradedMedium BentMedium::MakeField(double outsideIndex, bool isStraight) const
 {
   GradedMedium field;
   field.Mesh = &this->Mesh;
   field.Tree = &this->Tree;
+  field.Cones = &this->Cones;
   field.SquaredIndices = &this->SquaredIndices;
   field.Terms = &this->Terms;
   field.Table = &this->Table;

@@ -8,6 +8,8 @@
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/InputContent.h"
 #include "Rendering/Input/VolumeInput.h"
+#include "Volume/Graded/BoundaryCones.h"
+#include "Volume/Graded/EntryRaster.h"
 #include "Volume/Graded/GradedCellTable.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
@@ -57,6 +59,8 @@ public:
   /** Is bumped when indices are read. */
   const TableVersion& GetVersion() const { return this->Version; }
   const IndexFaults& GetFaults() const { return this->Faults; }
+  /** The boundary in an image of rays. */
+  EntryRaster DrawBoundary(const RayImage& image) const;
   /** The field for walks, which refers to this object. */
   GradedMedium MakeField(double outsideIndex, bool isStraight) const;
 
@@ -70,6 +74,7 @@ private:
   TableVersion Version;
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
+  BoundaryCones Cones;
   std::vector<double> SquaredIndices;
   std::vector<EdgeTerms> Terms;
   /** Coefficients of the same field, for rays that are bent. */

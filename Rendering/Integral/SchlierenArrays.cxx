@@ -37,6 +37,12 @@ vtkFloatArray* AddArray(vtkImageData* image, const char* name, int components)
   return array;
 }
 
+void SetPair(vtkFloatArray* array, vtkIdType tuple, const glm::dvec2& values)
+{
+  array->SetTypedComponent(tuple, 0, static_cast<float>(values.x));
+  array->SetTypedComponent(tuple, 1, static_cast<float>(values.y));
+}
+
 /** A picture as numbers, row by row. */
 struct Picture
 {
@@ -119,7 +125,7 @@ void WriteMeasures(const std::vector<LightOfPixel>& light, vtkImageData* output)
   for (std::size_t i = 0; i < light.size(); ++i)
   {
     const auto number = static_cast<vtkIdType>(i);
-    deflections->SetTuple2(number, light[i].Deflection.x, light[i].Deflection.y);
+    SetPair(deflections, number, light[i].Deflection);
     paths->SetValue(number, static_cast<float>(light[i].Path));
   }
 }
@@ -196,7 +202,7 @@ void WriteShifts(
   {
     const auto number = static_cast<vtkIdType>(i);
     const glm::dvec2 shift = light[i].Seen - light[i].Pixel;
-    shifts->SetTuple2(number, shift.x, shift.y);
+    SetPair(shifts, number, shift);
     if (warped)
     {
       warped->SetValue(number,
@@ -211,6 +217,7 @@ void WriteShifts(
 //------------------------------------------------------------------------------
 SchlierenRays::SchlierenRays(const IntegralView& view, const int size[2])
   : View(view)
+  , Size(size[0], size[1])
   , ToFrame(glm::transpose(glm::dmat3(view.Rays.RowX, view.Rays.RowY, view.Rays.RowDepth)))
   , FromFrame(glm::inverse(this->ToFrame))
   , Middle(0.5 * (size[0] - 1), 0.5 * (size[1] - 1))
@@ -265,9 +272,49 @@ glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, double depth) const
   const glm::dvec2 there = glm::dvec2(place) + (depth - place.z) / d.z * glm::dvec2(d);
   const auto& origin = this->View.Rays.Origin;
   const auto& slope = this->View.Rays.Slope;
-  const glm::dmat2 steps(
-    origin.PerColumn + depth * slope.PerColumn, origin.PerRow + depth * slope.PerRow);
-  return this->Middle + glm::inverse(steps) * (there - origin.Base - depth * slope.Base);
+  return this->Middle +
+    glm::inverse(this->GetSteps(depth)) * (there - origin.Base - depth * slope.Base);
+}
+
+//------------------------------------------------------------------------------
+/** Steps between the rays of neighbouring columns and rows, at a depth in the frame. */
+glm::dmat2 SchlierenRays::GetSteps(double depth) const
+{
+  const auto& origin = this->View.Rays.Origin;
+  const auto& slope = this->View.Rays.Slope;
+  return { origin.PerColumn + depth * slope.PerColumn, origin.PerRow + depth * slope.PerRow };
+}
+
+//------------------------------------------------------------------------------
+/** Pixel of the ray through a place; NaN as in RayImage. */
+glm::dvec2 SchlierenRays::Project(const glm::dvec3& place) const
+{
+  // Places have a size of about 1, and with their frame an error of some 2^-50: of less than 2^-22
+  // pixels, if pixels are not smaller than this.
+  constexpr double smallestStep = 0x1p-28;
+  const glm::dvec3 there = this->ToFrame * place;
+  const glm::dmat2 steps = this->GetSteps(there.z);
+  const double area = std::abs(glm::determinant(steps));
+  const double longest = std::max(glm::length(steps[0]), glm::length(steps[1]));
+  if (!(there.z > this->View.BeginDepth && area > smallestStep * longest))
+  {
+    return glm::dvec2(NaN);
+  }
+  const auto& origin = this->View.Rays.Origin;
+  const auto& slope = this->View.Rays.Slope;
+  const glm::dvec2 pixel =
+    this->Middle + glm::inverse(steps) * (glm::dvec2(there) - origin.Base - there.z * slope.Base);
+  // Beyond this, rounding would count.
+  constexpr double mostPixels = 0x1p24;
+  return std::max(std::abs(pixel.x), std::abs(pixel.y)) < mostPixels ? pixel : glm::dvec2(NaN);
+}
+
+//------------------------------------------------------------------------------
+RayImage SchlierenRays::GetImage() const
+{
+  return { this->Size.x, this->Size.y,
+    [this](const glm::dvec3& place) { return this->Project(place); },
+    [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); } };
 }
 
 //------------------------------------------------------------------------------

@@ -5,9 +5,11 @@
 #define meniscus_Rendering_Integral_SchlierenArrays_h
 
 #include "Rendering/Integral/IntegralView.h"
+#include "Volume/Graded/EntryRaster.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/SchlierenImages.h"
 
+#include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -28,6 +30,8 @@ public:
   glm::dvec2 GetSlope(const glm::dvec2& pixel) const;
   glm::dvec3 GetOrigin(const glm::dvec2& pixel) const;
   glm::dvec3 GetDirection(const glm::dvec2& pixel) const;
+  /** The rays as an image, which refers to this object. */
+  RayImage GetImage() const;
   /** Depth in the frame at a distance in world coordinates behind a box about the centre. */
   double GetDepthBehind(const glm::dvec3& half, double distance) const;
   /** Change of a direction's slope from the pixel's ray; NaN for a ray that returns. */
@@ -39,7 +43,11 @@ public:
   glm::dvec2 Land(const GradedRayResult& ray, double depth) const;
 
 private:
+  glm::dmat2 GetSteps(double depth) const;
+  glm::dvec2 Project(const glm::dvec3& place) const;
+
   const IntegralView& View;
+  glm::ivec2 Size;
   glm::dmat3 ToFrame;
   glm::dmat3 FromFrame;
   glm::dvec2 Middle;

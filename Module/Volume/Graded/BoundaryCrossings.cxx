@@ -16,6 +16,13 @@ namespace meniscus
 /** A straight ray about the point of it that is nearest to the mesh's centre. */
 struct BoundaryCrossings::Line
 {
+  Line(const glm::dvec3& origin, const glm::dvec3& direction)
+    : Point(origin - glm::dot(origin, direction) * direction)
+    , Direction(direction)
+    , Begin(glm::dot(origin, direction))
+  {
+  }
+
   glm::dvec3 Point;
   glm::dvec3 Direction;
   /** Distance of the ray's origin from that point along the ray. */
@@ -88,19 +95,18 @@ bool BoundaryCrossings::Cross(
 BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dvec3& direction,
   bool leavingToo, const std::vector<std::int32_t>& excluded) const
 {
-  Line line;
-  line.Begin = glm::dot(origin, direction);
-  line.Point = origin - line.Begin * direction;
-  line.Direction = direction;
+  const Line line(origin, direction);
   const glm::dvec3 inverse = 1.0 / direction;
   const auto& nodes = this->Tree.GetNodes();
+  const BoundaryCones* cones = leavingToo ? nullptr : this->Cones;
   BoundaryCrossing nearest;
   nearest.Distance = Infinity;
   for (std::size_t n = 0; n < nodes.size();)
   {
     const BoundaryTree::Node& node = nodes[n];
     if (!MeetsBox(node, line.Point, direction, inverse, line.Begin - BoxGrowth,
-          line.Begin + nearest.Distance))
+          line.Begin + nearest.Distance) ||
+      (cones && cones->LeavesByAll(n, direction)))
     {
       n = static_cast<std::size_t>(node.Skip);
       continue;
@@ -119,6 +125,31 @@ BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dv
     }
     crossing.Distance = std::max(crossing.Distance, 0.0);
     if (crossing.Distance < nearest.Distance)
+    {
+      nearest = crossing;
+    }
+  }
+  return nearest;
+}
+
+//------------------------------------------------------------------------------
+BoundaryCrossing BoundaryCrossings::FindAmong(const glm::dvec3& origin, const glm::dvec3& direction,
+  const EntryFaces& faces, std::size_t ray) const
+{
+  const Line line(origin, direction);
+  BoundaryCrossing nearest;
+  nearest.Distance = Infinity;
+  for (std::int32_t i = faces.GetFirst(ray); i >= 0; i = faces.GetNext(i))
+  {
+    BoundaryCrossing crossing;
+    if (!this->Cross(line, faces.GetFace(i), crossing) || !crossing.Enters ||
+      crossing.Distance < -DistanceError)
+    {
+      continue;
+    }
+    crossing.Distance = std::max(crossing.Distance, 0.0);
+    if (crossing.Distance < nearest.Distance ||
+      (crossing.Distance == nearest.Distance && crossing.Face < nearest.Face))
     {
       nearest = crossing;
     }

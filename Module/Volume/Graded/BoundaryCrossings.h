@@ -3,12 +3,15 @@
 #ifndef meniscus_Volume_Graded_BoundaryCrossings_h
 #define meniscus_Volume_Graded_BoundaryCrossings_h
 
+#include "Volume/Graded/BoundaryCones.h"
+#include "Volume/Graded/EntryRaster.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -43,10 +46,15 @@ public:
    */
   static constexpr double DistanceError = 0x1p-48;
 
-  /** @param mesh, tree as they are at each search; both must outlive this object. */
-  BoundaryCrossings(const TetrahedralMesh& mesh, const BoundaryTree& tree)
+  /**
+   * @param mesh, tree as they are at each search; all must outlive this object.
+   * @param cones of the tree, for quicker searches with the same results; null for none.
+   */
+  BoundaryCrossings(
+    const TetrahedralMesh& mesh, const BoundaryTree& tree, const BoundaryCones* cones = nullptr)
     : Mesh(mesh)
     , Tree(tree)
+    , Cones(cones)
   {
   }
 
@@ -60,12 +68,17 @@ public:
   BoundaryCrossing Find(const glm::dvec3& origin, const glm::dvec3& direction, bool leavingToo,
     const std::vector<std::int32_t>& excluded) const;
 
+  /** Finds the nearest entry among some of the faces, which have all that are the first. */
+  BoundaryCrossing FindAmong(const glm::dvec3& origin, const glm::dvec3& direction,
+    const EntryFaces& faces, std::size_t ray) const;
+
 private:
   struct Line;
   bool Cross(const Line& line, std::int32_t face, BoundaryCrossing& crossing) const;
 
   const TetrahedralMesh& Mesh;
   const BoundaryTree& Tree;
+  const BoundaryCones* Cones;
 };
 
 }

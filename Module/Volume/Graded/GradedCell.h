@@ -106,6 +106,25 @@ struct GradedCell
   }
 };
 
+/**
+ * Reads the field of a cell without its geometry, which suffices for GetSquaredIndex().
+ * @param edgeTerms terms of all cells; null for a linear n^2.
+ */
+inline void ReadField(const TetrahedralMesh& mesh, const std::vector<double>& squaredIndices,
+  const std::vector<EdgeTerms>* edgeTerms, std::int64_t cell, GradedCell& result)
+{
+  const auto& vertices = mesh.GetCells()[static_cast<std::size_t>(cell)].Vertices;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    result.SquaredIndices[i] = squaredIndices[static_cast<std::size_t>(vertices[i])];
+  }
+  for (std::size_t i = 0; edgeTerms && i < result.Edges.size(); ++i)
+  {
+    result.Edges[i] = (*edgeTerms)[static_cast<std::size_t>(cell)][i];
+    result.IsCurved |= result.Edges[i] != 0.0;
+  }
+}
+
 /** @param edgeTerms terms of all cells; null for a linear n^2. */
 inline GradedCell MakeGradedCell(const TetrahedralMesh& mesh,
   const std::vector<double>& squaredIndices, const std::vector<EdgeTerms>* edgeTerms,
@@ -130,10 +149,7 @@ inline GradedCell MakeGradedCell(const TetrahedralMesh& mesh,
   const bool positive = mesh.IsPositivelyOriented(cell);
   const double scale = result.IsFlat ? (positive ? 1.0 : -1.0) : 1.0 / volume;
   result.IsInverted = !result.IsFlat && (volume > 0.0) != positive;
-  for (int i = 0; i < 4; ++i)
-  {
-    result.SquaredIndices[i] = squaredIndices[static_cast<std::size_t>(vertices[i])];
-  }
+  ReadField(mesh, squaredIndices, edgeTerms, cell, result);
   for (int i = 0; i < 3; ++i)
   {
     result.Gradients[i + 1] = scale * normals[i];
@@ -144,11 +160,6 @@ inline GradedCell MakeGradedCell(const TetrahedralMesh& mesh,
   if (result.IsFlat)
   {
     result.Force = glm::dvec3(0.0);
-  }
-  for (std::size_t i = 0; edgeTerms && i < result.Edges.size(); ++i)
-  {
-    result.Edges[i] = (*edgeTerms)[static_cast<std::size_t>(cell)][i];
-    result.IsCurved |= result.Edges[i] != 0.0;
   }
   return result;
 }

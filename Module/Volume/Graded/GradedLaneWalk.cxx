@@ -6,6 +6,8 @@
 #include "Volume/Graded/GradedLanes.h"
 #include "Volume/Graded/GradedRayPath.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +20,10 @@ class GradedRayWalk::LaneWalk
 {
 public:
   LaneWalk(const GradedRayWalk& walk, const std::vector<GradedRay>& rays,
-    GradedRayStatistics& statistics, GradedRayResult* results)
+    GradedRayStatistics& statistics, GradedRayResult* results, const EntryFaces* faces)
     : Walk(walk)
     , Rays(rays)
+    , Faces(faces)
     , Statistics(statistics)
     , Results(results)
   {
@@ -80,11 +83,20 @@ private:
   {
     while (this->Next < this->Rays.size())
     {
+      GradedRayResult& result = this->Results[this->Next];
+      const GradedRay& ray = this->Rays[this->Next];
+      result = GradedRayResult();
+      const std::size_t number = this->Next++;
+      if (this->Faces && this->Faces->GetFirst(number) < 0 && !this->Walk.MayBeInside(ray.Origin))
+      {
+        result.Entry = result.Exit = ray.Origin;
+        result.Direction = glm::normalize(ray.Direction);
+        continue;
+      }
       Path& path = this->Paths[lane];
       path = Path();
-      GradedRayResult& result = this->Results[this->Next];
-      result = GradedRayResult();
-      const GradedRay& ray = this->Rays[this->Next++];
+      path.Faces = this->Faces;
+      path.Number = number;
       if (!this->Walk.Begin(ray, result, this->Statistics, path))
       {
         this->Walk.Finish(path);
@@ -208,6 +220,7 @@ private:
 
   const GradedRayWalk& Walk;
   const std::vector<GradedRay>& Rays;
+  const EntryFaces* Faces;
   GradedRayStatistics& Statistics;
   GradedRayResult* Results;
   std::size_t Next = 0;
@@ -219,16 +232,19 @@ private:
 
 //------------------------------------------------------------------------------
 void GradedRayWalk::WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
-  GradedRayResult* results, InstructionSet set) const
+  GradedRayResult* results, InstructionSet set, const EntryFaces* faces) const
 {
   if (this->Medium.Table && !this->Medium.IsStraight)
   {
-    LaneWalk(*this, rays, statistics, results).Run(set);
+    LaneWalk(*this, rays, statistics, results, faces).Run(set);
     return;
   }
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
-    results[i] = this->Walk(rays[i].Origin, rays[i].Direction, statistics);
+    Path path;
+    path.Faces = faces;
+    path.Number = i;
+    results[i] = this->WalkToEnd(rays[i], statistics, path);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -30,6 +31,9 @@ struct GradedRayWalk::Path
   /** Outside of the mesh: a place and the direction; unit length. */
   glm::dvec3 Origin{ 0.0 };
   glm::dvec3 Direction{ 0.0 };
+  /** Faces of the next entry, and the number of the ray there; null for any. */
+  const EntryFaces* Faces = nullptr;
+  std::size_t Number = 0;
   /** Inside: the cell, the place in it and the momentum. */
   std::int64_t Cell = -1;
   PlaceInCell Place;

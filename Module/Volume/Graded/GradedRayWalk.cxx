@@ -118,7 +118,7 @@ void GradedRayStatistics::Add(const GradedRayStatistics& other)
 //------------------------------------------------------------------------------
 GradedRayWalk::GradedRayWalk(const GradedMedium& medium)
   : Medium(medium)
-  , Crossings(*medium.Mesh, *medium.Tree)
+  , Crossings(*medium.Mesh, *medium.Tree, medium.Cones)
 {
   constexpr std::int64_t fewest = 65536;
   this->MaximumNumberOfSteps = medium.MaximumNumberOfSteps > 0
@@ -130,23 +130,24 @@ GradedRayWalk::GradedRayWalk(const GradedMedium& medium)
 GradedRayResult GradedRayWalk::Walk(
   const glm::dvec3& origin, const glm::dvec3& direction, GradedRayStatistics& statistics) const
 {
-  return this->WalkToEnd({ origin, direction }, statistics, nullptr);
+  Path path;
+  return this->WalkToEnd({ origin, direction }, statistics, path);
 }
 
 //------------------------------------------------------------------------------
 GradedRayResult GradedRayWalk::Follow(
   const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor& visitor) const
 {
-  return this->WalkToEnd(ray, statistics, &visitor);
+  Path path;
+  path.Visitor = &visitor;
+  return this->WalkToEnd(ray, statistics, path);
 }
 
 //------------------------------------------------------------------------------
 GradedRayResult GradedRayWalk::WalkToEnd(
-  const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor* visitor) const
+  const GradedRay& ray, GradedRayStatistics& statistics, Path& path) const
 {
   GradedRayResult result;
-  Path path;
-  path.Visitor = visitor;
   if (this->Begin(ray, result, statistics, path))
   {
     while (this->Advance(path))
@@ -242,8 +243,7 @@ bool GradedRayWalk::EnterMesh(Path& path) const
   GradedRayResult& result = *path.Result;
   for (; path.Steps < this->MaximumNumberOfSteps; ++path.Steps)
   {
-    const BoundaryCrossing crossing =
-      this->Crossings.Find(path.Origin, path.Direction, false, path.Touched);
+    const BoundaryCrossing crossing = this->FindEntry(path);
     if (crossing.Face < 0)
     {
       path.TellLeg(Infinity);
@@ -292,6 +292,18 @@ bool GradedRayWalk::EnterMesh(Path& path) const
   }
   result.State = GradedRayState::Trapped;
   return false;
+}
+
+//------------------------------------------------------------------------------
+BoundaryCrossing GradedRayWalk::FindEntry(Path& path) const
+{
+  if (!path.Faces)
+  {
+    return this->Crossings.Find(path.Origin, path.Direction, false, path.Touched);
+  }
+  const EntryFaces& faces = *path.Faces;
+  path.Faces = nullptr;
+  return this->Crossings.FindAmong(path.Origin, path.Direction, faces, path.Number);
 }
 
 //------------------------------------------------------------------------------
@@ -498,9 +510,9 @@ const TetrahedralMesh::Cell& GradedRayWalk::CellOf(const Path& path) const
 //------------------------------------------------------------------------------
 double GradedRayWalk::SquaredIndexAt(const Path& path) const
 {
-  return MakeGradedCell(
-    *this->Medium.Mesh, *this->Medium.SquaredIndices, this->Medium.Terms, path.Cell)
-    .GetSquaredIndex(path.Place.Weights);
+  GradedCell cell;
+  ReadField(*this->Medium.Mesh, *this->Medium.SquaredIndices, this->Medium.Terms, path.Cell, cell);
+  return cell.GetSquaredIndex(path.Place.Weights);
 }
 
 //------------------------------------------------------------------------------

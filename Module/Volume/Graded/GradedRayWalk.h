@@ -28,6 +28,7 @@
 #define meniscus_Volume_Graded_GradedRayWalk_h
 
 #include "Simd/InstructionSets.h"
+#include "Volume/Graded/BoundaryCones.h"
 #include "Volume/Graded/BoundaryCrossings.h"
 #include "Volume/Graded/GradedCellTable.h"
 #include "Volume/Graded/QuadraticIndex.h"
@@ -49,6 +50,8 @@ struct GradedMedium
   const TetrahedralMesh* Mesh = nullptr;
   /** Tree over the mesh's boundary. */
   const BoundaryTree* Tree = nullptr;
+  /** Cones of the tree, for quicker searches with the same results; null for none. */
+  const BoundaryCones* Cones = nullptr;
   /** Squared index of each vertex; not NaN at active cells. */
   const std::vector<double>* SquaredIndices = nullptr;
   /** Terms of ComputeEdgeTerms(), with which n^2 is quadratic; null for a linear n^2. */
@@ -156,16 +159,19 @@ public:
    * the other rays, and differ from the results of Walk() by rounding.
    * @param results one per ray; replaced.
    * @param set instruction set, on which the results do not depend.
+   * @param faces by which the rays may enter first, for quicker searches with the same results;
+   *   null for none.
    */
   void WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
-    GradedRayResult* results, InstructionSet set = BestInstructionSet()) const;
+    GradedRayResult* results, InstructionSet set = BestInstructionSet(),
+    const EntryFaces* faces = nullptr) const;
 
 private:
   struct Path;
   class LaneWalk;
 
   GradedRayResult WalkToEnd(
-    const GradedRay& ray, GradedRayStatistics& statistics, GradedRayVisitor* visitor) const;
+    const GradedRay& ray, GradedRayStatistics& statistics, Path& path) const;
   bool Begin(const GradedRay& ray, GradedRayResult& result, GradedRayStatistics& statistics,
     Path& path) const;
   bool TellArc(
@@ -174,6 +180,7 @@ private:
   bool MayBeInside(const glm::dvec3& place) const;
   bool BeginInside(Path& path) const;
   bool EnterMesh(Path& path) const;
+  BoundaryCrossing FindEntry(Path& path) const;
   void PutIn(const BoundaryCrossing& crossing, Path& path) const;
   bool Advance(Path& path) const;
   void PassTo(std::int32_t link, int face, Path& path) const;

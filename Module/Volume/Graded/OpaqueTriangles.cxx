@@ -202,7 +202,8 @@ bool OpaqueTriangles::MeetLine(const Chord& chord, OpaqueHit& hit) const
 
 //------------------------------------------------------------------------------
 void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, bool mayBeInMesh,
-  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results)
+  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results,
+  const EntryFaces* faces)
 {
   const auto settle = [](const GradedRayResult& ray, OpaqueSight& sight)
   {
@@ -224,7 +225,7 @@ void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, b
     return;
   }
   std::vector<GradedRayResult> ends(rays.size());
-  walk.WalkAll(rays, statistics, ends.data());
+  walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces);
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
     const GradedRayResult& ray = ends[i];

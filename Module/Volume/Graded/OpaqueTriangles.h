@@ -81,9 +81,11 @@ struct OpaqueSight
  * @param mayBeInMesh false if no triangle is in the box around the mesh, where rays need not be
  *   watched.
  * @param results one per ray; replaced.
+ * @param faces as for GradedRayWalk::WalkAll().
  */
 void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, bool mayBeInMesh,
-  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results);
+  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results,
+  const EntryFaces* faces = nullptr);
 
 /** Ends a ray at the first triangle. */
 class OpaqueVisitor : public GradedRayVisitor

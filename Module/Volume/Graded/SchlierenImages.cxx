@@ -87,6 +87,33 @@ int PixelAt(double coordinate, int first, int last)
     std::floor(std::min(std::max(coordinate + 0.5, first - 1.0), last + 1.0)));
 }
 
+/**
+ * Cuts a polygon into slices one pixel wide across an axis, those in [first, last), and calls
+ * body(slice, pixel) for each.
+ */
+template <typename Body>
+void ForEachSlice(const Polygon& polygon, int axis, int first, int last, const Body& body)
+{
+  const int begin = PixelAt(polygon.GetLeast(axis), first, last);
+  const int end = PixelAt(polygon.GetMost(axis), first, last);
+  Polygon rest = begin < first ? polygon.Cut(axis, first - 0.5, -1.0) : polygon;
+  for (int pixel = std::max(begin, first); pixel <= std::min(end, last - 1) && rest.Size > 2;
+       ++pixel)
+  {
+    if (pixel == end)
+    {
+      body(rest, pixel);
+      return;
+    }
+    const Polygon slice = rest.Cut(axis, pixel + 0.5, 1.0);
+    if (slice.Size > 2)
+    {
+      body(slice, pixel);
+    }
+    rest = rest.Cut(axis, pixel + 0.5, -1.0);
+  }
+}
+
 /** Band of rows of a screen, and the light that falls on it. */
 class Band
 {
@@ -115,16 +142,14 @@ public:
       this->AddPoint((a + b + c) / 3.0, light);
       return;
     }
-    const int top = std::min(PixelAt(triangle.GetMost(1), this->First, this->Last), this->Last - 1);
-    for (int row = std::max(PixelAt(triangle.GetLeast(1), this->First, this->Last), this->First);
-         row <= top; ++row)
-    {
-      const Polygon strip = triangle.Cut(1, row - 0.5, -1.0).Cut(1, row + 0.5, 1.0);
-      if (strip.Size > 2)
+    const double density = light / area;
+    ForEachSlice(triangle, 1, this->First, this->Last,
+      [this, density](const Polygon& strip, int row)
       {
-        this->AddStrip(strip, row, light / area);
-      }
-    }
+        ForEachSlice(strip, 0, 0, this->Width,
+          [this, density, row](const Polygon& part, int column)
+          { this->At(column, row) += density * part.GetArea(); });
+      });
   }
 
 private:
@@ -144,16 +169,6 @@ private:
       this->At(static_cast<int>(middle.x), static_cast<int>(middle.y)) += light;
     }
     return true;
-  }
-  void AddStrip(const Polygon& strip, int row, double density)
-  {
-    const int right = std::min(PixelAt(strip.GetMost(0), 0, this->Width), this->Width - 1);
-    for (int column = std::max(PixelAt(strip.GetLeast(0), 0, this->Width), 0); column <= right;
-         ++column)
-    {
-      const Polygon part = strip.Cut(0, column - 0.5, -1.0).Cut(0, column + 0.5, 1.0);
-      this->At(column, row) += density * part.GetArea();
-    }
   }
   void AddPoint(const glm::dvec2& place, double light)
   {
@@ -232,10 +247,16 @@ std::vector<glm::dvec2> FindReaches(const std::vector<glm::dvec2>& corners, int 
 }
 
 //------------------------------------------------------------------------------
+void KnifeEdge::SetAngle(double degrees)
+{
+  const double angle = degrees * Pi / 180.0;
+  this->Open = { std::cos(angle), std::sin(angle) };
+}
+
+//------------------------------------------------------------------------------
 double KnifeEdge::Along(const glm::dvec2& deflection) const
 {
-  const double angle = this->Angle * Pi / 180.0;
-  return deflection.x * std::cos(angle) + deflection.y * std::sin(angle);
+  return glm::dot(deflection, this->Open);
 }
 
 //------------------------------------------------------------------------------

@@ -20,13 +20,15 @@ namespace meniscus
  */
 struct KnifeEdge
 {
-  /** Direction from the blade into the open, in degrees from the image's first axis. */
-  double Angle = 90.0;
+  /** Direction from the blade into the open; unit length. */
+  glm::dvec2 Open{ 0.0, 1.0 };
   /** Share of the source's image that the blade covers without a deflection, in [0, 1]. */
   double CutOff = 0.5;
   /** Deflection that moves the source's image by its width, in radians, > 0. */
   double Range = 1.0;
 
+  /** Sets the direction into the open, in degrees from the image's first axis. */
+  void SetAngle(double degrees);
   /** Deflection towards the open. */
   double Along(const glm::dvec2& deflection) const;
   /** Share of the light that passes, in [0, 1]. */

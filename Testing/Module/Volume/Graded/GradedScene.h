@@ -4,6 +4,7 @@
 #define meniscus_Testing_Module_Volume_Graded_GradedScene_h
 
 #include "KernelMeshes.h"
+#include "RandomNumbers.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
@@ -95,6 +96,16 @@ public:
   GradedMedium Medium;
   GradedRayStatistics Statistics;
 };
+
+/** Moves all points that are not on the boundary of the unit cube. */
+inline void JitterInside(MeshArrays& arrays, double amount, RandomNumbers& random)
+{
+  for (double& coordinate : arrays.Points)
+  {
+    const double move = random.Uniform(-amount, amount);
+    coordinate += coordinate == 0.0 || coordinate == 1.0 ? 0.0 : move;
+  }
+}
 
 /** A cube [-half, half]^3 of n^3 cubes, each split into 6 tetrahedra. */
 inline MeshArrays CenteredGrid(int n, double half)

@@ -35,16 +35,6 @@ SquaredIndexField RandomField(double contrast, RandomNumbers& random)
   return [contrast, &random](const glm::dvec3&) { return 1.0 + contrast * random.Uniform(); };
 }
 
-/** Moves all points that are not on the boundary of the unit cube. */
-void JitterInside(MeshArrays& arrays, double amount, RandomNumbers& random)
-{
-  for (double& coordinate : arrays.Points)
-  {
-    const double move = random.Uniform(-amount, amount);
-    coordinate += coordinate == 0.0 || coordinate == 1.0 ? 0.0 : move;
-  }
-}
-
 glm::dvec3 RandomPoint(RandomNumbers& random)
 {
   const double x = random.Uniform();

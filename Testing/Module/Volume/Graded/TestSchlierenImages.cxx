@@ -143,7 +143,7 @@ TEST(KnifeEdge, CutsOffWhatIsDeflectedTowardsTheBlade)
   EXPECT_NEAR(knife.Transmit({ 1.0, 0.002 }), 0.7, 1.0e-12);
   EXPECT_EQ(knife.Transmit({ 0.0, -0.02 }), 0.0);
   EXPECT_EQ(knife.Transmit({ 0.0, 0.02 }), 1.0);
-  knife.Angle = 0.0;
+  knife.SetAngle(0.0);
   knife.CutOff = 1.0;
   EXPECT_NEAR(knife.Transmit({ 0.002, 1.0 }), 0.2, 1.0e-12);
   EXPECT_EQ(knife.Transmit({ 0.0, 0.0 }), 0.0);

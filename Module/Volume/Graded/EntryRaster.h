@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Graded_EntryRaster_h
+#define meniscus_Volume_Graded_EntryRaster_h
+
+#include "Common/RangeLoop.h"
+#include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Rays of an image: parallel ones, or those of one eye. Pixels are numbered from 0 on. */
+struct RayImage
+{
+  int Width = 0;
+  int Height = 0;
+  /**
+   * Pixel of the ray through a place, with an error of up to 2^-22; NaN if the error may be larger
+   * or the place is not before the beginnings of the rays.
+   */
+  std::function<glm::dvec2(const glm::dvec3&)> Project;
+  /** Direction of a pixel's ray, of any length; an affine function. */
+  std::function<glm::dvec3(const glm::dvec2&)> GetDirection;
+};
+
+/** Faces that may be the first by which a ray enters the mesh, by the ray's number. */
+class EntryFaces
+{
+public:
+  /** Number of a ray's first entry in the list; -1 for none. */
+  std::int32_t GetFirst(std::size_t ray) const { return this->Heads[ray]; }
+  std::int32_t GetNext(std::int32_t entry) const { return this->Entries[entry].Next; }
+  /** Number of a face in BoundaryTree::GetFaces(). */
+  std::int32_t GetFace(std::int32_t entry) const { return this->Entries[entry].Face; }
+
+private:
+  friend class EntryRaster;
+  struct Entry
+  {
+    std::int32_t Face;
+    std::int32_t Next;
+  };
+  std::vector<std::int32_t> Heads;
+  std::vector<Entry> Entries;
+};
+
+/** Draws the boundary of a mesh to find the faces by which the rays of an image may enter. */
+class EntryRaster
+{
+public:
+  EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree, const RayImage& image,
+    const RangeLoop& loop = SerialLoop);
+
+  /** False if a corner has no place in the image; nothing can be collected then. */
+  bool IsUsable() const { return this->Usable; }
+
+  /**
+   * Collects the faces of a rectangle of pixels, whose ends are excluded.
+   * @param numberOf number of the ray at a column and a row.
+   */
+  EntryFaces Collect(const glm::ivec2& first, const glm::ivec2& end,
+    const std::function<std::size_t(int, int)>& numberOf) const;
+
+private:
+  struct Drawn
+  {
+    std::array<glm::dvec2, 3> Corners;
+    glm::dvec2 Least;
+    glm::dvec2 Most;
+    bool IsEntry = false;
+  };
+  Drawn Draw(const BoundaryFace& face, const TetrahedralMesh& mesh, const RayImage& image) const;
+
+  std::vector<Drawn> Faces;
+  bool Usable = true;
+};
+
+}
+
+#endif

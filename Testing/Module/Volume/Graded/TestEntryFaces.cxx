@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cones and drawn faces shorten searches for entries and change no result.
+#include "GradedScene.h"
+#include "RandomNumbers.h"
+
+#include "Volume/Graded/BoundaryCones.h"
+#include "Volume/Graded/EntryRaster.h"
+#include "Volume/Graded/GradedRayWalk.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Pixels = 16;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/** Rays of an eye, or parallel ones, that fill an image around the unit ball. */
+struct Camera
+{
+  Camera(const glm::dvec3& direction, double distance, bool isParallel)
+    : IsParallel(isParallel)
+  {
+    const glm::dvec3 along = glm::normalize(direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(along, glm::dvec3(0.3, 1.0, 0.2)));
+    this->Axes = glm::dmat3(right, glm::cross(right, along), along);
+    this->Eye = -distance * along;
+    this->Step = (isParallel ? 2.2 : 2.2 / distance) / Pixels;
+  }
+  glm::dvec3 GetDirection(const glm::dvec2& pixel) const
+  {
+    const glm::dvec2 slope = this->IsParallel ? glm::dvec2(0.0) : this->Across(pixel);
+    return this->Axes * glm::dvec3(slope, 1.0);
+  }
+  GradedRay GetRay(const glm::dvec2& pixel) const
+  {
+    const glm::dvec2 shift = this->IsParallel ? this->Across(pixel) : glm::dvec2(0.0);
+    return { this->Eye + this->Axes * glm::dvec3(shift, 0.0), this->GetDirection(pixel) };
+  }
+  glm::dvec2 Project(const glm::dvec3& place) const
+  {
+    const glm::dvec3 there = glm::transpose(this->Axes) * (place - this->Eye);
+    const glm::dvec2 across = glm::dvec2(there) / (this->IsParallel ? 1.0 : there.z);
+    return there.z > 0.0 ? across / this->Step + 0.5 * (Pixels - 1) : glm::dvec2(NaN);
+  }
+  RayImage GetImage() const
+  {
+    return { Pixels, Pixels, [this](const glm::dvec3& place) { return this->Project(place); },
+      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); } };
+  }
+
+private:
+  glm::dvec2 Across(const glm::dvec2& pixel) const
+  {
+    return this->Step * (pixel - 0.5 * (Pixels - 1));
+  }
+
+  bool IsParallel;
+  glm::dmat3 Axes;
+  glm::dvec3 Eye;
+  double Step;
+};
+
+/** Meshes that rays leave and enter again: jittered, with holes where the index is unknown. */
+std::vector<std::unique_ptr<GradedScene>> MakeScenes()
+{
+  RandomNumbers random(11);
+  MeshArrays jittered = KuhnGrid(6);
+  JitterInside(jittered, 0.05, random);
+  const auto wave = [](const glm::dvec3& p)
+  { return 1.5 + 0.3 * std::sin(5.0 * p.x) * std::cos(4.0 * p.y + p.z); };
+  const auto holes = [&](const glm::dvec3& p)
+  { return random.Uniform(0.0, 1.0) < 0.1 ? NaN : wave(p); };
+  std::vector<std::unique_ptr<GradedScene>> scenes;
+  scenes.push_back(std::make_unique<GradedScene>(KuhnGrid(5), wave));
+  scenes.push_back(std::make_unique<GradedScene>(jittered, holes));
+  scenes.push_back(std::make_unique<GradedScene>(jittered, holes, 1.0));
+  scenes.push_back(std::make_unique<GradedScene>(BallOfCubes(8, 1.0), wave));
+  return scenes;
+}
+
+void ExpectEqual(const std::vector<GradedRayResult>& a, const std::vector<GradedRayResult>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    ASSERT_EQ(a[i].State, b[i].State) << i;
+    ASSERT_EQ(a[i].Entry, b[i].Entry) << i;
+    ASSERT_EQ(a[i].Exit, b[i].Exit) << i;
+    ASSERT_EQ(a[i].Direction, b[i].Direction) << i;
+    ASSERT_EQ(a[i].OpticalPath, b[i].OpticalPath) << i;
+  }
+}
+
+/** Walks the rays of an image, with cones and drawn faces or by the tree alone. */
+std::vector<GradedRayResult> WalkImage(
+  GradedScene& scene, const Camera& camera, bool isShort, std::int64_t& candidates)
+{
+  BoundaryCones cones;
+  cones.Build(scene.Mesh, scene.Tree);
+  scene.Medium.Cones = isShort ? &cones : nullptr;
+  std::vector<GradedRay> rays;
+  for (int i = 0; i < Pixels * Pixels; ++i)
+  {
+    rays.push_back(camera.GetRay(glm::dvec2(i % Pixels, i / Pixels)));
+  }
+  const EntryRaster raster(scene.Mesh, scene.Tree, camera.GetImage());
+  EXPECT_TRUE(raster.IsUsable());
+  const EntryFaces faces = raster.Collect({ 0, 0 }, { Pixels, Pixels },
+    [](int column, int row) { return static_cast<std::size_t>(row * Pixels + column); });
+  candidates = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    for (std::int32_t k = faces.GetFirst(i); k >= 0; k = faces.GetNext(k))
+    {
+      ++candidates;
+    }
+  }
+  std::vector<GradedRayResult> results(rays.size());
+  GradedRayWalk(scene.Medium)
+    .WalkAll(
+      rays, scene.Statistics, results.data(), BestInstructionSet(), isShort ? &faces : nullptr);
+  return results;
+}
+
+}
+
+TEST(EntryFaces, ResultsAreThoseOfTheTree)
+{
+  // Along axes and diagonals, where rays meet edges and faces are seen from the side.
+  const glm::dvec3 directions[] = { { 0.3, -0.4, 0.8 }, { 0, 0, -1 }, { 1, 1, 1 }, { -1, 0, 0 } };
+  for (const auto& scene : MakeScenes())
+  {
+    for (const bool inLanes : { false, true })
+    {
+      if (inLanes)
+      {
+        scene->PrepareLanes();
+      }
+      for (const glm::dvec3& direction : directions)
+      {
+        for (const bool isParallel : { true, false })
+        {
+          const Camera camera(direction, 3.0, isParallel);
+          std::int64_t candidates = 0;
+          const auto expected = WalkImage(*scene, camera, false, candidates);
+          const auto found = WalkImage(*scene, camera, true, candidates);
+          ExpectEqual(found, expected);
+          const auto met = std::count_if(expected.begin(), expected.end(),
+            [](const GradedRayResult& ray) { return ray.State == GradedRayState::Left; });
+          EXPECT_GT(met, Pixels * Pixels / 8);
+          // Faces that the rays leave by, half of all, are left out.
+          EXPECT_LT(candidates, 4 * met);
+        }
+      }
+    }
+  }
+}
+
+TEST(EntryFaces, NothingIsCollectedIfAPlaceHasNoPixel)
+{
+  const auto scene = std::move(MakeScenes().front());
+  const Camera inside({ 0, 0, 1 }, 0.1, false);
+  const EntryRaster raster(scene->Mesh, scene->Tree, inside.GetImage());
+  EXPECT_FALSE(raster.IsUsable());
+}
