@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
 #include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 
@@ -154,15 +155,15 @@ public:
     std::vector<signed char> orientations;
     vtkNew<vtkCellArray> vertices;
     this->MakeVertices(vertices, orientations);
-    vtkNew<vtkCellArray> lines;
+    CellLists lines;
     this->AddCells(this->Cells.WholeLines, 0, false, lines, orientations);
     this->AddCells(this->Cells.Lines, firstOfLines, false, lines, orientations);
-    vtkNew<vtkCellArray> polygons;
+    CellLists polygons;
     this->AddCells(this->Cells.WholePolygons, 0, options.Reflects, polygons, orientations);
     this->AddCells(this->Cells.Polygons, firstOfPolygons, options.Reflects, polygons, orientations);
     geometry->SetVerts(vertices);
-    geometry->SetLines(lines);
-    geometry->SetPolys(polygons);
+    geometry->SetLines(lines.MakeCells());
+    geometry->SetPolys(polygons.MakeCells());
     MakePoints(
       this->Input, this->Assembly.Points, this->Assembly.PointSources, membrane, options, geometry);
     MakeCellArrays(this->Assembly.CellSources, orientations, geometry);
@@ -283,25 +284,50 @@ private:
     }
   }
 
+  /** Cells as vtkCellArray stores them. */
+  struct CellLists
+  {
+    vtkNew<vtkTypeInt64Array> Offsets;
+    vtkNew<vtkTypeInt64Array> Connectivity;
+
+    CellLists() { this->Offsets->InsertNextValue(0); }
+    vtkSmartPointer<vtkCellArray> MakeCells()
+    {
+      auto cells = vtkSmartPointer<vtkCellArray>::New();
+      cells->SetData(this->Offsets, this->Connectivity);
+      return cells;
+    }
+  };
+
   // Mirror images of polygons have the reversed winding.
-  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, bool areReversed, vtkCellArray* cells,
+  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, bool areReversed, CellLists& cells,
     std::vector<signed char>& orientations)
   {
-    vtkNew<vtkIdList> ids;
-    std::int64_t begin = 0;
-    for (std::size_t i = 0; i < mesh.GetNumberOfCells(); ++i)
-    {
-      ids->Reset();
-      for (std::int64_t k = begin; k < mesh.Ends[i]; ++k)
+    const std::size_t count = mesh.GetNumberOfCells();
+    const vtkIdType before = cells.Connectivity->GetNumberOfValues();
+    vtkTypeInt64* const ends = cells.Offsets->WritePointer(
+      cells.Offsets->GetNumberOfValues(), static_cast<vtkIdType>(count));
+    vtkTypeInt64* const ids =
+      cells.Connectivity->WritePointer(before, static_cast<vtkIdType>(mesh.Connectivity.size()));
+    PointLoop(count,
+      [&mesh, ends, ids, before, firstPoint, areReversed](std::size_t from, std::size_t to)
       {
-        const std::int64_t at = areReversed ? begin + mesh.Ends[i] - 1 - k : k;
-        ids->InsertNextId(firstPoint + mesh.Connectivity[static_cast<std::size_t>(at)]);
-      }
-      cells->InsertNextCell(ids);
-      this->Assembly.CellSources.push_back(mesh.SourceCells[i]);
-      orientations.push_back(mesh.Orientations[i]);
-      begin = mesh.Ends[i];
-    }
+        std::int64_t begin = from > 0 ? mesh.Ends[from - 1] : 0;
+        for (std::size_t i = from; i < to; ++i)
+        {
+          const std::int64_t end = mesh.Ends[i];
+          for (std::int64_t k = begin; k < end; ++k)
+          {
+            const std::int64_t at = areReversed ? begin + end - 1 - k : k;
+            ids[k] = firstPoint + mesh.Connectivity[static_cast<std::size_t>(at)];
+          }
+          ends[i] = before + end;
+          begin = end;
+        }
+      });
+    std::vector<vtkIdType>& sources = this->Assembly.CellSources;
+    sources.insert(sources.end(), mesh.SourceCells.begin(), mesh.SourceCells.end());
+    orientations.insert(orientations.end(), mesh.Orientations.begin(), mesh.Orientations.end());
   }
 
   void InterpolatePointArrays(VirtualPolyDataReport& report)
