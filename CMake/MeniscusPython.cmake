@@ -39,10 +39,10 @@ set(_meniscus_sources
   api/__init__ api/accessor api/comparison api/functions api/mapper api/mirages api/notebook
   api/picking api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types
   api/volumes
-  viewer/__init__ viewer/cells viewer/chart viewer/colors viewer/command viewer/contest
-  viewer/curves viewer/files viewer/furniture viewer/guard viewer/levels viewer/movies
-  viewer/options viewer/pictures viewer/reading viewer/sample viewer/scene viewer/series
-  viewer/watching viewer/web viewer/window)
+  viewer/__init__ viewer/appended viewer/cells viewer/chart viewer/colors viewer/command
+  viewer/contest viewer/curves viewer/files viewer/furniture viewer/guard viewer/levels
+  viewer/movies viewer/options viewer/pictures viewer/reading viewer/sample viewer/scene
+  viewer/series viewer/shown viewer/watching viewer/web viewer/window)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
   configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
     "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
