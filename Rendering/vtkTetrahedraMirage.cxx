@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ClampedSetter.h"
 #include "Filters/Common/Statistics.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
@@ -178,7 +179,10 @@ bool vtkTetrahedraMirage::TraceRays()
   internals.Sights.assign(width * height, {});
   internals.Eyes.assign(width * height, {});
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
-  const bool mayBeInMesh = isStraight || internals.Objects.MayBeInMesh();
+  const bool isWatched = isStraight || internals.Objects.MayBeInMesh();
+  const std::vector<std::uint8_t> cells = isWatched
+    ? internals.Objects.GetTriangles().FindCells(this->Medium->GetMesh(), meniscus::ThreadedLoop)
+    : std::vector<std::uint8_t>();
   const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   const auto traceBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
@@ -194,8 +198,8 @@ bool vtkTetrahedraMirage::TraceRays()
     const meniscus::EntryFaces faces = raster.Collect({ 0, firstRow }, { width, endRow },
       [width, first](int column, int row)
       { return static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column) - first; });
-    meniscus::SeeTriangles(walk, internals.Objects.GetTriangles(), mayBeInMesh, ofBlock,
-      ofRows[firstRow], sights, raster.IsUsable() ? &faces : nullptr);
+    meniscus::SeeTriangles(walk, internals.Objects.GetTriangles(), isWatched ? &cells : nullptr,
+      ofBlock, ofRows[firstRow], sights, raster.IsUsable() ? &faces : nullptr);
     for (std::size_t i = 0; isStraight && i < ofBlock.size(); ++i)
     {
       // Without the turn that stands for the bending.

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 
 namespace meniscus
 {
@@ -20,10 +21,12 @@ class GradedRayWalk::LaneWalk
 {
 public:
   LaneWalk(const GradedRayWalk& walk, const std::vector<GradedRay>& rays,
-    GradedRayStatistics& statistics, GradedRayResult* results, const EntryFaces* faces)
+    GradedRayStatistics& statistics, GradedRayResult* results, const EntryFaces* faces,
+    const GradedWatch* watch)
     : Walk(walk)
     , Rays(rays)
     , Faces(faces)
+    , Watch(watch)
     , Statistics(statistics)
     , Results(results)
   {
@@ -41,7 +44,7 @@ public:
     {
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        this->Lanes.Rows[lane] = table.GetRow(this->Cells[lane]).Values;
+        this->Lanes.Rows[lane] = this->RowOf(this->Cells[lane]);
       }
       StepLanes(this->Lanes, set);
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
@@ -68,6 +71,21 @@ public:
   }
 
 private:
+  /** Row of the table for a step; in a watched cell one of a cell that lanes cannot pass. */
+  const double* RowOf(std::int32_t cell) const
+  {
+    static const GradedCellRow none = []
+    {
+      GradedCellRow row{};
+      std::fill_n(
+        row.Values + GradedCellRow::Gradients, 9, std::numeric_limits<double>::quiet_NaN());
+      return row;
+    }();
+    return this->Watch && (*this->Watch->Cells)[static_cast<std::size_t>(cell)]
+      ? none.Values
+      : this->Walk.Medium.Table->GetRow(cell).Values;
+  }
+
   /** Begins to load a row that the next step needs. */
   static void Fetch(const GradedCellRow& row)
   {
@@ -87,7 +105,8 @@ private:
       const GradedRay& ray = this->Rays[this->Next];
       result = GradedRayResult();
       const std::size_t number = this->Next++;
-      if (this->Faces && this->Faces->GetFirst(number) < 0 && !this->Walk.MayBeInside(ray.Origin))
+      if (!this->Watch && this->Faces && this->Faces->GetFirst(number) < 0 &&
+        !this->Walk.MayBeInside(ray.Origin))
       {
         result.Entry = result.Exit = ray.Origin;
         result.Direction = glm::normalize(ray.Direction);
@@ -97,6 +116,7 @@ private:
       path = Path();
       path.Faces = this->Faces;
       path.Number = number;
+      path.Visitor = this->Watch ? this->Watch->Visitors[number] : nullptr;
       if (!this->Walk.Begin(ray, result, this->Statistics, path))
       {
         this->Walk.Finish(path);
@@ -221,6 +241,7 @@ private:
   const GradedRayWalk& Walk;
   const std::vector<GradedRay>& Rays;
   const EntryFaces* Faces;
+  const GradedWatch* Watch;
   GradedRayStatistics& Statistics;
   GradedRayResult* Results;
   std::size_t Next = 0;
@@ -232,11 +253,12 @@ private:
 
 //------------------------------------------------------------------------------
 void GradedRayWalk::WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
-  GradedRayResult* results, InstructionSet set, const EntryFaces* faces) const
+  GradedRayResult* results, InstructionSet set, const EntryFaces* faces,
+  const GradedWatch* watch) const
 {
   if (this->Medium.Table && !this->Medium.IsStraight)
   {
-    LaneWalk(*this, rays, statistics, results, faces).Run(set);
+    LaneWalk(*this, rays, statistics, results, faces, watch).Run(set);
     return;
   }
   for (std::size_t i = 0; i < rays.size(); ++i)
@@ -244,6 +266,7 @@ void GradedRayWalk::WalkAll(const std::vector<GradedRay>& rays, GradedRayStatist
     Path path;
     path.Faces = faces;
     path.Number = i;
+    path.Visitor = watch ? watch->Visitors[i] : nullptr;
     results[i] = this->WalkToEnd(rays[i], statistics, path);
   }
 }

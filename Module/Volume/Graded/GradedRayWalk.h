@@ -137,6 +137,15 @@ struct GradedRayStatistics
 class GradedPassage;
 class GradedRayVisitor;
 
+/** Visitors of many rays that need not know of all cells. */
+struct GradedWatch
+{
+  /** Visitor of each ray. */
+  std::vector<GradedRayVisitor*> Visitors;
+  /** By cell, whether visitors are told of the arcs in it; they are told of all legs. */
+  const std::vector<std::uint8_t>* Cells = nullptr;
+};
+
 class GradedRayWalk
 {
 public:
@@ -161,10 +170,11 @@ public:
    * @param set instruction set, on which the results do not depend.
    * @param faces by which the rays may enter first, for quicker searches with the same results;
    *   null for none.
+   * @param watch visitors of the rays; null for none.
    */
   void WalkAll(const std::vector<GradedRay>& rays, GradedRayStatistics& statistics,
     GradedRayResult* results, InstructionSet set = BestInstructionSet(),
-    const EntryFaces* faces = nullptr) const;
+    const EntryFaces* faces = nullptr, const GradedWatch* watch = nullptr) const;
 
 private:
   struct Path;

@@ -154,6 +154,32 @@ bool OpaqueTriangles::MayMeet(const Chord& chord, double height) const
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::uint8_t> OpaqueTriangles::FindCells(
+  const TetrahedralMesh& mesh, const RangeLoop& loop) const
+{
+  const auto& cells = mesh.GetCells();
+  std::vector<std::uint8_t> found(cells.size(), 0);
+  loop(cells.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t c = begin; c < end; ++c)
+      {
+        AxisBox box;
+        for (const auto vertex : cells[c].Vertices)
+        {
+          const glm::dvec3 place = mesh.GetPosition(vertex);
+          box.Add({ place, place });
+        }
+        // The cell is in the ball about its box, and the ball within its radius of a short piece.
+        const double radius = 0.5 * glm::length(box.High - box.Low);
+        const Chord piece{ 0.5 * (box.Low + box.High), glm::dvec3(BoxGrowth), 1.0 };
+        found[c] = this->MayMeet(piece, radius + BoxGrowth) ? 1 : 0;
+      }
+    });
+  return found;
+}
+
+//------------------------------------------------------------------------------
 bool OpaqueTriangles::MeetLine(const Chord& chord, OpaqueHit& hit) const
 {
   const double square = glm::dot(chord.Way, chord.Way);
@@ -201,9 +227,9 @@ bool OpaqueTriangles::MeetLine(const Chord& chord, OpaqueHit& hit) const
 }
 
 //------------------------------------------------------------------------------
-void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, bool mayBeInMesh,
-  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results,
-  const EntryFaces* faces)
+void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
+  const std::vector<std::uint8_t>* cells, const std::vector<GradedRay>& rays,
+  GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces)
 {
   const auto settle = [](const GradedRayResult& ray, OpaqueSight& sight)
   {
@@ -212,19 +238,25 @@ void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, b
     sight.IsStopped =
       !isHit && (ray.State == GradedRayState::Trapped || ray.State == GradedRayState::Lost);
   };
-  if (mayBeInMesh)
+  std::vector<GradedRayResult> ends(rays.size());
+  if (cells)
   {
+    std::vector<OpaqueVisitor> visitors(rays.size(), OpaqueVisitor(triangles));
+    GradedWatch watch;
+    watch.Cells = cells;
+    for (OpaqueVisitor& visitor : visitors)
+    {
+      watch.Visitors.push_back(&visitor);
+    }
+    walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces, &watch);
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
-      OpaqueVisitor visitor(triangles);
-      const GradedRayResult ray = walk.Follow(rays[i], statistics, visitor);
       results[i] = OpaqueSight();
-      results[i].Hit = visitor.Hit;
-      settle(ray, results[i]);
+      results[i].Hit = visitors[i].Hit;
+      settle(ends[i], results[i]);
     }
     return;
   }
-  std::vector<GradedRayResult> ends(rays.size());
   walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces);
   for (std::size_t i = 0; i < rays.size(); ++i)
   {

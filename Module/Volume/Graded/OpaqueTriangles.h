@@ -3,9 +3,11 @@
 #ifndef meniscus_Volume_Graded_OpaqueTriangles_h
 #define meniscus_Volume_Graded_OpaqueTriangles_h
 
+#include "Common/RangeLoop.h"
 #include "Refraction/Tubes/BoxTree.h"
 #include "Volume/Graded/GradedPiece.h"
 #include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
 
 #include <glm/vec3.hpp>
 
@@ -53,6 +55,10 @@ public:
   bool Meet(const GradedLeg& leg, OpaqueHit& hit) const;
   bool Meet(GradedArc& arc, OpaqueHit& hit) const;
 
+  /** By cell of a mesh, whether a triangle may be in it: 1 or 0. */
+  std::vector<std::uint8_t> FindCells(
+    const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop) const;
+
 private:
   struct Chord;
   bool MeetPart(GradedArc& arc, const Chord& chord, double from, double to, OpaqueHit& hit) const;
@@ -78,14 +84,14 @@ struct OpaqueSight
 
 /**
  * Follows rays until they meet a triangle.
- * @param mayBeInMesh false if no triangle is in the box around the mesh, where rays need not be
- *   watched.
+ * @param cells of OpaqueTriangles::FindCells(); null if no triangle is in the box around the mesh,
+ *   where rays need not be watched.
  * @param results one per ray; replaced.
  * @param faces as for GradedRayWalk::WalkAll().
  */
-void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles, bool mayBeInMesh,
-  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results,
-  const EntryFaces* faces = nullptr);
+void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
+  const std::vector<std::uint8_t>* cells, const std::vector<GradedRay>& rays,
+  GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces = nullptr);
 
 /** Ends a ray at the first triangle. */
 class OpaqueVisitor : public GradedRayVisitor

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -58,7 +59,8 @@ OpaqueSight See(GradedScene& scene, const OpaqueTriangles& triangles, const glm:
   const glm::dvec3 center = scene.Mesh.GetCenter();
   scene.PrepareLanes();
   OpaqueSight sight;
-  SeeTriangles(GradedRayWalk(scene.Medium), triangles, mayBeInMesh,
+  const std::vector<std::uint8_t> cells = triangles.FindCells(scene.Mesh);
+  SeeTriangles(GradedRayWalk(scene.Medium), triangles, mayBeInMesh ? &cells : nullptr,
     { { (origin - center) / radius, direction } }, scene.Statistics, &sight);
   sight.Hit.Place = center + radius * sight.Hit.Place;
   return sight;
@@ -293,4 +295,44 @@ TEST(OpaqueTriangles, NothingIsNoObject)
   const OpaqueTriangles line =
     MakeTriangles(scene, { { -1, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 2 }, { 1, 1, 1 } });
   EXPECT_EQ(See(scene, line, { 0, 0, 2 }, { 0, 0, -1 }).Hit.Triangle, -1);
+}
+
+// In a gas, rays go in lanes but for cells that an object may be in, and see what each sees alone.
+TEST(OpaqueTriangles, LanesSeeObjectsInTheMesh)
+{
+  GradedScene scene(CenteredGrid(8, 1.0),
+    [](const glm::dvec3& p)
+    { return 1.0005 + 2.0e-4 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y + p.z); });
+  scene.PrepareLanes();
+  const OpaqueTriangles sphere = MakeSphere(scene, glm::dvec3(0.3, 0.1, -0.2), 0.25, 2);
+  const std::vector<std::uint8_t> cells = sphere.FindCells(scene.Mesh);
+  const auto marked = std::count(cells.begin(), cells.end(), 1);
+  EXPECT_GT(marked, 0);
+  EXPECT_LT(marked, static_cast<std::ptrdiff_t>(cells.size() / 8));
+  const double radius = scene.Mesh.GetRadius();
+  std::vector<GradedRay> rays;
+  for (int i = 0; i < 900; ++i)
+  {
+    const glm::dvec3 place((i % 30 - 14.5) / 16.0, (i / 30 - 14.5) / 16.0, 3.0);
+    rays.push_back({ place / radius, glm::dvec3(0.05, -0.03, -1.0) });
+  }
+  const GradedRayWalk walk(scene.Medium);
+  std::vector<OpaqueSight> sights(rays.size());
+  GradedRayStatistics statistics;
+  SeeTriangles(walk, sphere, &cells, rays, statistics, sights.data());
+  EXPECT_GT(statistics.LaneSteps, statistics.Steps / 2);
+  int seen = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    OpaqueVisitor visitor(sphere);
+    walk.Follow(rays[i], scene.Statistics, visitor);
+    ASSERT_EQ(sights[i].Hit.Triangle, visitor.Hit.Triangle) << i;
+    if (visitor.Hit.Triangle >= 0)
+    {
+      ++seen;
+      EXPECT_NEAR(glm::distance(sights[i].Hit.Place, visitor.Hit.Place), 0.0, 1.0e-12);
+      EXPECT_NEAR(glm::distance(sights[i].Hit.Direction, visitor.Hit.Direction), 0.0, 1.0e-12);
+    }
+  }
+  EXPECT_GT(seen, 20);
 }
