@@ -34,18 +34,19 @@ endif ()
 set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
-set(_meniscus_sources
-  __main__ arguments data integrals media names pyvista rivals threads
-  api/__init__ api/accessor api/comparison api/functions api/mapper api/mirages api/notebook
-  api/picking api/points api/rays api/refraction api/scalars api/schlieren api/surfaces api/types
-  api/volumes
-  viewer/__init__ viewer/appended viewer/cells viewer/chart viewer/colors viewer/command
-  viewer/contest viewer/curves viewer/files viewer/furniture viewer/guard viewer/levels
-  viewer/movies viewer/options viewer/pictures viewer/reading viewer/sample viewer/scene
-  viewer/series viewer/shown viewer/watching viewer/web viewer/window)
+# All modules of the package, also for its installation.
+file(GLOB _meniscus_sources RELATIVE "${PROJECT_SOURCE_DIR}/Python" CONFIGURE_DEPENDS
+  "${PROJECT_SOURCE_DIR}/Python/*.py" "${PROJECT_SOURCE_DIR}/Python/api/*.py"
+  "${PROJECT_SOURCE_DIR}/Python/viewer/*.py")
+list(REMOVE_ITEM _meniscus_sources make_stubs.py)
 foreach (_meniscus_source IN LISTS _meniscus_sources)
-  configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}.py"
-    "${_meniscus_package}/${_meniscus_source}.py" COPYONLY)
+  configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}"
+    "${_meniscus_package}/${_meniscus_source}" COPYONLY)
+  get_filename_component(_meniscus_folder "${_meniscus_source}" DIRECTORY)
+  install(
+    FILES       "${PROJECT_SOURCE_DIR}/Python/${_meniscus_source}"
+    DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus/${_meniscus_folder}"
+    COMPONENT   python)
 endforeach ()
 
 # VTK 9.7 has renamed the targets of its wrappers.
@@ -68,23 +69,10 @@ add_custom_target(meniscus_stubs ALL DEPENDS "${_meniscus_stubs}")
 install(
   FILES
     "${_meniscus_package}/__init__.py"
-    "${_meniscus_package}/__main__.py"
-    "${_meniscus_package}/arguments.py"
-    "${_meniscus_package}/integrals.py"
-    "${_meniscus_package}/data.py"
-    "${_meniscus_package}/names.py"
     "${_meniscus_package}/py.typed"
-    "${_meniscus_package}/pyvista.py"
-    "${_meniscus_package}/rivals.py"
-    "${_meniscus_package}/threads.py"
     "${_meniscus_stubs}"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
   COMPONENT   python)
-install(
-  DIRECTORY   "${PROJECT_SOURCE_DIR}/Python/viewer" "${PROJECT_SOURCE_DIR}/Python/api"
-  DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
-  COMPONENT   python
-  FILES_MATCHING PATTERN "*.py")
 # The command `meniscus`; in a wheel it is an entry point.
 if (NOT SKBUILD)
   install(
