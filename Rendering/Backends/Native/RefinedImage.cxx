@@ -49,6 +49,18 @@ void CopyRows(
   }
 }
 
+/**
+ * The tiles of one ray per pixel around a box. The middle ray of a pixel counts, and its rounding
+ * may depend on the rays of its tile.
+ */
+PixelBox GetTilesAround(const PixelBox& box, int width, int height)
+{
+  constexpr int size = BoundaryRaster::TileSize;
+  const auto up = [](int end, int last) { return std::min((end + size - 1) / size * size, last); };
+  return { box.Left / size * size, up(box.Right, width), box.Bottom / size * size,
+    up(box.Top, height) };
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -86,11 +98,12 @@ bool RefinedImage::Refine(const std::vector<float>& image, int width, const Pixe
 bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
   const ImageDepths& depths, RayCastTarget& target)
 {
+  const int height = static_cast<int>(depths.Now.size()) / width;
   this->Tiles.Begin(caster.GetNumberOfTiles(), depths.Before != nullptr,
     [&](int tile)
     {
       const PixelBox box = caster.GetPixels(tile);
-      return depths.AreThoseBefore(box, width) &&
+      return depths.AreThoseBefore(GetTilesAround(box, width, height), width) &&
         HaveEqualRows(box, width, this->Edges, this->EdgesBefore);
     });
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
