@@ -12,7 +12,7 @@ import os
 import re
 import struct
 
-# Arrays, and what they belong to.
+# Elements of arrays, and the elements that contain them.
 _TAG = re.compile(rb"""<(DataArray|Array|Piece|PointData|CellData|Points|Cells|Verts|Lines|"""
                   rb"""Strips|Polys|Coordinates|FieldData)\b(?:[^>"']|"[^"]*"|'[^']*')*>""")
 _ATTRIBUTE = re.compile(rb"""(\w+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")

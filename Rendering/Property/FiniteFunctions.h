@@ -17,8 +17,8 @@ namespace meniscus
 {
 
 /**
- * The function, or a copy without the nodes that have a number that is not finite: VTK interpolates
- * no other node beside them.
+ * The function, or a copy without the nodes that have a number that is not finite. VTK does not
+ * interpolate correctly next to such a node.
  */
 vtkSmartPointer<vtkPiecewiseFunction> KeepFiniteNodes(vtkPiecewiseFunction* function);
 vtkSmartPointer<vtkColorTransferFunction> KeepFiniteNodes(vtkColorTransferFunction* function);

@@ -171,7 +171,7 @@ void PixelRays::VisitRays(const Pixel& pixel, const Visit& visit) const
 }
 
 //------------------------------------------------------------------------------
-/** True if the rays of a pixel and that through its centre differ by what is tolerated for them. */
+/** True if a pixel's rays, with the ray through its centre, differ by no more than is tolerated. */
 bool PixelRays::Agree(const Pixel& pixel, const float* center) const
 {
   ColorRange range(center);

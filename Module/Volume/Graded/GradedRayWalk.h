@@ -142,7 +142,7 @@ struct GradedWatch
 {
   /** Visitor of each ray. */
   std::vector<GradedRayVisitor*> Visitors;
-  /** By cell, whether visitors are told of the arcs in it; they are told of all legs. */
+  /** Nonzero for each cell whose arcs are passed to the visitors. Legs are always passed. */
   const std::vector<std::uint8_t>* Cells = nullptr;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a volume property that are not finite: they are told, and the picture is that of the
-// others.
+// Numbers of a volume property that are not finite: a warning names them, and the picture is drawn
+// without them.
 #include "RayCastScene.h"
 
 #include <vtkColorTransferFunction.h>

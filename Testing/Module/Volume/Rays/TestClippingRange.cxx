@@ -84,7 +84,7 @@ TEST(ClippingRange, DepthsBetweenTheClippingPlanes)
         const double window = 1.0 - rest; // exact
         // The reciprocal of the distance is linear in the window depth.
         const double distance = 1.0 / (rest / nearest + window / farthest);
-        // The matrix has the number 1 plus a share of the distances, which lies beside the rest.
+        // An entry of the matrix is 1 plus a ratio of distances, which is rounded as 1 is.
         const double error = 4.0 * 2.2e-16 * (1.0 + distance / rest);
         EXPECT_NEAR(frame.DepthAt(2.0 * window - 1.0), DepthOf(distance), error) << window;
       }
