@@ -16,7 +16,7 @@ from .pools import make_sky, mix
 SUN = (-0.72, 0.40, 0.58)
 RADIUS = 1.0
 INDEX = 1.5
-HALF = 7.0  # of the table's width
+HALF = 7  # of the table's width
 LIT = (-0.6, 3.6, -2.6, 1.6)  # part of the table with the ball's light: x0, x1, y0, y1
 
 
@@ -95,23 +95,25 @@ def get_focused(cells):
     return vtk_to_numpy(array).reshape(cells, cells)
 
 
-def make_texture(x0, x1, y0, y1, pixels, focused=None):
-    """The wood of a part of the table, times its light, with bright light compressed."""
-    x = numpy.linspace(x0, x1, pixels)
-    x, y = numpy.meshgrid(x, numpy.linspace(y0, y1, pixels))
+def make_texture(fineness):
+    """The table's wood times its light, bright light compressed; `fineness` texels per unit."""
+    texels = 2 * HALF * fineness
+    x = (numpy.arange(texels) + 0.5) / fineness - HALF
+    x, y = numpy.meshgrid(x, x)
     sky = 0.42 * numpy.clip(1.0 - 0.75 / (1.0 + (x * x + y * y) / 0.35), 0.0, 1.0)
     light = get_direct(x, y)
-    if focused is not None:
-        light = light + focused
+    column, end, row, top = (round(fineness * (HALF + place)) for place in LIT)
+    light[row:top, column:end] += get_focused(end - column)
     color = get_wood(x, y) * (0.95 * light + sky)[..., None]
     color = 0.9 - 0.9 * numpy.exp(-1.9 * color) + 0.1 * numpy.log1p(color) / math.log(100.0)
     image = vtkImageData()
-    image.SetDimensions(pixels, pixels, 1)
+    image.SetDimensions(texels, texels, 1)
     values = numpy.clip(255.0 * color, 0, 255).astype(numpy.uint8).reshape(-1, 3)
     image.GetPointData().SetScalars(numpy_to_vtk(values, deep=True))
     texture = vtkTexture()
     texture.SetInputData(image)
     texture.InterpolateOn()
+    texture.EdgeClampOn()
     texture.MipmapOn()
     return texture
 
@@ -128,9 +130,7 @@ def get_studio(direction):
 
 def draw_glass(_data, size):
     """The ball, its caustic, and the table as seen through the ball."""
-    small = size[1] < 200
-    cells = 150 if small else 1000
-    focused = get_focused(cells)
+    texture = make_texture(25 if size[1] < 200 else 200)
     renderer = common.make_renderer(((0.93, 0.93, 0.94), (0.80, 0.84, 0.89)))
     refraction = meniscus.vtkRefractionPass()
     refraction.SetReflectionTexture(make_sky(64, get_studio))
@@ -139,32 +139,24 @@ def draw_glass(_data, size):
     surface.SetMapper(vtkPolyDataMapper())
     ball = make_ball()
     surface.GetMapper().SetInputData(ball)
-    x0, x1, y0, y1 = LIT
-    parts = [((x0, x1, y0, y1), make_texture(x0, x1, y0, y1, cells, focused)),
-             ((-HALF, x0, -HALF, HALF), None), ((x1, HALF, -HALF, HALF), None),
-             ((x0, x1, -HALF, y0), None), ((x0, x1, y1, HALF), None)]
-    for box, texture in parts:
-        texture = texture or make_texture(*box, cells)
-        table = common.make_plane((box[0], box[2], 0), (box[1], box[2], 0), (box[0], box[3], 0),
-                                  (24, 24))
-        seen = common.make_actor(table)
-        seen.SetTexture(texture)
-        seen.GetProperty().LightingOff()
-        renderer.AddActor(seen)
-        refracted = meniscus.vtkRefractedGeometryFilter()
-        refracted.SetInputData(table)
-        refracted.SetInterfaces(list_interfaces())
-        for _ in range(2):
-            refracted.AddMembraneData(ball)
-        refracted.SetCamera(renderer.GetActiveCamera())
-        refracted.SetAngularTolerance(0.05)
-        behind = vtkActor()
-        behind.SetMapper(vtkPolyDataMapper())
-        behind.GetMapper().SetInputConnection(refracted.GetOutputPort())
-        behind.GetMapper().ScalarVisibilityOff()
-        behind.SetTexture(texture)
-        behind.GetProperty().LightingOff()
-        refraction.AddRefraction(surface, behind, refracted)
+    table = common.make_plane((-HALF, -HALF, 0), (HALF, -HALF, 0), (-HALF, HALF, 0), (56, 56))
+    seen = common.make_actor(table)
+    refracted = meniscus.vtkRefractedGeometryFilter()
+    refracted.SetInputData(table)
+    refracted.SetInterfaces(list_interfaces())
+    for _ in range(2):
+        refracted.AddMembraneData(ball)
+    refracted.SetCamera(renderer.GetActiveCamera())
+    refracted.SetAngularTolerance(0.05)
+    behind = vtkActor()
+    behind.SetMapper(vtkPolyDataMapper())
+    behind.GetMapper().SetInputConnection(refracted.GetOutputPort())
+    behind.GetMapper().ScalarVisibilityOff()
+    for actor in (seen, behind):
+        actor.SetTexture(texture)
+        actor.GetProperty().LightingOff()
+    renderer.AddActor(seen)
+    refraction.AddRefraction(surface, behind, refracted)
     common.look_from(renderer, (-0.9, -6.2, 3.3), (0.95, -0.25, 0.5), (0, 0, 1), 29.0)
     renderer.ResetCameraClippingRange(-HALF, HALF, -HALF, HALF, 0, 3)
     return common.take(renderer, size)
