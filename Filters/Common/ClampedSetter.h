@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Common_ClampedSetter_h
-#define meniscus_Filters_Common_ClampedSetter_h
+#pragma once
 
 /**
  * Defines the setter of a number that is limited to [minimum, maximum], as vtkSetClampMacro does in
@@ -17,5 +16,3 @@
       this->Modified();                                                                            \
     }                                                                                              \
   }
-
-#endif

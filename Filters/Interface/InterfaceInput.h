@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Lists of refracting interfaces and the surfaces at a port. Owners report errors alike. */
-#ifndef meniscus_Filters_Interface_InterfaceInput_h
-#define meniscus_Filters_Interface_InterfaceInput_h
+#pragma once
 
 #include "Refraction/Surface/MediaChain.h"
 
@@ -46,5 +45,3 @@ std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
 void RequestWhole(vtkInformationVector* port);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Properties of the classes that have a list of refracting interfaces. */
-#ifndef meniscus_Filters_Interface_InterfaceProperties_h
-#define meniscus_Filters_Interface_InterfaceProperties_h
+#pragma once
 
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
@@ -79,5 +78,3 @@ inline vtkSmartPointer<vtkRefractingInterfaceCollection> MakeInterfaces()
 }
 
 }
-
-#endif

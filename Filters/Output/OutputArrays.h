@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Arrays that every output of vtkRefractedGeometryFilter has, for all image modes. */
-#ifndef meniscus_Filters_Output_OutputArrays_h
-#define meniscus_Filters_Output_OutputArrays_h
+#pragma once
 
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/VirtualVertex.h"
@@ -103,5 +102,3 @@ void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<
   vtkDataSetAttributes* to);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes and shape functions of VTK's cells, for their division into tetrahedra.
-#ifndef meniscus_Rendering_Input_CellShapes_h
-#define meniscus_Rendering_Input_CellShapes_h
+#pragma once
 
 #include "Volume/Division/ShapeFunctions.h"
 
@@ -86,5 +85,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_IdView_h
-#define meniscus_Rendering_Input_IdView_h
+#pragma once
 
 #include "Rendering/Input/GridLayout.h"
 
@@ -66,5 +65,3 @@ private:
 };
 
 }
-
-#endif

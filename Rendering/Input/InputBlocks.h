@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_InputBlocks_h
-#define meniscus_Rendering_Input_InputBlocks_h
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -82,5 +81,3 @@ InputBlocks CollectGrids(vtkDataObject* input);
 std::vector<vtkDataSet*> GetGrids(const InputBlocks& input);
 
 }
-
-#endif

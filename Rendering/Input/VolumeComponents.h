@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_VolumeComponents_h
-#define meniscus_Rendering_Input_VolumeComponents_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -73,5 +72,3 @@ private:
 };
 
 }
-
-#endif

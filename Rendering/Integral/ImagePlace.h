@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_ImagePlace_h
-#define meniscus_Rendering_Integral_ImagePlace_h
+#pragma once
 
 #include "Rendering/Integral/IntegralView.h"
 
@@ -26,5 +25,3 @@ ImagePlace PlaceOf(const ParallelRectangle& rectangle, const int size[2]);
 void RequestWholeInputs(vtkInformationVector** inputs);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pipeline_RayCastPipeline_h
-#define meniscus_Rendering_Pipeline_RayCastPipeline_h
+#pragma once
 
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
@@ -111,5 +110,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Present_RayCastPresenter_h
-#define meniscus_Rendering_Present_RayCastPresenter_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Backends/RayCastFrame.h"
@@ -136,5 +135,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions of a volume property, evaluated by VTK's tables and reduced to straight pieces.
-#ifndef meniscus_Rendering_Property_PropertyFunction_h
-#define meniscus_Rendering_Property_PropertyFunction_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -108,5 +107,3 @@ private:
 std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyFunction& function);
 
 }
-
-#endif

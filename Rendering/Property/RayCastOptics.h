@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_RayCastOptics_h
-#define meniscus_Rendering_Property_RayCastOptics_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
@@ -132,5 +131,3 @@ void GatherClippingPlanes(
   vtkPlaneCollection* planes, const ViewContext& place, RayCastOptics& optics);
 
 }
-
-#endif

@@ -22,8 +22,7 @@
  * cover connected places equally often). Cells of the grid that are crossed by a border or have
  * facets of the other winding or several facets over a place prove nothing.
  */
-#ifndef meniscus_Refraction_Curved_InjectivityGrid_h
-#define meniscus_Refraction_Curved_InjectivityGrid_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -110,5 +109,3 @@ private:
 };
 
 }
-
-#endif

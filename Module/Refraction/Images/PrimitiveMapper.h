@@ -19,8 +19,7 @@
  * with this end in common may evaluate differently: SeamClosure closes the gaps that remain along
  * their common side.
  */
-#ifndef meniscus_Refraction_Images_PrimitiveMapper_h
-#define meniscus_Refraction_Images_PrimitiveMapper_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
@@ -166,5 +165,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_PatchCrossings_h
-#define meniscus_Refraction_Surface_PatchCrossings_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -170,5 +169,3 @@ bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack);
 bool PassesNear(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& place, double distance);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_CellDivision_h
-#define meniscus_Volume_Division_CellDivision_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Division/CellPiece.h"
@@ -111,5 +110,3 @@ private:
 };
 
 }
-
-#endif

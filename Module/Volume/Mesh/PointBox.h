@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_PointBox_h
-#define meniscus_Volume_Mesh_PointBox_h
+#pragma once
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -51,5 +50,3 @@ inline PointBox Enclose(const std::vector<PointBox>& boxes)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_RayStatistics_h
-#define meniscus_Volume_Rays_RayStatistics_h
+#pragma once
 
 #include <cstdint>
 
@@ -22,5 +21,3 @@ struct RayStatistics
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
@@ -45,5 +44,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
+#pragma once
 
 #include "Volume/Entries/EntryTiles.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -153,5 +152,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_RayCastOpenGL_h
-#define meniscus_Rendering_Backends_OpenGL_RayCastOpenGL_h
+#pragma once
 
 #include "Rendering/Backends/OpenGL/OpenGLComputeProgram.h"
 #include "Rendering/Backends/OpenGL/OpenGLEntryLists.h"
@@ -121,5 +120,3 @@ private:
 };
 
 }
-
-#endif

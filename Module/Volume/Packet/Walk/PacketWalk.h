@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraWalk.glsl (step through a cell)
-#ifndef meniscus_Volume_Packet_Walk_PacketWalk_h
-#define meniscus_Volume_Packet_Walk_PacketWalk_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -694,5 +693,3 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
 #include "Volume/Packet/Walk/PacketWalkFaces.h"
 #include "Volume/Packet/Walk/PacketWalkOptics.h"
 #include "Volume/Packet/Walk/PacketWalkTies.h"
-
-#endif
