@@ -50,10 +50,6 @@ public:
     return { this->Items.data() + this->Begins[group],
       this->Items.data() + this->Begins[group + 1] };
   }
-  std::size_t GetMemorySize() const
-  {
-    return (this->Begins.capacity() + this->Items.capacity()) * sizeof(std::int32_t);
-  }
 
 private:
   /** Place of the first item of each group, and the end of the last group; empty before Set(). */

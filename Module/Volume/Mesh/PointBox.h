@@ -2,20 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Common/FiniteVector.h"
+
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace meniscus
 {
-
-inline bool IsFinite(const glm::dvec3& p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /** Bounding box of points; empty at first. */
 struct PointBox

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
@@ -19,5 +20,19 @@ struct RayStatistics
   /** Number of rays, of each leg, that found parts of the mesh to overlap. */
   std::int64_t Overlaps = 0;
 };
+
+/** Sums over the rays of all parts of a frame. */
+inline RayStatistics SumOf(const std::vector<RayStatistics>& parts)
+{
+  RayStatistics sum;
+  for (const RayStatistics& part : parts)
+  {
+    sum.Steps += part.Steps;
+    sum.Rays += part.Rays;
+    sum.Lost += part.Lost;
+    sum.Overlaps += part.Overlaps;
+  }
+  return sum;
+}
 
 }
