@@ -107,7 +107,6 @@ private:
   bool HoldsImageOfDepths(bool sameFrame);
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
-  std::string ReadyDrawer(std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void LimitToFilled(const int viewport[4]);
 

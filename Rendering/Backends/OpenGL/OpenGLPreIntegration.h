@@ -21,7 +21,6 @@ class PreIntegrationTable;
 class OpenGLPreIntegration
 {
 public:
-  bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /** Replaces the contents. Returns an error or an empty string. */

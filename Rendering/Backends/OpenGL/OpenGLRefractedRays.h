@@ -27,7 +27,6 @@ namespace meniscus
 class OpenGLRefractedRays
 {
 public:
-  bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /**

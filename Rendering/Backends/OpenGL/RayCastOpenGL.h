@@ -66,8 +66,6 @@ private:
   bool ReadStatistics();
   std::string Resize(int width, int height);
   template <typename Function>
-  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
-  template <typename Function>
   std::string ReadyCompute(vtkSmartPointer<OpenGLComputeProgram>& compute, Function&& makeShader);
   std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists);
   std::string ListEntries(const RayCastFrame& frame, int leg, RayProgram program);
