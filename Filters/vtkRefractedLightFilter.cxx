@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedLightFilter.h"
 
+#include "Common/FiniteVector.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
@@ -202,12 +204,10 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkFloatArray> MakeArray(const char* name, int components, vtkIdType tuples)
+vtkSmartPointer<vtkFloatArray> MakeZeros(const char* name, int components, vtkIdType tuples)
 {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  auto array =
+    meniscus::MakeArray<vtkFloatArray>(name, components, static_cast<std::size_t>(tuples));
   array->Fill(0.0);
   return array;
 }
@@ -218,12 +218,12 @@ class LightArrays
 {
 public:
   LightArrays(vtkIdType tuples, bool areVectors)
-    : Irradiance(MakeArray(ArrayName, 1, tuples))
+    : Irradiance(MakeZeros(ArrayName, 1, tuples))
   {
     if (areVectors)
     {
-      this->Vector = MakeArray(VectorName, 3, tuples);
-      this->Path = MakeArray(PathName, 1, tuples);
+      this->Vector = MakeZeros(VectorName, 3, tuples);
+      this->Path = MakeZeros(PathName, 1, tuples);
     }
   }
 
@@ -316,6 +316,7 @@ public:
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
+meniscusInterfaceTimeMacro(vtkRefractedLightFilter);
 meniscusMembranePortMacro(vtkRefractedLightFilter, 1);
 
 //------------------------------------------------------------------------------
@@ -362,12 +363,6 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
 vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkRefractedLightFilter::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
@@ -382,12 +377,8 @@ vtkRefractedGeometryFilter* vtkRefractedLightFilter::GetView()
 //------------------------------------------------------------------------------
 int vtkRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkDataSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return port == 1 ? meniscus::AcceptSurfaces(info) : 1;
 }
 
 //------------------------------------------------------------------------------
@@ -419,7 +410,7 @@ bool vtkRefractedLightFilter::PlaceLight(
     light = glm::dvec3(center[0], center[1], center[2]) +
       FarAway * box.GetDiagonalLength() * glm::normalize(light);
   }
-  if (!std::isfinite(light.x) || !std::isfinite(light.y) || !std::isfinite(light.z))
+  if (!meniscus::IsFinite(light))
   {
     vtkErrorMacro("LightPosition ("
       << this->LightPosition[0] << ", " << this->LightPosition[1] << ", " << this->LightPosition[2]

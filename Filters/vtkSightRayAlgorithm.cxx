@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSightRayAlgorithm.h"
 
+#include "Filters/Common/Accessors.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
@@ -32,7 +33,10 @@ public:
 };
 
 meniscusInterfacePropertiesMacro(vtkSightRayAlgorithm);
+meniscusInterfaceTimeMacro(vtkSightRayAlgorithm);
 meniscusMembranePortMacro(vtkSightRayAlgorithm, 1);
+meniscusGetInternalMacro(
+  vtkSightRayAlgorithm, vtkTypeInt64, NumberOfPatchBuilds() const, Scene.GetNumberOfPatchBuilds());
 
 //------------------------------------------------------------------------------
 vtkSightRayAlgorithm::vtkSightRayAlgorithm()
@@ -68,26 +72,10 @@ void vtkSightRayAlgorithm::SetMembraneData(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkSightRayAlgorithm::GetNumberOfPatchBuilds() const
-{
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkSightRayAlgorithm::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 int vtkSightRayAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return port == 1 ? meniscus::AcceptSurfaces(info) : 1;
 }
 
 //------------------------------------------------------------------------------

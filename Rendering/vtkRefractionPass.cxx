@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
@@ -92,6 +92,18 @@ public:
   void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
 };
 
+meniscusGetInternalMacro(vtkRefractionPass, vtkRenderPass*, ScenePass(), ScenePass);
+meniscusGetInternalMacro(vtkRefractionPass, int, NumberOfRefractions(), Refractions.All.size());
+meniscusGetInternalMacro(vtkRefractionPass, vtkTexture*, ReflectionTexture(), Reflection);
+meniscusGetInternalMacro(vtkRefractionPass, vtkTypeInt64, NumberOfMembranesDrawn() const, Drawn);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfMembranesSkipped() const, Skipped);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfLightUpdates() const, LightUpdates);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfSkippedLights() const, SkippedLights);
+meniscusGetInternalMacro(vtkRefractionPass, vtkMTimeType, ShaderStageMTime(), ShaderTime);
+
 //------------------------------------------------------------------------------
 vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
 {
@@ -134,12 +146,6 @@ void vtkRefractionPass::SetScenePass(vtkRenderPass* pass)
     this->Internals->ScenePass = pass;
     this->Modified();
   }
-}
-
-//------------------------------------------------------------------------------
-vtkRenderPass* vtkRefractionPass::GetScenePass()
-{
-  return this->Internals->ScenePass;
 }
 
 //------------------------------------------------------------------------------
@@ -201,12 +207,6 @@ void vtkRefractionPass::RemoveAllRefractions()
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractionPass::GetNumberOfRefractions()
-{
-  return static_cast<int>(this->Internals->Refractions.All.size());
-}
-
-//------------------------------------------------------------------------------
 void vtkRefractionPass::SetReflectionTexture(vtkTexture* texture)
 {
   if (texture != this->Internals->Reflection)
@@ -214,36 +214,6 @@ void vtkRefractionPass::SetReflectionTexture(vtkTexture* texture)
     this->Internals->Reflection = texture;
     this->Modified();
   }
-}
-
-//------------------------------------------------------------------------------
-vtkTexture* vtkRefractionPass::GetReflectionTexture()
-{
-  return this->Internals->Reflection;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesDrawn() const
-{
-  return this->Internals->Drawn;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
-{
-  return this->Internals->Skipped;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfLightUpdates() const
-{
-  return this->Internals->LightUpdates;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfSkippedLights() const
-{
-  return this->Internals->SkippedLights;
 }
 
 //------------------------------------------------------------------------------
@@ -293,12 +263,6 @@ bool vtkRefractionPass::SetShaderParameters(
       object->GetProperty()->GetRepresentation() == VTK_SURFACE);
   }
   return true;
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkRefractionPass::GetShaderStageMTime()
-{
-  return this->Internals->ShaderTime;
 }
 
 //------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+class vtkInformation;
 class vtkInformationVector;
 class vtkPolyData;
 class vtkRefractingInterfaceCollection;
@@ -40,6 +41,9 @@ std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media);
  */
 std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
   vtkRefractingInterfaceCollection* interfaces, std::string& error);
+
+/** Makes a port accept any number of surfaces; without `isOptional`, at least one. Returns 1. */
+int AcceptSurfaces(vtkInformation* port, bool isOptional = false);
 
 /** Requests all data of a port whole: every piece of the output needs the whole surfaces. */
 void RequestWhole(vtkInformationVector* port);

@@ -7,6 +7,8 @@
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+
 /**
  * Defines the methods of a class that forward to its member Interfaces and to the first interface:
  * SetInterfaces, GetInterfaces, and setters and getters of the two indices of refraction.
@@ -39,6 +41,13 @@
   double className::GetInteriorIndexOfRefraction()                                                 \
   {                                                                                                \
     return this->Interfaces->GetFirstInterface()->GetInteriorIndexOfRefraction();                  \
+  }
+
+/** Defines GetMTime() of a class that depends on its members and on the list of interfaces. */
+#define meniscusInterfaceTimeMacro(className)                                                      \
+  vtkMTimeType className::GetMTime()                                                               \
+  {                                                                                                \
+    return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());                   \
   }
 
 /**

@@ -10,7 +10,6 @@
 #include "vtkPolyData.h"
 #include "vtkType.h"
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 

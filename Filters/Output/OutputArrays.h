@@ -3,6 +3,8 @@
 /** Arrays that every output of vtkRefractedGeometryFilter has, for all image modes. */
 #pragma once
 
+#include "Filters/Common/NamedArray.h"
+#include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/VirtualVertex.h"
 
@@ -10,6 +12,7 @@
 #include "vtkType.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 class vtkDataSetAttributes;
@@ -17,17 +20,6 @@ class vtkPolyData;
 
 namespace meniscus
 {
-
-/** Array with a name and a size; its values are not set. */
-template <typename Array>
-vtkSmartPointer<Array> MakeArray(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
 
 /** The user's options for the output, and the scene that it refers to. */
 struct OutputOptions
@@ -69,6 +61,18 @@ void AddTrueGeometry(const std::vector<glm::dvec3>& truePoints, vtkPolyData* out
  */
 void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
+
+/**
+ * Makes the array VirtualNormals the output's normals; the true ones stay an array. Has no effect
+ * without normals. `turn(i, unit, normal)` may replace the normal of point i, whose true direction
+ * is `unit`; normals without a direction stay.
+ */
+void AddVirtualNormals(std::size_t count,
+  const std::function<void(std::size_t, const glm::dvec3&, glm::dvec3&)>& turn,
+  vtkPolyData* output);
+
+/** The point of the object that an image shows. */
+glm::dvec3 FindTruePoint(vtkPolyData* input, const ImagePoint& image);
 
 /** Replaces the output's normals by mirrored ones, in an array of the same name and type. */
 void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,

@@ -7,7 +7,6 @@
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

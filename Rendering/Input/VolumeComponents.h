@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace meniscus

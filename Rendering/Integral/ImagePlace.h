@@ -4,6 +4,9 @@
 
 #include "Rendering/Integral/IntegralView.h"
 
+#include <string>
+
+class vtkInformation;
 class vtkInformationVector;
 
 namespace meniscus
@@ -20,6 +23,15 @@ struct ImagePlace
 
 /** @param size numbers of the rectangle's parts. */
 ImagePlace PlaceOf(const ParallelRectangle& rectangle, const int size[2]);
+
+/** Reason why an image cannot have a size; empty if it can. */
+std::string DescribeBadSize(const int size[2]);
+
+/**
+ * Announces an image of floats. A size that is not valid counts as 1: its error is reported when
+ * there is an output to empty.
+ */
+void AnnounceImage(vtkInformation* output, const int size[2]);
 
 /** Asks for whole inputs on the first two ports: every part of the image needs them. */
 void RequestWholeInputs(vtkInformationVector** inputs);

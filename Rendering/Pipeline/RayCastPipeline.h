@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 class vtkVolume;
@@ -23,9 +22,6 @@ class vtkWindow;
 
 namespace meniscus
 {
-
-/** The same matrix in column-vector convention. */
-glm::dmat4 ToGlm(vtkMatrix4x4* matrix);
 
 /**
  * From a mapper's input to a picture: the tables made of mesh, scalars, membrane and property, the

@@ -12,7 +12,6 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include <vector>
 
