@@ -107,7 +107,7 @@ private:
 
 vtkStandardNewMacro(vtkDepthImagePoints);
 meniscusSetClampMacro(vtkDepthImagePoints, DepthType, int, DEPTH_BUFFER, RANGE);
-meniscusObjectMacro(vtkDepthImagePoints, Camera, vtkCamera);
+meniscusObjectMacro(vtkDepthImagePoints, Camera, vtkCamera, Camera);
 
 //------------------------------------------------------------------------------
 vtkDepthImagePoints::vtkDepthImagePoints()

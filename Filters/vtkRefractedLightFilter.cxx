@@ -3,6 +3,7 @@
 #include "vtkRefractedLightFilter.h"
 
 #include "Common/FiniteVector.h"
+#include "Filters/Common/CellLoop.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
@@ -15,7 +16,6 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -60,14 +60,9 @@ void ForSurfaces(vtkPolyData* data, const Body& body)
   vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
   for (vtkCellArray* cells : { data->GetPolys(), data->GetStrips() })
   {
-    auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType size;
-      const vtkIdType* points;
-      iterator->GetCurrentCell(size, points);
-      body(cell++, size, points, cells == data->GetStrips());
-    }
+    meniscus::ForEachCell(cells,
+      [&](vtkIdType size, const vtkIdType* points)
+      { body(cell++, size, points, cells == data->GetStrips()); });
   }
 }
 

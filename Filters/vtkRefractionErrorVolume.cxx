@@ -4,7 +4,7 @@
 
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/NamedArray.h"
-#include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Common/ProgressSteps.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
@@ -384,36 +384,20 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
   const Links& links = internals.Passed.List;
   const ExactSurfaces exact(this->Interfaces, links, internals.Finer);
   const meniscus::ErrorSampler sampler(eye, links, exact, this->AngularErrors);
-  return this->RunOverSamples(output->GetNumberOfPoints(),
-    [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        glm::dvec3 point;
-        output->GetPoint(i, &point.x);
-        internals.Samples[static_cast<std::size_t>(i)] = internals.Measured.Visit(
-          [&](const auto& solver) { return sampler.Measure(solver, point); });
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-// Calls the body for ranges of samples. Returns false after an abort.
-bool vtkRefractionErrorVolume::RunOverSamples(
-  vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body)
-{
-  const vtkIdType step = std::max(count / SampleProgressSteps, SmallestSampleStep);
-  for (vtkIdType first = 0; first < count; first += step)
+  const auto measure = [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
   {
-    const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, SampleGrain, body);
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
-    if (this->GetAbortExecute())
+    for (vtkIdType i = begin; i < end; ++i)
     {
-      return false;
+      glm::dvec3 point;
+      output->GetPoint(i, &point.x);
+      internals.Samples[static_cast<std::size_t>(i)] = internals.Measured.Visit(
+        [&](const auto& solver) { return sampler.Measure(solver, point); });
     }
-  }
-  return true;
+  };
+  return meniscus::RunInSteps(this, output->GetNumberOfPoints(), SampleProgressSteps,
+    SmallestSampleStep,
+    [&measure](vtkIdType first, vtkIdType last)
+    { vtkSMPTools::For(first, last, SampleGrain, measure); });
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include "vtkSightRayAlgorithm.h"
 
 #include "Filters/Common/Accessors.h"
+#include "Filters/Common/ProgressSteps.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
@@ -137,18 +138,7 @@ bool vtkSightRayAlgorithm::UpdateScene(
 bool vtkSightRayAlgorithm::RunInSteps(
   vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body)
 {
-  const vtkIdType step = std::max(count / PointProgressSteps, SmallestPointStep);
-  for (vtkIdType first = 0; first < count; first += step)
-  {
-    const vtkIdType last = std::min(first + step, count);
-    body(first, last);
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
-    if (this->GetAbortExecute())
-    {
-      return false;
-    }
-  }
-  return true;
+  return meniscus::RunInSteps(this, count, PointProgressSteps, SmallestPointStep, body);
 }
 
 //------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ constexpr std::size_t RowsPerBlock = 8;
 
 }
 
-meniscusObjectMacro(vtkBentRayAlgorithm, Camera, vtkCamera);
+meniscusObjectMacro(vtkBentRayAlgorithm, Camera, vtkCamera, Camera);
 
 //------------------------------------------------------------------------------
 vtkBentRayAlgorithm::vtkBentRayAlgorithm()

@@ -48,6 +48,7 @@
 vtkStandardNewMacro(vtkRefractionPass);
 meniscusSetClampMacro(vtkRefractionPass, ReflectanceModel, int, FRESNEL, MIRROR);
 meniscusSetClampMacro(vtkRefractionPass, NumberOfLightCells, int, 0, 4000000);
+meniscusSetClampMacro(vtkRefractionPass, Lighting, int, VIRTUAL_SPACE, TRUE_SPACE);
 meniscusSetClampMacro(vtkRefractionPass, MediumModel, int, EXPONENTIAL, LINEAR);
 
 //------------------------------------------------------------------------------
@@ -92,9 +93,9 @@ public:
   void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
 };
 
-meniscusGetInternalMacro(vtkRefractionPass, vtkRenderPass*, ScenePass(), ScenePass);
+meniscusObjectMacro(vtkRefractionPass, ScenePass, vtkRenderPass, Internals->ScenePass);
 meniscusGetInternalMacro(vtkRefractionPass, int, NumberOfRefractions(), Refractions.All.size());
-meniscusGetInternalMacro(vtkRefractionPass, vtkTexture*, ReflectionTexture(), Reflection);
+meniscusObjectMacro(vtkRefractionPass, ReflectionTexture, vtkTexture, Internals->Reflection);
 meniscusGetInternalMacro(vtkRefractionPass, vtkTypeInt64, NumberOfMembranesDrawn() const, Drawn);
 meniscusGetInternalMacro(
   vtkRefractionPass, vtkTypeInt64, NumberOfMembranesSkipped() const, Skipped);
@@ -137,16 +138,6 @@ vtkRefractionPass::vtkRefractionPass()
 
 //------------------------------------------------------------------------------
 vtkRefractionPass::~vtkRefractionPass() = default;
-
-//------------------------------------------------------------------------------
-void vtkRefractionPass::SetScenePass(vtkRenderPass* pass)
-{
-  if (pass != this->Internals->ScenePass)
-  {
-    this->Internals->ScenePass = pass;
-    this->Modified();
-  }
-}
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::AddRefraction(
@@ -207,16 +198,6 @@ void vtkRefractionPass::RemoveAllRefractions()
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractionPass::SetReflectionTexture(vtkTexture* texture)
-{
-  if (texture != this->Internals->Reflection)
-  {
-    this->Internals->Reflection = texture;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
 bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
 {
@@ -263,17 +244,6 @@ bool vtkRefractionPass::SetShaderParameters(
       object->GetProperty()->GetRepresentation() == VTK_SURFACE);
   }
   return true;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractionPass::SetLighting(int lighting)
-{
-  const int clamped = std::clamp(lighting, int{ VIRTUAL_SPACE }, int{ TRUE_SPACE });
-  if (clamped != this->Lighting)
-  {
-    this->Lighting = clamped;
-    this->Modified();
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -53,7 +53,7 @@ public:
 vtkStandardNewMacro(vtkTetrahedraMirage);
 meniscusStatisticsMacro(vtkTetrahedraMirage);
 meniscusSetClampMacro(vtkTetrahedraMirage, Ambient, double, 0.0, 1.0);
-meniscusObjectMacro(vtkTetrahedraMirage, LookupTable, vtkScalarsToColors);
+meniscusObjectMacro(vtkTetrahedraMirage, LookupTable, vtkScalarsToColors, LookupTable);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraMirage::vtkTetrahedraMirage()

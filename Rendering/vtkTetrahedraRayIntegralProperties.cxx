@@ -25,7 +25,7 @@ meniscusSetClampMacro(
 meniscusGetInternalMacro(
   vtkTetrahedraRayIntegral, vtkDataArraySelection*, ArraySelection(), Arrays);
 meniscusGetInternalMacro(vtkTetrahedraRayIntegral, int, NumberOfEnergyBins(), EnergyBins.size());
-meniscusObjectMacro(vtkTetrahedraRayIntegral, VolumeProperty, vtkVolumeProperty);
+meniscusObjectMacro(vtkTetrahedraRayIntegral, VolumeProperty, vtkVolumeProperty, VolumeProperty);
 
 namespace
 {

@@ -18,19 +18,19 @@
     }                                                                                              \
   }
 
-/** Defines the setter and the getter of an object that the class keeps in a vtkSmartPointer. */
-#define meniscusObjectMacro(className, name, type)                                                 \
+/** Defines setter and getter of an object in a vtkSmartPointer, a member of the class or below. */
+#define meniscusObjectMacro(className, name, type, member)                                         \
   void className::Set##name(type* object)                                                          \
   {                                                                                                \
-    if (this->name != object)                                                                      \
+    if (this->member != object)                                                                    \
     {                                                                                              \
-      this->name = object;                                                                         \
+      this->member = object;                                                                       \
       this->Modified();                                                                            \
     }                                                                                              \
   }                                                                                                \
   type* className::Get##name()                                                                     \
   {                                                                                                \
-    return this->name;                                                                             \
+    return this->member;                                                                           \
   }
 
 /**

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 vtkStandardNewMacro(vtkRefractingInterface);
-meniscusObjectMacro(vtkRefractingInterface, ExactSurface, vtkImplicitFunction);
+meniscusObjectMacro(vtkRefractingInterface, ExactSurface, vtkImplicitFunction, ExactSurface);
 
 //------------------------------------------------------------------------------
 vtkRefractingInterface::vtkRefractingInterface() = default;
