@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthImagePoints.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -107,6 +107,7 @@ private:
 
 vtkStandardNewMacro(vtkDepthImagePoints);
 meniscusSetClampMacro(vtkDepthImagePoints, DepthType, int, DEPTH_BUFFER, RANGE);
+meniscusObjectMacro(vtkDepthImagePoints, Camera, vtkCamera, Camera);
 
 //------------------------------------------------------------------------------
 vtkDepthImagePoints::vtkDepthImagePoints()
@@ -117,22 +118,6 @@ vtkDepthImagePoints::vtkDepthImagePoints()
 
 //------------------------------------------------------------------------------
 vtkDepthImagePoints::~vtkDepthImagePoints() = default;
-
-//------------------------------------------------------------------------------
-void vtkDepthImagePoints::SetCamera(vtkCamera* camera)
-{
-  if (this->Camera != camera)
-  {
-    this->Camera = camera;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkCamera* vtkDepthImagePoints::GetCamera()
-{
-  return this->Camera;
-}
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkDepthImagePoints::GetMTime()

@@ -173,6 +173,7 @@ private:
 
 vtkStandardNewMacro(vtkMembraneCellFilter);
 meniscusInterfacePropertiesMacro(vtkMembraneCellFilter);
+meniscusInterfaceTimeMacro(vtkMembraneCellFilter);
 meniscusMembranePortMacro(vtkMembraneCellFilter, 0);
 
 //------------------------------------------------------------------------------
@@ -194,17 +195,9 @@ vtkMembraneCellFilter::vtkMembraneCellFilter()
 vtkMembraneCellFilter::~vtkMembraneCellFilter() = default;
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkMembraneCellFilter::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 int vtkMembraneCellFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  return 1;
+  return meniscus::AcceptSurfaces(info);
 }
 
 //------------------------------------------------------------------------------

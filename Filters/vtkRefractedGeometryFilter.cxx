@@ -415,12 +415,8 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 //------------------------------------------------------------------------------
 int vtkRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkDataSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return port == 1 ? meniscus::AcceptSurfaces(info) : 1;
 }
 
 //------------------------------------------------------------------------------

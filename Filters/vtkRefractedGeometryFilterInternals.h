@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_vtkRefractedGeometryFilterInternals_h
-#define meniscus_Filters_vtkRefractedGeometryFilterInternals_h
+#pragma once
 
 #include "vtkRefractedGeometryFilter.h"
 
@@ -73,5 +72,3 @@ public:
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
 };
-
-#endif

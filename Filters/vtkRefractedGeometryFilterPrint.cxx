@@ -3,7 +3,7 @@
 // Settings and counters of vtkRefractedGeometryFilter in words.
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 
 #include "vtkCamera.h"
 #include "vtkImplicitFunction.h"
@@ -17,30 +17,14 @@ meniscusSetClampMacro(vtkRefractedGeometryFilter, AngularTolerance, double, 1e-8
 meniscusSetClampMacro(vtkRefractedGeometryFilter, ReflectanceModel, int, FRESNEL, SCHLICK);
 meniscusSetClampMacro(
   vtkRefractedGeometryFilter, OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
-{
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
-{
-  return this->Internals->Scene.GetNumberOfEyeUpdates();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
-{
-  return this->Internals->SolvedVertices;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
-{
-  return this->Internals->FailedSolves;
-}
+meniscusGetInternalMacro(vtkRefractedGeometryFilter, vtkTypeInt64, NumberOfPatchBuilds() const,
+  Scene.GetNumberOfPatchBuilds());
+meniscusGetInternalMacro(vtkRefractedGeometryFilter, vtkTypeInt64, NumberOfEyeUpdates() const,
+  Scene.GetNumberOfEyeUpdates());
+meniscusGetInternalMacro(
+  vtkRefractedGeometryFilter, vtkTypeInt64, NumberOfSolvedVertices() const, SolvedVertices);
+meniscusGetInternalMacro(
+  vtkRefractedGeometryFilter, vtkTypeInt64, NumberOfFailedSolves() const, FailedSolves);
 
 //------------------------------------------------------------------------------
 /** All numbers that the class reports. */

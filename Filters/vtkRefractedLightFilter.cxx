@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedLightFilter.h"
 
+#include "Common/FiniteVector.h"
+#include "Filters/Common/CellLoop.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
@@ -13,7 +16,6 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -58,14 +60,9 @@ void ForSurfaces(vtkPolyData* data, const Body& body)
   vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
   for (vtkCellArray* cells : { data->GetPolys(), data->GetStrips() })
   {
-    auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType size;
-      const vtkIdType* points;
-      iterator->GetCurrentCell(size, points);
-      body(cell++, size, points, cells == data->GetStrips());
-    }
+    meniscus::ForEachCell(cells,
+      [&](vtkIdType size, const vtkIdType* points)
+      { body(cell++, size, points, cells == data->GetStrips()); });
   }
 }
 
@@ -202,12 +199,10 @@ meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkFloatArray> MakeArray(const char* name, int components, vtkIdType tuples)
+vtkSmartPointer<vtkFloatArray> MakeZeros(const char* name, int components, vtkIdType tuples)
 {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  auto array =
+    meniscus::MakeArray<vtkFloatArray>(name, components, static_cast<std::size_t>(tuples));
   array->Fill(0.0);
   return array;
 }
@@ -218,12 +213,12 @@ class LightArrays
 {
 public:
   LightArrays(vtkIdType tuples, bool areVectors)
-    : Irradiance(MakeArray(ArrayName, 1, tuples))
+    : Irradiance(MakeZeros(ArrayName, 1, tuples))
   {
     if (areVectors)
     {
-      this->Vector = MakeArray(VectorName, 3, tuples);
-      this->Path = MakeArray(PathName, 1, tuples);
+      this->Vector = MakeZeros(VectorName, 3, tuples);
+      this->Path = MakeZeros(PathName, 1, tuples);
     }
   }
 
@@ -316,6 +311,7 @@ public:
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
+meniscusInterfaceTimeMacro(vtkRefractedLightFilter);
 meniscusMembranePortMacro(vtkRefractedLightFilter, 1);
 
 //------------------------------------------------------------------------------
@@ -362,12 +358,6 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
 vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
 
 //------------------------------------------------------------------------------
-vtkMTimeType vtkRefractedLightFilter::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
@@ -382,12 +372,8 @@ vtkRefractedGeometryFilter* vtkRefractedLightFilter::GetView()
 //------------------------------------------------------------------------------
 int vtkRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkDataSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return port == 1 ? meniscus::AcceptSurfaces(info) : 1;
 }
 
 //------------------------------------------------------------------------------
@@ -419,7 +405,7 @@ bool vtkRefractedLightFilter::PlaceLight(
     light = glm::dvec3(center[0], center[1], center[2]) +
       FarAway * box.GetDiagonalLength() * glm::normalize(light);
   }
-  if (!std::isfinite(light.x) || !std::isfinite(light.y) || !std::isfinite(light.z))
+  if (!meniscus::IsFinite(light))
   {
     vtkErrorMacro("LightPosition ("
       << this->LightPosition[0] << ", " << this->LightPosition[1] << ", " << this->LightPosition[2]

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
-#include "Filters/Common/ClampedSetter.h"
-#include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Common/Accessors.h"
+#include "Filters/Common/NamedArray.h"
+#include "Filters/Common/ProgressSteps.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
@@ -156,8 +157,19 @@ public:
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
+meniscusInterfaceTimeMacro(vtkRefractionErrorVolume);
 meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
 meniscusSetClampMacro(vtkRefractionErrorVolume, MembraneModel, int, FLAT_FACETS, CURVED);
+meniscusGetInternalMacro(vtkRefractionErrorVolume, double, MeanError() const, Summary.Mean);
+meniscusGetInternalMacro(
+  vtkRefractionErrorVolume, double, StandardDeviation() const, Summary.Deviation);
+meniscusGetInternalMacro(vtkRefractionErrorVolume, double, LargestError() const, Summary.Largest);
+meniscusGetInternalMacro(
+  vtkRefractionErrorVolume, vtkTypeInt64, NumberOfMeasuredSamples() const, Summary.Count);
+meniscusGetInternalMacro(vtkRefractionErrorVolume, vtkTypeInt64, NumberOfPatchBuilds() const,
+  Measured.GetNumberOfPatchBuilds());
+meniscusGetInternalMacro(vtkRefractionErrorVolume, vtkTypeInt64, NumberOfEyeUpdates() const,
+  Measured.GetNumberOfEyeUpdates());
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()
@@ -201,57 +213,9 @@ void vtkRefractionErrorVolume::RemoveAllReferences()
 }
 
 //------------------------------------------------------------------------------
-double vtkRefractionErrorVolume::GetMeanError() const
-{
-  return this->Internals->Summary.Mean;
-}
-
-//------------------------------------------------------------------------------
-double vtkRefractionErrorVolume::GetStandardDeviation() const
-{
-  return this->Internals->Summary.Deviation;
-}
-
-//------------------------------------------------------------------------------
-double vtkRefractionErrorVolume::GetLargestError() const
-{
-  return this->Internals->Summary.Largest;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfMeasuredSamples() const
-{
-  return static_cast<vtkTypeInt64>(this->Internals->Summary.Count);
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfPatchBuilds() const
-{
-  return this->Internals->Measured.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
-{
-  return this->Internals->Measured.GetNumberOfEyeUpdates();
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkRefractionErrorVolume::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 int vtkRefractionErrorVolume::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  return meniscus::AcceptSurfaces(info, port == 1);
 }
 
 //------------------------------------------------------------------------------
@@ -420,52 +384,29 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
   const Links& links = internals.Passed.List;
   const ExactSurfaces exact(this->Interfaces, links, internals.Finer);
   const meniscus::ErrorSampler sampler(eye, links, exact, this->AngularErrors);
-  return this->RunOverSamples(output->GetNumberOfPoints(),
-    [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        glm::dvec3 point;
-        output->GetPoint(i, &point.x);
-        internals.Samples[static_cast<std::size_t>(i)] = internals.Measured.Visit(
-          [&](const auto& solver) { return sampler.Measure(solver, point); });
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-// Calls the body for ranges of samples. Returns false after an abort.
-bool vtkRefractionErrorVolume::RunOverSamples(
-  vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body)
-{
-  const vtkIdType step = std::max(count / SampleProgressSteps, SmallestSampleStep);
-  for (vtkIdType first = 0; first < count; first += step)
+  const auto measure = [&internals, &sampler, output](vtkIdType begin, vtkIdType end)
   {
-    const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, SampleGrain, body);
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
-    if (this->GetAbortExecute())
+    for (vtkIdType i = begin; i < end; ++i)
     {
-      return false;
+      glm::dvec3 point;
+      output->GetPoint(i, &point.x);
+      internals.Samples[static_cast<std::size_t>(i)] = internals.Measured.Visit(
+        [&](const auto& solver) { return sampler.Measure(solver, point); });
     }
-  }
-  return true;
+  };
+  return meniscus::RunInSteps(this, output->GetNumberOfPoints(), SampleProgressSteps,
+    SmallestSampleStep,
+    [&measure](vtkIdType first, vtkIdType last)
+    { vtkSMPTools::For(first, last, SampleGrain, measure); });
 }
 
 //------------------------------------------------------------------------------
 void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
 {
   const std::vector<meniscus::ErrorSample>& samples = this->Internals->Samples;
-  vtkNew<vtkDoubleArray> errors;
-  errors->SetName("RefractionError");
-  errors->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
-  vtkNew<vtkUnsignedCharArray> states;
-  states->SetName("SampleState");
-  states->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("ErrorColor");
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
+  auto* errors = meniscus::AddPointArray<vtkDoubleArray>(output, "RefractionError", 1);
+  auto* states = meniscus::AddPointArray<vtkUnsignedCharArray>(output, "SampleState", 1);
+  auto* colors = meniscus::AddPointArray<vtkUnsignedCharArray>(output, "ErrorColor", 3);
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     const bool measured = samples[i].State == meniscus::SampleState::Measured;
@@ -477,8 +418,6 @@ void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
     states->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(samples[i].State));
   }
   output->GetPointData()->SetScalars(errors);
-  output->GetPointData()->AddArray(states);
-  output->GetPointData()->AddArray(colors);
   if (this->AngularErrors)
   {
     this->AddAngles(output);

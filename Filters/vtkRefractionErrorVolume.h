@@ -258,8 +258,6 @@ private:
   bool HasValidLimits();
   bool UpdateScenes(vtkInformationVector* membranes, vtkInformationVector* references);
   bool MeasureSamples(vtkImageData* output);
-  bool RunOverSamples(
-    vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body);
   void FillOutput(vtkImageData* output);
   void AddAngles(vtkImageData* output);
 

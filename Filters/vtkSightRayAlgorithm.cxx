@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSightRayAlgorithm.h"
 
+#include "Filters/Common/Accessors.h"
+#include "Filters/Common/ProgressSteps.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/PointEyes.h"
@@ -32,7 +34,10 @@ public:
 };
 
 meniscusInterfacePropertiesMacro(vtkSightRayAlgorithm);
+meniscusInterfaceTimeMacro(vtkSightRayAlgorithm);
 meniscusMembranePortMacro(vtkSightRayAlgorithm, 1);
+meniscusGetInternalMacro(
+  vtkSightRayAlgorithm, vtkTypeInt64, NumberOfPatchBuilds() const, Scene.GetNumberOfPatchBuilds());
 
 //------------------------------------------------------------------------------
 vtkSightRayAlgorithm::vtkSightRayAlgorithm()
@@ -68,26 +73,10 @@ void vtkSightRayAlgorithm::SetMembraneData(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkSightRayAlgorithm::GetNumberOfPatchBuilds() const
-{
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkSightRayAlgorithm::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
-}
-
-//------------------------------------------------------------------------------
 int vtkSightRayAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-  }
-  return 1;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return port == 1 ? meniscus::AcceptSurfaces(info) : 1;
 }
 
 //------------------------------------------------------------------------------
@@ -149,18 +138,7 @@ bool vtkSightRayAlgorithm::UpdateScene(
 bool vtkSightRayAlgorithm::RunInSteps(
   vtkIdType count, const std::function<void(vtkIdType, vtkIdType)>& body)
 {
-  const vtkIdType step = std::max(count / PointProgressSteps, SmallestPointStep);
-  for (vtkIdType first = 0; first < count; first += step)
-  {
-    const vtkIdType last = std::min(first + step, count);
-    body(first, last);
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
-    if (this->GetAbortExecute())
-    {
-      return false;
-    }
-  }
-  return true;
+  return meniscus::RunInSteps(this, count, PointProgressSteps, SmallestPointStep, body);
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedralizeSurface.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Filters/Mesher/DelaunayMesher.h"
 #include "Filters/Mesher/SurfaceExtraction.h"
 #include "Filters/Mesher/SurfaceMessages.h"

@@ -3,7 +3,8 @@
 #include "vtkTruePositionFilter.h"
 
 #include "Common/CoherentOrder.h"
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/PointCoordinates.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Membrane/PointEyes.h"
@@ -49,25 +50,17 @@ static_assert(vtkTruePositionFilter::APPARENT == static_cast<int>(meniscus::Seen
 /** Arrays of the output. */
 struct SeenPointArrays
 {
-  vtkNew<vtkDoubleArray> Positions;
-  vtkNew<vtkUnsignedCharArray> States;
-  vtkNew<vtkDoubleArray> SightPoints;
-  vtkNew<vtkDoubleArray> Paths;
+  vtkSmartPointer<vtkDoubleArray> Positions;
+  vtkSmartPointer<vtkUnsignedCharArray> States;
+  vtkSmartPointer<vtkDoubleArray> SightPoints;
+  vtkSmartPointer<vtkDoubleArray> Paths;
 
-  explicit SeenPointArrays(vtkIdType count)
+  explicit SeenPointArrays(std::size_t count)
+    : Positions(meniscus::MakeArray<vtkDoubleArray>(nullptr, 3, count))
+    , States(meniscus::MakeArray<vtkUnsignedCharArray>("SeenState", 1, count))
+    , SightPoints(meniscus::MakeArray<vtkDoubleArray>("SightPoint", 3, count))
+    , Paths(meniscus::MakeArray<vtkDoubleArray>("OpticalPath", 1, count))
   {
-    this->States->SetName("SeenState");
-    this->SightPoints->SetName("SightPoint");
-    this->Paths->SetName("OpticalPath");
-    for (vtkDoubleArray* vectors : { this->Positions.Get(), this->SightPoints.Get() })
-    {
-      vectors->SetNumberOfComponents(3);
-    }
-    for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
-           this->Positions, this->States, this->SightPoints, this->Paths })
-    {
-      array->SetNumberOfTuples(count);
-    }
   }
 };
 
@@ -98,6 +91,9 @@ public:
 
 vtkStandardNewMacro(vtkTruePositionFilter);
 meniscusSetClampMacro(vtkTruePositionFilter, Depth, int, APPARENT, GEOMETRIC);
+meniscusGetInternalMacro(
+  vtkTruePositionFilter, vtkTypeInt64, NumberOfTotallyReflectedPoints() const, TotallyReflected);
+meniscusGetInternalMacro(vtkTruePositionFilter, vtkTypeInt64, NumberOfMissedPoints() const, Missed);
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::vtkTruePositionFilter()
@@ -107,18 +103,6 @@ vtkTruePositionFilter::vtkTruePositionFilter()
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::~vtkTruePositionFilter() = default;
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTruePositionFilter::GetNumberOfTotallyReflectedPoints() const
-{
-  return this->Internals->TotallyReflected;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTruePositionFilter::GetNumberOfMissedPoints() const
-{
-  return this->Internals->Missed;
-}
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
@@ -167,7 +151,7 @@ bool vtkTruePositionFilter::MovePoints(
   vtkPointSet* input, const meniscus::PointEyes& eyes, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
-  SeenPointArrays arrays(count);
+  SeenPointArrays arrays(static_cast<std::size_t>(count));
   this->Internals->UpdatePoints(input);
   const std::vector<double>& coordinates = this->Internals->Coordinates;
   const std::vector<std::uint32_t>& order = this->Internals->Order;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_RayCastMapperInternals_h
-#define meniscus_Rendering_RayCastMapperInternals_h
+#pragma once
 
 #include "Filters/Common/Statistics.h"
 #include "Rendering/Input/DrawnBounds.h"
@@ -67,5 +66,3 @@ public:
   /** Filled when it is asked for. */
   vtkNew<vtkTable> StatisticsTable;
 };
-
-#endif

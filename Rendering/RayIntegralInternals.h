@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_RayIntegralInternals_h
-#define meniscus_Rendering_RayIntegralInternals_h
+#pragma once
 
 #include "Filters/Common/Statistics.h"
 #include "Rendering/Integral/EnergyBins.h"
@@ -33,5 +32,3 @@ public:
   /** Used as scalars where their values do not matter: one array per data set. */
   std::vector<vtkSmartPointer<vtkDataArray>> Constants;
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_RefractionPassList_h
-#define meniscus_Rendering_RefractionPassList_h
+#pragma once
 
 #include "Rendering/Pass/WaveLight.h"
 
@@ -80,5 +79,3 @@ public:
 };
 
 }
-
-#endif

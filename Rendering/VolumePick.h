@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_VolumePick_h
-#define meniscus_Rendering_VolumePick_h
+#pragma once
 
 #include "Rendering/Integral/EventArrays.h"
 #include "Rendering/Integral/RayPicker.h"
@@ -33,5 +32,3 @@ struct VolumePick
 };
 
 }
-
-#endif

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkApparentGeometryFilter.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/Statistics.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
@@ -175,12 +176,8 @@ void vtkApparentGeometryFilter::MovePoints(vtkPointSet* output)
   vtkNew<vtkPoints> moved;
   moved->SetDataTypeToDouble();
   moved->SetNumberOfPoints(output->GetNumberOfPoints());
-  vtkNew<vtkIntArray> images;
-  images->SetName("NumberOfImages");
-  images->SetNumberOfValues(output->GetNumberOfPoints());
-  vtkNew<vtkSignedCharArray> orientations;
-  orientations->SetName("ImageOrientation");
-  orientations->SetNumberOfValues(output->GetNumberOfPoints());
+  auto* images = meniscus::AddPointArray<vtkIntArray>(output, "NumberOfImages", 1);
+  auto* orientations = meniscus::AddPointArray<vtkSignedCharArray>(output, "ImageOrientation", 1);
   internals.OneImage = internals.SeveralImages = internals.NoImage = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
   {
@@ -199,8 +196,6 @@ void vtkApparentGeometryFilter::MovePoints(vtkPointSet* output)
                          : (place.Images == 1 ? internals.OneImage : internals.SeveralImages));
   }
   output->SetPoints(moved);
-  output->GetPointData()->AddArray(images);
-  output->GetPointData()->AddArray(orientations);
   if (internals.NoImage + internals.SeveralImages > 0)
   {
     vtkWarningMacro(<< internals.NoImage << " points have no image and " << internals.SeveralImages

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBentMediumAlgorithm.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/ImagePlace.h"
 
@@ -30,13 +30,7 @@ vtkBentMediumAlgorithm::~vtkBentMediumAlgorithm() = default;
 //------------------------------------------------------------------------------
 int vtkBentMediumAlgorithm::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
 {
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  // The executive looks at the first type only; otherwise it would iterate over the blocks.
-  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
-  return 1;
+  return meniscus::AcceptDataSets(info);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBentRayAlgorithm.h"
 
+#include "Filters/Common/Accessors.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
@@ -11,10 +12,8 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -30,6 +29,8 @@ constexpr std::size_t RowsPerBlock = 8;
 
 }
 
+meniscusObjectMacro(vtkBentRayAlgorithm, Camera, vtkCamera, Camera);
+
 //------------------------------------------------------------------------------
 vtkBentRayAlgorithm::vtkBentRayAlgorithm()
   : View(new meniscus::BentRayView)
@@ -38,22 +39,6 @@ vtkBentRayAlgorithm::vtkBentRayAlgorithm()
 
 //------------------------------------------------------------------------------
 vtkBentRayAlgorithm::~vtkBentRayAlgorithm() = default;
-
-//------------------------------------------------------------------------------
-void vtkBentRayAlgorithm::SetCamera(vtkCamera* camera)
-{
-  if (this->Camera != camera)
-  {
-    this->Camera = camera;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkCamera* vtkBentRayAlgorithm::GetCamera()
-{
-  return this->Camera;
-}
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkBentRayAlgorithm::GetMTime()
@@ -66,24 +51,15 @@ vtkMTimeType vtkBentRayAlgorithm::GetMTime()
 int vtkBentRayAlgorithm::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
-  // An error in the size is reported in RequestData, when there is an output to empty.
-  const int extent[6] = { 0, std::max(this->ImageSize[0], 1) - 1, 0,
-    std::max(this->ImageSize[1], 1) - 1, 0, 0 };
-  vtkInformation* info = outputs->GetInformationObject(0);
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, -1);
+  meniscus::AnnounceImage(outputs->GetInformationObject(0), this->ImageSize);
   return 1;
 }
 
 //------------------------------------------------------------------------------
 bool vtkBentRayAlgorithm::UpdateView(vtkDataObject* input, double share)
 {
-  if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
-  {
-    return this->TellError("ImageSize must be at least 1 by 1, not " +
-      std::to_string(this->ImageSize[0]) + " by " + std::to_string(this->ImageSize[1]));
-  }
-  if (!this->UpdateMedium(input, share))
+  if (!this->TellError(meniscus::DescribeBadSize(this->ImageSize)) ||
+    !this->UpdateMedium(input, share))
   {
     return false;
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
 #include "Rendering/Pass/ObjectShader.h"
@@ -48,6 +48,7 @@
 vtkStandardNewMacro(vtkRefractionPass);
 meniscusSetClampMacro(vtkRefractionPass, ReflectanceModel, int, FRESNEL, MIRROR);
 meniscusSetClampMacro(vtkRefractionPass, NumberOfLightCells, int, 0, 4000000);
+meniscusSetClampMacro(vtkRefractionPass, Lighting, int, VIRTUAL_SPACE, TRUE_SPACE);
 meniscusSetClampMacro(vtkRefractionPass, MediumModel, int, EXPONENTIAL, LINEAR);
 
 //------------------------------------------------------------------------------
@@ -92,6 +93,18 @@ public:
   void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
 };
 
+meniscusObjectMacro(vtkRefractionPass, ScenePass, vtkRenderPass, Internals->ScenePass);
+meniscusGetInternalMacro(vtkRefractionPass, int, NumberOfRefractions(), Refractions.All.size());
+meniscusObjectMacro(vtkRefractionPass, ReflectionTexture, vtkTexture, Internals->Reflection);
+meniscusGetInternalMacro(vtkRefractionPass, vtkTypeInt64, NumberOfMembranesDrawn() const, Drawn);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfMembranesSkipped() const, Skipped);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfLightUpdates() const, LightUpdates);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfSkippedLights() const, SkippedLights);
+meniscusGetInternalMacro(vtkRefractionPass, vtkMTimeType, ShaderStageMTime(), ShaderTime);
+
 //------------------------------------------------------------------------------
 vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
 {
@@ -125,22 +138,6 @@ vtkRefractionPass::vtkRefractionPass()
 
 //------------------------------------------------------------------------------
 vtkRefractionPass::~vtkRefractionPass() = default;
-
-//------------------------------------------------------------------------------
-void vtkRefractionPass::SetScenePass(vtkRenderPass* pass)
-{
-  if (pass != this->Internals->ScenePass)
-  {
-    this->Internals->ScenePass = pass;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkRenderPass* vtkRefractionPass::GetScenePass()
-{
-  return this->Internals->ScenePass;
-}
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::AddRefraction(
@@ -201,52 +198,6 @@ void vtkRefractionPass::RemoveAllRefractions()
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractionPass::GetNumberOfRefractions()
-{
-  return static_cast<int>(this->Internals->Refractions.All.size());
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractionPass::SetReflectionTexture(vtkTexture* texture)
-{
-  if (texture != this->Internals->Reflection)
-  {
-    this->Internals->Reflection = texture;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkTexture* vtkRefractionPass::GetReflectionTexture()
-{
-  return this->Internals->Reflection;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesDrawn() const
-{
-  return this->Internals->Drawn;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
-{
-  return this->Internals->Skipped;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfLightUpdates() const
-{
-  return this->Internals->LightUpdates;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkRefractionPass::GetNumberOfSkippedLights() const
-{
-  return this->Internals->SkippedLights;
-}
-
-//------------------------------------------------------------------------------
 bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
 {
@@ -293,23 +244,6 @@ bool vtkRefractionPass::SetShaderParameters(
       object->GetProperty()->GetRepresentation() == VTK_SURFACE);
   }
   return true;
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkRefractionPass::GetShaderStageMTime()
-{
-  return this->Internals->ShaderTime;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractionPass::SetLighting(int lighting)
-{
-  const int clamped = std::clamp(lighting, int{ VIRTUAL_SPACE }, int{ TRUE_SPACE });
-  if (clamped != this->Lighting)
-  {
-    this->Lighting = clamped;
-    this->Modified();
-  }
 }
 
 //------------------------------------------------------------------------------

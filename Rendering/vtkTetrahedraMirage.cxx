@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraMirage.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Filters/Common/Statistics.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
@@ -53,6 +53,7 @@ public:
 vtkStandardNewMacro(vtkTetrahedraMirage);
 meniscusStatisticsMacro(vtkTetrahedraMirage);
 meniscusSetClampMacro(vtkTetrahedraMirage, Ambient, double, 0.0, 1.0);
+meniscusObjectMacro(vtkTetrahedraMirage, LookupTable, vtkScalarsToColors, LookupTable);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraMirage::vtkTetrahedraMirage()
@@ -103,22 +104,6 @@ vtkTetrahedraMirage::vtkInternals::List()
 void vtkTetrahedraMirage::SetObjectData(vtkDataSet* objects)
 {
   this->SetInputDataInternal(1, objects);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraMirage::SetLookupTable(vtkScalarsToColors* table)
-{
-  if (this->LookupTable != table)
-  {
-    this->LookupTable = table;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkScalarsToColors* vtkTetrahedraMirage::GetLookupTable()
-{
-  return this->LookupTable;
 }
 
 //------------------------------------------------------------------------------

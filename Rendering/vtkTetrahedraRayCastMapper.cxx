@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
+#include "Rendering/Common/Matrices.h"
 #include "Rendering/Input/ComponentChoice.h"
 #include "Rendering/RayCastMapperInternals.h"
 
@@ -36,6 +38,7 @@
 
 vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
 meniscusInterfacePropertiesMacro(vtkTetrahedraRayCastMapper);
+meniscusInterfaceTimeMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
@@ -52,19 +55,7 @@ vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayCastMapper::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-    return 1;
-  }
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  for (const char* type : { "vtkDataSet", "vtkCompositeDataSet" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
-  return 1;
+  return port == 1 ? meniscus::AcceptSurfaces(info, true) : meniscus::AcceptDataSets(info);
 }
 
 //------------------------------------------------------------------------------
@@ -329,12 +320,6 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
   refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
   refracting.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - refracting.Center)).z;
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkTetrahedraRayCastMapper::GetMTime()
-{
-  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
 }
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 // Counters and properties of vtkTetrahedraRayCastMapper as it reports them.
 #include "Rendering/RayCastMapperInternals.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkTetrahedraRayCastMapper.h"
@@ -31,6 +31,26 @@ meniscusSetClampMacro(vtkTetrahedraRayCastMapper, DepthOpacity, double, 0.0, 1.0
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, EarlyTerminationOpacity, double, 0.0, 1.0);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MaximumImageSampleDistance, float, 1.0f, 100.0f);
 meniscusSetClampMacro(vtkTetrahedraRayCastMapper, MediumModel, int, EXPONENTIAL, LINEAR);
+meniscusGetInternalMacro(vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfMeshBuilds(),
+  Input.GetBuildVersion().GetChanges());
+meniscusGetInternalMacro(vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfScalarUpdates(),
+  Input.GetScalarVersion().GetChanges());
+meniscusGetInternalMacro(vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfTransferFunctionBuilds(),
+  Property.GetNumberOfBuilds());
+meniscusGetInternalMacro(
+  vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfActiveSetBuilds(), Input.GetActiveSetBuilds());
+meniscusGetInternalMacro(
+  vtkTetrahedraRayCastMapper, vtkTypeInt64, UploadedBytes(), GetCounters().UploadedBytes);
+meniscusGetInternalMacro(vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfActiveCells(),
+  Input.GetMesh().GetNumberOfActiveCells());
+meniscusGetInternalMacro(vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfRejectedCells(),
+  Input.GetNumberOfRejectedCells());
+meniscusGetInternalMacro(
+  vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfTraversalSteps(), GetStatistics().Steps);
+meniscusGetInternalMacro(
+  vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfRays(), GetStatistics().Rays);
+meniscusGetInternalMacro(
+  vtkTetrahedraRayCastMapper, vtkTypeInt64, NumberOfLostRays(), GetStatistics().Lost);
 
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::SetImageSampleDistance(float distance)
@@ -44,71 +64,11 @@ void vtkTetrahedraRayCastMapper::SetImageSampleDistance(float distance)
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
-{
-  return this->Internals->Input.GetBuildVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
-{
-  return this->Internals->Input.GetScalarVersion().GetChanges();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
-{
-  return this->Internals->Property.GetNumberOfBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
-{
-  return this->Internals->Input.GetActiveSetBuilds();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
-{
-  return this->Internals->GetCounters().UploadedBytes;
-}
-
-//------------------------------------------------------------------------------
 std::int64_t vtkTetrahedraRayCastMapper::vtkInternals::GetHostBytes() const
 {
   return this->GetBytes() + this->GetCounters().HostBytes +
     (this->Picker ? this->Picker->GetBytes() : 0) +
     (this->DepthCaster ? this->DepthCaster->GetBytes() : 0) + meniscus::BytesOf(this->Depths);
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
-{
-  return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
-{
-  return this->Internals->Input.GetNumberOfRejectedCells();
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTraversalSteps()
-{
-  return this->Internals->GetStatistics().Steps;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRays()
-{
-  return this->Internals->GetStatistics().Rays;
-}
-
-//------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
-{
-  return this->Internals->GetStatistics().Lost;
 }
 
 //------------------------------------------------------------------------------

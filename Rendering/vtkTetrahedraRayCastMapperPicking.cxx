@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Places on rays for vtkTetrahedraRayCastMapper: picks, and depths of frames.
+#include "Rendering/Common/Matrices.h"
 #include "Rendering/RayCastMapperInternals.h"
 #include "Rendering/VolumePick.h"
 #include "vtkTetrahedraRayCastMapper.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/RayIntegralInternals.h"
 
+#include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Integral/ImagePlace.h"
 
@@ -17,7 +18,6 @@
 #include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVolumeProperty.h"
 #include <vtksys/SystemInformation.hxx>
@@ -117,10 +117,7 @@ meniscus::InputReport FindScalars(
 std::string CountBins(
   const meniscus::InputBlocks& scalars, const meniscus::InputBlocks& attenuation, int& number)
 {
-  const bool sameGrids = std::equal(attenuation.Parts.begin(), attenuation.Parts.end(),
-    scalars.Parts.begin(), scalars.Parts.end(),
-    [](const meniscus::InputPart& a, const meniscus::InputPart& b) { return a.Grid == b.Grid; });
-  if (!sameGrids)
+  if (!meniscus::HaveSameGrids(attenuation, scalars))
   {
     return "The attenuation array and the scalar are not in the same data sets";
   }
@@ -177,36 +174,20 @@ vtkTetrahedraRayIntegral::~vtkTetrahedraRayIntegral()
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayIntegral::FillInputPortInformation(int port, vtkInformation* info)
 {
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
-    return 1;
-  }
-  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  // The executive looks at the first type only; otherwise it would iterate over the blocks.
-  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
-  {
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
-  }
-  return 1;
+  return port == 1 ? meniscus::AcceptSurfaces(info, true) : meniscus::AcceptDataSets(info);
 }
 
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
-  // Errors in the size are reported in RequestData, when there is an output to empty.
-  const int extent[6] = { 0, std::max(this->ImageSize[0], 1) - 1, 0,
-    std::max(this->ImageSize[1], 1) - 1, 0, 0 };
   vtkInformation* info = outputs->GetInformationObject(0);
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  meniscus::AnnounceImage(info, this->ImageSize);
   const meniscus::ParallelRectangle rectangle{ glm::make_vec3(this->FrameOrigin),
     glm::make_vec3(this->FrameAxis1), glm::make_vec3(this->FrameAxis2) };
   meniscus::ImagePlace place;
   // The rectangle of FITTED is known when the input is.
-  if (this->FrameMode == PARALLEL && this->ImageSize[0] > 0 && this->ImageSize[1] > 0 &&
+  if (this->FrameMode == PARALLEL && meniscus::DescribeBadSize(this->ImageSize).empty() &&
     meniscus::DescribeFault(rectangle).empty())
   {
     place = meniscus::PlaceOf(rectangle, this->ImageSize);
@@ -214,7 +195,6 @@ int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(requ
   info->Set(vtkDataObject::ORIGIN(), place.Origin, 3);
   info->Set(vtkDataObject::SPACING(), place.Spacing, 3);
   info->Set(vtkDataObject::DIRECTION(), place.Direction, 9);
-  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, -1);
   return 1;
 }
 
@@ -285,10 +265,9 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   choice.NumberOfBins = this->GetNumberOfEnergyBins();
   request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() &&
     !choice.NeedsProperty() && !choice.Events.IsAnyWanted();
-  if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
+  if (!this->TellError(meniscus::DescribeBadSize(this->ImageSize)))
   {
-    return this->TellError("ImageSize must be at least 1 by 1, not " +
-      std::to_string(this->ImageSize[0]) + " by " + std::to_string(this->ImageSize[1]));
+    return false;
   }
   if (choice.GetNumbersPerPixel() == 0 && !choice.NeedsBinArrays())
   {

@@ -3,7 +3,7 @@
 // Properties and counters of vtkTetrahedraRayIntegral.
 #include "Rendering/RayIntegralInternals.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 
 #include "vtkCamera.h"
 #include "vtkPolyData.h"
@@ -22,6 +22,10 @@ meniscusSetClampMacro(vtkTetrahedraRayIntegral, ArrayComponent, int, -1, VTK_INT
 meniscusSetClampMacro(vtkTetrahedraRayIntegral, EventOpacity, double, 0.0, 1.0);
 meniscusSetClampMacro(
   vtkTetrahedraRayIntegral, OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+meniscusGetInternalMacro(
+  vtkTetrahedraRayIntegral, vtkDataArraySelection*, ArraySelection(), Arrays);
+meniscusGetInternalMacro(vtkTetrahedraRayIntegral, int, NumberOfEnergyBins(), EnergyBins.size());
+meniscusObjectMacro(vtkTetrahedraRayIntegral, VolumeProperty, vtkVolumeProperty, VolumeProperty);
 
 namespace
 {
@@ -89,28 +93,6 @@ vtkCamera* vtkTetrahedraRayIntegral::GetCamera()
 }
 
 //------------------------------------------------------------------------------
-vtkDataArraySelection* vtkTetrahedraRayIntegral::GetArraySelection()
-{
-  return this->Internals->Arrays;
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayIntegral::SetVolumeProperty(vtkVolumeProperty* property)
-{
-  if (this->VolumeProperty != property)
-  {
-    this->VolumeProperty = property;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkVolumeProperty* vtkTetrahedraRayIntegral::GetVolumeProperty()
-{
-  return this->VolumeProperty;
-}
-
-//------------------------------------------------------------------------------
 void vtkTetrahedraRayIntegral::SetNumberOfEnergyBins(int bins)
 {
   const auto wanted = static_cast<std::size_t>(std::max(bins, 0));
@@ -119,12 +101,6 @@ void vtkTetrahedraRayIntegral::SetNumberOfEnergyBins(int bins)
     this->Internals->EnergyBins.resize(wanted);
     this->Modified();
   }
-}
-
-//------------------------------------------------------------------------------
-int vtkTetrahedraRayIntegral::GetNumberOfEnergyBins()
-{
-  return static_cast<int>(this->Internals->EnergyBins.size());
 }
 
 //------------------------------------------------------------------------------

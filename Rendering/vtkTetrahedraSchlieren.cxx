@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraSchlieren.h"
 
-#include "Filters/Common/ClampedSetter.h"
+#include "Filters/Common/Accessors.h"
 #include "Filters/Common/Statistics.h"
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"

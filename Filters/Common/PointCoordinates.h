@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Common_PointCoordinates_h
-#define meniscus_Filters_Common_PointCoordinates_h
+#pragma once
 
 #include "vtkPointSet.h"
 #include "vtkType.h"
@@ -25,5 +24,3 @@ inline std::vector<double> CopyPoints(vtkPointSet* input)
 }
 
 }
-
-#endif

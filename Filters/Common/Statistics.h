@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Statistics of a class by name: GetStatistics() and GetStatistic(). */
-#ifndef meniscus_Filters_Common_Statistics_h
-#define meniscus_Filters_Common_Statistics_h
+#pragma once
 
 #include "vtkIOStream.h"
 #include "vtkIndent.h"
@@ -109,5 +108,3 @@ void PrintStatistics(
     }                                                                                              \
     return found->Measure(*this);                                                                  \
   }
-
-#endif

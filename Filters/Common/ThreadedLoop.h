@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Loops of the kernel on the threads of vtkSMPTools. */
-#ifndef meniscus_Filters_Common_ThreadedLoop_h
-#define meniscus_Filters_Common_ThreadedLoop_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -41,5 +40,3 @@ inline void FacetLoop(std::size_t count, const RangeBody& body)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Common_TouchingPolygon_h
-#define meniscus_Filters_Common_TouchingPolygon_h
+#pragma once
 
 #include "vtkCellArray.h"
 #include "vtkContourTriangulator.h"
@@ -39,5 +38,3 @@ bool DivideTouchingPolygon(
 }
 
 }
-
-#endif

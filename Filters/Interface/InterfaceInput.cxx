@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Interface/InterfaceInput.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
@@ -84,6 +85,18 @@ std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
     }
   }
   return list;
+}
+
+//------------------------------------------------------------------------------
+int AcceptSurfaces(vtkInformation* port, bool isOptional)
+{
+  port->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  port->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  if (isOptional)
+  {
+    port->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
 }
 
 //------------------------------------------------------------------------------

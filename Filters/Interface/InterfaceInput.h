@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Lists of refracting interfaces and the surfaces at a port. Owners report errors alike. */
-#ifndef meniscus_Filters_Interface_InterfaceInput_h
-#define meniscus_Filters_Interface_InterfaceInput_h
+#pragma once
 
 #include "Refraction/Surface/MediaChain.h"
 
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+class vtkInformation;
 class vtkInformationVector;
 class vtkPolyData;
 class vtkRefractingInterfaceCollection;
@@ -42,9 +42,10 @@ std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media);
 std::vector<vtkPolyData*> ListSurfaces(vtkInformationVector* surfaces, int port,
   vtkRefractingInterfaceCollection* interfaces, std::string& error);
 
+/** Makes a port accept any number of surfaces; without `isOptional`, at least one. Returns 1. */
+int AcceptSurfaces(vtkInformation* port, bool isOptional = false);
+
 /** Requests all data of a port whole: every piece of the output needs the whole surfaces. */
 void RequestWhole(vtkInformationVector* port);
 
 }
-
-#endif

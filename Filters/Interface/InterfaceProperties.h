@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Properties of the classes that have a list of refracting interfaces. */
-#ifndef meniscus_Filters_Interface_InterfaceProperties_h
-#define meniscus_Filters_Interface_InterfaceProperties_h
+#pragma once
 
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkSmartPointer.h"
+
+#include <algorithm>
 
 /**
  * Defines the methods of a class that forward to its member Interfaces and to the first interface:
@@ -40,6 +41,13 @@
   double className::GetInteriorIndexOfRefraction()                                                 \
   {                                                                                                \
     return this->Interfaces->GetFirstInterface()->GetInteriorIndexOfRefraction();                  \
+  }
+
+/** Defines GetMTime() of a class that depends on its members and on the list of interfaces. */
+#define meniscusInterfaceTimeMacro(className)                                                      \
+  vtkMTimeType className::GetMTime()                                                               \
+  {                                                                                                \
+    return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());                   \
   }
 
 /**
@@ -79,5 +87,3 @@ inline vtkSmartPointer<vtkRefractingInterfaceCollection> MakeInterfaces()
 }
 
 }
-
-#endif

@@ -2,34 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractingInterface.h"
 
+#include "Filters/Common/Accessors.h"
+
 #include "vtkImplicitFunction.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
 
 vtkStandardNewMacro(vtkRefractingInterface);
+meniscusObjectMacro(vtkRefractingInterface, ExactSurface, vtkImplicitFunction, ExactSurface);
 
 //------------------------------------------------------------------------------
 vtkRefractingInterface::vtkRefractingInterface() = default;
 
 //------------------------------------------------------------------------------
 vtkRefractingInterface::~vtkRefractingInterface() = default;
-
-//------------------------------------------------------------------------------
-void vtkRefractingInterface::SetExactSurface(vtkImplicitFunction* function)
-{
-  if (this->ExactSurface != function)
-  {
-    this->ExactSurface = function;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkImplicitFunction* vtkRefractingInterface::GetExactSurface()
-{
-  return this->ExactSurface;
-}
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkRefractingInterface::GetMTime()

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Membrane_ImplicitSurface_h
-#define meniscus_Filters_Membrane_ImplicitSurface_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -37,5 +36,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Membrane/MembraneExtraction.h"
 
+#include "Filters/Common/CellLoop.h"
 #include "Filters/Common/TouchingPolygon.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
@@ -89,14 +89,8 @@ private:
     {
       return;
     }
-    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      iterator->GetCurrentCell(count, ids);
-      (this->*add)(cell++, count, ids);
-    }
+    meniscus::ForEachCell(
+      cells, [&](vtkIdType count, const vtkIdType* ids) { (this->*add)(cell++, count, ids); });
   }
 
   void AddTriangle(vtkIdType cell, vtkIdType a, vtkIdType b, vtkIdType c)
@@ -168,23 +162,20 @@ private:
     std::vector<std::int64_t> found = this->Arrays.CellIds;
     std::sort(found.begin(), found.end());
     vtkIdType polygon = 0;
-    const auto iterator = vtk::TakeSmartPointer(this->Polygons->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      const vtkIdType cell = this->PolygonCells->GetValue(polygon++);
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      iterator->GetCurrentCell(count, ids);
-      if (!std::binary_search(found.begin(), found.end(), cell))
+    meniscus::ForEachCell(this->Polygons,
+      [&](vtkIdType count, const vtkIdType* ids)
       {
-        const bool isDivided = DivideTouchingPolygon(this->Surface->GetPoints(), count, ids,
-          [&](const vtkIdType* three) { this->AddTriangle(cell, three[0], three[1], three[2]); });
-        if (!isDivided)
+        const vtkIdType cell = this->PolygonCells->GetValue(polygon++);
+        if (!std::binary_search(found.begin(), found.end(), cell))
         {
-          this->AddTriangle(cell, ids[0], ids[0], ids[0]);
+          const bool isDivided = DivideTouchingPolygon(this->Surface->GetPoints(), count, ids,
+            [&](const vtkIdType* three) { this->AddTriangle(cell, three[0], three[1], three[2]); });
+          if (!isDivided)
+          {
+            this->AddTriangle(cell, ids[0], ids[0], ids[0]);
+          }
         }
-      }
-    }
+      });
   }
 
   void AddSplitTriangle(vtkIdType triangle, vtkIdType count, const vtkIdType* ids)

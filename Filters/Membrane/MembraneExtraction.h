@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Membrane_MembraneExtraction_h
-#define meniscus_Filters_Membrane_MembraneExtraction_h
+#pragma once
 
 #include "Refraction/Membrane/Membrane.h"
 
@@ -56,5 +55,3 @@ MembraneArrays ExtractMembrane(vtkPolyData* membrane);
 std::size_t FitToFunction(vtkImplicitFunction* function, MembraneArrays& arrays);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Messages about membranes and eyes. */
-#ifndef meniscus_Filters_Membrane_MembraneMessages_h
-#define meniscus_Filters_Membrane_MembraneMessages_h
+#pragma once
 
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/EyeStatus.h"
@@ -38,5 +37,3 @@ std::string DescribeNoImage(
 std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye);
 
 }
-
-#endif

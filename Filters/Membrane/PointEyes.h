@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Membrane_PointEyes_h
-#define meniscus_Filters_Membrane_PointEyes_h
+#pragma once
 
 #include "vtkDataArray.h"
 #include "vtkType.h"
@@ -56,5 +55,3 @@ private:
 };
 
 }
-
-#endif

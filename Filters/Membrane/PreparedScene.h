@@ -4,8 +4,7 @@
  * Surfaces that are ready for solving, and a list of them, so that scenes with the same surfaces,
  * eye and indices of refraction prepare them once together.
  */
-#ifndef meniscus_Filters_Membrane_PreparedScene_h
-#define meniscus_Filters_Membrane_PreparedScene_h
+#pragma once
 
 #include "Filters/Membrane/SourceSurface.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -91,5 +90,3 @@ std::shared_ptr<PreparedScene> BorrowScene(const std::shared_ptr<PreparedScene>&
 void ReturnScene(PreparedScene& scene);
 
 }
-
-#endif

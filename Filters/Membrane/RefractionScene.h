@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Membrane_RefractionScene_h
-#define meniscus_Filters_Membrane_RefractionScene_h
+#pragma once
 
 #include "Filters/Membrane/MembraneMessages.h"
 #include "Filters/Membrane/PreparedScene.h"
@@ -229,5 +228,3 @@ private:
 };
 
 }
-
-#endif

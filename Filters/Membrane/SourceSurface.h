@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Membrane_SourceSurface_h
-#define meniscus_Filters_Membrane_SourceSurface_h
+#pragma once
 
 #include "Filters/Membrane/MembraneExtraction.h"
 #include "Filters/Membrane/MembraneMessages.h"
@@ -94,5 +93,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Mesher_DelaunayMesher_h
-#define meniscus_Filters_Mesher_DelaunayMesher_h
+#pragma once
 
 #include "Surface/SolidCells.h"
 
@@ -12,5 +11,3 @@ namespace meniscus
 TetrahedronCells MeshByDelaunay(const TriangleSurface& surface);
 
 } // namespace meniscus
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Mesher_MesherProcess_h
-#define meniscus_Filters_Mesher_MesherProcess_h
+#pragma once
 
 #include "Surface/MeshingFiles.h"
 
@@ -46,5 +45,3 @@ struct MesherProcess
 std::string FindTetGenProgram();
 
 } // namespace meniscus
-
-#endif

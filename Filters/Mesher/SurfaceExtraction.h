@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Mesher_SurfaceExtraction_h
-#define meniscus_Filters_Mesher_SurfaceExtraction_h
+#pragma once
 
 #include "Surface/SolidCells.h"
 
@@ -28,5 +27,3 @@ int ContinueArrays(vtkPolyData* data, const TriangleSurface& surface, const Tetr
   vtkUnstructuredGrid* grid);
 
 } // namespace meniscus
-
-#endif

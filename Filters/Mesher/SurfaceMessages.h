@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Mesher_SurfaceMessages_h
-#define meniscus_Filters_Mesher_SurfaceMessages_h
+#pragma once
 
 #include "Filters/Mesher/MesherProcess.h"
 
@@ -19,5 +18,3 @@ std::string DescribeSolidFault(SolidFault fault);
 /** @} */
 
 } // namespace meniscus
-
-#endif

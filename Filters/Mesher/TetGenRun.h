@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Mesher_TetGenRun_h
-#define meniscus_Filters_Mesher_TetGenRun_h
+#pragma once
 
 #include "Surface/MeshingFiles.h"
 
@@ -31,5 +30,3 @@ bool RunTetGen(vtkAlgorithm* filter, const std::string& program, double timeLimi
   const MeshingTask& task, TetrahedronCells& cells);
 
 } // namespace meniscus
-
-#endif

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Object/ObjectSurface.h"
 
+#include "Filters/Common/CellLoop.h"
 #include "Filters/Common/TouchingPolygon.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetSurfaceFilter.h"
@@ -87,27 +87,24 @@ std::vector<vtkIdType> FindConcave(vtkPolyData* data)
   std::vector<glm::dvec3> corners;
   const vtkIdType points = data->GetNumberOfPoints();
   vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
-  const auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    iterator->GetCurrentCell(count, ids);
-    const auto isPoint = [points](vtkIdType id) { return id >= 0 && id < points; };
-    if (count > 3 && std::all_of(ids, ids + count, isPoint))
+  ForEachCell(data->GetPolys(),
+    [&](vtkIdType count, const vtkIdType* ids)
     {
-      corners.resize(static_cast<std::size_t>(count));
-      for (std::size_t i = 0; i < corners.size(); ++i)
+      const auto isPoint = [points](vtkIdType id) { return id >= 0 && id < points; };
+      if (count > 3 && std::all_of(ids, ids + count, isPoint))
       {
-        data->GetPoint(ids[i], &corners[i].x);
+        corners.resize(static_cast<std::size_t>(count));
+        for (std::size_t i = 0; i < corners.size(); ++i)
+        {
+          data->GetPoint(ids[i], &corners[i].x);
+        }
+        if (IsConcave(corners))
+        {
+          concave.push_back(cell);
+        }
       }
-      if (IsConcave(corners))
-      {
-        concave.push_back(cell);
-      }
-    }
-    ++cell;
-  }
+      ++cell;
+    });
   return concave;
 }
 

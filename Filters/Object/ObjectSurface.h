@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Object_ObjectSurface_h
-#define meniscus_Filters_Object_ObjectSurface_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -49,5 +48,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Object/ObjectTopology.h"
 
+#include "Filters/Common/CellLoop.h"
+
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkIdList.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -60,21 +61,18 @@ private:
   void Read(vtkCellArray* cells, const Accept& accept)
   {
     const vtkIdType points = this->Input->GetNumberOfPoints();
-    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      iterator->GetCurrentCell(count, ids);
-      const bool broken = count == 0 ||
-        std::any_of(ids, ids + count, [points](vtkIdType id) { return id < 0 || id >= points; });
-      this->Topology.BrokenCells += broken;
-      if (!broken)
+    ForEachCell(cells,
+      [&](vtkIdType count, const vtkIdType* ids)
       {
-        accept(count, ids);
-      }
-      ++this->Cell;
-    }
+        const bool broken = count == 0 ||
+          std::any_of(ids, ids + count, [points](vtkIdType id) { return id < 0 || id >= points; });
+        this->Topology.BrokenCells += broken;
+        if (!broken)
+        {
+          accept(count, ids);
+        }
+        ++this->Cell;
+      });
   }
 
   void Add(ObjectTopology::Cells& cells, const std::vector<std::int64_t>& ids) const

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Object_ObjectTopology_h
-#define meniscus_Filters_Object_ObjectTopology_h
+#pragma once
 
 #include "Refraction/Images/ObjectImages.h"
 
@@ -49,5 +48,3 @@ struct ObjectTopology
 ObjectTopology ExtractTopology(vtkPolyData* input);
 
 }
-
-#endif

@@ -6,8 +6,7 @@
  * be in front of the membrane. The points needed for the cells in view are solved in whole chunks,
  * with the entire membrane, so that the result is the same as without a selection.
  */
-#ifndef meniscus_Filters_Object_ViewSelection_h
-#define meniscus_Filters_Object_ViewSelection_h
+#pragma once
 
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ObjectTopology.h"
@@ -80,5 +79,3 @@ ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& t
 ObjectTopology SelectCells(const ObjectTopology& topology, const ViewSelection& selection);
 
 }
-
-#endif

@@ -250,14 +250,7 @@ private:
     points.reserve(this->Assembly.Origins.size());
     for (const ImagePoint* origin : this->Assembly.Origins)
     {
-      glm::dvec3 sum(0.0);
-      for (std::size_t k = 0; k < origin->GetNumberOfSources(); ++k)
-      {
-        glm::dvec3 corner;
-        this->Input->GetPoint(origin->Source[k], &corner.x);
-        sum += origin->Weight[k] * corner;
-      }
-      points.push_back(sum);
+      points.push_back(FindTruePoint(this->Input, *origin));
     }
     return points;
   }

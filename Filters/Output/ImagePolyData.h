@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Output_ImagePolyData_h
-#define meniscus_Filters_Output_ImagePolyData_h
+#pragma once
 
 #include "Filters/Object/ObjectTopology.h"
 #include "Filters/Output/VirtualPolyData.h"
@@ -11,7 +10,6 @@
 #include "vtkPolyData.h"
 #include "vtkType.h"
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -71,5 +69,3 @@ VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopolog
   const OutputOptions& options, ImageAssembly& assembly, vtkPolyData* output);
 
 }
-
-#endif

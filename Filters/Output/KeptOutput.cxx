@@ -19,6 +19,17 @@ namespace meniscus
 namespace
 {
 
+/** Where a vtkPolyData has cells of one kind that the outputs have. */
+struct CellPlace
+{
+  vtkCellArray* (vtkPolyData::*Get)();
+  void (vtkPolyData::*Set)(vtkCellArray*);
+};
+
+constexpr CellPlace CellPlaces[] = { { &vtkPolyData::GetVerts, &vtkPolyData::SetVerts },
+  { &vtkPolyData::GetLines, &vtkPolyData::SetLines },
+  { &vtkPolyData::GetPolys, &vtkPolyData::SetPolys } };
+
 bool HaveSameValues(vtkDataArray* a, vtkDataArray* b)
 {
   if (!a || !b || a->GetDataType() != b->GetDataType() ||
@@ -90,17 +101,12 @@ void CopyOwned(vtkPolyData* owned, vtkPolyData* output)
     points->SetData(Copy(owned->GetPoints()->GetData()));
     output->SetPoints(points);
   }
-  if (output->GetVerts() == owned->GetVerts())
+  for (const CellPlace& place : CellPlaces)
   {
-    output->SetVerts(Copy(owned->GetVerts()));
-  }
-  if (output->GetLines() == owned->GetLines())
-  {
-    output->SetLines(Copy(owned->GetLines()));
-  }
-  if (output->GetPolys() == owned->GetPolys())
-  {
-    output->SetPolys(Copy(owned->GetPolys()));
+    if ((output->*place.Get)() == (owned->*place.Get)())
+    {
+      (output->*place.Set)(Copy((owned->*place.Get)()));
+    }
   }
   CopyArrays(owned->GetPointData(), output->GetPointData());
   CopyArrays(owned->GetCellData(), output->GetCellData());
@@ -117,17 +123,13 @@ void KeptOutput::Reuse(vtkPolyData* output, vtkPolyData* owned)
   {
     output->SetPoints(kept);
   }
-  if (HaveSameValues(output->GetVerts(), this->Last->GetVerts()))
+  for (const CellPlace& place : CellPlaces)
   {
-    output->SetVerts(this->Last->GetVerts());
-  }
-  if (HaveSameValues(output->GetLines(), this->Last->GetLines()))
-  {
-    output->SetLines(this->Last->GetLines());
-  }
-  if (HaveSameValues(output->GetPolys(), this->Last->GetPolys()))
-  {
-    output->SetPolys(this->Last->GetPolys());
+    vtkCellArray* last = (this->Last->*place.Get)();
+    if (HaveSameValues((output->*place.Get)(), last))
+    {
+      (output->*place.Set)(last);
+    }
   }
   ReuseArrays(this->Last->GetPointData(), output->GetPointData());
   ReuseArrays(this->Last->GetCellData(), output->GetCellData());

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Output_KeptOutput_h
-#define meniscus_Filters_Output_KeptOutput_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -29,5 +28,3 @@ private:
 };
 
 }
-
-#endif

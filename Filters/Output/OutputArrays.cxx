@@ -134,8 +134,8 @@ void UseTruePoints(const std::vector<const VirtualVertex*>& vertices,
 }
 
 //------------------------------------------------------------------------------
-void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
-  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+void AddVirtualNormals(std::size_t count,
+  const std::function<void(std::size_t, const glm::dvec3&, glm::dvec3&)>& turn, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
   vtkDataArray* trueNormals = data->GetNormals();
@@ -143,27 +143,42 @@ void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   {
     return;
   }
-  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, vertices.size());
-  for (std::size_t k = 0; k < vertices.size(); ++k)
+  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, count);
+  for (std::size_t k = 0; k < count; ++k)
   {
     const auto i = static_cast<vtkIdType>(k);
     glm::dvec3 normal(0.0);
     trueNormals->GetTuple(i, &normal.x);
     const double length = glm::length(normal);
-    const VirtualVertex& vertex = *vertices[k];
-    if (length > 0.0 && std::isfinite(length) && vertex.Facet >= 0)
+    if (length > 0.0 && std::isfinite(length))
     {
-      const glm::dvec3* light = options.IsLightAtEye ? nullptr : &options.Light;
-      normal = options.Reflects
-        ? ComputeReflectedNormal(
-            normal / length, truePoints[k], vertex.SightPoint, options.Eye, light)
-        : ComputeVirtualNormal(normal / length, truePoints[k], vertex.SightPoint, options.Eye,
-            options.Exterior, options.Interior, light);
+      turn(k, normal / length, normal);
     }
     normals->SetTypedTuple(i, &normal.x);
   }
   data->AddArray(normals);
   data->SetActiveNormals(normals->GetName()); // SetNormals would drop the true ones
+}
+
+//------------------------------------------------------------------------------
+void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  const glm::dvec3* light = options.IsLightAtEye ? nullptr : &options.Light;
+  AddVirtualNormals(
+    vertices.size(),
+    [&](std::size_t k, const glm::dvec3& normal, glm::dvec3& turned)
+    {
+      const VirtualVertex& vertex = *vertices[k];
+      if (vertex.Facet >= 0)
+      {
+        turned = options.Reflects
+          ? ComputeReflectedNormal(normal, truePoints[k], vertex.SightPoint, options.Eye, light)
+          : ComputeVirtualNormal(normal, truePoints[k], vertex.SightPoint, options.Eye,
+              options.Exterior, options.Interior, light);
+      }
+    },
+    output);
 }
 
 //------------------------------------------------------------------------------
@@ -189,6 +204,19 @@ void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,
     }
   }
   output->GetPointData()->SetNormals(normals);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 FindTruePoint(vtkPolyData* input, const ImagePoint& image)
+{
+  glm::dvec3 sum(0.0);
+  for (std::size_t k = 0; k < image.GetNumberOfSources(); ++k)
+  {
+    glm::dvec3 corner;
+    input->GetPoint(image.Source[k], &corner.x);
+    sum += image.Weight[k] * corner;
+  }
+  return sum;
 }
 
 //------------------------------------------------------------------------------

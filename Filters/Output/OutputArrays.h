@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Arrays that every output of vtkRefractedGeometryFilter has, for all image modes. */
-#ifndef meniscus_Filters_Output_OutputArrays_h
-#define meniscus_Filters_Output_OutputArrays_h
+#pragma once
 
+#include "Filters/Common/NamedArray.h"
+#include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Sight/VirtualVertex.h"
 
@@ -11,6 +12,7 @@
 #include "vtkType.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 class vtkDataSetAttributes;
@@ -18,17 +20,6 @@ class vtkPolyData;
 
 namespace meniscus
 {
-
-/** Array with a name and a size; its values are not set. */
-template <typename Array>
-vtkSmartPointer<Array> MakeArray(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
 
 /** The user's options for the output, and the scene that it refers to. */
 struct OutputOptions
@@ -71,6 +62,18 @@ void AddTrueGeometry(const std::vector<glm::dvec3>& truePoints, vtkPolyData* out
 void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
 
+/**
+ * Makes the array VirtualNormals the output's normals; the true ones stay an array. Has no effect
+ * without normals. `turn(i, unit, normal)` may replace the normal of point i, whose true direction
+ * is `unit`; normals without a direction stay.
+ */
+void AddVirtualNormals(std::size_t count,
+  const std::function<void(std::size_t, const glm::dvec3&, glm::dvec3&)>& turn,
+  vtkPolyData* output);
+
+/** The point of the object that an image shows. */
+glm::dvec3 FindTruePoint(vtkPolyData* input, const ImagePoint& image);
+
 /** Replaces the output's normals by mirrored ones, in an array of the same name and type. */
 void MirrorNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
@@ -103,5 +106,3 @@ void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<
   vtkDataSetAttributes* to);
 
 }
-
-#endif

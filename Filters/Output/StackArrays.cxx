@@ -10,8 +10,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <cmath>
-
 namespace meniscus
 {
 namespace
@@ -24,33 +22,6 @@ struct StackPoint
   const VirtualVertex* Vertex;
   StackDetail Detail;
 };
-
-// Normals that are lit by a light at the eye as the true ones are.
-void AddVirtualNormals(
-  const std::vector<StackPoint>& points, const glm::dvec3& eye, vtkPolyData* output)
-{
-  vtkDataArray* trueNormals = output->GetPointData()->GetNormals();
-  if (!trueNormals)
-  {
-    return;
-  }
-  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, points.size());
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    glm::dvec3 normal(0.0);
-    trueNormals->GetTuple(static_cast<vtkIdType>(k), &normal.x);
-    const double length = glm::length(normal);
-    const glm::dvec3 inside = points[k].Detail.LastSightPoint - points[k].Point;
-    if (length > 0.0 && std::isfinite(length) && glm::length(inside) > 0.0)
-    {
-      normal = TurnAlong(normal / length, glm::normalize(inside),
-        glm::normalize(eye - points[k].Vertex->SightPoint));
-    }
-    normals->SetTypedTuple(static_cast<vtkIdType>(k), &normal.x);
-  }
-  output->GetPointData()->AddArray(normals);
-  output->GetPointData()->SetActiveNormals(normals->GetName());
-}
 
 // Share of the light behind the first interface that the others keep from the eye.
 double ComputeInnerReflectance(const StackPoint& point, const OutputOptions& options)
@@ -92,21 +63,20 @@ void AddArrays(const std::vector<StackPoint>& points, const std::vector<double>&
   }
   if (options.VirtualNormals)
   {
-    AddVirtualNormals(points, options.Eye, output);
+    // Lit by a light at the eye as the true ones are.
+    AddVirtualNormals(
+      points.size(),
+      [&](std::size_t k, const glm::dvec3& normal, glm::dvec3& turned)
+      {
+        const glm::dvec3 inside = points[k].Detail.LastSightPoint - points[k].Point;
+        if (glm::length(inside) > 0.0)
+        {
+          turned = TurnAlong(normal, glm::normalize(inside),
+            glm::normalize(options.Eye - points[k].Vertex->SightPoint));
+        }
+      },
+      output);
   }
-}
-
-// The point of the object that an image shows.
-glm::dvec3 FindPoint(vtkPolyData* input, const ImagePoint& image)
-{
-  glm::dvec3 sum(0.0);
-  for (std::size_t k = 0; k < image.GetNumberOfSources(); ++k)
-  {
-    glm::dvec3 corner;
-    input->GetPoint(image.Source[k], &corner.x);
-    sum += image.Weight[k] * corner;
-  }
-  return sum;
 }
 
 }
@@ -144,7 +114,7 @@ void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const All
     for (const ImagePoint& image : *list)
     {
       // A ray at a critical angle may be lost by rounding. Its transmittance is 0.
-      const glm::dvec3 point = FindPoint(input, image);
+      const glm::dvec3 point = FindTruePoint(input, image);
       const auto passed = static_cast<std::size_t>(image.Passed);
       solver.Retrace(image.Vertex.SightPoint, image.Vertex.Facet, passed, path);
       StackPoint own{ point, &image.Vertex, solver.MakeVertex(point, path) };

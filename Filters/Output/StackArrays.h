@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Output_StackArrays_h
-#define meniscus_Filters_Output_StackArrays_h
+#pragma once
 
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/OutputArrays.h"
@@ -39,5 +38,3 @@ void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const All
   const StackSolver& solver, const OutputOptions& options, vtkPolyData* output);
 
 }
-
-#endif

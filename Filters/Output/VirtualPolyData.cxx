@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Output/VirtualPolyData.h"
 
+#include "Filters/Common/CellLoop.h"
 #include "Filters/Object/ViewSelection.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
@@ -126,36 +126,33 @@ private:
   vtkSmartPointer<vtkCellArray> CopyVertices(vtkCellArray* cells)
   {
     auto copy = vtkSmartPointer<vtkCellArray>::New();
-    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      iterator->GetCurrentCell(count, ids);
-      bool broken = false;
-      for (vtkIdType i = 0; i < count; ++i)
+    ForEachCell(cells,
+      [&](vtkIdType count, const vtkIdType* ids)
       {
-        if (!this->IsPoint(ids[i]))
+        bool broken = false;
+        for (vtkIdType i = 0; i < count; ++i)
         {
-          broken = true;
+          if (!this->IsPoint(ids[i]))
+          {
+            broken = true;
+          }
+          else if (!this->Selection.HasCell(this->Cell))
+          {
+            continue;
+          }
+          else if (const vtkIdType id = this->NewIds[static_cast<std::size_t>(ids[i])]; id >= 0)
+          {
+            copy->InsertNextCell(1, &id);
+            this->AddSource(this->Cell, ids[i]);
+          }
+          else
+          {
+            ++this->Report.SkippedCells;
+          }
         }
-        else if (!this->Selection.HasCell(this->Cell))
-        {
-          continue;
-        }
-        else if (const vtkIdType id = this->NewIds[static_cast<std::size_t>(ids[i])]; id >= 0)
-        {
-          copy->InsertNextCell(1, &id);
-          this->AddSource(this->Cell, ids[i]);
-        }
-        else
-        {
-          ++this->Report.SkippedCells;
-        }
-      }
-      this->Report.BrokenCells += broken;
-      ++this->Cell;
-    }
+        this->Report.BrokenCells += broken;
+        ++this->Cell;
+      });
     return copy;
   }
 
@@ -163,32 +160,29 @@ private:
   {
     auto copy = vtkSmartPointer<vtkCellArray>::New();
     vtkNew<vtkIdList> points;
-    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-    {
-      vtkIdType count = 0;
-      const vtkIdType* ids = nullptr;
-      iterator->GetCurrentCell(count, ids);
-      bool broken = count == 0;
-      bool complete = true;
-      points->Reset();
-      for (vtkIdType i = 0; i < count; ++i)
+    ForEachCell(cells,
+      [&](vtkIdType count, const vtkIdType* ids)
       {
-        broken = broken || !this->IsPoint(ids[i]);
-        const vtkIdType id = broken ? -1 : this->NewIds[static_cast<std::size_t>(ids[i])];
-        complete = complete && id >= 0;
-        points->InsertNextId(id);
-      }
-      const bool selected = this->Selection.HasCell(this->Cell);
-      if (!broken && complete && selected)
-      {
-        InsertCell(copy, points, winding);
-        this->AddSource(this->Cell, ids[0]);
-      }
-      this->Report.BrokenCells += broken;
-      this->Report.SkippedCells += !broken && !complete && selected;
-      ++this->Cell;
-    }
+        bool broken = count == 0;
+        bool complete = true;
+        points->Reset();
+        for (vtkIdType i = 0; i < count; ++i)
+        {
+          broken = broken || !this->IsPoint(ids[i]);
+          const vtkIdType id = broken ? -1 : this->NewIds[static_cast<std::size_t>(ids[i])];
+          complete = complete && id >= 0;
+          points->InsertNextId(id);
+        }
+        const bool selected = this->Selection.HasCell(this->Cell);
+        if (!broken && complete && selected)
+        {
+          InsertCell(copy, points, winding);
+          this->AddSource(this->Cell, ids[0]);
+        }
+        this->Report.BrokenCells += broken;
+        this->Report.SkippedCells += !broken && !complete && selected;
+        ++this->Cell;
+      });
     return copy;
   }
 

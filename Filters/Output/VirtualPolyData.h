@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Output_VirtualPolyData_h
-#define meniscus_Filters_Output_VirtualPolyData_h
+#pragma once
 
 #include "Filters/Output/OutputArrays.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -37,5 +36,3 @@ VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
   const Membrane& membrane, const OutputOptions& options, vtkPolyData* output);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Filters_Solver_SolvedBlock_h
-#define meniscus_Filters_Solver_SolvedBlock_h
+#pragma once
 
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ViewSelection.h"
@@ -82,5 +81,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_BitTable_h
-#define meniscus_Common_BitTable_h
+#pragma once
 
 #include "Common/BlockLoop.h"
 
@@ -52,5 +51,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_BlockLoop_h
-#define meniscus_Common_BlockLoop_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -40,5 +39,3 @@ void ForEachBlock(std::size_t count, const RangeLoop& loop, Body&& body)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_ByteDigest_h
-#define meniscus_Common_ByteDigest_h
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -60,5 +59,3 @@ private:
 std::uint64_t DigestBytes(const unsigned char* bytes, std::size_t size);
 
 }
-
-#endif

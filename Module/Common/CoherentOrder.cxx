@@ -3,6 +3,7 @@
 #include "Common/CoherentOrder.h"
 
 #include "Common/BlockLoop.h"
+#include "Common/FiniteVector.h"
 #include "Common/HilbertCurve.h"
 #include "Common/MortonOrder.h"
 
@@ -29,11 +30,6 @@ struct PointExtent
 glm::dvec3 PointAt(const double* points, std::size_t i)
 {
   return { points[3 * i], points[3 * i + 1], points[3 * i + 2] };
-}
-
-bool IsFinite(const glm::dvec3& p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 PointExtent MeasurePoints(const double* points, std::size_t count, const RangeLoop& loop)

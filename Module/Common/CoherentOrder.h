@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_CoherentOrder_h
-#define meniscus_Common_CoherentOrder_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -59,5 +58,3 @@ void SolveInOrder(const double* points, const std::vector<std::uint32_t>& order,
 }
 
 }
-
-#endif

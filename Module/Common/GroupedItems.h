@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_GroupedItems_h
-#define meniscus_Common_GroupedItems_h
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -51,10 +50,6 @@ public:
     return { this->Items.data() + this->Begins[group],
       this->Items.data() + this->Begins[group + 1] };
   }
-  std::size_t GetMemorySize() const
-  {
-    return (this->Begins.capacity() + this->Items.capacity()) * sizeof(std::int32_t);
-  }
 
 private:
   /** Place of the first item of each group, and the end of the last group; empty before Set(). */
@@ -63,5 +58,3 @@ private:
 };
 
 }
-
-#endif

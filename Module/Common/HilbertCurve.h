@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_HilbertCurve_h
-#define meniscus_Common_HilbertCurve_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -35,5 +34,3 @@ private:
 std::uint32_t HilbertCode(const std::uint32_t (&cell)[3]);
 
 }
-
-#endif

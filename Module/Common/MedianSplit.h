@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_MedianSplit_h
-#define meniscus_Common_MedianSplit_h
+#pragma once
 
 #include <glm/common.hpp>
 
@@ -47,5 +46,3 @@ std::size_t SplitAtMedian(std::vector<Item>& items, std::size_t first, std::size
 }
 
 }
-
-#endif

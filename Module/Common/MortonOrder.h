@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_MortonOrder_h
-#define meniscus_Common_MortonOrder_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -50,5 +49,3 @@ inline std::size_t IndexOf(MortonKey key)
 void SortByCode(std::vector<MortonKey>& keys, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * A total order of points. Ends of edges are taken in this order where two cells or facets that
  * share an edge must calculate the same, bit by bit.
  */
-#ifndef meniscus_Common_PointOrder_h
-#define meniscus_Common_PointOrder_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -21,5 +20,3 @@ inline bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
 }
 
 }
-
-#endif

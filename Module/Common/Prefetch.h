@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_Prefetch_h
-#define meniscus_Common_Prefetch_h
+#pragma once
 
 #include <cstddef>
 
@@ -24,5 +23,3 @@ inline void Prefetch(const void* memory, std::size_t bytes = 1)
 }
 
 }
-
-#endif

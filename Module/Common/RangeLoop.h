@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Common_RangeLoop_h
-#define meniscus_Common_RangeLoop_h
+#pragma once
 
 #include <cstddef>
 #include <functional>
@@ -24,5 +23,3 @@ inline void SerialLoop(std::size_t count, const RangeBody& body)
 }
 
 }
-
-#endif

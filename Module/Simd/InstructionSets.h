@@ -4,8 +4,7 @@
  * Registry of the instruction sets that kernels are compiled for. Simd/CMakeLists.txt has one line
  * per set, from which the build makes MENISCUS_INSTRUCTION_SETS, widest set first, Portable last.
  */
-#ifndef meniscus_Simd_InstructionSets_h
-#define meniscus_Simd_InstructionSets_h
+#pragma once
 
 #include "Simd/InstructionSetList.h"
 
@@ -38,5 +37,3 @@ InstructionSet BestInstructionSet();
 const char* NameOf(InstructionSet set);
 
 }
-
-#endif

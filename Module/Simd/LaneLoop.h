@@ -5,8 +5,7 @@
  * that the body calls are inlined into the loop (flatten), so that the compiler can vectorise it
  * and no inline function compiled for a set is shared with other code.
  */
-#ifndef meniscus_Simd_LaneLoop_h
-#define meniscus_Simd_LaneLoop_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 
@@ -53,5 +52,3 @@ void RunLanes(const Kernel& kernel, InstructionSet set, Lanes& lanes)
 }
 
 }
-
-#endif

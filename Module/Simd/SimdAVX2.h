@@ -4,8 +4,7 @@
  * Packets of 8 lanes for processors with AVX2 and FMA; see SimdPortable.h for the meaning of each
  * name.
  */
-#ifndef meniscus_Simd_SimdAVX2_h
-#define meniscus_Simd_SimdAVX2_h
+#pragma once
 
 #include "Simd/SimdRowLoads.h"
 
@@ -177,5 +176,3 @@ struct SimdAVX2 : SimdRowLoads<SimdAVX2, 8>
 };
 
 }
-
-#endif

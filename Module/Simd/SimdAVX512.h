@@ -4,8 +4,7 @@
  * Packets of 16 lanes for processors with AVX-512F; see SimdPortable.h for the meaning of each
  * name.
  */
-#ifndef meniscus_Simd_SimdAVX512_h
-#define meniscus_Simd_SimdAVX512_h
+#pragma once
 
 #include "Simd/SimdRowLoads.h"
 
@@ -153,5 +152,3 @@ struct SimdAVX512 : SimdRowLoads<SimdAVX512, 16>
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Packets of 4 lanes for 64-bit ARM; see SimdPortable.h for the meaning of each name. */
-#ifndef meniscus_Simd_SimdNEON_h
-#define meniscus_Simd_SimdNEON_h
+#pragma once
 
 #include <arm_neon.h>
 
@@ -181,5 +180,3 @@ private:
 };
 
 }
-
-#endif

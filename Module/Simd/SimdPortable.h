@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Simd_SimdPortable_h
-#define meniscus_Simd_SimdPortable_h
+#pragma once
 
 #include <cmath>
 #include <cstdint>
@@ -212,5 +211,3 @@ private:
 };
 
 }
-
-#endif

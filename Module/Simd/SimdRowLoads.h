@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Simd_SimdRowLoads_h
-#define meniscus_Simd_SimdRowLoads_h
+#pragma once
 
 #include <immintrin.h>
 
@@ -84,5 +83,3 @@ private:
 };
 
 }
-
-#endif

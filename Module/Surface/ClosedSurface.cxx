@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surface/ClosedSurface.h"
 
+#include "Common/FiniteVector.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -24,11 +26,6 @@ struct EdgeUse
   int Along = 0;
   int Against = 0;
 };
-
-bool IsFinite(const glm::dvec3& point)
-{
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
-}
 
 std::size_t CountNotFinite(const TriangleSurface& surface)
 {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Surface_ClosedSurface_h
-#define meniscus_Surface_ClosedSurface_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -66,5 +65,3 @@ double ComputeEnclosedVolume(const TriangleSurface& surface);
 int ComputeWindingNumber(const TriangleSurface& surface, const glm::dvec3& point);
 
 } // namespace meniscus
-
-#endif

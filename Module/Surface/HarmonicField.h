@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Surface_HarmonicField_h
-#define meniscus_Surface_HarmonicField_h
+#pragma once
 
 #include "Surface/SolidCells.h"
 
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace meniscus
-
-#endif

@@ -4,8 +4,7 @@
  * Files by which a program asks another one for tetrahedra. Both run on one machine and are built
  * from the same sources: numbers are binary, in the machine's own order of bytes.
  */
-#ifndef meniscus_Surface_MeshingFiles_h
-#define meniscus_Surface_MeshingFiles_h
+#pragma once
 
 #include "Surface/SolidCells.h"
 
@@ -56,5 +55,3 @@ bool ReadMeshingAnswer(const std::string& name, MeshingAnswer& answer);
 /** @} */
 
 } // namespace meniscus
-
-#endif

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surface/SolidCells.h"
 
+#include "Common/FiniteVector.h"
 #include "Surface/TetrahedronShape.h"
 
 #include <glm/common.hpp>
@@ -224,7 +225,7 @@ std::vector<Tetrahedron> JoinCorners(
     const glm::dvec3& x = points[p];
     const int own = static_cast<int>(p);
     // Numbers that are not finite have no place in an order.
-    const bool isFinite = std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+    const bool isFinite = IsFinite(x);
     first[p] =
       isFinite ? known.emplace(std::array<double, 3>{ x.x, x.y, x.z }, own).first->second : own;
   }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Surface_SolidCells_h
-#define meniscus_Surface_SolidCells_h
+#pragma once
 
 #include "Surface/ClosedSurface.h"
 
@@ -78,5 +77,3 @@ struct CellQuality
 CellQuality MeasureQuality(const TetrahedronCells& cells, double bound);
 
 } // namespace meniscus
-
-#endif

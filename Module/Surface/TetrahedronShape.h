@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Surface_TetrahedronShape_h
-#define meniscus_Surface_TetrahedronShape_h
+#pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -53,5 +52,3 @@ inline double RadiusEdgeRatio(
 }
 
 } // namespace meniscus
-
-#endif

@@ -13,7 +13,6 @@
 #define meniscusSurfaceGatheringDeclarations(className, requestExtent)                             \
 public:                                                                                            \
   static className* New();                                                                         \
-  void PrintSelf(ostream& os, vtkIndent indent) override;                                          \
   meniscusInterfaceTableDeclarations();                                                            \
   void SetExactMembrane(vtkImplicitFunction* function);                                            \
                                                                                                    \
@@ -82,24 +81,41 @@ private:                                                                        
     }                                                                                              \
     return succeeded;                                                                              \
   }                                                                                                \
-  void className::PrintSelf(ostream& os, vtkIndent indent)                                         \
-  {                                                                                                \
-    this->Superclass::PrintSelf(os, indent);                                                       \
-  }                                                                                                \
   static_assert(true, "")
 
-/** Declares in a class, after `protected:`, what meniscusBlockPortsMacro defines. */
-#define meniscusBlockPortsDeclarations(requestExtent)                                              \
+/** Declares in a class, after `private:`, what meniscusBlockPortsMacro defines, and the rest. */
+#define meniscusBlockPortsDeclarations(className, requestExtent)                                   \
+public:                                                                                            \
+  static className* New();                                                                         \
+  meniscusInterfaceTableDeclarations();                                                            \
+  int ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,                       \
+    vtkInformationVector* outputs) override;                                                       \
+                                                                                                   \
+protected:                                                                                         \
+  className();                                                                                     \
+  ~className() override;                                                                           \
   int FillInputPortInformation(int port, vtkInformation* info) override;                           \
   int FillOutputPortInformation(int port, vtkInformation* info) override;                          \
   int requestExtent(vtkInformation* request, vtkInformationVector** inputs,                        \
-    vtkInformationVector* outputs) override
+    vtkInformationVector* outputs) override;                                                       \
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,                          \
+    vtkInformationVector* outputs) override;                                                       \
+                                                                                                   \
+private:                                                                                           \
+  className(const className&) = delete;                                                            \
+  void operator=(const className&) = delete;                                                       \
+  meniscus::InterfaceTable Table
 
 /**
- * Defines the ports of a class whose first input may have blocks and whose second has surfaces: the
- * output has the blocks of the input, and each rank requests its part of the surfaces.
+ * Defines the methods, except the constructor, of a class whose first input may have blocks and
+ * whose second has surfaces. The output has the blocks of the input. Each rank requests its part of
+ * the surfaces, and runs the superclass with all of them for each of its blocks of the given type;
+ * before, all ranks run the statement `prepare`.
  */
-#define meniscusBlockPortsMacro(className, requestExtent)                                          \
+#define meniscusBlockPortsMacro(className, requestExtent, blockType, prepare)                      \
+  vtkStandardNewMacro(className);                                                                  \
+  meniscusInterfaceTableMacro(className);                                                          \
+  className::~className() = default;                                                               \
   int className::FillInputPortInformation(int port, vtkInformation* info)                          \
   {                                                                                                \
     const int filled = this->Superclass::FillInputPortInformation(port, info);                     \
@@ -126,6 +142,21 @@ private:                                                                        
     const int succeeded = this->Superclass::requestExtent(request, inputs, outputs);               \
     meniscus::AskForPiece(inputs[1], outputs);                                                     \
     return succeeded;                                                                              \
+  }                                                                                                \
+  int className::RequestData(                                                                      \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
+  {                                                                                                \
+    std::string fault;                                                                             \
+    const auto surfaces = this->Table.GatherSurfaces(inputs[1], false, fault);                     \
+    if (!surfaces)                                                                                 \
+    {                                                                                              \
+      vtkErrorMacro(<< fault << "; the output is empty.");                                         \
+      return 0;                                                                                    \
+    }                                                                                              \
+    prepare;                                                                                       \
+    return meniscus::RunBlocks(blockType, inputs, outputs, surfaces,                               \
+      [this, request](vtkInformationVector** ports, vtkInformationVector* output)                  \
+      { return this->Superclass::RequestData(request, ports, output); });                          \
   }                                                                                                \
   static_assert(true, "")
 

@@ -9,6 +9,7 @@
 #ifndef vtkPVDepthImagePoints_h
 #define vtkPVDepthImagePoints_h
 
+#include "vtkCamera.h" // For the numbers
 #include "vtkDepthImagePoints.h"
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 
@@ -17,7 +18,6 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVDepthImagePoints : public vtkDepthI
 public:
   static vtkPVDepthImagePoints* New();
   vtkTypeMacro(vtkPVDepthImagePoints, vtkDepthImagePoints);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
   /**
@@ -25,11 +25,17 @@ public:
    * degrees, and the distances of the near and the far clipping plane, which only depth buffers
    * need. Defaults are vtkCamera's.
    */
-  void SetEyePosition(double x, double y, double z);
-  void SetViewFocalPoint(double x, double y, double z);
-  void SetViewUp(double x, double y, double z);
-  void SetViewAngle(double degrees);
-  void SetViewClippingRange(double near, double far);
+  void SetEyePosition(double x, double y, double z) { this->GetCamera()->SetPosition(x, y, z); }
+  void SetViewFocalPoint(double x, double y, double z)
+  {
+    this->GetCamera()->SetFocalPoint(x, y, z);
+  }
+  void SetViewUp(double x, double y, double z) { this->GetCamera()->SetViewUp(x, y, z); }
+  void SetViewAngle(double degrees) { this->GetCamera()->SetViewAngle(degrees); }
+  void SetViewClippingRange(double near, double far)
+  {
+    this->GetCamera()->SetClippingRange(near, far);
+  }
   /** @} */
 
 protected:

@@ -4,14 +4,10 @@
 
 #include "MembraneGathering.h"
 
-#include "vtkCamera.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-
-vtkStandardNewMacro(vtkPVRefractedGeometryFilter);
-meniscusInterfaceTableMacro(vtkPVRefractedGeometryFilter);
 
 //------------------------------------------------------------------------------
 vtkPVRefractedGeometryFilter::vtkPVRefractedGeometryFilter()
@@ -20,9 +16,6 @@ vtkPVRefractedGeometryFilter::vtkPVRefractedGeometryFilter()
   this->Superclass::SetViewCulling(false);
   this->SetInterfaces(this->Table.GetInterfaces());
 }
-
-//------------------------------------------------------------------------------
-vtkPVRefractedGeometryFilter::~vtkPVRefractedGeometryFilter() = default;
 
 //------------------------------------------------------------------------------
 void vtkPVRefractedGeometryFilter::SetEyePosition(double x, double y, double z)
@@ -52,53 +45,14 @@ void vtkPVRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* functio
 }
 
 //------------------------------------------------------------------------------
-void vtkPVRefractedGeometryFilter::SetViewFocalPoint(double x, double y, double z)
-{
-  this->View->SetFocalPoint(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPVRefractedGeometryFilter::SetViewUp(double x, double y, double z)
-{
-  this->View->SetViewUp(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPVRefractedGeometryFilter::SetViewAngle(double degrees)
-{
-  this->View->SetViewAngle(degrees);
-}
-
-//------------------------------------------------------------------------------
 void vtkPVRefractedGeometryFilter::SetViewParallelProjection(bool parallel)
 {
   this->View->SetParallelProjection(parallel);
   this->UseViewIfNeeded();
 }
 
-//------------------------------------------------------------------------------
-void vtkPVRefractedGeometryFilter::SetViewParallelScale(double scale)
-{
-  this->View->SetParallelScale(scale);
-}
-
-meniscusBlockPortsMacro(vtkPVRefractedGeometryFilter, RequestUpdateExtent);
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  std::string fault;
-  const auto membranes = this->Table.GatherSurfaces(inputs[1], false, fault);
-  if (!membranes)
-  {
-    vtkErrorMacro(<< fault << "; the output is empty.");
-    return 0;
-  }
-  return meniscus::RunBlocks("vtkPolyData", inputs, outputs, membranes,
-    [this, request](vtkInformationVector** ports, vtkInformationVector* output)
-    { return this->Superclass::RequestData(request, ports, output); });
-}
+meniscusBlockPortsMacro(
+  vtkPVRefractedGeometryFilter, RequestUpdateExtent, "vtkPolyData", static_cast<void>(0));
 
 //------------------------------------------------------------------------------
 void vtkPVRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -19,6 +19,7 @@
 #define vtkPVRefractedGeometryFilter_h
 
 #include "SurfaceGathering.h"                 // For the table of interfaces
+#include "vtkCamera.h"                        // For the view
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the view
 #include "vtkRefractedGeometryFilter.h"
@@ -27,17 +28,8 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractedGeometryFilter
   : public vtkRefractedGeometryFilter
 {
 public:
-  static vtkPVRefractedGeometryFilter* New();
   vtkTypeMacro(vtkPVRefractedGeometryFilter, vtkRefractedGeometryFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /** @{ */
-  /**
-   * Set the rows of the table of interfaces and their number, and the two indices that are used
-   * without rows. See InterfaceTable.
-   */
-  meniscusInterfaceTableDeclarations();
-  /** @} */
 
   /** Sets the exact form of the first surface, in all rows that name it. */
   void SetExactMembrane(vtkImplicitFunction* function);
@@ -51,9 +43,9 @@ public:
    * Set the view for ViewCulling, besides the eye's position: focal point, view up, and vertical
    * view angle in degrees. Defaults are (0, 0, 0), (0, 1, 0) and 30.
    */
-  void SetViewFocalPoint(double x, double y, double z);
-  void SetViewUp(double x, double y, double z);
-  void SetViewAngle(double degrees);
+  void SetViewFocalPoint(double x, double y, double z) { this->View->SetFocalPoint(x, y, z); }
+  void SetViewUp(double x, double y, double z) { this->View->SetViewUp(x, y, z); }
+  void SetViewAngle(double degrees) { this->View->SetViewAngle(degrees); }
   /** @} */
 
   /** @{ */
@@ -62,28 +54,15 @@ public:
    * infinity, in the direction from the focal point to EyePosition. Defaults are false and 1.
    */
   void SetViewParallelProjection(bool parallel);
-  void SetViewParallelScale(double scale);
+  void SetViewParallelScale(double scale) { this->View->SetParallelScale(scale); }
   /** @} */
 
-  int ProcessRequest(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-protected:
-  vtkPVRefractedGeometryFilter();
-  ~vtkPVRefractedGeometryFilter() override;
-
-  meniscusBlockPortsDeclarations(RequestUpdateExtent);
-  int RequestData(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
 private:
-  vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
-  void operator=(const vtkPVRefractedGeometryFilter&) = delete;
-
   void UseViewIfNeeded();
 
-  meniscus::InterfaceTable Table;
   vtkNew<vtkCamera> View;
+
+  meniscusBlockPortsDeclarations(vtkPVRefractedGeometryFilter, RequestUpdateExtent);
 };
 
 #endif

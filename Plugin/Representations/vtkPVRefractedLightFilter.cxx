@@ -13,9 +13,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-vtkStandardNewMacro(vtkPVRefractedLightFilter);
-meniscusInterfaceTableMacro(vtkPVRefractedLightFilter);
-
 namespace
 {
 
@@ -57,30 +54,5 @@ vtkPVRefractedLightFilter::vtkPVRefractedLightFilter()
   this->SetInterfaces(this->Table.GetInterfaces());
 }
 
-//------------------------------------------------------------------------------
-vtkPVRefractedLightFilter::~vtkPVRefractedLightFilter() = default;
-
-meniscusBlockPortsMacro(vtkPVRefractedLightFilter, RequestUpdateExtent);
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedLightFilter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  std::string fault;
-  const auto membranes = this->Table.GatherSurfaces(inputs[1], false, fault);
-  if (!membranes)
-  {
-    vtkErrorMacro(<< fault << "; the output is empty.");
-    return 0;
-  }
-  this->OtherGeometry = BoundsOfAll(vtkDataObject::GetData(inputs[0]));
-  return meniscus::RunBlocks("vtkPolyData", inputs, outputs, membranes,
-    [this, request](vtkInformationVector** ports, vtkInformationVector* output)
-    { return this->Superclass::RequestData(request, ports, output); });
-}
-
-//------------------------------------------------------------------------------
-void vtkPVRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}
+meniscusBlockPortsMacro(vtkPVRefractedLightFilter, RequestUpdateExtent, "vtkPolyData",
+  this->OtherGeometry = BoundsOfAll(vtkDataObject::GetData(inputs[0])));

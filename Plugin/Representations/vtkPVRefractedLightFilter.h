@@ -19,34 +19,10 @@
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractedLightFilter : public vtkRefractedLightFilter
 {
 public:
-  static vtkPVRefractedLightFilter* New();
   vtkTypeMacro(vtkPVRefractedLightFilter, vtkRefractedLightFilter);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /** @{ */
-  /**
-   * Set the rows of the table of interfaces and their number, and the two indices that are used
-   * without rows. See InterfaceTable.
-   */
-  meniscusInterfaceTableDeclarations();
-  /** @} */
-
-  int ProcessRequest(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-protected:
-  vtkPVRefractedLightFilter();
-  ~vtkPVRefractedLightFilter() override;
-
-  meniscusBlockPortsDeclarations(RequestUpdateExtent);
-  int RequestData(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
-  vtkPVRefractedLightFilter(const vtkPVRefractedLightFilter&) = delete;
-  void operator=(const vtkPVRefractedLightFilter&) = delete;
-
-  meniscus::InterfaceTable Table;
+  meniscusBlockPortsDeclarations(vtkPVRefractedLightFilter, RequestUpdateExtent);
 };
 
 #endif

@@ -181,9 +181,3 @@ void vtkPVRefractionErrorVolume::ReduceStatistics(vtkImageData* output)
     this->SetStatistics(output, mean, deviation, largest, static_cast<vtkTypeInt64>(sums[1]));
   }
 }
-
-//------------------------------------------------------------------------------
-void vtkPVRefractionErrorVolume::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

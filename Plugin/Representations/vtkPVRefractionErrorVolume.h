@@ -21,7 +21,6 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractionErrorVolume : public vtkR
 public:
   static vtkPVRefractionErrorVolume* New();
   vtkTypeMacro(vtkPVRefractionErrorVolume, vtkRefractionErrorVolume);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
   /**

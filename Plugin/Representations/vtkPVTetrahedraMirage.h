@@ -9,6 +9,7 @@
 #ifndef vtkPVTetrahedraMirage_h
 #define vtkPVTetrahedraMirage_h
 
+#include "vtkCamera.h"                        // For the numbers
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkTetrahedraMirage.h"
 
@@ -17,19 +18,24 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVTetrahedraMirage : public vtkTetrah
 public:
   static vtkPVTetrahedraMirage* New();
   vtkTypeMacro(vtkPVTetrahedraMirage, vtkTetrahedraMirage);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** @{ */
   /**
    * Set the camera: position, focal point, view up, vertical view angle in degrees, and for a
    * parallel view half of the height of the picture. Defaults are vtkCamera's.
    */
-  void SetEyePosition(double x, double y, double z);
-  void SetViewFocalPoint(double x, double y, double z);
-  void SetCameraViewUp(double x, double y, double z);
-  void SetViewAngle(double degrees);
-  void SetViewParallelProjection(int isParallel);
-  void SetViewParallelScale(double scale);
+  void SetEyePosition(double x, double y, double z) { this->GetCamera()->SetPosition(x, y, z); }
+  void SetViewFocalPoint(double x, double y, double z)
+  {
+    this->GetCamera()->SetFocalPoint(x, y, z);
+  }
+  void SetCameraViewUp(double x, double y, double z) { this->GetCamera()->SetViewUp(x, y, z); }
+  void SetViewAngle(double degrees) { this->GetCamera()->SetViewAngle(degrees); }
+  void SetViewParallelProjection(int isParallel)
+  {
+    this->GetCamera()->SetParallelProjection(isParallel);
+  }
+  void SetViewParallelScale(double scale) { this->GetCamera()->SetParallelScale(scale); }
   /** @} */
 
 protected:

@@ -42,9 +42,3 @@ void vtkSMCubeAroundDomain::Update(vtkSMProperty* vtkNotUsed(property))
   }
   this->SetEntries(entries);
 }
-
-//------------------------------------------------------------------------------
-void vtkSMCubeAroundDomain::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

@@ -18,7 +18,6 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkSMCubeAroundDomain : public vtkSMBoun
 public:
   static vtkSMCubeAroundDomain* New();
   vtkTypeMacro(vtkSMCubeAroundDomain, vtkSMBoundsDomain);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   void Update(vtkSMProperty* property) override;
 

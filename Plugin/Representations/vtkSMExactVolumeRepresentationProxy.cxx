@@ -178,9 +178,3 @@ void vtkSMExactVolumeRepresentationProxy::ColorByFirstArray()
     this->RescaleTransferFunctionToDataRange(true);
   }
 }
-
-//------------------------------------------------------------------------------
-void vtkSMExactVolumeRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

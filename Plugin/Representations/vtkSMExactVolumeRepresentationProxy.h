@@ -26,7 +26,6 @@ class VTKMENISCUSREPRESENTATIONS_EXPORT vtkSMExactVolumeRepresentationProxy
 public:
   static vtkSMExactVolumeRepresentationProxy* New();
   vtkTypeMacro(vtkSMExactVolumeRepresentationProxy, vtkSMPVRepresentationProxy);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Names this class in the definitions of all sessions, those to come included. */
   static void UseForUnstructuredGrids();

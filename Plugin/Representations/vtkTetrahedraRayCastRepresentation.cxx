@@ -8,7 +8,6 @@
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -24,9 +23,7 @@
 #include "vtkPVRenderView.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
-#include "vtkTetrahedraRayCastMapper.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkVolumeProperty.h"
 #include "vtkVolumeRepresentationPreprocessor.h"
 
 #include <algorithm>
@@ -402,12 +399,6 @@ void vtkTetrahedraRayCastRepresentation::UpdateMapperParameters()
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetBackend(int backend)
-{
-  this->Mapper->SetBackend(backend);
-}
-
-//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::SetBlendMode(int mode)
 {
   this->Mapper->SetBlendMode(mode);
@@ -420,127 +411,6 @@ void vtkTetrahedraRayCastRepresentation::SetBlendMode(int mode)
                     "for the blend modes Composite and Isosurface only; load the data on one rank "
                     "for the others.");
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetIntegration(int integration)
-{
-  this->Mapper->SetIntegration(integration);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetPreIntegrationScalarSize(int size)
-{
-  this->Mapper->SetPreIntegrationScalarSize(size);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetPreIntegrationLengthSize(int size)
-{
-  this->Mapper->SetPreIntegrationLengthSize(size);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetOpacityModel(int model)
-{
-  this->Mapper->SetOpacityModel(model);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetGradients(int location)
-{
-  this->Mapper->SetGradients(location);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetGlobalIlluminationReach(double reach)
-{
-  this->Mapper->SetGlobalIlluminationReach(static_cast<float>(reach));
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetVolumetricScatteringBlending(double blending)
-{
-  this->Mapper->SetVolumetricScatteringBlending(static_cast<float>(blending));
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetCellDivision(int division)
-{
-  this->Mapper->SetCellDivision(division);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetDivisionTolerance(double tolerance)
-{
-  this->Mapper->SetDivisionTolerance(tolerance);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMaximumNumberOfPieces(int pieces)
-{
-  this->Mapper->SetMaximumNumberOfPieces(pieces);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetEarlyTerminationOpacity(double opacity)
-{
-  this->Mapper->SetEarlyTerminationOpacity(opacity);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetAutoAdjustSampleDistances(bool adjust)
-{
-  this->Mapper->SetAutoAdjustSampleDistances(adjust);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetImageSampleDistance(double distance)
-{
-  this->Mapper->SetImageSampleDistance(static_cast<float>(distance));
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMaximumImageSampleDistance(double distance)
-{
-  this->Mapper->SetMaximumImageSampleDistance(static_cast<float>(distance));
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMediumModel(int model)
-{
-  this->Mapper->SetMediumModel(model);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMediumAttenuationCoefficients(
-  double red, double green, double blue)
-{
-  this->Mapper->SetMediumAttenuationCoefficients(red, green, blue);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMediumRange(double begin, double end)
-{
-  this->Mapper->SetMediumRange(begin, end);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetMediumColor(double red, double green, double blue)
-{
-  this->Mapper->SetMediumColor(red, green, blue);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetExteriorIndexOfRefraction(double index)
-{
-  this->Table.GetSingle()->SetExteriorIndexOfRefraction(index);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetInteriorIndexOfRefraction(double index)
-{
-  this->Table.GetSingle()->SetInteriorIndexOfRefraction(index);
 }
 
 //------------------------------------------------------------------------------
@@ -560,48 +430,6 @@ void vtkTetrahedraRayCastRepresentation::SetInterfaceRow(
   {
     this->MarkModified();
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetShade(bool shade)
-{
-  this->Property->SetShade(shade);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetAmbient(double ambient)
-{
-  this->Property->SetAmbient(ambient);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetDiffuse(double diffuse)
-{
-  this->Property->SetDiffuse(diffuse);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetSpecular(double specular)
-{
-  this->Property->SetSpecular(specular);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetSpecularPower(double power)
-{
-  this->Property->SetSpecularPower(power);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetNumberOfIsosurfaces(int number)
-{
-  this->Property->GetIsoSurfaceValues()->SetNumberOfContours(number);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastRepresentation::SetIsosurfaceValue(int number, double value)
-{
-  this->Property->GetIsoSurfaceValues()->SetValue(number, value);
 }
 
 //------------------------------------------------------------------------------

@@ -37,15 +37,17 @@
 #define vtkTetrahedraRayCastRepresentation_h
 
 #include "InterfaceTable.h"                   // For the interfaces
+#include "vtkContourValues.h"                 // For the isosurfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the mapper
 #include "vtkSmartPointer.h"                  // For the membranes
+#include "vtkTetrahedraRayCastMapper.h"       // For the settings
 #include "vtkUnstructuredGridVolumeRepresentation.h"
+#include "vtkVolumeProperty.h" // For the settings
 
 class vtkExtractBlockUsingDataAssembly;
 class vtkMultiBlockDataSet;
 class vtkPolyData;
-class vtkTetrahedraRayCastMapper;
 
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkTetrahedraRayCastRepresentation
   : public vtkUnstructuredGridVolumeRepresentation
@@ -68,36 +70,66 @@ public:
 
   /** @{ */
   /** Forwarded to the mapper. */
-  void SetBackend(int backend);
+  void SetBackend(int backend) { this->Mapper->SetBackend(backend); }
   void SetBlendMode(int mode);
-  void SetIntegration(int integration);
-  void SetPreIntegrationScalarSize(int size);
-  void SetPreIntegrationLengthSize(int size);
-  void SetOpacityModel(int model);
-  void SetGradients(int location);
-  void SetGlobalIlluminationReach(double reach);
-  void SetVolumetricScatteringBlending(double blending);
-  void SetCellDivision(int division);
-  void SetDivisionTolerance(double tolerance);
-  void SetMaximumNumberOfPieces(int pieces);
-  void SetEarlyTerminationOpacity(double opacity);
-  void SetAutoAdjustSampleDistances(bool adjust);
-  void SetImageSampleDistance(double distance);
-  void SetMaximumImageSampleDistance(double distance);
+  void SetIntegration(int integration) { this->Mapper->SetIntegration(integration); }
+  void SetPreIntegrationScalarSize(int size) { this->Mapper->SetPreIntegrationScalarSize(size); }
+  void SetPreIntegrationLengthSize(int size) { this->Mapper->SetPreIntegrationLengthSize(size); }
+  void SetOpacityModel(int model) { this->Mapper->SetOpacityModel(model); }
+  void SetGradients(int location) { this->Mapper->SetGradients(location); }
+  void SetGlobalIlluminationReach(double reach)
+  {
+    this->Mapper->SetGlobalIlluminationReach(static_cast<float>(reach));
+  }
+  void SetVolumetricScatteringBlending(double blending)
+  {
+    this->Mapper->SetVolumetricScatteringBlending(static_cast<float>(blending));
+  }
+  void SetCellDivision(int division) { this->Mapper->SetCellDivision(division); }
+  void SetDivisionTolerance(double tolerance) { this->Mapper->SetDivisionTolerance(tolerance); }
+  void SetMaximumNumberOfPieces(int pieces) { this->Mapper->SetMaximumNumberOfPieces(pieces); }
+  void SetEarlyTerminationOpacity(double opacity)
+  {
+    this->Mapper->SetEarlyTerminationOpacity(opacity);
+  }
+  void SetAutoAdjustSampleDistances(bool adjust)
+  {
+    this->Mapper->SetAutoAdjustSampleDistances(adjust);
+  }
+  void SetImageSampleDistance(double distance)
+  {
+    this->Mapper->SetImageSampleDistance(static_cast<float>(distance));
+  }
+  void SetMaximumImageSampleDistance(double distance)
+  {
+    this->Mapper->SetMaximumImageSampleDistance(static_cast<float>(distance));
+  }
   /** @} */
 
   /** @{ */
   /** Indices of refraction of a single membrane. */
-  void SetExteriorIndexOfRefraction(double index);
-  void SetInteriorIndexOfRefraction(double index);
+  void SetExteriorIndexOfRefraction(double index)
+  {
+    this->Table.GetSingle()->SetExteriorIndexOfRefraction(index);
+  }
+  void SetInteriorIndexOfRefraction(double index)
+  {
+    this->Table.GetSingle()->SetInteriorIndexOfRefraction(index);
+  }
   /** @} */
 
   /** @{ */
   /** Medium behind the membrane; forwarded to the mapper. */
-  void SetMediumModel(int model);
-  void SetMediumAttenuationCoefficients(double red, double green, double blue);
-  void SetMediumRange(double begin, double end);
-  void SetMediumColor(double red, double green, double blue);
+  void SetMediumModel(int model) { this->Mapper->SetMediumModel(model); }
+  void SetMediumAttenuationCoefficients(double red, double green, double blue)
+  {
+    this->Mapper->SetMediumAttenuationCoefficients(red, green, blue);
+  }
+  void SetMediumRange(double begin, double end) { this->Mapper->SetMediumRange(begin, end); }
+  void SetMediumColor(double red, double green, double blue)
+  {
+    this->Mapper->SetMediumColor(red, green, blue);
+  }
   /** @} */
 
   /** @{ */
@@ -108,13 +140,19 @@ public:
 
   /** @{ */
   /** Forwarded to the volume's property. */
-  void SetShade(bool shade);
-  void SetAmbient(double ambient);
-  void SetDiffuse(double diffuse);
-  void SetSpecular(double specular);
-  void SetSpecularPower(double power);
-  void SetNumberOfIsosurfaces(int number);
-  void SetIsosurfaceValue(int number, double value);
+  void SetShade(bool shade) { this->Property->SetShade(shade); }
+  void SetAmbient(double ambient) { this->Property->SetAmbient(ambient); }
+  void SetDiffuse(double diffuse) { this->Property->SetDiffuse(diffuse); }
+  void SetSpecular(double specular) { this->Property->SetSpecular(specular); }
+  void SetSpecularPower(double power) { this->Property->SetSpecularPower(power); }
+  void SetNumberOfIsosurfaces(int number)
+  {
+    this->Property->GetIsoSurfaceValues()->SetNumberOfContours(number);
+  }
+  void SetIsosurfaceValue(int number, double value)
+  {
+    this->Property->GetIsoSurfaceValues()->SetValue(number, value);
+  }
   /** @} */
 
 protected:

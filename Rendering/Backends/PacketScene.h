@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Parts of a scene of packets that pictures and shadows share. */
-#ifndef meniscus_Rendering_Backends_PacketScene_h
-#define meniscus_Rendering_Backends_PacketScene_h
+#pragma once
 
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
@@ -24,5 +23,3 @@ void PackProperty(const VolumePropertyTables& property, PacketTables& packed);
 void SetMedium(const RayCastTables& tables, const RayCastOptics& optics, TileCaster::Scene& scene);
 
 }
-
-#endif

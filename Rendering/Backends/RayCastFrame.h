@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_RayCastFrame_h
-#define meniscus_Rendering_Backends_RayCastFrame_h
+#pragma once
 
 #include "Rendering/Property/RayCastOptics.h"
 #include "Volume/Rays/RayFrame.h"
@@ -77,5 +76,3 @@ struct RayCastFrame
 bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b);
 
 }
-
-#endif

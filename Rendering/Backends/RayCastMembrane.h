@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_RayCastMembrane_h
-#define meniscus_Rendering_Backends_RayCastMembrane_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Filters/Membrane/SourceSurface.h"
@@ -124,5 +123,3 @@ private:
 };
 
 }
-
-#endif

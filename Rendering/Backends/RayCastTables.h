@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_RayCastTables_h
-#define meniscus_Rendering_Backends_RayCastTables_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Filters/Common/Statistics.h"
@@ -71,5 +70,3 @@ struct RayCastTables
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_TableCounter_h
-#define meniscus_Rendering_Backends_TableCounter_h
+#pragma once
 
 #include "Rendering/Backends/RayCastTables.h"
 
@@ -43,5 +42,3 @@ private:
 };
 
 }
-
-#endif

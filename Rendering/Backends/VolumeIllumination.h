@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_VolumeIllumination_h
-#define meniscus_Rendering_Backends_VolumeIllumination_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Property/RayCastOptics.h"
@@ -118,5 +117,3 @@ private:
 };
 
 }
-
-#endif

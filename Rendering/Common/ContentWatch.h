@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Common_ContentWatch_h
-#define meniscus_Rendering_Common_ContentWatch_h
+#pragma once
 
 #include "Common/ByteDigest.h"
 
@@ -116,5 +115,3 @@ void ContentDigest::AddValues(std::size_t count, Function&& valueOf)
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // All code that depends on the version of VTK.
-#ifndef meniscus_Rendering_Common_VTKVersions_h
-#define meniscus_Rendering_Common_VTKVersions_h
+#pragma once
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
@@ -127,5 +126,3 @@ inline const char* NameOfCellType(int type)
 }
 
 }
-
-#endif

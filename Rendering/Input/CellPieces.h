@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of data sets that have to be divided, and their tetrahedra before that.
-#ifndef meniscus_Rendering_Input_CellPieces_h
-#define meniscus_Rendering_Input_CellPieces_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Division/CellPiece.h"
@@ -56,5 +55,3 @@ CellPieces CollectPieces(
   const std::vector<vtkDataSet*>& grids, const TetrahedraView& view, const CurvedCells& curved);
 
 }
-
-#endif

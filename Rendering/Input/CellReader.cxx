@@ -29,77 +29,26 @@ namespace
 
 constexpr vtkIdType PointsOfTetrahedron = 4;
 
-/** Least number of points of a type; 0 for types whose number of points is not fixed. */
-vtkIdType LeastPointsOf(int type)
-{
-  switch (type)
-  {
-    case VTK_TETRA:
-    case VTK_CONVEX_POINT_SET:
-      return 4;
-    case VTK_PYRAMID:
-    case VTK_LAGRANGE_PYRAMID: // drawn if it is of order 1
-    case VTK_BEZIER_PYRAMID:
-      return 5;
-    case VTK_WEDGE:
-      return 6;
-    case VTK_VOXEL:
-    case VTK_HEXAHEDRON:
-      return 8;
-    case VTK_PENTAGONAL_PRISM:
-    case VTK_QUADRATIC_TETRA:
-      return 10;
-    case VTK_HEXAGONAL_PRISM:
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-      return 12;
-    case VTK_QUADRATIC_PYRAMID:
-      return 13;
-    case VTK_QUADRATIC_WEDGE:
-      return 15;
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-      return 18;
-    case VTK_TRIQUADRATIC_PYRAMID:
-      return 19;
-    case VTK_QUADRATIC_HEXAHEDRON:
-      return 20;
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-      return 24;
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-      return 27;
-    default:
-      return 0;
-  }
-}
-
 /** Number of points of a tetrahedron, a hexahedron or a wedge of some degree along its axes. */
 double PointsOfDegrees(int type, double p, double q, double r)
 {
-  switch (type)
+  switch (ShapeOf(type).LinearType)
   {
-    case VTK_LAGRANGE_TETRAHEDRON:
-    case VTK_BEZIER_TETRAHEDRON:
+    case VTK_TETRA:
       return (p + 1) * (p + 2) * (p + 3) / 6;
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
+    case VTK_WEDGE:
       return (p + 1) * (p + 2) / 2 * (r + 1);
     default:
       return (p + 1) * (q + 1) * (r + 1);
   }
 }
 
-bool HasDegrees(int type)
-{
-  return type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON ||
-    type == VTK_LAGRANGE_WEDGE || type == VTK_BEZIER_WEDGE || type == VTK_LAGRANGE_HEXAHEDRON ||
-    type == VTK_BEZIER_HEXAHEDRON;
-}
-
 /** True if a cell of one degree along all axes has this number of points. */
 bool FitsOneDegree(int type, vtkIdType size)
 {
   // Points of degree 2 with points in the middle of the faces and the cell.
-  const bool isTetrahedron = type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON;
-  const bool isWedge = type == VTK_LAGRANGE_WEDGE || type == VTK_BEZIER_WEDGE;
+  const bool isTetrahedron = ShapeOf(type).LinearType == VTK_TETRA;
+  const bool isWedge = ShapeOf(type).LinearType == VTK_WEDGE;
   if ((isTetrahedron && size == 15) || (isWedge && size == 21))
   {
     return true;
@@ -157,7 +106,8 @@ std::string DescribeStructure(vtkDataSet* grid)
 //------------------------------------------------------------------------------
 bool HasVolume(int type)
 {
-  return LeastPointsOf(type) > 0 || HasDegrees(type) || type == VTK_POLYHEDRON;
+  return KindOf(type).LeastPoints > 0 || ShapeOf(type).Degree == CellShape::Varying ||
+    type == VTK_POLYHEDRON;
 }
 
 //------------------------------------------------------------------------------
@@ -333,11 +283,11 @@ bool CellReader::IsLeftOut(vtkIdType cell) const
 bool CellReader::FitsType(vtkIdType cell, vtkIdType size) const
 {
   const int type = this->GetType(cell);
-  if (!HasDegrees(type))
+  if (ShapeOf(type).Degree != CellShape::Varying)
   {
-    return size >= LeastPointsOf(type);
+    return size >= KindOf(type).LeastPoints;
   }
-  const bool isTetrahedron = type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON;
+  const bool isTetrahedron = ShapeOf(type).LinearType == VTK_TETRA;
   if (!this->Degrees || isTetrahedron)
   {
     return FitsOneDegree(type, size);

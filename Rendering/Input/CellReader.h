@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of VTK's data sets, read with checks: files may contain anything.
-#ifndef meniscus_Rendering_Input_CellReader_h
-#define meniscus_Rendering_Input_CellReader_h
+#pragma once
 
 #include "Rendering/Input/IdView.h"
 
@@ -156,5 +155,3 @@ private:
 };
 
 }
-
-#endif

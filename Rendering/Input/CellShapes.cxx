@@ -16,47 +16,56 @@
 namespace meniscus
 {
 
-//------------------------------------------------------------------------------
-CellShape ShapeOf(int type)
+namespace
 {
-  switch (type)
+
+constexpr CellKind Kinds[] = {
+  { VTK_EMPTY_CELL, {}, 0, 0 },
+  { VTK_TETRA, { VTK_TETRA, 4, 0 }, 4, 1 },
+  { VTK_VOXEL, { VTK_VOXEL, 8, 1 }, 8, 6 },
+  { VTK_HEXAHEDRON, { VTK_HEXAHEDRON, 8, 1 }, 8, 6 },
+  { VTK_WEDGE, { VTK_WEDGE, 6, 1 }, 6, 3 },
+  { VTK_PYRAMID, { VTK_PYRAMID, 5, 1 }, 5, 2 },
+  { VTK_PENTAGONAL_PRISM, {}, 10, 1 },
+  { VTK_HEXAGONAL_PRISM, {}, 12, 1 },
+  { VTK_CONVEX_POINT_SET, {}, 4, 1 },
+  { VTK_QUADRATIC_TETRA, { VTK_TETRA, 4, 2 }, 10, 8 },
+  { VTK_QUADRATIC_HEXAHEDRON, { VTK_HEXAHEDRON, 8, 2 }, 20, 22 },
+  { VTK_TRIQUADRATIC_HEXAHEDRON, { VTK_HEXAHEDRON, 8, 2 }, 27, 48, 26 },
+  { VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, { VTK_HEXAHEDRON, 8, 2 }, 24, 36 },
+  { VTK_QUADRATIC_WEDGE, { VTK_WEDGE, 6, 2 }, 15, 15 },
+  { VTK_QUADRATIC_LINEAR_WEDGE, { VTK_WEDGE, 6, 2 }, 12, 12 },
+  { VTK_BIQUADRATIC_QUADRATIC_WEDGE, { VTK_WEDGE, 6, 2 }, 18, 24 },
+  { VTK_QUADRATIC_PYRAMID, { VTK_PYRAMID, 5, 2 }, 13, 13 },
+  // Its triangles have a point in the middle.
+  { VTK_TRIQUADRATIC_PYRAMID, { VTK_PYRAMID, 5, 3 }, 19, 32, 18 },
+  { VTK_LAGRANGE_TETRAHEDRON, { VTK_TETRA, 4, CellShape::Varying }, 0, 1 },
+  { VTK_BEZIER_TETRAHEDRON, { VTK_TETRA, 4, CellShape::Varying }, 0, 1 },
+  { VTK_LAGRANGE_HEXAHEDRON, { VTK_HEXAHEDRON, 8, CellShape::Varying }, 0, 6 },
+  { VTK_BEZIER_HEXAHEDRON, { VTK_HEXAHEDRON, 8, CellShape::Varying }, 0, 6 },
+  { VTK_LAGRANGE_WEDGE, { VTK_WEDGE, 6, CellShape::Varying }, 0, 3 },
+  { VTK_BEZIER_WEDGE, { VTK_WEDGE, 6, CellShape::Varying }, 0, 3 },
+  // Drawn if they are of order 1.
+  { VTK_LAGRANGE_PYRAMID, {}, 5, 1 },
+  { VTK_BEZIER_PYRAMID, {}, 5, 1 },
+};
+
+}
+
+//------------------------------------------------------------------------------
+const CellKind& KindOf(int type)
+{
+  static const std::vector<CellKind> all = []()
   {
-    case VTK_TETRA:
-      return { VTK_TETRA, 4, 0 };
-    case VTK_VOXEL:
-      return { VTK_VOXEL, 8, 1 };
-    case VTK_HEXAHEDRON:
-      return { VTK_HEXAHEDRON, 8, 1 };
-    case VTK_WEDGE:
-      return { VTK_WEDGE, 6, 1 };
-    case VTK_PYRAMID:
-      return { VTK_PYRAMID, 5, 1 };
-    case VTK_QUADRATIC_TETRA:
-      return { VTK_TETRA, 4, 2 };
-    case VTK_QUADRATIC_HEXAHEDRON:
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-      return { VTK_HEXAHEDRON, 8, 2 };
-    case VTK_QUADRATIC_WEDGE:
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-      return { VTK_WEDGE, 6, 2 };
-    case VTK_QUADRATIC_PYRAMID:
-      return { VTK_PYRAMID, 5, 2 };
-    case VTK_TRIQUADRATIC_PYRAMID:
-      return { VTK_PYRAMID, 5, 3 }; // its triangles have a point in the middle
-    case VTK_LAGRANGE_TETRAHEDRON:
-    case VTK_BEZIER_TETRAHEDRON:
-      return { VTK_TETRA, 4, CellShape::Varying };
-    case VTK_LAGRANGE_HEXAHEDRON:
-    case VTK_BEZIER_HEXAHEDRON:
-      return { VTK_HEXAHEDRON, 8, CellShape::Varying };
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
-      return { VTK_WEDGE, 6, CellShape::Varying };
-    default:
-      return { VTK_EMPTY_CELL, 0, 0 };
-  }
+    std::vector<CellKind> byType(VTK_NUMBER_OF_CELL_TYPES + 1); // the last for unknown types
+    for (const CellKind& kind : Kinds)
+    {
+      byType[static_cast<std::size_t>(kind.Type)] = kind;
+    }
+    return byType;
+  }();
+  const bool isKnown = type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES;
+  return isKnown ? all[static_cast<std::size_t>(type)] : all.back();
 }
 
 //------------------------------------------------------------------------------
@@ -95,9 +104,6 @@ glm::dvec3 PlaceOfCorner(const CellShape& shape, int corner)
     { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
   constexpr double wedge[6][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
     { 0, 1, 1 } };
-  constexpr double pyramid[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
-    { 0, 0, 1 } };
-  constexpr double tetrahedron[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
   const auto at = [corner](const double(*corners)[3])
   { return glm::dvec3(corners[corner][0], corners[corner][1], corners[corner][2]); };
   switch (shape.LinearType)
@@ -105,13 +111,10 @@ glm::dvec3 PlaceOfCorner(const CellShape& shape, int corner)
     case VTK_VOXEL:
       return glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
     case VTK_HEXAHEDRON:
+    case VTK_PYRAMID: // its points are the hexahedron's first five
       return at(hexahedron);
-    case VTK_WEDGE:
+    default: // the points of a tetrahedron are the wedge's first four
       return at(wedge);
-    case VTK_PYRAMID:
-      return at(pyramid);
-    default:
-      return at(tetrahedron);
   }
 }
 

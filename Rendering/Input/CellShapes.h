@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes and shape functions of VTK's cells, for their division into tetrahedra.
-#ifndef meniscus_Rendering_Input_CellShapes_h
-#define meniscus_Rendering_Input_CellShapes_h
+#pragma once
 
 #include "Volume/Division/ShapeFunctions.h"
 
@@ -36,8 +35,30 @@ struct CellShape
   bool IsKnown() const { return this->NumberOfCorners > 0; }
 };
 
-/** Shape of a type; unknown for those without shape functions, such as polyhedra. */
-CellShape ShapeOf(int type);
+/** Properties of a cell type. */
+struct CellKind
+{
+  int Type = 0;
+  /** Unknown for types without shape functions, such as polyhedra. */
+  CellShape Shape;
+  /** Least number of points; 0 for types whose number of points is not fixed. */
+  vtkIdType LeastPoints = 0;
+  /**
+   * Number of tetrahedra, unless the cell is degenerate; for Lagrange and Bezier cells, the number
+   * between the corners.
+   */
+  int Tetrahedra = 1;
+  /** Index, in the cell, of the point inside it, or -1. */
+  int Center = -1;
+};
+
+/** Properties of a type; the defaults for types that are not drawn, and for polyhedra. */
+const CellKind& KindOf(int type);
+
+inline const CellShape& ShapeOf(int type)
+{
+  return KindOf(type).Shape;
+}
 
 /**
  * Type of the linear cell with the same points and shape functions: Lagrange and Bezier cells of
@@ -86,5 +107,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_ComponentChoice_h
-#define meniscus_Rendering_Input_ComponentChoice_h
+#pragma once
 
 class vtkVolumeProperty;
 
@@ -25,5 +24,3 @@ namespace meniscus
 int ChooseComponent(vtkVolumeProperty* property, int components);
 
 }
-
-#endif

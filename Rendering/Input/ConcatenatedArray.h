@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_ConcatenatedArray_h
-#define meniscus_Rendering_Input_ConcatenatedArray_h
+#pragma once
 
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Division/WeightedPoints.h"
@@ -73,5 +72,3 @@ struct FiniteValues
 };
 
 }
-
-#endif

@@ -28,18 +28,19 @@ namespace meniscus
 namespace
 {
 
-/** Length of the diagonal of the box around the points that are finite. */
-double DiagonalOf(const PointFields& fields)
+/** Box around the points that are finite. */
+PointBox BoxOf(const PointFields& fields)
 {
-  glm::dvec3 lowest(std::numeric_limits<double>::infinity());
-  glm::dvec3 highest(-std::numeric_limits<double>::infinity());
+  PointBox box;
   for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
   {
     const glm::dvec3 at = fields.Points[static_cast<std::size_t>(p)];
-    lowest = IsFinite(at) ? glm::min(lowest, at) : lowest;
-    highest = IsFinite(at) ? glm::max(highest, at) : highest;
+    if (IsFinite(at))
+    {
+      box.Add(at);
+    }
   }
-  return lowest.x <= highest.x ? glm::length(highest - lowest) : 0.0;
+  return box;
 }
 
 /** Components of the scalars that count. */
@@ -113,18 +114,6 @@ ScalarRange RangeOf(const PointFields& fields, std::size_t field)
   return lowest <= highest ? ScalarRange{ lowest, highest } : ScalarRange{ 0.0, 0.0 };
 }
 
-/** Largest magnitude of the coordinates that are finite. */
-double LargestCoordinate(const PointFields& fields)
-{
-  double most = 0.0;
-  for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
-  {
-    const glm::dvec3 at = glm::abs(fields.Points[static_cast<std::size_t>(p)]);
-    most = IsFinite(at) ? std::max({ most, at.x, at.y, at.z }) : most;
-  }
-  return most;
-}
-
 /**
  * Bound of the rounding error of an interpolated value, for values up to `most` in magnitude. A
  * division cannot resolve smaller differences. In a hexahedron of order 3 a weight takes 23
@@ -142,9 +131,12 @@ DivisionMeasure MeasureFor(const DivisionRequest& request, const PointFields& fi
   // A pixel of a mesh that is 1024 pixels long has the error of a step of 256.
   constexpr double displacement = 4.0;
   DivisionMeasure measure;
-  const double diagonal = DiagonalOf(fields);
+  const PointBox box = BoxOf(fields);
+  const double diagonal = box.IsEmpty() ? 0.0 : glm::length(box.Upper - box.Lower);
+  const glm::dvec3 farthest =
+    box.IsEmpty() ? glm::dvec3(0.0) : glm::max(glm::abs(box.Lower), glm::abs(box.Upper));
   measure.OfPlace = diagonal > 0.0 ? displacement / diagonal : 0.0;
-  measure.PlaceRounding = RoundingOf(LargestCoordinate(fields));
+  measure.PlaceRounding = RoundingOf(std::max({ farthest.x, farthest.y, farthest.z }));
   measure.ValuesMayMove = request.Picture.Use != ScalarUse::Values;
   measure.HasSurfaces = request.Picture.Use == ScalarUse::Surfaces;
   for (std::size_t field = 0; field < fields.GetNumberOfFields(); ++field)

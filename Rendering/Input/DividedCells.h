@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_DividedCells_h
-#define meniscus_Rendering_Input_DividedCells_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Rendering/Input/CellPieces.h"
@@ -120,5 +119,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_DrawnBounds_h
-#define meniscus_Rendering_Input_DrawnBounds_h
+#pragma once
 
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
@@ -36,5 +35,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of VTK's data sets and arrays that decide how they are read.
-#ifndef meniscus_Rendering_Input_GridLayout_h
-#define meniscus_Rendering_Input_GridLayout_h
+#pragma once
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -44,5 +43,3 @@ inline bool IsThreadSafe(vtkDataSet* grid)
 }
 
 }
-
-#endif

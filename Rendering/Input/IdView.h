@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_IdView_h
-#define meniscus_Rendering_Input_IdView_h
+#pragma once
 
 #include "Rendering/Input/GridLayout.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -66,5 +64,3 @@ private:
 };
 
 }
-
-#endif

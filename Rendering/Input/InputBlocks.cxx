@@ -5,16 +5,19 @@
 #include "Rendering/Input/CellReader.h"
 
 #include "vtkAbstractMapper.h"
+#include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace meniscus
@@ -199,6 +202,18 @@ InputReport CollectLeaves(
 }
 
 //------------------------------------------------------------------------------
+int AcceptDataSets(vtkInformation* port)
+{
+  port->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  // The executive looks at the first type only; otherwise it would iterate over the blocks.
+  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
+  {
+    port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 InputReport CollectInputBlocks(
   vtkDataObject* input, const ScalarSelection& selection, InputBlocks& parts)
 {
@@ -251,6 +266,13 @@ InputBlocks CollectGrids(vtkDataObject* input)
     }
   }
   return blocks;
+}
+
+//------------------------------------------------------------------------------
+bool HaveSameGrids(const InputBlocks& a, const InputBlocks& b)
+{
+  return std::equal(a.Parts.begin(), a.Parts.end(), b.Parts.begin(), b.Parts.end(),
+    [](const InputPart& one, const InputPart& other) { return one.Grid == other.Grid; });
 }
 
 //------------------------------------------------------------------------------

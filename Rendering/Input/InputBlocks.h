@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_InputBlocks_h
-#define meniscus_Rendering_Input_InputBlocks_h
+#pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
+class vtkInformation;
 
 namespace meniscus
 {
@@ -61,6 +60,9 @@ struct InputBlocks
   FieldAssociation Place = FieldAssociation::Points;
 };
 
+/** Makes a port accept data sets and composite data, which comes whole. Returns 1. */
+int AcceptDataSets(vtkInformation* port);
+
 /**
  * Finds the data sets and scalars of an input. Leaves of a composite data set are left out with a
  * warning if they have no usable scalars or if their scalars have another association (points or
@@ -78,9 +80,10 @@ InputReport CollectInputBlocks(
  */
 InputBlocks CollectGrids(vtkDataObject* input);
 
+/** True if both have the same data sets in the same order. */
+bool HaveSameGrids(const InputBlocks& a, const InputBlocks& b);
+
 /** The data sets of the parts, in their order. */
 std::vector<vtkDataSet*> GetGrids(const InputBlocks& input);
 
 }
-
-#endif

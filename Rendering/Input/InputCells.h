@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_InputCells_h
-#define meniscus_Rendering_Input_InputCells_h
+#pragma once
 
 #include "Rendering/Input/InputBlocks.h"
 
@@ -43,5 +42,3 @@ private:
 };
 
 }
-
-#endif

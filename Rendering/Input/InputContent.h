@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Content of an input for ContentWatch: the objects that may receive Modified() after an edit, and
 // the digest of the values.
-#ifndef meniscus_Rendering_Input_InputContent_h
-#define meniscus_Rendering_Input_InputContent_h
+#pragma once
 
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
@@ -50,5 +49,3 @@ std::vector<ObjectVersion> ScalarVersions(const InputBlocks& input);
 std::uint64_t DigestScalars(const InputBlocks& input);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_PointsSource_h
-#define meniscus_Rendering_Input_PointsSource_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/PointsView.h"
@@ -39,5 +38,3 @@ private:
 };
 
 }
-
-#endif

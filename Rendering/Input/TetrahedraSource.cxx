@@ -56,20 +56,6 @@ constexpr CellRule CellRules[] = {
 /** Largest number of points of a cell with a rule. */
 constexpr vtkIdType MostPointsOfRules = 20;
 
-/** Index, in the cell, of the point inside it, or NoPoint. */
-int CenterOfCell(int type)
-{
-  switch (type)
-  {
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-      return 26;
-    case VTK_TRIQUADRATIC_PYRAMID:
-      return 18;
-    default:
-      return NoPoint;
-  }
-}
-
 /** Parts into which a face is split, by the indices of its points in the face. */
 struct FaceSplit
 {
@@ -120,50 +106,6 @@ FaceSplit SplitFace(vtkCell* face)
     }
     default:
       return {};
-  }
-}
-
-/**
- * Number of tetrahedra of a cell of the given type, unless the cell is degenerate; for Lagrange and
- * Bezier cells, the number between the corners.
- */
-int TetrahedraOf(int type)
-{
-  switch (type)
-  {
-    case VTK_VOXEL:
-    case VTK_HEXAHEDRON:
-    case VTK_LAGRANGE_HEXAHEDRON:
-    case VTK_BEZIER_HEXAHEDRON:
-      return 6;
-    case VTK_WEDGE:
-    case VTK_LAGRANGE_WEDGE:
-    case VTK_BEZIER_WEDGE:
-      return 3;
-    case VTK_PYRAMID:
-      return 2;
-    case VTK_QUADRATIC_TETRA:
-      return 8;
-    case VTK_QUADRATIC_HEXAHEDRON:
-      return 22;
-    case VTK_QUADRATIC_WEDGE:
-      return 15;
-    case VTK_QUADRATIC_LINEAR_WEDGE:
-      return 12;
-    case VTK_QUADRATIC_PYRAMID:
-      return 13;
-    case VTK_TRIQUADRATIC_HEXAHEDRON:
-      return 48;
-    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
-      return 36;
-    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
-      return 24;
-    case VTK_TRIQUADRATIC_PYRAMID:
-      return 32;
-    case VTK_EMPTY_CELL:
-      return 0;
-    default:
-      return 1;
   }
 }
 
@@ -234,7 +176,7 @@ std::string ReasonOf(int type)
  */
 bool HasFaceObjects(int type)
 {
-  return TetrahedraOf(type) > 1 || type == VTK_TETRA || type == VTK_PENTAGONAL_PRISM ||
+  return KindOf(type).Tetrahedra > 1 || type == VTK_TETRA || type == VTK_PENTAGONAL_PRISM ||
     type == VTK_HEXAGONAL_PRISM || type == VTK_CONVEX_POINT_SET;
 }
 
@@ -441,7 +383,7 @@ bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
   std::size_t numberOfFaces = 0;
   // A point inside the cell or, if there is none, the lowest-numbered point inside a face: it lies
   // in no plane of another face.
-  const int inside = CenterOfCell(cell->GetCellType());
+  const int inside = KindOf(cell->GetCellType()).Center;
   std::int64_t apex = inside == NoPoint ? NoPoint : pointOf(cell, inside);
   // Asked once: a vtkConvexPointSet of VTK 9.1 has no faces when asked again.
   const int size = cell->GetNumberOfFaces();
@@ -604,7 +546,7 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
     if (HasOneType(grid))
     {
       // For structured data this includes blanked cells: counting them would take time.
-      size.Tetrahedra += TetrahedraOf(VTK_VOXEL) * cells;
+      size.Tetrahedra += KindOf(VTK_VOXEL).Tetrahedra * cells;
       continue;
     }
     const CellReader reader(grid);
@@ -616,7 +558,7 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
     for (vtkIdType c = 0; c < cells; ++c)
     {
       const int type = reader.GetType(c);
-      size.Tetrahedra += TetrahedraOf(type);
+      size.Tetrahedra += KindOf(type).Tetrahedra;
       UnusableCells counted;
       if (ShapeOf(type).Degree == CellShape::Varying && reader.ReadPoints(c, ids, counted))
       {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_TetrahedraSource_h
-#define meniscus_Rendering_Input_TetrahedraSource_h
+#pragma once
 
 #include "Rendering/Input/CellReader.h"
 #include "Rendering/Input/IdView.h"
@@ -100,5 +99,3 @@ struct GridSize
 GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_VolumeComponents_h
-#define meniscus_Rendering_Input_VolumeComponents_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -12,7 +11,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -73,5 +71,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_VolumeGradients_h
-#define meniscus_Rendering_Input_VolumeGradients_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Input/InputBlocks.h"
@@ -45,5 +44,3 @@ private:
 };
 
 }
-
-#endif

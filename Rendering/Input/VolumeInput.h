@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_VolumeInput_h
-#define meniscus_Rendering_Input_VolumeInput_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
@@ -230,5 +229,3 @@ private:
 };
 
 }
-
-#endif

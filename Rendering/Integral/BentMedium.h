@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Mesh and index of refraction of a medium that bends light, from VTK data. */
-#ifndef meniscus_Rendering_Integral_BentMedium_h
-#define meniscus_Rendering_Integral_BentMedium_h
+#pragma once
 
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
@@ -83,5 +82,3 @@ private:
 };
 
 }
-
-#endif

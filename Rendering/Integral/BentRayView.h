@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_BentRayView_h
-#define meniscus_Rendering_Integral_BentRayView_h
+#pragma once
 
 #include "Rendering/Integral/IntegralView.h"
 
@@ -20,5 +19,3 @@ struct BentRayView
 };
 
 }
-
-#endif

@@ -40,10 +40,7 @@ std::string DescribeMismatch(const InputBlocks& attenuation, const InputBlocks& 
   {
     return std::string();
   }
-  const bool sameGrids = std::equal(attenuation.Parts.begin(), attenuation.Parts.end(),
-    emission.Parts.begin(), emission.Parts.end(),
-    [](const InputPart& a, const InputPart& b) { return a.Grid == b.Grid; });
-  if (!sameGrids || attenuation.Place != emission.Place)
+  if (!HaveSameGrids(attenuation, emission) || attenuation.Place != emission.Place)
   {
     return "Attenuation and emission must be arrays of the same data sets, both of points or both "
            "of cells";

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_EnergyBins_h
-#define meniscus_Rendering_Integral_EnergyBins_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
@@ -79,5 +78,3 @@ private:
 };
 
 }
-
-#endif

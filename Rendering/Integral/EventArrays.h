@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_EventArrays_h
-#define meniscus_Rendering_Integral_EventArrays_h
+#pragma once
 
 #include "Rendering/Input/InputCells.h"
 #include "Rendering/Property/VolumePropertyTables.h"
@@ -107,5 +106,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Integral/ImagePlace.h"
 
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
+
+#include <algorithm>
 
 namespace meniscus
 {
@@ -29,6 +32,22 @@ ImagePlace PlaceOf(const ParallelRectangle& rectangle, const int size[2])
     }
   }
   return place;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeBadSize(const int size[2])
+{
+  return size[0] > 0 && size[1] > 0 ? std::string()
+                                    : "ImageSize must be at least 1 by 1, not " +
+      std::to_string(size[0]) + " by " + std::to_string(size[1]);
+}
+
+//------------------------------------------------------------------------------
+void AnnounceImage(vtkInformation* output, const int size[2])
+{
+  const int extent[6] = { 0, std::max(size[0], 1) - 1, 0, std::max(size[1], 1) - 1, 0, 0 };
+  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  vtkDataObject::SetPointDataActiveScalarInfo(output, VTK_FLOAT, -1);
 }
 
 //------------------------------------------------------------------------------

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_ImagePlace_h
-#define meniscus_Rendering_Integral_ImagePlace_h
+#pragma once
 
 #include "Rendering/Integral/IntegralView.h"
 
+#include <string>
+
+class vtkInformation;
 class vtkInformationVector;
 
 namespace meniscus
@@ -22,9 +24,16 @@ struct ImagePlace
 /** @param size numbers of the rectangle's parts. */
 ImagePlace PlaceOf(const ParallelRectangle& rectangle, const int size[2]);
 
+/** Reason why an image cannot have a size; empty if it can. */
+std::string DescribeBadSize(const int size[2]);
+
+/**
+ * Announces an image of floats. A size that is not valid counts as 1: its error is reported when
+ * there is an output to empty.
+ */
+void AnnounceImage(vtkInformation* output, const int size[2]);
+
 /** Asks for whole inputs on the first two ports: every part of the image needs them. */
 void RequestWholeInputs(vtkInformationVector** inputs);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_IntegralArrays_h
-#define meniscus_Rendering_Integral_IntegralArrays_h
+#pragma once
 
 #include "Rendering/Integral/EnergyBins.h"
 #include "Rendering/Integral/EventArrays.h"
@@ -134,5 +133,3 @@ private:
 };
 
 }
-
-#endif

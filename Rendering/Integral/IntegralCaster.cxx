@@ -60,14 +60,7 @@ bool IntegralCaster::Cast(
     const double done = static_cast<double>(last) / tiles;
     this->Aborted = !progress((this->DoneCasts + done) / this->PlannedCasts);
   }
-  RayStatistics sums;
-  for (const RayStatistics& tile : ofTile)
-  {
-    sums.Rays += tile.Rays;
-    sums.Steps += tile.Steps;
-    sums.Lost += tile.Lost;
-    sums.Overlaps += tile.Overlaps;
-  }
+  const RayStatistics sums = SumOf(ofTile);
   this->Statistics.Rays = sums.Rays;
   this->Statistics.Steps += sums.Steps;
   this->Statistics.Lost += sums.Lost;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_IntegralCaster_h
-#define meniscus_Rendering_Integral_IntegralCaster_h
+#pragma once
 
 #include "Rendering/Backends/Native/NativeScene.h"
 #include "Rendering/Backends/RayCastTables.h"
@@ -67,5 +66,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Integral/IntegralView.h"
 
+#include "Common/FiniteVector.h"
+#include "Rendering/Common/Matrices.h"
+
 #include "vtkCamera.h"
-#include "vtkMatrix4x4.h"
 
 #include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -23,24 +24,6 @@ namespace
  * 4 sqrt(3) * 2^-24 = 4.1e-7.
  */
 constexpr double LargestCosine = 1.0e-6;
-
-glm::dmat4 MatrixOf(vtkMatrix4x4* matrix)
-{
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->GetElement(row, column);
-    }
-  }
-  return result;
-}
-
-bool IsFinite(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /** Depth of a point in world coordinates. */
 double DepthOf(const glm::dvec3& point, const IntegralView& view)
@@ -125,8 +108,8 @@ std::string ComputeCameraView(
   vtkCamera* camera, const int size[2], const TetrahedralMesh& mesh, IntegralView& view)
 {
   RayFrameInput input;
-  input.WorldToView = MatrixOf(camera->GetModelViewTransformMatrix());
-  input.ViewToClip = MatrixOf(camera->GetProjectionTransformMatrix(
+  input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
+  input.ViewToClip = ToGlm(camera->GetProjectionTransformMatrix(
     static_cast<double>(size[0]) / static_cast<double>(size[1]), -1.0, 1.0));
   const std::string error = ComputeView(input, size, mesh, view);
   if (error.empty())

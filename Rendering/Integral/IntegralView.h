@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_IntegralView_h
-#define meniscus_Rendering_Integral_IntegralView_h
+#pragma once
 
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Rays/RayFrame.h"
@@ -73,5 +72,3 @@ std::string ComputeParallelView(const ParallelRectangle& rectangle, const int si
   const TetrahedralMesh& mesh, const std::vector<glm::dvec3>& others, IntegralView& view);
 
 }
-
-#endif

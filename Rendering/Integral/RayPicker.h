@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_RayPicker_h
-#define meniscus_Rendering_Integral_RayPicker_h
+#pragma once
 
 #include "Rendering/Backends/Native/NativeScene.h"
 #include "Rendering/Backends/RayCastFrame.h"
@@ -69,5 +68,3 @@ private:
 };
 
 }
-
-#endif

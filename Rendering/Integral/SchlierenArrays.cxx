@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Integral/SchlierenArrays.h"
 
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ThreadedLoop.h"
 
 #include "vtkFloatArray.h"
@@ -25,17 +26,6 @@ namespace
 {
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-
-/** An array of the output. */
-vtkFloatArray* AddArray(vtkImageData* image, const char* name, int components)
-{
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  image->GetPointData()->AddArray(array);
-  return array;
-}
 
 void SetPair(vtkFloatArray* array, vtkIdType tuple, const glm::dvec2& values)
 {
@@ -120,8 +110,8 @@ LightOfPixel FindLight(const SchlierenRays& rays, const GradedRayResult& ray,
 /** Deflections and optical path differences. */
 void WriteMeasures(const std::vector<LightOfPixel>& light, vtkImageData* output)
 {
-  vtkFloatArray* deflections = AddArray(output, "Deflection", 2);
-  vtkFloatArray* paths = AddArray(output, "OpticalPathDifference", 1);
+  vtkFloatArray* deflections = AddPointArray<vtkFloatArray>(output, "Deflection", 2);
+  vtkFloatArray* paths = AddPointArray<vtkFloatArray>(output, "OpticalPathDifference", 1);
   for (std::size_t i = 0; i < light.size(); ++i)
   {
     const auto number = static_cast<vtkIdType>(i);
@@ -132,7 +122,7 @@ void WriteMeasures(const std::vector<LightOfPixel>& light, vtkImageData* output)
 
 void WriteShadows(const std::vector<LightOfPixel>& light, vtkImageData* output)
 {
-  vtkFloatArray* shadows = AddArray(output, "Shadowgraph", 1);
+  vtkFloatArray* shadows = AddPointArray<vtkFloatArray>(output, "Shadowgraph", 1);
   std::vector<glm::dvec2> landings;
   landings.reserve(light.size());
   for (const LightOfPixel& one : light)
@@ -155,7 +145,7 @@ void WriteShadows(const std::vector<LightOfPixel>& light, vtkImageData* output)
  */
 bool WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImageData* output)
 {
-  vtkFloatArray* knives = AddArray(output, "Schlieren", 1);
+  vtkFloatArray* knives = AddPointArray<vtkFloatArray>(output, "Schlieren", 1);
   if (!(knife.Range > 0.0))
   {
     double largest = 0.0;
@@ -178,7 +168,7 @@ bool WriteKnife(const std::vector<LightOfPixel>& light, KnifeEdge knife, vtkImag
 void WriteFringes(
   const std::vector<LightOfPixel>& light, const Interferometer& meter, vtkImageData* output)
 {
-  vtkFloatArray* fringes = AddArray(output, "Interferogram", 1);
+  vtkFloatArray* fringes = AddPointArray<vtkFloatArray>(output, "Interferogram", 1);
   const int* dimensions = output->GetDimensions();
   const glm::dvec2 size(dimensions[0], dimensions[1]);
   for (std::size_t i = 0; i < light.size(); ++i)
@@ -192,8 +182,9 @@ void WriteFringes(
 void WriteShifts(
   const std::vector<LightOfPixel>& light, vtkImageData* background, vtkImageData* output)
 {
-  vtkFloatArray* shifts = AddArray(output, "Displacement", 2);
-  vtkFloatArray* warped = background ? AddArray(output, "Background", 1) : nullptr;
+  vtkFloatArray* shifts = AddPointArray<vtkFloatArray>(output, "Displacement", 2);
+  vtkFloatArray* warped =
+    background ? AddPointArray<vtkFloatArray>(output, "Background", 1) : nullptr;
   const Picture picture = background ? ReadPicture(background) : Picture();
   const int* dimensions = output->GetDimensions();
   const glm::dvec2 scale(static_cast<double>(picture.Width) / dimensions[0],

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Images of vtkTetrahedraSchlieren: rays behind a medium, and arrays of instruments. */
-#ifndef meniscus_Rendering_Integral_SchlierenArrays_h
-#define meniscus_Rendering_Integral_SchlierenArrays_h
+#pragma once
 
 #include "Rendering/Integral/IntegralView.h"
 #include "Volume/Graded/EntryRaster.h"
@@ -76,5 +75,3 @@ bool WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& 
   const TetrahedralMesh& mesh, const Instruments& instruments, vtkImageData* output);
 
 }
-
-#endif

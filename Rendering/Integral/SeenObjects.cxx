@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Integral/SeenObjects.h"
 
+#include "Common/FiniteVector.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Object/ObjectTopology.h"
 
 #include "vtkCellData.h"
@@ -22,8 +24,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -34,22 +34,6 @@ namespace
 {
 
 constexpr double NoValue = std::numeric_limits<double>::quiet_NaN();
-
-template <typename Array>
-Array* AddArrayOf(vtkImageData* image, const char* name, int components)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(image->GetNumberOfPoints());
-  image->GetPointData()->AddArray(array);
-  return array;
-}
-
-bool IsFinitePoint(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 glm::dvec3 PointOf(vtkDataSet* data, vtkIdType point)
 {
@@ -98,8 +82,7 @@ void SeenObjects::Read(vtkDataSet* objects, const TetrahedralMesh& mesh)
     const auto begin = polygons.Connectivity.begin() + polygons.Offsets[cell];
     const auto end = polygons.Connectivity.begin() + polygons.Offsets[cell + 1];
     const bool isFinite = std::all_of(begin, end,
-      [&points](std::int64_t point)
-      { return IsFinitePoint(points[static_cast<std::size_t>(point)]); });
+      [&points](std::int64_t point) { return IsFinite(points[static_cast<std::size_t>(point)]); });
     this->BrokenCells += isFinite ? 0 : 1;
     for (auto third = begin + 2; isFinite && begin != end && third < end; ++third)
     {
@@ -187,12 +170,12 @@ glm::dvec3 SeenObjects::PlaceOf(const OpaqueHit& hit) const
 void SeenObjects::Write(const std::vector<OpaqueSight>& sights, const std::vector<glm::dvec3>& eyes,
   const ObjectShading& shading, vtkImageData* output) const
 {
-  auto* tones = AddArrayOf<vtkUnsignedCharArray>(output, "Color", 3);
-  auto* states = AddArrayOf<vtkUnsignedCharArray>(output, "Seen", 1);
-  auto* cells = AddArrayOf<vtkIdTypeArray>(output, "CellId", 1);
-  auto* places = AddArrayOf<vtkDoubleArray>(output, "Position", 3);
-  auto* depths = AddArrayOf<vtkFloatArray>(output, "Depth", 1);
-  auto* directions = AddArrayOf<vtkFloatArray>(output, "Direction", 3);
+  auto* tones = AddPointArray<vtkUnsignedCharArray>(output, "Color", 3);
+  auto* states = AddPointArray<vtkUnsignedCharArray>(output, "Seen", 1);
+  auto* cells = AddPointArray<vtkIdTypeArray>(output, "CellId", 1);
+  auto* places = AddPointArray<vtkDoubleArray>(output, "Position", 3);
+  auto* depths = AddPointArray<vtkFloatArray>(output, "Depth", 1);
+  auto* directions = AddPointArray<vtkFloatArray>(output, "Direction", 3);
   const Colors colors = this->MapColors(shading.LookupTable);
   for (std::size_t i = 0; i < sights.size(); ++i)
   {

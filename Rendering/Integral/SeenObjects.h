@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Opaque objects that bent rays see: from VTK data, and as arrays of an image. */
-#ifndef meniscus_Rendering_Integral_SeenObjects_h
-#define meniscus_Rendering_Integral_SeenObjects_h
+#pragma once
 
 #include "Filters/Object/ObjectSurface.h"
 #include "Volume/Graded/OpaqueTriangles.h"
@@ -72,5 +71,3 @@ private:
 };
 
 }
-
-#endif

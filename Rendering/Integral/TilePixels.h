@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Integral_TilePixels_h
-#define meniscus_Rendering_Integral_TilePixels_h
+#pragma once
 
 #include "Volume/Caster/TileCaster.h"
 
@@ -27,5 +26,3 @@ void ForEachPixel(const TileCaster& caster, int tile, Body&& body)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_LightForNormals_h
-#define meniscus_Rendering_Pass_LightForNormals_h
+#pragma once
 
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
@@ -46,5 +45,3 @@ private:
 };
 
 }
-
-#endif

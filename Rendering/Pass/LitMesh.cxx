@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/LitMesh.h"
 
+#include "Filters/Common/CellLoop.h"
+
 #include "vtkCellArray.h"
-#include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
@@ -25,20 +26,6 @@ namespace
 
 /** More divisions of a side are finer than the colours of a picture of that width. */
 constexpr int MostDivisions = 2048;
-
-/** Calls `body(number of points, point ids)` for the cells of a list. */
-template <typename Body>
-void ForCells(vtkCellArray* cells, const Body& body)
-{
-  auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
-  {
-    vtkIdType size;
-    const vtkIdType* points;
-    iterator->GetCurrentCell(size, points);
-    body(size, points);
-  }
-}
 
 glm::dvec3 PointOf(vtkPolyData* data, vtkIdType i)
 {
@@ -111,7 +98,7 @@ std::vector<LitMesh::Face> LitMesh::ListFaces(vtkPolyData* surface, vtkIdTypeArr
   vtkIdType cell = surface->GetNumberOfVerts() + surface->GetNumberOfLines();
   for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
   {
-    ForCells(cells,
+    ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType* ids)
       {
         const vtkIdType source = sources ? sources->GetValue(cell) : cell;
@@ -236,12 +223,12 @@ std::vector<std::int32_t> LitMesh::ListPrimitives(vtkPolyData* images) const
     primitives.insert(
       primitives.end(), static_cast<std::size_t>(std::max<vtkIdType>(count, 0)), face);
   };
-  ForCells(images->GetVerts(), [&add](vtkIdType size, const vtkIdType*) { add(size, -1); });
-  ForCells(images->GetLines(), [&add](vtkIdType size, const vtkIdType*) { add(size - 1, -1); });
+  ForEachCell(images->GetVerts(), [&add](vtkIdType size, const vtkIdType*) { add(size, -1); });
+  ForEachCell(images->GetLines(), [&add](vtkIdType size, const vtkIdType*) { add(size - 1, -1); });
   vtkIdType cell = images->GetNumberOfVerts() + images->GetNumberOfLines();
   for (vtkCellArray* cells : { images->GetPolys(), images->GetStrips() })
   {
-    ForCells(cells,
+    ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType*)
       {
         const auto source = static_cast<std::size_t>(sources->GetComponent(cell++, 0));

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_LitMesh_h
-#define meniscus_Rendering_Pass_LitMesh_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -68,5 +67,3 @@ private:
 };
 
 }
-
-#endif

@@ -3,6 +3,7 @@
 #include "Rendering/Pass/MembraneComposer.h"
 
 #include "Rendering/Pass/PlateUniforms.h"
+#include "Rendering/Present/OpenGLTools.h"
 
 #include "vtkRefractionMembraneFS.h"
 
@@ -13,7 +14,6 @@
 #include "vtkOpenGLError.h" // For OpenGL
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLTexture.h"
 #include "vtkRenderer.h"
@@ -56,16 +56,8 @@ std::string MembraneComposer::Compose(
     look.CubeMap->Render(renderer);
   }
   auto& quad = this->Quads[look.CubeMap ? 1 : 0];
-  if (!quad)
-  {
-    const std::string source = MembraneShaderSource(look.CubeMap != nullptr);
-    quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
-  }
-  else
-  {
-    window->GetShaderCache()->ReadyShaderProgram(quad->Program);
-  }
-  if (!quad->Program || !quad->Program->GetCompiled())
+  if (!ReadyQuad(window, quad, [&look]() { return MembraneShaderSource(look.CubeMap != nullptr); })
+         .empty())
   {
     return "The shader of membranes does not compile on this graphics device.";
   }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_MembraneComposer_h
-#define meniscus_Rendering_Pass_MembraneComposer_h
+#pragma once
 
 #include <array>
 #include <memory>
@@ -70,5 +69,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_ObjectShader_h
-#define meniscus_Rendering_Pass_ObjectShader_h
+#pragma once
 
 #include <string>
 
@@ -38,5 +37,3 @@ void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint);
 void LightInTrueSpace(const ShaderSources& sources, bool readsTables);
 
 }
-
-#endif

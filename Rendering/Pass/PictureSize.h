@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_PictureSize_h
-#define meniscus_Rendering_Pass_PictureSize_h
+#pragma once
 
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkOpenGLState.h"
@@ -38,5 +37,3 @@ struct PictureSize
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_PlateUniforms_h
-#define meniscus_Rendering_Pass_PlateUniforms_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ std::string PlateShaderSource();
 void SetPlateUniforms(vtkShaderProgram* program, const std::vector<double>& indices);
 
 }
-
-#endif

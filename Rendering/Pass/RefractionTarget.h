@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_RefractionTarget_h
-#define meniscus_Rendering_Pass_RefractionTarget_h
+#pragma once
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkSmartPointer.h"
@@ -29,5 +28,3 @@ struct RefractionTarget
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_TrueSpaceLighting_h
-#define meniscus_Rendering_Pass_TrueSpaceLighting_h
+#pragma once
 
 #include "Rendering/Pass/WaveLight.h"
 
@@ -97,5 +96,3 @@ private:
 };
 
 }
-
-#endif

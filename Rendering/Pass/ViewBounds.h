@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_ViewBounds_h
-#define meniscus_Rendering_Pass_ViewBounds_h
+#pragma once
 
 class vtkRenderer;
 
@@ -18,5 +17,3 @@ bool MayBeInView(vtkRenderer* renderer, const double bounds[6]);
 void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6]);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pass_WaveLight_h
-#define meniscus_Rendering_Pass_WaveLight_h
+#pragma once
 
 #include "Filters/Object/ObjectSurface.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
@@ -85,5 +84,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pipeline_RayCastBackendSet_h
-#define meniscus_Rendering_Pipeline_RayCastBackendSet_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Pipeline/RayCastBackendRegistry.h"
@@ -57,5 +56,3 @@ private:
 };
 
 }
-
-#endif

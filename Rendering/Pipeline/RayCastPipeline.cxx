@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pipeline/RayCastPipeline.h"
 
+#include "Rendering/Common/Matrices.h"
 #include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/RayFrame.h"
 
 #include "vtkCamera.h"
-#include "vtkMatrix4x4.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
@@ -15,21 +15,6 @@
 
 namespace meniscus
 {
-
-//------------------------------------------------------------------------------
-glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
-{
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->GetElement(row, column);
-    }
-  }
-  return result;
-}
-
 namespace
 {
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pipeline_RayCastPipeline_h
-#define meniscus_Rendering_Pipeline_RayCastPipeline_h
+#pragma once
 
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
@@ -16,7 +15,6 @@
 #include <string>
 #include <vector>
 
-class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 class vtkVolume;
@@ -24,9 +22,6 @@ class vtkWindow;
 
 namespace meniscus
 {
-
-/** The same matrix in column-vector convention. */
-glm::dmat4 ToGlm(vtkMatrix4x4* matrix);
 
 /**
  * From a mapper's input to a picture: the tables made of mesh, scalars, membrane and property, the
@@ -111,5 +106,3 @@ private:
 };
 
 }
-
-#endif

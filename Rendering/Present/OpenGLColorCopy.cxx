@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Present/OpenGLColorCopy.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -48,10 +50,7 @@ bool OpenGLColorCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   if (!this->Texture || this->Texture->GetWidth() != width || this->Texture->GetHeight() != height)
   {
     this->Release(window);
-    this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-    this->Texture->SetContext(window);
-    this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+    this->Texture = MakeTexelTexture(window);
     if (!this->Texture->Allocate2D(width, height, 4, VTK_UNSIGNED_CHAR))
     {
       this->Texture = nullptr;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Present_OpenGLColorCopy_h
-#define meniscus_Rendering_Present_OpenGLColorCopy_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
@@ -31,5 +30,3 @@ private:
 };
 
 }
-
-#endif

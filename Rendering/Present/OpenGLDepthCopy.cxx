@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Present/OpenGLDepthCopy.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -119,10 +121,7 @@ void OpenGLDepthCopy::Allocate(
   this->Release(window);
   // A new object is needed: a released one still remembers its format (VTK 9.1; test
   // MultisampledWindow).
-  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->Texture = MakeTexelTexture(window);
   // A multisampled blit requires the same format as the source.
   if (format.StencilBits > 0)
   {

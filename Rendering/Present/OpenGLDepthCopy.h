@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Present_OpenGLDepthCopy_h
-#define meniscus_Rendering_Present_OpenGLDepthCopy_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -60,5 +59,3 @@ private:
 };
 
 }
-
-#endif

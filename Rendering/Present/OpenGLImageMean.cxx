@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Present/OpenGLImageMean.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkTetrahedraMeanFS.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -20,10 +21,7 @@ namespace meniscus
 vtkSmartPointer<vtkTextureObject> MakeFloatImage(
   vtkOpenGLRenderWindow* window, int width, int height)
 {
-  auto image = vtkSmartPointer<vtkTextureObject>::New();
-  image->SetContext(window);
-  image->SetMinificationFilter(vtkTextureObject::Nearest);
-  image->SetMagnificationFilter(vtkTextureObject::Nearest);
+  auto image = MakeTexelTexture(window);
   return image->Allocate2D(width, height, 4, VTK_FLOAT) ? image : nullptr;
 }
 
@@ -79,17 +77,10 @@ std::string OpenGLImageMean::Add(
   vtkOpenGLState::ScopedglEnableDisable scissorTestScope(state, GL_SCISSOR_TEST);
   vtkOpenGLState::ScopedglScissor scissorScope(state);
   this->Bind(window);
-  if (!this->Adder)
+  const std::string error = ReadyQuad(window, this->Adder, []() { return vtkTetrahedraMeanFS; });
+  if (!error.empty())
   {
-    this->Adder = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, vtkTetrahedraMeanFS, "");
-  }
-  else
-  {
-    window->GetShaderCache()->ReadyShaderProgram(this->Adder->Program);
-  }
-  if (!this->Adder->Program || !this->Adder->Program->GetCompiled())
-  {
-    return "a shader does not compile on this graphics device";
+    return error;
   }
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);

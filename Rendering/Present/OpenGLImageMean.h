@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Present_OpenGLImageMean_h
-#define meniscus_Rendering_Present_OpenGLImageMean_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 #include "vtkSmartPointer.h"
@@ -51,5 +50,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Present/RayCastPresenter.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraDepthFS.h"
 #include "vtkTetrahedraSelectFS.h"
@@ -11,7 +13,6 @@
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -328,23 +329,6 @@ std::string RayCastPresenter::Resize(int width, int height)
 }
 
 //------------------------------------------------------------------------------
-/** Makes the program of a drawer the current one. */
-std::string RayCastPresenter::ReadyDrawer(
-  std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source)
-{
-  if (!drawer)
-  {
-    drawer = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source, "");
-  }
-  else
-  {
-    this->Window->GetShaderCache()->ReadyShaderProgram(drawer->Program);
-  }
-  const bool ready = drawer->Program && drawer->Program->GetCompiled();
-  return ready ? std::string() : "a shader does not compile on this graphics device";
-}
-
-//------------------------------------------------------------------------------
 /** Limits drawing to the part of the viewport in which the image is not empty. */
 void RayCastPresenter::LimitToFilled(const int viewport[4])
 {
@@ -374,8 +358,8 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   this->LimitToFilled(viewport);
   const std::string error = output.Selecting
-    ? this->ReadyDrawer(this->Selector, vtkTetrahedraSelectFS)
-    : this->ReadyDrawer(this->Composer, vtkTetrahedraComposeFS);
+    ? ReadyQuad(this->Window, this->Selector, []() { return vtkTetrahedraSelectFS; })
+    : ReadyQuad(this->Window, this->Composer, []() { return vtkTetrahedraComposeFS; });
   if (!error.empty())
   {
     return error;
@@ -433,15 +417,13 @@ std::string RayCastPresenter::WriteDepths(const std::vector<float>& depths, cons
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LESS);
   state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  const std::string error = this->ReadyDrawer(this->DepthWriter, vtkTetrahedraDepthFS);
+  const std::string error =
+    ReadyQuad(this->Window, this->DepthWriter, []() { return vtkTetrahedraDepthFS; });
   if (!error.empty())
   {
     return error;
   }
-  vtkNew<vtkTextureObject> texture;
-  texture->SetContext(this->Window);
-  texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  const auto texture = MakeTexelTexture(this->Window);
   // VTK does not change the data, although it does not say so.
   if (!texture->Create2DFromRaw(static_cast<unsigned int>(size[0]),
         static_cast<unsigned int>(size[1]), 1, VTK_FLOAT, const_cast<float*>(depths.data())))

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Present_RayCastPresenter_h
-#define meniscus_Rendering_Present_RayCastPresenter_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Backends/RayCastFrame.h"
@@ -108,7 +107,6 @@ private:
   bool HoldsImageOfDepths(bool sameFrame);
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
-  std::string ReadyDrawer(std::unique_ptr<vtkOpenGLQuadHelper>& drawer, const char* source);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void LimitToFilled(const int viewport[4]);
 
@@ -136,5 +134,3 @@ private:
 };
 
 }
-
-#endif

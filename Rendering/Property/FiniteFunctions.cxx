@@ -15,7 +15,6 @@
 #include <cmath>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace meniscus
 {

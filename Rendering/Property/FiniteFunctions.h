@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of a volume property that are not finite, or not positive where they must be.
-#ifndef meniscus_Rendering_Property_FiniteFunctions_h
-#define meniscus_Rendering_Property_FiniteFunctions_h
+#pragma once
 
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Optics/BlendModels.h"
@@ -33,5 +32,3 @@ InputReport CheckFunctions(vtkVolumeProperty* property, int component, OpacityMe
 std::string CheckIsovalues(vtkVolumeProperty* property);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_MediumUniforms_h
-#define meniscus_Rendering_Property_MediumUniforms_h
+#pragma once
 
 #include "Volume/Optics/RefractionMedium.h"
 
@@ -14,5 +13,3 @@ namespace meniscus
 void SetMediumUniforms(vtkShaderProgram* program, const RefractionMedium& medium);
 
 }
-
-#endif

@@ -9,6 +9,7 @@
 #include "vtkPiecewiseFunction.h"
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,12 +47,6 @@ std::vector<FunctionNode> CollectNodes(int count, NodeAt&& nodeAt)
   return nodes;
 }
 
-double ColorDifference(const TransferFunctionPoint& a, const TransferFunctionPoint& b)
-{
-  const glm::dvec3 difference = glm::abs(a.Color - b.Color);
-  return std::max({ difference.r, difference.g, difference.b });
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -61,6 +56,29 @@ double PropertyFunction::GetSampledScalar(double first, double last, int count, 
   return count > 1
     ? first + (static_cast<double>(i) / static_cast<double>(count - 1)) * (last - first)
     : first;
+}
+
+//------------------------------------------------------------------------------
+double PropertyFunction::Difference(
+  const TransferFunctionPoint& a, const TransferFunctionPoint& b) const
+{
+  const glm::dvec3 difference = glm::abs(a.Color - b.Color);
+  return std::max({ difference.r, difference.g, difference.b });
+}
+
+//------------------------------------------------------------------------------
+/** Points of a table; colorAt(i) is the colour of entry i. */
+template <typename ColorAt>
+std::vector<TransferFunctionPoint> PropertyFunction::ListPoints(
+  double first, double last, int count, ColorAt&& colorAt) const
+{
+  std::vector<TransferFunctionPoint> points;
+  points.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+  {
+    points.push_back({ this->GetSampledScalar(first, last, count, i), 0.0, colorAt(i) });
+  }
+  return points;
 }
 
 //------------------------------------------------------------------------------
@@ -144,20 +162,7 @@ std::vector<FunctionNode> GrayFunction::GetNodes() const
 std::vector<TransferFunctionPoint> GrayFunction::Sample(double first, double last, int count) const
 {
   const std::vector<double> table = TableOf(this->Gray, first, last, count);
-  std::vector<TransferFunctionPoint> points;
-  points.reserve(table.size());
-  for (int i = 0; i < count; ++i)
-  {
-    points.push_back({ this->GetSampledScalar(first, last, count, i), 0.0, glm::dvec3(table[i]) });
-  }
-  return points;
-}
-
-//------------------------------------------------------------------------------
-double GrayFunction::Difference(
-  const TransferFunctionPoint& a, const TransferFunctionPoint& b) const
-{
-  return ColorDifference(a, b);
+  return this->ListPoints(first, last, count, [&table](int i) { return glm::dvec3(table[i]); });
 }
 
 //------------------------------------------------------------------------------
@@ -189,8 +194,7 @@ std::vector<FunctionNode> ColorFunction::GetNodes() const
 //------------------------------------------------------------------------------
 std::vector<TransferFunctionPoint> ColorFunction::Sample(double first, double last, int count) const
 {
-  std::vector<TransferFunctionPoint> points;
-  points.reserve(static_cast<std::size_t>(count));
+  const auto size = 3 * static_cast<std::size_t>(count);
   if (this->IsDiscrete)
   {
     // GetTable() ignores the discrete colours, which have 8 bits.
@@ -199,32 +203,16 @@ std::vector<TransferFunctionPoint> ColorFunction::Sample(double first, double la
     {
       scalars.push_back(this->GetSampledScalar(first, last, count, i));
     }
-    std::vector<unsigned char> colors(3 * scalars.size());
+    std::vector<unsigned char> colors(size);
     this->Color->MapScalarsThroughTable2(
       scalars.data(), colors.data(), VTK_DOUBLE, count, 1, VTK_RGB);
-    for (std::size_t i = 0; i < scalars.size(); ++i)
-    {
-      const unsigned char* rgb = colors.data() + 3 * i;
-      points.push_back({ scalars[i], 0.0, glm::dvec3(rgb[0], rgb[1], rgb[2]) / 255.0 });
-    }
-    return points;
+    return this->ListPoints(first, last, count,
+      [&colors](int i) { return glm::dvec3(glm::make_vec3(&colors[3 * i])) / 255.0; });
   }
-  std::vector<double> table(3 * static_cast<std::size_t>(count));
+  std::vector<double> table(size);
   this->Color->GetTable(first, count > 1 ? last : first, count, table.data());
-  for (int i = 0; i < count; ++i)
-  {
-    const double* rgb = table.data() + 3 * static_cast<std::ptrdiff_t>(i);
-    points.push_back(
-      { this->GetSampledScalar(first, last, count, i), 0.0, glm::dvec3(rgb[0], rgb[1], rgb[2]) });
-  }
-  return points;
-}
-
-//------------------------------------------------------------------------------
-double ColorFunction::Difference(
-  const TransferFunctionPoint& a, const TransferFunctionPoint& b) const
-{
-  return ColorDifference(a, b);
+  return this->ListPoints(
+    first, last, count, [&table](int i) { return glm::make_vec3(&table[3 * i]); });
 }
 
 //------------------------------------------------------------------------------

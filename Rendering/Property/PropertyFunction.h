@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions of a volume property, evaluated by VTK's tables and reduced to straight pieces.
-#ifndef meniscus_Rendering_Property_PropertyFunction_h
-#define meniscus_Rendering_Property_PropertyFunction_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -44,10 +43,14 @@ public:
    */
   virtual std::vector<TransferFunctionPoint> Sample(double first, double last, int count) const = 0;
   /** Largest difference of two values in colour, or in alpha over the unit distance. */
-  virtual double Difference(
-    const TransferFunctionPoint& a, const TransferFunctionPoint& b) const = 0;
+  virtual double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const;
   /** True if each call of Sample() has a high cost of its own. */
   virtual bool HasCostlyCalls() const { return false; }
+
+protected:
+  template <typename ColorAt>
+  std::vector<TransferFunctionPoint> ListPoints(
+    double first, double last, int count, ColorAt&& colorAt) const;
 };
 
 /** Opacity as attenuation per world length, or as alpha. */
@@ -74,7 +77,6 @@ public:
   explicit GrayFunction(vtkPiecewiseFunction* gray);
   std::vector<FunctionNode> GetNodes() const override;
   std::vector<TransferFunctionPoint> Sample(double first, double last, int count) const override;
-  double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const override;
 
 private:
   vtkSmartPointer<vtkPiecewiseFunction> Gray;
@@ -87,7 +89,6 @@ public:
   explicit ColorFunction(vtkColorTransferFunction* color);
   std::vector<FunctionNode> GetNodes() const override;
   std::vector<TransferFunctionPoint> Sample(double first, double last, int count) const override;
-  double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const override;
   double GetSampledScalar(double first, double last, int count, int i) const override;
   /** In the space CIEDE2000 each call searches for a path between the colours of two nodes. */
   bool HasCostlyCalls() const override;
@@ -108,5 +109,3 @@ private:
 std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyFunction& function);
 
 }
-
-#endif

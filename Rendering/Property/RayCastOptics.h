@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_RayCastOptics_h
-#define meniscus_Rendering_Property_RayCastOptics_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
@@ -13,7 +12,6 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include <vector>
 
@@ -132,5 +130,3 @@ void GatherClippingPlanes(
   vtkPlaneCollection* planes, const ViewContext& place, RayCastOptics& optics);
 
 }
-
-#endif

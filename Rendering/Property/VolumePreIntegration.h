@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_VolumePreIntegration_h
-#define meniscus_Rendering_Property_VolumePreIntegration_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Volume/Optics/PreIntegration.h"
@@ -48,5 +47,3 @@ private:
 };
 
 }
-
-#endif

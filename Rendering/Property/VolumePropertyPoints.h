@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_VolumePropertyPoints_h
-#define meniscus_Rendering_Property_VolumePropertyPoints_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ScalarNormalization.h"
@@ -46,5 +45,3 @@ std::vector<TransferFunctionPoint> EvaluateProperty(
 std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Property_VolumePropertyTables_h
-#define meniscus_Rendering_Property_VolumePropertyTables_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Input/VolumeComponents.h"
@@ -122,5 +121,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_CrossingChain_h
-#define meniscus_Refraction_Curved_CrossingChain_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatches.h"
 
@@ -46,5 +45,3 @@ private:
 };
 
 }
-
-#endif

@@ -8,7 +8,6 @@
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>

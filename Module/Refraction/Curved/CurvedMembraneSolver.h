@@ -8,8 +8,7 @@
  * The patches stay valid until the shape changes, the bounds in the tree until the eye or the
  * indices change. Solving changes no state and may run on any number of threads at once.
  */
-#ifndef meniscus_Refraction_Curved_CurvedMembraneSolver_h
-#define meniscus_Refraction_Curved_CurvedMembraneSolver_h
+#pragma once
 
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Curved/MembraneSides.h"
@@ -321,5 +320,3 @@ private:
 };
 
 }
-
-#endif

@@ -3,27 +3,16 @@
 /**
  * Sufficient test that every point of a box has at most one image, without a search for images.
  *
- * On the plane at height z behind a membrane that is a field of heights over a convex region, the
- * refracted rays define a map F_z from the region to the plane: F_z(u) = S(u) + (h(u) - z) m(u),
- * with the surface's point S and height h over the place u of the flat facets, and the ray's slope
- * m. If the symmetric part of its derivative is positive definite along the straight line from u to
- * v, then (v - u).(F_z(v) - F_z(u)) > 0, so u and v do not see the same point. The condition holds
- * at all depths in front of the first caustic and at many depths behind it. It is
- * concave in z: if it holds at two heights, it holds between them.
+ * A grid over a membrane has, for slabs of heights behind it, the answers of its patches to a test
+ * of their rays, and bounds of the slopes of these rays. The slopes bound the places of all sight
+ * points of a box of points by a rectangle, and the patches over it show whether there can be
+ * several. Documentation/refraction-method.md, "At most one image", has the test and its proof.
  *
- * It is tested per patch by a Bezier triangle of second degree from six rays, with a margin for the
- * parts of higher degree. A grid over the membrane collects the patches' answers for slabs of
- * heights, and bounds of the slopes of their rays. The slopes bound the places of all sight points
- * of a box of points by a rectangle, and the patches over it show whether there can be several.
- *
- * A membrane that is no field over a convex polygon as a whole may be one over that rectangle: if
- * no border crosses it, all facets over it have the same winding, and there is one facet over any
- * one of its places, then there is exactly one over each of them (facets that join without folds
- * cover connected places equally often). Cells of the grid that are crossed by a border or have
- * facets of the other winding or several facets over a place prove nothing.
+ * A membrane that is no field over a convex polygon as a whole may be one over that rectangle.
+ * Cells of the grid that are crossed by a border, or that have facets of the other winding or
+ * several facets over a place, prove nothing.
  */
-#ifndef meniscus_Refraction_Curved_InjectivityGrid_h
-#define meniscus_Refraction_Curved_InjectivityGrid_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -110,5 +99,3 @@ private:
 };
 
 }
-
-#endif

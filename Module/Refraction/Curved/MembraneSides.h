@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_MembraneSides_h
-#define meniscus_Refraction_Curved_MembraneSides_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -90,5 +89,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_PatchRoots_h
-#define meniscus_Refraction_Curved_PatchRoots_h
+#pragma once
 
 #include "Refraction/Sight/SightEquation.h"
 
@@ -98,5 +97,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_SightFollower_h
-#define meniscus_Refraction_Curved_SightFollower_h
+#pragma once
 
 #include "Refraction/Curved/SightLanes.h"
 #include "Refraction/Membrane/CurvedPatches.h"
@@ -96,5 +95,3 @@ private:
 };
 
 }
-
-#endif

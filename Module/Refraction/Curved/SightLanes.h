@@ -6,8 +6,7 @@
  * SightEquation::Solve and ComputeVirtualPlace in the same order, in every set, so the results are
  * the same to the last bit.
  */
-#ifndef meniscus_Refraction_Curved_SightLanes_h
-#define meniscus_Refraction_Curved_SightLanes_h
+#pragma once
 
 #include "Refraction/Curved/VirtualPlace.h"
 #include "Refraction/Sight/SightEquation.h"
@@ -103,5 +102,3 @@ void ComputeVirtualPlaces(const Media& media, InstructionSet set,
   const SightRoot (&roots)[SightLanes::Count], SightLanes& lanes);
 
 }
-
-#endif

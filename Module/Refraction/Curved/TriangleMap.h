@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** A map of second degree from a triangle to the plane, by control points, and its distance from 0.
  */
-#ifndef meniscus_Refraction_Curved_TriangleMap_h
-#define meniscus_Refraction_Curved_TriangleMap_h
+#pragma once
 
 #include "Refraction/Membrane/CrossProduct.h"
 
@@ -76,5 +75,3 @@ inline bool IsInjective(const TriangleMap& c, double margin)
 }
 
 }
-
-#endif

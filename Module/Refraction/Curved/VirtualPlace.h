@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Curved_VirtualPlace_h
-#define meniscus_Refraction_Curved_VirtualPlace_h
+#pragma once
 
 #include "Refraction/Sight/SightEquation.h"
 #include "Refraction/Surface/CurveCrossings.h"
@@ -39,5 +38,3 @@ inline VirtualPlace ComputeVirtualPlace(
 }
 
 }
-
-#endif

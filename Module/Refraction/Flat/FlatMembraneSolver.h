@@ -9,8 +9,7 @@
  * cells and tree bounds until the eye or the indices change. Solving changes no state and may run
  * on any number of threads at once.
  */
-#ifndef meniscus_Refraction_Flat_FlatMembraneSolver_h
-#define meniscus_Refraction_Flat_FlatMembraneSolver_h
+#pragma once
 
 #include "Refraction/Flat/RefractionCells.h"
 #include "Refraction/Sight/VirtualVertex.h"
@@ -88,5 +87,3 @@ private:
 };
 
 }
-
-#endif

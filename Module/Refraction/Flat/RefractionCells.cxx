@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Flat/RefractionCells.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <atomic>

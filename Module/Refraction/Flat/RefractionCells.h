@@ -7,8 +7,7 @@
  * the far side of the facet. Each cell uses its own planes, so neighbouring cells may overlap or
  * leave gaps.
  */
-#ifndef meniscus_Refraction_Flat_RefractionCells_h
-#define meniscus_Refraction_Flat_RefractionCells_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -93,5 +92,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_CellImages_h
-#define meniscus_Refraction_Images_CellImages_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Images/ImageMesh.h"
@@ -159,5 +158,3 @@ protected:
 };
 
 }
-
-#endif

@@ -13,8 +13,7 @@
  * has MostNodes: its parts are then as they are, with larger errors, and there may be cracks of
  * that size next to its neighbours.
  */
-#ifndef meniscus_Refraction_Images_EdgeSubdivision_h
-#define meniscus_Refraction_Images_EdgeSubdivision_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
@@ -188,5 +187,3 @@ private:
 };
 
 }
-
-#endif

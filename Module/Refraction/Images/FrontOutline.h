@@ -5,8 +5,7 @@
  * curve along which the triangle meets the membrane. The refracted part ends at the same pieces of
  * the curve, so the two parts meet bit by bit and have the same resolution.
  */
-#ifndef meniscus_Refraction_Images_FrontOutline_h
-#define meniscus_Refraction_Images_FrontOutline_h
+#pragma once
 
 #include "Refraction/Images/PrimitiveMapper.h"
 
@@ -66,5 +65,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_ImageMesh_h
-#define meniscus_Refraction_Images_ImageMesh_h
+#pragma once
 
 #include "Refraction/Sight/VirtualVertex.h"
 
@@ -111,5 +110,3 @@ struct ImageMesh
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_ImageTurns_h
-#define meniscus_Refraction_Images_ImageTurns_h
+#pragma once
 
 namespace meniscus
 {
@@ -20,5 +19,3 @@ constexpr bool MayTurnTwice(double angle, double tolerance)
 }
 
 }
-
-#endif

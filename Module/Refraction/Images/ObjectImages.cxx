@@ -5,10 +5,8 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace meniscus
 {

@@ -6,8 +6,7 @@
  * within a tolerance. A cell whose image is curved is divided if no point of it can have several
  * images. All other cells are mapped from the membrane.
  */
-#ifndef meniscus_Refraction_Images_ObjectImages_h
-#define meniscus_Refraction_Images_ObjectImages_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -144,5 +143,3 @@ private:
 };
 
 }
-
-#endif

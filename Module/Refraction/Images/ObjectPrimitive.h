@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_ObjectPrimitive_h
-#define meniscus_Refraction_Images_ObjectPrimitive_h
+#pragma once
 
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/SubCellBend.h"
@@ -361,5 +360,3 @@ void ObjectPrimitive::Clip(
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Private structures of PrimitiveMapper. */
-#ifndef meniscus_Refraction_Images_PrimitiveContext_h
-#define meniscus_Refraction_Images_PrimitiveContext_h
+#pragma once
 
 #include "Refraction/Images/ObjectPrimitive.h"
 #include "Refraction/Images/PrimitiveMapper.h"
@@ -40,5 +39,3 @@ struct PrimitiveMapper::Context : ObjectPrimitive
 };
 
 }
-
-#endif

@@ -6,21 +6,10 @@
  * Each patch that may show the primitive is divided into triangular sub-cells so fine that its rays
  * are nearly linear in each of them. The rays at the corners of a sub-cell meet the primitive's
  * plane in a polygon, which is clipped by the primitive; every corner of the clipped polygon is an
- * image. Caustics, borders of the membrane and places where the primitive crosses it therefore need
- * no special case: an image exists exactly where a sub-cell sees the primitive.
- *
- * Pieces meet bit by bit. Whether a side of a sub-cell is divided depends on that side alone. Where
- * it passes a side of the primitive, where a node sees the primitive's plane, and where an end of
- * the primitive is seen, the corner is computed from the two features that meet there alone
- * (CurveCrossings). A corner whose exact place would lie beyond an end of the primitive becomes
- * that end's image. Where a side of a sub-cell passes several sides of the primitive, exact places
- * determine their order, and each corner next to the membrane determines its own side of it. In
- * other sub-cells linear interpolation determines whether they hold an end, which two triangles
- * with this end in common may evaluate differently: SeamClosure closes the gaps that remain along
- * their common side.
+ * image. Pieces meet bit by bit, but for gaps that SeamClosure closes:
+ * Documentation/refraction-method.md, "Lines and polygons".
  */
-#ifndef meniscus_Refraction_Images_PrimitiveMapper_h
-#define meniscus_Refraction_Images_PrimitiveMapper_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
@@ -166,5 +155,3 @@ private:
 };
 
 }
-
-#endif

@@ -14,8 +14,7 @@
  * of the stretch. These parts of several seams, and the sides that the polygon's own pieces end
  * with, form a closed loop, too, which is filled if it is as thin.
  */
-#ifndef meniscus_Refraction_Images_SeamClosure_h
-#define meniscus_Refraction_Images_SeamClosure_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Images/CellImages.h"
@@ -191,5 +190,3 @@ private:
 };
 
 }
-
-#endif

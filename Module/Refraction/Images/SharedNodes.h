@@ -5,8 +5,7 @@
  * vertices, and whether a patch is divided at all. Each is computed when it is asked for first, by
  * any thread. The values do not depend on the thread.
  */
-#ifndef meniscus_Refraction_Images_SharedNodes_h
-#define meniscus_Refraction_Images_SharedNodes_h
+#pragma once
 
 #include "Refraction/Surface/CurveCrossings.h"
 
@@ -79,5 +78,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_SubCellBend_h
-#define meniscus_Refraction_Images_SubCellBend_h
+#pragma once
 
 #include "Refraction/Images/SubCellDivision.h"
 
@@ -45,5 +44,3 @@ private:
 };
 
 }
-
-#endif

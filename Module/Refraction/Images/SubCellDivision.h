@@ -9,8 +9,7 @@
  * crosses the limit is divided there, and sub-cells end there, too. Facets may be much wider than
  * their distance from the eye, which sees such a limit in a small part of them.
  */
-#ifndef meniscus_Refraction_Images_SubCellDivision_h
-#define meniscus_Refraction_Images_SubCellDivision_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/SharedNodes.h"
@@ -157,5 +156,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Primitives with a side that runs along a surface, in a cell of rays through the surface. */
-#ifndef meniscus_Refraction_Images_SurfaceTie_h
-#define meniscus_Refraction_Images_SurfaceTie_h
+#pragma once
 
 #include "Refraction/Images/ObjectPrimitive.h"
 
@@ -79,5 +78,3 @@ bool RunsAlong(const glm::dvec3& direction, const std::array<glm::dvec3, 3>& cor
   glm::dvec3& normal);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Images_UnrefractedPart_h
-#define meniscus_Refraction_Images_UnrefractedPart_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
@@ -32,5 +31,3 @@ double GetSineAtEye(
   const CurvedMembraneSolver& geometry, const glm::dvec3& first, const glm::dvec3& second);
 
 }
-
-#endif

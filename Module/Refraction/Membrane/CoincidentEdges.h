@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_CoincidentEdges_h
-#define meniscus_Refraction_Membrane_CoincidentEdges_h
+#pragma once
 
 #include "Refraction/Membrane/MembraneOrientation.h"
 
@@ -38,5 +37,3 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
   std::vector<std::array<std::int32_t, 3>>& facets);
 
 }
-
-#endif

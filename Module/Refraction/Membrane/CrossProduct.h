@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_CrossProduct_h
-#define meniscus_Refraction_Membrane_CrossProduct_h
+#pragma once
 
 #include <glm/vec2.hpp>
 
@@ -15,5 +14,3 @@ inline double Cross(const glm::dvec2& a, const glm::dvec2& b)
 }
 
 }
-
-#endif

@@ -17,8 +17,7 @@
  * N = (C - P) / R, m is 0 and n = (C - L) / R at the flat point L, so that |n|^2 = 1 + 2 q / R and
  * S = L + n / |n| R (|n| - 1) = C - R n / |n|.
  */
-#ifndef meniscus_Refraction_Membrane_CurvedPatch_h
-#define meniscus_Refraction_Membrane_CurvedPatch_h
+#pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -200,5 +199,3 @@ inline Outside FindOutside(const glm::dvec2& b)
 }
 
 }
-
-#endif

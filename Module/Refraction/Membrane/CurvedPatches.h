@@ -15,8 +15,7 @@
  * normals are interpolated linearly. A deflection is at most LargestDeflection. A vertex whose fit
  * is singular is fitted without the second degree, or counts as flat.
  */
-#ifndef meniscus_Refraction_Membrane_CurvedPatches_h
-#define meniscus_Refraction_Membrane_CurvedPatches_h
+#pragma once
 
 #include "Common/Prefetch.h"
 #include "Common/RangeLoop.h"
@@ -168,5 +167,3 @@ void CurvedPatches::LoadPatch(std::int32_t facet, int lane, Lanes& lanes) const
 }
 
 }
-
-#endif

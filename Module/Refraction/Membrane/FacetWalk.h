@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_FacetWalk_h
-#define meniscus_Refraction_Membrane_FacetWalk_h
+#pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -63,5 +62,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Projection of a membrane along an axis, as a field of heights over a plane. */
-#ifndef meniscus_Refraction_Membrane_HeightField_h
-#define meniscus_Refraction_Membrane_HeightField_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -43,5 +42,3 @@ bool IsConvexField(
   const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame);
 
 }
-
-#endif

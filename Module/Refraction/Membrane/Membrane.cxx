@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/Membrane.h"
 
+#include "Common/FiniteVector.h"
 #include "Refraction/Membrane/CoincidentEdges.h"
 #include "Refraction/Membrane/MembraneNormals.h"
 
@@ -21,11 +22,6 @@ namespace
 // rounded products, so its error is below 2u |a| |b|, and the length's below 2 sqrt(3) u |a| |b|
 // with u = epsilon / 2. Doubled once for the rounding of the two edge vectors.
 constexpr double CrossProductRounding = 4.0 * std::numeric_limits<double>::epsilon();
-
-bool IsFinite(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 glm::dvec3 Load(const double* array, std::size_t index)
 {

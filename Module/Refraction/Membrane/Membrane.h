@@ -5,8 +5,7 @@
  * origin. It holds all data that depend on the shape alone and are built once per shape; data that
  * depend on the eye are in RefractionCells.
  */
-#ifndef meniscus_Refraction_Membrane_Membrane_h
-#define meniscus_Refraction_Membrane_Membrane_h
+#pragma once
 
 #include "Refraction/Membrane/MembraneOrientation.h"
 #include "Refraction/Membrane/MismatchedNormals.h"
@@ -155,5 +154,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_MembraneNormals_h
-#define meniscus_Refraction_Membrane_MembraneNormals_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -37,5 +36,3 @@ void ComputeVertexNormals(const std::vector<glm::dvec3>& positions,
   std::vector<glm::dvec3>& normals);
 
 }
-
-#endif

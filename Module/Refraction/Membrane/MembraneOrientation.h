@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_MembraneOrientation_h
-#define meniscus_Refraction_Membrane_MembraneOrientation_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -50,5 +49,3 @@ std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
   std::vector<glm::dvec3>& normals);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_MismatchedNormals_h
-#define meniscus_Refraction_Membrane_MismatchedNormals_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -57,5 +56,3 @@ std::vector<std::int32_t> FindWildNormals(const std::vector<glm::dvec3>& positio
   double coordinate);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Membrane_NormalFit_h
-#define meniscus_Refraction_Membrane_NormalFit_h
+#pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -82,5 +81,3 @@ private:
 };
 
 }
-
-#endif

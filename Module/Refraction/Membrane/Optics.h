@@ -6,8 +6,7 @@
  * vectors; a normal points to the side that the ray comes from. Equation numbers refer to the
  * thesis "Refraction by geometric transforms", which Documentation/refraction-method.md summarises.
  */
-#ifndef meniscus_Refraction_Membrane_Optics_h
-#define meniscus_Refraction_Membrane_Optics_h
+#pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -186,5 +185,3 @@ inline double SchlickReflectance(double cosine, double exterior, double interior
 }
 
 }
-
-#endif

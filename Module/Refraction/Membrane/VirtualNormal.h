@@ -7,8 +7,7 @@
  * directions w' and v' belong to straight rays, so a normal n with n.w' = N.w and n.v' = N.v
  * receives the same lighting as the true one.
  */
-#ifndef meniscus_Refraction_Membrane_VirtualNormal_h
-#define meniscus_Refraction_Membrane_VirtualNormal_h
+#pragma once
 
 #include "Refraction/Membrane/Optics.h"
 
@@ -157,5 +156,3 @@ inline glm::dvec3 ComputeReflectedNormal(const glm::dvec3& normal, const glm::dv
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Sight_EyeStatus_h
-#define meniscus_Refraction_Sight_EyeStatus_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -20,5 +19,3 @@ enum class EyeStatus
 EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Sight_SeenDepth_h
-#define meniscus_Refraction_Sight_SeenDepth_h
+#pragma once
 
 namespace meniscus
 {
@@ -32,5 +31,3 @@ inline double GetTrueLength(SeenDepth depth, double seen, double index)
 }
 
 }
-
-#endif

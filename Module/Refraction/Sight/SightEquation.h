@@ -15,8 +15,7 @@
  * tangential parts of the two directions are equal, for the straight ray and for the reflected one.
  * The side that the point lies on tells them apart: it is the eye's for a reflection.
  */
-#ifndef meniscus_Refraction_Sight_SightEquation_h
-#define meniscus_Refraction_Sight_SightEquation_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 
@@ -291,5 +290,3 @@ inline int SightEquation::GetOrientation(
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Sight_VirtualVertex_h
-#define meniscus_Refraction_Sight_VirtualVertex_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -32,5 +31,3 @@ struct VirtualVertex
 };
 
 }
-
-#endif

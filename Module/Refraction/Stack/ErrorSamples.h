@@ -6,8 +6,7 @@
  * Eq. 2.4 is inverted on the exact refracted ray. The error is the distance between the resulting
  * point and the original one.
  */
-#ifndef meniscus_Refraction_Stack_ErrorSamples_h
-#define meniscus_Refraction_Stack_ErrorSamples_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
@@ -112,5 +111,3 @@ private:
 ErrorSummary Summarize(const ErrorSample* samples, std::size_t count);
 
 }
-
-#endif

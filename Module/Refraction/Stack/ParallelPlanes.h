@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_ParallelPlanes_h
-#define meniscus_Refraction_Stack_ParallelPlanes_h
+#pragma once
 
 #include "Refraction/Stack/PlaneLanes.h"
 #include "Refraction/Stack/RefractionStack.h"
@@ -63,5 +62,3 @@ private:
 };
 
 }
-
-#endif

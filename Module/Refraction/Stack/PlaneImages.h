@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_PlaneImages_h
-#define meniscus_Refraction_Stack_PlaneImages_h
+#pragma once
 
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/StackSolver.h"
@@ -96,5 +95,3 @@ private:
 };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Sight rays to several points behind parallel planes at once: plain loops over arrays, compiled
  * per instruction set.
  */
-#ifndef meniscus_Refraction_Stack_PlaneLanes_h
-#define meniscus_Refraction_Stack_PlaneLanes_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 
@@ -102,5 +101,3 @@ struct PlaneLanes
 };
 
 }
-
-#endif

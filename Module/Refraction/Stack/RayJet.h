@@ -4,8 +4,7 @@
  * A ray with its derivatives by two parameters, and their way through one interface: transfer to a
  * surface and refraction there (ray differentials, Igehy 1999).
  */
-#ifndef meniscus_Refraction_Stack_RayJet_h
-#define meniscus_Refraction_Stack_RayJet_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/Optics.h"
@@ -130,5 +129,3 @@ inline RayKind Refract(
 }
 
 }
-
-#endif

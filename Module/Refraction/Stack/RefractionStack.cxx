@@ -7,8 +7,6 @@
 #include "Refraction/Surface/PatchCrossings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus
 {

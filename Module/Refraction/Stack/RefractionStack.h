@@ -10,8 +10,7 @@
  * leaves it at the back without a rule about starting points. Derivatives by the place in the
  * first patch come with the path.
  */
-#ifndef meniscus_Refraction_Stack_RefractionStack_h
-#define meniscus_Refraction_Stack_RefractionStack_h
+#pragma once
 
 #include "Refraction/Sight/EyeStatus.h"
 #include "Refraction/Stack/RayJet.h"
@@ -184,5 +183,3 @@ private:
 };
 
 }
-
-#endif

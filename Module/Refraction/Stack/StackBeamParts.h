@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackBeamParts_h
-#define meniscus_Refraction_Stack_StackBeamParts_h
+#pragma once
 
 #include "Refraction/Stack/RefractionStack.h"
 #include "Refraction/Stack/StackTubes.h"
@@ -205,5 +204,3 @@ void StackBeamParts::Visit(
 }
 
 }
-
-#endif

@@ -4,8 +4,6 @@
 
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackBeams_h
-#define meniscus_Refraction_Stack_StackBeams_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Stack/StackBeamParts.h"
@@ -105,5 +104,3 @@ private:
 };
 
 }
-
-#endif

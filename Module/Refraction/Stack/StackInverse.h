@@ -4,8 +4,7 @@
  * The way from a virtual point to the true one through several surfaces: the sight ray is traced,
  * and the depth convention of StackSolver is inverted along it. World coordinates.
  */
-#ifndef meniscus_Refraction_Stack_StackInverse_h
-#define meniscus_Refraction_Stack_StackInverse_h
+#pragma once
 
 #include "Refraction/Sight/SeenDepth.h"
 #include "Refraction/Stack/StackSightRay.h"
@@ -57,5 +56,3 @@ TruePosition WalkSightRay(const StackSightRay& ray, const glm::dvec3& seen, std:
   SeenDepth depth = SeenDepth::Apparent);
 
 }
-
-#endif

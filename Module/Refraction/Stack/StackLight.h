@@ -13,8 +13,7 @@
  * Triangles of one plane therefore divide the light of a beam without gaps and overlaps, behind a
  * focus as well.
  */
-#ifndef meniscus_Refraction_Stack_StackLight_h
-#define meniscus_Refraction_Stack_StackLight_h
+#pragma once
 
 #include "Refraction/Stack/RefractionStack.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -129,5 +128,3 @@ private:
 };
 
 }
-
-#endif

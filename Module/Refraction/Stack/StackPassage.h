@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackPassage_h
-#define meniscus_Refraction_Stack_StackPassage_h
+#pragma once
 
 #include "Refraction/Stack/StackTubes.h"
 
@@ -52,5 +51,3 @@ private:
 };
 
 }
-
-#endif

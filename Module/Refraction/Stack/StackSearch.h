@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackSearch_h
-#define meniscus_Refraction_Stack_StackSearch_h
+#pragma once
 
 #include "Refraction/Curved/TriangleMap.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -108,5 +107,3 @@ private:
 };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Shooting at a point through a stack: Newton's method for the place in the first surface whose ray
  * meets the point behind the first `count` interfaces.
  */
-#ifndef meniscus_Refraction_Stack_StackShot_h
-#define meniscus_Refraction_Stack_StackShot_h
+#pragma once
 
 #include "Refraction/Stack/RefractionStack.h"
 
@@ -89,5 +88,3 @@ bool IsImage(const RefractionStack& stack, const StackTarget& target, const Stac
 bool IsBeforeAll(const RefractionStack& stack, const glm::dvec3& point);
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Sight rays through all interfaces of a stack, from any eye: no tables of the eye are needed.
  * World coordinates.
  */
-#ifndef meniscus_Refraction_Stack_StackSightRay_h
-#define meniscus_Refraction_Stack_StackSightRay_h
+#pragma once
 
 #include "Refraction/Curved/CrossingChain.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -160,5 +159,3 @@ private:
 };
 
 }
-
-#endif

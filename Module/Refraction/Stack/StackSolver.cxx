@@ -8,7 +8,6 @@
 #include "Refraction/Surface/CurveCrossings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>

@@ -22,8 +22,7 @@
  * point in front of all of them is its own image if the straight ray through it goes on to the
  * first one.
  */
-#ifndef meniscus_Refraction_Stack_StackSolver_h
-#define meniscus_Refraction_Stack_StackSolver_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Sight/VirtualVertex.h"
@@ -173,5 +172,3 @@ private:
 };
 
 }
-
-#endif

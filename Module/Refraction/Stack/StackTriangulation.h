@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_StackTriangulation_h
-#define meniscus_Refraction_Stack_StackTriangulation_h
+#pragma once
 
 #include "Refraction/Stack/StackSightRay.h"
 
@@ -41,5 +40,3 @@ struct TriangulatedPoint
 TriangulatedPoint Triangulate(const std::vector<StackSightRay>& rays);
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * arithmetic on Snell's law, surface by surface. No ray is outside of them. Positions are relative
  * to the stack's origin.
  */
-#ifndef meniscus_Refraction_Stack_StackTubes_h
-#define meniscus_Refraction_Stack_StackTubes_h
+#pragma once
 
 #include "Refraction/Stack/RefractionStack.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -54,5 +53,3 @@ bool MayReach(const RefractionStack& stack, std::int32_t facet, const PatchTrian
   std::size_t count, const AxisBox& box);
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Derivatives of numbers and vectors by two parameters. Both derivatives are computed at once, in
  * the two lanes of a vector register, by the vector types of GCC and clang.
  */
-#ifndef meniscus_Refraction_Stack_VectorBy_h
-#define meniscus_Refraction_Stack_VectorBy_h
+#pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -93,5 +92,3 @@ inline glm::dvec3 GetChange(const VectorBy& by, const glm::dvec2& move)
 }
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * changes. A cell of the sheet cannot tell from the rays at its corners that a border
  * enters and leaves it through the same side, or bends within it.
  */
-#ifndef meniscus_Refraction_StackImages_SightBorders_h
-#define meniscus_Refraction_StackImages_SightBorders_h
+#pragma once
 
 #include "Refraction/Images/SubCellDivision.h"
 #include "Refraction/Stack/StackSolver.h"
@@ -75,5 +74,3 @@ double GetDepthInCell(const SubCell& sights, const glm::dvec2& place);
 std::vector<double> FindPlacesBetween(std::vector<double>& crossings, double least);
 
 }
-
-#endif

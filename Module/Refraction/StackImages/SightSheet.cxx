@@ -3,7 +3,6 @@
 #include "Refraction/StackImages/SightSheetBuilder.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 

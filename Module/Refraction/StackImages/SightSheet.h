@@ -14,8 +14,7 @@
  * is divided depends on that side alone, so that neighbours, of one patch or of two, have the same
  * nodes bit by bit.
  */
-#ifndef meniscus_Refraction_StackImages_SightSheet_h
-#define meniscus_Refraction_StackImages_SightSheet_h
+#pragma once
 
 #include "Refraction/Images/SubCellDivision.h"
 #include "Refraction/Stack/StackSolver.h"
@@ -160,5 +159,3 @@ void SightSheet::Visit(const Patch& patch, std::size_t leg, const AxisBox& box,
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_StackImages_SightSheetBuilder_h
-#define meniscus_Refraction_StackImages_SightSheetBuilder_h
+#pragma once
 
 #include "Refraction/StackImages/SightSheet.h"
 
@@ -96,5 +95,3 @@ private:
 };
 
 }
-
-#endif

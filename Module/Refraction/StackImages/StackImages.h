@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_StackImages_StackImages_h
-#define meniscus_Refraction_StackImages_StackImages_h
+#pragma once
 
 #include "Refraction/Images/CellImages.h"
 #include "Refraction/StackImages/StackMapper.h"
@@ -67,5 +66,3 @@ private:
 };
 
 }
-
-#endif

@@ -9,8 +9,7 @@
  * features that meet there alone, so that pieces meet bit by bit, on both sides of an interface as
  * well.
  */
-#ifndef meniscus_Refraction_StackImages_StackMapper_h
-#define meniscus_Refraction_StackImages_StackMapper_h
+#pragma once
 
 #include "Refraction/Images/ObjectPrimitive.h"
 #include "Refraction/StackImages/SightSheet.h"
@@ -130,5 +129,3 @@ private:
 };
 
 }
-
-#endif

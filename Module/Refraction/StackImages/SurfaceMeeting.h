@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Sides of primitives that meet a surface of a list in a cell of the sheet. */
-#ifndef meniscus_Refraction_StackImages_SurfaceMeeting_h
-#define meniscus_Refraction_StackImages_SurfaceMeeting_h
+#pragma once
 
 #include "Refraction/Images/SurfaceTie.h"
 #include "Refraction/StackImages/SightSheet.h"
@@ -30,5 +29,3 @@ bool MoveToSurface(const RefractionStack::Link& link, const ObjectLine& side,
   const std::array<glm::dvec3, 3>& corners, double error, double& l);
 
 }
-
-#endif

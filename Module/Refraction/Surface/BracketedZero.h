@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_BracketedZero_h
-#define meniscus_Refraction_Surface_BracketedZero_h
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -70,5 +69,3 @@ double FindZero(double atStart, double atEnd, const Measure& measure)
 }
 
 }
-
-#endif

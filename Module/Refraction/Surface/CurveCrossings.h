@@ -8,8 +8,7 @@
  * sub-cell and triangle they belong to: each side and each line of the object has a canonical
  * direction that depends on its two ends only. The results are equal bit by bit.
  */
-#ifndef meniscus_Refraction_Surface_CurveCrossings_h
-#define meniscus_Refraction_Surface_CurveCrossings_h
+#pragma once
 
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Sight/SightEquation.h"
@@ -161,5 +160,3 @@ bool MeetPatch(
   const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l, PatchJet& jet);
 
 }
-
-#endif

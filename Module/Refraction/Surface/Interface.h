@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_Interface_h
-#define meniscus_Refraction_Surface_Interface_h
+#pragma once
 
 #include "Refraction/Surface/MediaChain.h"
 #include "Refraction/Surface/RefractingSurface.h"
@@ -24,5 +23,3 @@ struct Interface
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_MediaChain_h
-#define meniscus_Refraction_Surface_MediaChain_h
+#pragma once
 
 #include <cstddef>
 #include <vector>
@@ -56,5 +55,3 @@ struct MediaChain
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_PatchCrossings_h
-#define meniscus_Refraction_Surface_PatchCrossings_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Membrane/HeightField.h"
@@ -24,25 +23,13 @@ struct PatchCrossing
 };
 
 /**
- * All crossings of one patch with a line parallel to an axis.
+ * All crossings of one patch with a line parallel to an axis. The patch is divided until each part
+ * has no crossing or at most one, which Newton's method finds: Documentation/refraction-method.md,
+ * "Crossings of a line with a patch", has the tests.
  *
- * Projected along the axis, the patch is a map X from the facet's triangle to a plane, and the
- * crossings are the roots of X(b) = place. The triangle is divided in four until each part is
- * settled:
- *
- * - X differs by at most some E from the linear interpolant of the part's corners. If the place is
- *   farther than E from the interpolant's triangle, the part has no root.
- * - Let D be the derivatives of the facet's linear map, or of X in the middle of the part. If the
- *   derivatives of X differ from D by less than D as matrices, X is injective on the part and
- *   within Reach of it. Newton's method then finds the only root there.
- *
- * E and the bounds on the derivatives follow from bounds of q, n and |n| (CurvedPatch) and their
- * derivatives over the part: control points of polynomials and the product rule.
- *
- * A part is also divided if Newton's method does not converge there. Parts that remain after
- * MostDivisions, or that are smaller than the rounding of coordinates, stay undecided: the line
- * touches the patch within rounding (at a fold of X), or runs along it. IsComplete returns false in
- * that case; nothing is guessed.
+ * Parts that remain after MostDivisions, or that are smaller than the rounding of coordinates, stay
+ * undecided: the line touches the patch within rounding (at a fold of the projected patch), or runs
+ * along it. IsComplete returns false in that case; nothing is guessed.
  */
 class PatchCrossings
 {
@@ -170,5 +157,3 @@ bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack);
 bool PassesNear(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& place, double distance);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_RefractingSurface_h
-#define meniscus_Refraction_Surface_RefractingSurface_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Membrane/CurvedPatches.h"
@@ -144,5 +143,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Surface_SteepDirections_h
-#define meniscus_Refraction_Surface_SteepDirections_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"
@@ -41,5 +40,3 @@ private:
 };
 
 }
-
-#endif

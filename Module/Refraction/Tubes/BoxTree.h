@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Tubes_BoxTree_h
-#define meniscus_Refraction_Tubes_BoxTree_h
+#pragma once
 
 #include "Common/Prefetch.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -195,5 +194,3 @@ void BoxTree::Visit(const TubeBounds& tube, double most, const Test& mayMeet, Vi
 }
 
 }
-
-#endif

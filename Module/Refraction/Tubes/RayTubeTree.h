@@ -12,8 +12,7 @@
  * Bounds are floats rounded outwards, in units of the membrane's radius; queries add the rounding
  * of the point and of the test itself, so no cell is missed.
  */
-#ifndef meniscus_Refraction_Tubes_RayTubeTree_h
-#define meniscus_Refraction_Tubes_RayTubeTree_h
+#pragma once
 
 #include "Common/Prefetch.h"
 #include "Common/RangeLoop.h"
@@ -225,5 +224,3 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Tubes_RefractedRayBounds_h
-#define meniscus_Refraction_Tubes_RefractedRayBounds_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -86,5 +85,3 @@ TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, d
 TubeBounds BoundReflectedRays(const CurvedPatch& patch, const glm::dvec3& eye);
 
 }
-
-#endif

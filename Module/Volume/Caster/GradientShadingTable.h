@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_GradientShadingTable_h
-#define meniscus_Volume_Caster_GradientShadingTable_h
+#pragma once
 
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketOptics.h"
@@ -47,5 +46,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_ImageEdges_h
-#define meniscus_Volume_Caster_ImageEdges_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Entries/BoundaryRaster.h"
@@ -98,5 +97,3 @@ void FindImageEdges(const std::vector<float>& rgba, int width, int height,
 int ChooseEdgeLevel(const std::vector<std::uint8_t>& edges, std::int64_t rays);
 
 }
-
-#endif

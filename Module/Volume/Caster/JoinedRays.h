@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_JoinedRays_h
-#define meniscus_Volume_Caster_JoinedRays_h
+#pragma once
 
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Entries/BoundaryRaster.h"
@@ -80,5 +79,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_LegBatch_h
-#define meniscus_Volume_Caster_LegBatch_h
+#pragma once
 
 #include "Volume/Entries/BoundaryRaster.h"
 #include "Volume/Packet/Data/PacketRays.h"
@@ -54,5 +53,3 @@ struct LegBatch
 };
 
 }
-
-#endif

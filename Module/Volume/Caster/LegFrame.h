@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_LegFrame_h
-#define meniscus_Volume_Caster_LegFrame_h
+#pragma once
 
 #include "Volume/Caster/GradientShadingTable.h"
 #include "Volume/Optics/SurfaceLighting.h"
@@ -56,5 +55,3 @@ private:
 };
 
 }
-
-#endif

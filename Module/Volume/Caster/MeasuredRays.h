@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_MeasuredRays_h
-#define meniscus_Volume_Caster_MeasuredRays_h
+#pragma once
 
 #include "Volume/Packet/Data/RayEvents.h"
 #include "Volume/Packet/Data/RayMeasuring.h"
@@ -121,5 +120,3 @@ struct MeasuredRays
 };
 
 }
-
-#endif

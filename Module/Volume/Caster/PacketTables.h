@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_PacketTables_h
-#define meniscus_Volume_Caster_PacketTables_h
+#pragma once
 
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Packet/Data/PacketOptics.h"
@@ -30,5 +29,3 @@ struct PacketTables
 std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInterval>& intervals);
 
 }
-
-#endif

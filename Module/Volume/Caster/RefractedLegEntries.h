@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_RefractedLegEntries_h
-#define meniscus_Volume_Caster_RefractedLegEntries_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Caster/JoinedRays.h"
@@ -173,5 +172,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Caster_TileCaster_h
-#define meniscus_Volume_Caster_TileCaster_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Simd/InstructionSets.h"
@@ -201,5 +200,3 @@ private:
 };
 
 }
-
-#endif

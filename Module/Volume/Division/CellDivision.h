@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_CellDivision_h
-#define meniscus_Volume_Division_CellDivision_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Division/CellPiece.h"
@@ -48,22 +47,9 @@ struct DivisionCounts
  * pieces is spent: the error of an edge is the distance of the curve from its chord, or the
  * difference of a value from that on the chord, as the measure weighs them.
  *
- * The cells are given as tetrahedra between their corners, which match across shared faces. In each
- * round all new edges are measured (at three places; at more in the first pieces of cells of a high
- * degree); so are faces and pieces of cells with a degree above 2, whose shape functions may vanish
- * on all edges: their errors count for their longest edge. Edges with errors above a threshold are
- * marked; each piece with marked edges is halved at the longest of these, and so on. The rule is
- * one order of all edges, so the triangles of a shared face are the same on both sides: the first
- * marked edge of a piece that lies in the face is the first one of the face, whichever other edges
- * the piece has. No neighbours crack, whatever their types. A new point is the middle of its edge
- * in reference coordinates.
- *
- * The threshold is the tolerance if the budget allows. Otherwise it is an error for which the
- * budget is likely to be enough, and is lowered until the budget is spent. If the last threshold is
- * not reached everywhere, the largest errors are divided, or the threshold before it gives the
- * result.
- *
- * The result does not depend on the number of threads.
+ * The cells are given as tetrahedra between their corners, which match across shared faces; so do
+ * the pieces, whatever the types of the cells. The result does not depend on the number of threads.
+ * Documentation/true-cells.md, "How it works", has the rules.
  */
 class CellDivision
 {
@@ -111,5 +97,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_CellPiece_h
-#define meniscus_Volume_Division_CellPiece_h
+#pragma once
 
 #include "Volume/Division/EdgeIndex.h"
 
@@ -54,5 +53,3 @@ inline EdgePoints EdgeOf(const CellPiece& piece, int edge)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_DivisionLimits_h
-#define meniscus_Volume_Division_DivisionLimits_h
+#pragma once
 
 #include "Volume/Division/ShapeFunctions.h"
 #include "Volume/Optics/ErrorScale.h"
@@ -51,5 +50,3 @@ struct DivisionLimits
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_DivisionWatch_h
-#define meniscus_Volume_Division_DivisionWatch_h
+#pragma once
 
 #include "Common/BlockLoop.h"
 #include "Common/RangeLoop.h"
@@ -108,5 +107,3 @@ private:
 };
 
 }
-
-#endif

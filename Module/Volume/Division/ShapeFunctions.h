@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_ShapeFunctions_h
-#define meniscus_Volume_Division_ShapeFunctions_h
+#pragma once
 
 #include "Volume/Division/WeightedPoints.h"
 #include "Volume/Mesh/PointsView.h"
@@ -92,5 +91,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Division_ShapeTest_h
-#define meniscus_Volume_Division_ShapeTest_h
+#pragma once
 
 #include "Volume/Division/CellPiece.h"
 #include "Volume/Division/DivisionLimits.h"
@@ -63,5 +62,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Entries_BoundaryRaster_h
-#define meniscus_Volume_Entries_BoundaryRaster_h
+#pragma once
 
 #include "Common/GroupedItems.h"
 #include "Common/RangeLoop.h"
@@ -114,5 +113,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Entries_EntryLists_h
-#define meniscus_Volume_Entries_EntryLists_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 
@@ -37,5 +36,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Entries_EntryTiles_h
-#define meniscus_Volume_Entries_EntryTiles_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -92,5 +91,3 @@ private:
 };
 
 }
-
-#endif

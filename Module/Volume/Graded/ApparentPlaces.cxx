@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/ApparentPlaces.h"
 
+#include "Common/FiniteVector.h"
+#include "Refraction/Membrane/CrossProduct.h"
 #include "Volume/Graded/GradedPiece.h"
 
 #include <glm/common.hpp>
@@ -34,11 +36,6 @@ constexpr int MostSteps = 24;
 constexpr int MostDivisions = 8;
 /** Images that are nearer to each other than this part of the grid's cell count as one. */
 constexpr double OneImage = 1.0 / 256.0;
-
-bool IsFinite(const glm::dvec3& v)
-{
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /** Sets two unit vectors that are perpendicular to a unit vector and to each other. */
 void SetAxesAcross(const glm::dvec3& along, glm::dvec3& right, glm::dvec3& up)
@@ -166,11 +163,6 @@ glm::dvec2 PlaceAt(const std::vector<glm::dvec3>& trail, double depth)
   const glm::dvec3& a = *(after - 1);
   const glm::dvec3& b = *after;
   return glm::mix(glm::dvec2(a), glm::dvec2(b), (depth - a.z) / (b.z - a.z));
-}
-
-double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
 }
 
 /**

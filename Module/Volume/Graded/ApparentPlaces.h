@@ -15,8 +15,7 @@
  *
  * Images that lie within one cell of the grid, in pairs that cancel, may be missed.
  */
-#ifndef meniscus_Volume_Graded_ApparentPlaces_h
-#define meniscus_Volume_Graded_ApparentPlaces_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Graded/GradedRayWalk.h"
@@ -86,5 +85,3 @@ private:
 };
 
 }
-
-#endif

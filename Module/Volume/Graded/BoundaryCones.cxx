@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/BoundaryCones.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_BoundaryCones_h
-#define meniscus_Volume_Graded_BoundaryCones_h
+#pragma once
 
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -44,5 +43,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_BoundaryCrossings_h
-#define meniscus_Volume_Graded_BoundaryCrossings_h
+#pragma once
 
 #include "Volume/Graded/BoundaryCones.h"
 #include "Volume/Graded/EntryRaster.h"
@@ -82,5 +81,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_EntryRaster_h
-#define meniscus_Volume_Graded_EntryRaster_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -86,5 +85,3 @@ private:
 };
 
 }
-
-#endif

@@ -6,8 +6,7 @@
  * With the ray parameter s of dx/ds = p and |p| = n, the ray equation is dp/ds = grad(n^2) / 2, the
  * force. n^2 is linear or quadratic (QuadraticIndex.h); the force is constant or linear.
  */
-#ifndef meniscus_Volume_Graded_GradedCell_h
-#define meniscus_Volume_Graded_GradedCell_h
+#pragma once
 
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -183,5 +182,3 @@ inline double TimeToZero(double weight, double rate, double curvature)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_GradedCellTable_h
-#define meniscus_Volume_Graded_GradedCellTable_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Graded/QuadraticIndex.h"
@@ -68,5 +67,3 @@ private:
 };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Steps of lanes, compiled once per instruction set, by GradedLanesOfSet.cxx.in. No name of this
  * file is seen by other files.
  */
-#ifndef meniscus_Volume_Graded_GradedLaneKernel_h
-#define meniscus_Volume_Graded_GradedLaneKernel_h
+#pragma once
 
 #include "Volume/Graded/GradedLanes.h"
 #include "Volume/Graded/GradedPassage.h"
@@ -411,5 +410,3 @@ void StepAll(GradedLanes& lanes)
 }
 
 }
-
-#endif

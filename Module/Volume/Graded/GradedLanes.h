@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_GradedLanes_h
-#define meniscus_Volume_Graded_GradedLanes_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Graded/GradedCellTable.h"
@@ -69,5 +68,3 @@ struct GradedLanes
 void StepLanes(GradedLanes& lanes, InstructionSet set);
 
 }
-
-#endif

@@ -9,8 +9,7 @@
  * coefficients c_1 = p, c_2 = Force / 2, c_k+2 = A c_k / ((k + 1) (k + 2)): sines, cosines and
  * their hyperbolic kin. It is summed to rounding, so that a ray back takes the same way.
  */
-#ifndef meniscus_Volume_Graded_GradedPassage_h
-#define meniscus_Volume_Graded_GradedPassage_h
+#pragma once
 
 #include "Volume/Graded/GradedCell.h"
 
@@ -135,5 +134,3 @@ private:
 };
 
 }
-
-#endif

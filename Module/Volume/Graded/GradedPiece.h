@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Pieces of the path of a bent ray, which a visitor receives one by one. */
-#ifndef meniscus_Volume_Graded_GradedPiece_h
-#define meniscus_Volume_Graded_GradedPiece_h
+#pragma once
 
 #include "Volume/Graded/GradedPassage.h"
 
@@ -88,5 +87,3 @@ public:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_GradedRayPath_h
-#define meniscus_Volume_Graded_GradedRayPath_h
+#pragma once
 
 #include "Volume/Graded/GradedCell.h"
 #include "Volume/Graded/GradedPassage.h"
@@ -81,5 +80,3 @@ struct GradedRayWalk::Path
 };
 
 }
-
-#endif

@@ -24,8 +24,7 @@
  * A ray that enters from outside leaves again, but for a set of measure zero (Poincare's recurrence
  * theorem); its steps are limited all the same.
  */
-#ifndef meniscus_Volume_Graded_GradedRayWalk_h
-#define meniscus_Volume_Graded_GradedRayWalk_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Graded/BoundaryCones.h"
@@ -209,5 +208,3 @@ private:
 };
 
 }
-
-#endif

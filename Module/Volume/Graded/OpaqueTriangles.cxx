@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/OpaqueTriangles.h"
 
+#include "Common/PointOrder.h"
 #include "Volume/Graded/BoundaryCrossings.h"
 #include "Volume/Graded/TriangleCrossing.h"
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace meniscus
@@ -45,12 +45,6 @@ constexpr double Flatness = BoundaryCrossings::DistanceError;
  * the few roundings of 2^-53 of a crossing, and too little to cost time.
  */
 constexpr double BoxGrowth = 0x1p-40;
-
-/** Order of points that does not depend on how often a point is listed. */
-bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
-{
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 double SizeOf(const glm::dvec3& v)
 {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Graded_OpaqueTriangles_h
-#define meniscus_Volume_Graded_OpaqueTriangles_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -113,5 +112,3 @@ private:
 };
 
 }
-
-#endif

@@ -19,8 +19,7 @@
  * 3. No term is larger than the difference of n^2 between either end and the vertices around it.
  * 4. No term is below -min(f_i, f_j), so that n^2 is at least half the linear one.
  */
-#ifndef meniscus_Volume_Graded_QuadraticIndex_h
-#define meniscus_Volume_Graded_QuadraticIndex_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -42,5 +41,3 @@ std::vector<EdgeTerms> ComputeEdgeTerms(const TetrahedralMesh& mesh,
   const std::vector<double>& squaredIndices, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

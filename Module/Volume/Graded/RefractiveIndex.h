@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Squared index of refraction at the vertices of a mesh, and the cells that it is known in. */
-#ifndef meniscus_Volume_Graded_RefractiveIndex_h
-#define meniscus_Volume_Graded_RefractiveIndex_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -57,5 +56,3 @@ std::int64_t ActivateCellsWithIndex(TetrahedralMesh& mesh,
   const std::vector<double>& squaredIndices, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Images that optical instruments make of rays behind a medium. */
-#ifndef meniscus_Volume_Graded_SchlierenImages_h
-#define meniscus_Volume_Graded_SchlierenImages_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -72,5 +71,3 @@ double SamplePicture(
   const std::vector<float>& picture, int width, int height, const glm::dvec2& place);
 
 }
-
-#endif

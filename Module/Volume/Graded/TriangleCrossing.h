@@ -8,8 +8,7 @@
  * edge decide alike: no line passes between them, and a line through an edge or a corner crosses
  * all triangles at it.
  */
-#ifndef meniscus_Volume_Graded_TriangleCrossing_h
-#define meniscus_Volume_Graded_TriangleCrossing_h
+#pragma once
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -64,5 +63,3 @@ bool CrossTriangle(const std::array<glm::dvec3, 3>& corners, const Order& isBefo
 }
 
 }
-
-#endif

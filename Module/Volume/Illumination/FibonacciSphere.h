@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Illumination_FibonacciSphere_h
-#define meniscus_Volume_Illumination_FibonacciSphere_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -15,5 +14,3 @@ namespace meniscus
 glm::dvec3 FibonacciDirection(int index, int count);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Illumination_LightFrames_h
-#define meniscus_Volume_Illumination_LightFrames_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Illumination/VertexStarts.h"
@@ -70,5 +69,3 @@ private:
 };
 
 }
-
-#endif

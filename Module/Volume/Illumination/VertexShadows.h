@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Illumination_VertexShadows_h
-#define meniscus_Volume_Illumination_VertexShadows_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Caster/TileCaster.h"
@@ -59,5 +58,3 @@ RayStatistics CastShadows(const ShadowScene& scene, const glm::dvec4& light, con
   const ShadowTaker& take);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Illumination_VertexStarts_h
-#define meniscus_Volume_Illumination_VertexStarts_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -72,5 +71,3 @@ private:
 };
 
 }
-
-#endif

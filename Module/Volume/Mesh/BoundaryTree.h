@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_BoundaryTree_h
-#define meniscus_Volume_Mesh_BoundaryTree_h
+#pragma once
 
 #include "Volume/Mesh/TetrahedralMesh.h"
 
@@ -59,5 +58,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_CellFaces_h
-#define meniscus_Volume_Mesh_CellFaces_h
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -26,5 +25,3 @@ inline int FaceParity(int face)
 }
 
 }
-
-#endif

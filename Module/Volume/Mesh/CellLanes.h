@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_CellLanes_h
-#define meniscus_Volume_Mesh_CellLanes_h
+#pragma once
 
 #include "Simd/LaneLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -51,5 +50,3 @@ void ForEachGroup(
 }
 
 }
-
-#endif

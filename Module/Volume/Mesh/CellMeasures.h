@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_CellMeasures_h
-#define meniscus_Volume_Mesh_CellMeasures_h
+#pragma once
 
 #include "Volume/Mesh/CellLanes.h"
 
@@ -22,5 +21,3 @@ struct CellMeasures : CellLanes
 void MeasureLanes(InstructionSet set, CellMeasures& cells);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_ComponentVolume_h
-#define meniscus_Volume_Mesh_ComponentVolume_h
+#pragma once
 
 #include "Volume/Mesh/TetrahedralMesh.h"
 
@@ -57,5 +56,3 @@ struct ComponentVolume
 };
 
 }
-
-#endif

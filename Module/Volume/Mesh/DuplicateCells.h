@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_DuplicateCells_h
-#define meniscus_Volume_Mesh_DuplicateCells_h
+#pragma once
 
 #include "Common/MortonOrder.h"
 #include "Common/RangeLoop.h"
@@ -32,5 +31,3 @@ std::vector<std::uint8_t> MarkDuplicateCells(const std::vector<MortonKey>& keys,
   const std::function<std::array<std::int32_t, 4>(std::size_t)>& verticesAt, const RangeLoop& loop);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_InvertedCells_h
-#define meniscus_Volume_Mesh_InvertedCells_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -19,5 +18,3 @@ class TetrahedralMesh;
 std::int64_t CountInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_LongestEdge_h
-#define meniscus_Volume_Mesh_LongestEdge_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -14,5 +13,3 @@ class TetrahedralMesh;
 double ComputeLongestEdge(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

@@ -1,22 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_PointBox_h
-#define meniscus_Volume_Mesh_PointBox_h
+#pragma once
+
+#include "Common/FiniteVector.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace meniscus
 {
-
-inline bool IsFinite(const glm::dvec3& p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /** Bounding box of points; empty at first. */
 struct PointBox
@@ -51,5 +46,3 @@ inline PointBox Enclose(const std::vector<PointBox>& boxes)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_PointsView_h
-#define meniscus_Volume_Mesh_PointsView_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -73,5 +72,3 @@ private:
 };
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * scalars: where the scalars of a cell differ little, rounding them to normalised floats would
  * change the direction of the gradient. Equal scalars have the gradient 0.
  */
-#ifndef meniscus_Volume_Mesh_ScalarGradients_h
-#define meniscus_Volume_Mesh_ScalarGradients_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -36,5 +35,3 @@ std::vector<glm::vec3> ComputeVertexGradients(const TetrahedralMesh& mesh,
   const std::vector<double>& scalars, double scale, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

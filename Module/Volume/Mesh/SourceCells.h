@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_SourceCells_h
-#define meniscus_Volume_Mesh_SourceCells_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -22,5 +21,3 @@ std::vector<std::int32_t> FindSourceCells(
   const TetrahedralMesh& mesh, const TetrahedraView& input, const RangeLoop& loop = SerialLoop);
 
 }
-
-#endif

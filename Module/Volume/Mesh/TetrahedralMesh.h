@@ -26,8 +26,7 @@
  * Cells that cannot be seen can be made inactive: links to them read as negative, like the
  * boundary. GetBoundary() is the boundary of the active cells, where rays enter and leave the mesh.
  */
-#ifndef meniscus_Volume_Mesh_TetrahedralMesh_h
-#define meniscus_Volume_Mesh_TetrahedralMesh_h
+#pragma once
 
 #include "Common/BitTable.h"
 #include "Common/RangeLoop.h"
@@ -323,5 +322,3 @@ private:
 };
 
 }
-
-#endif

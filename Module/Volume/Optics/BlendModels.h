@@ -8,8 +8,7 @@
  * Packet kernels include this header: constants and enumerations only at run time, since inline
  * functions that files of different instruction sets share could be merged by the linker.
  */
-#ifndef meniscus_Volume_Optics_BlendModels_h
-#define meniscus_Volume_Optics_BlendModels_h
+#pragma once
 
 #include "Volume/Optics/BlendModeList.h"
 
@@ -131,5 +130,3 @@ const BlendModel* FindBlendModel(int number);
 OpacityMeaning OpacityMeaningOf(BlendMode mode, bool perUnitDistance);
 
 }
-
-#endif

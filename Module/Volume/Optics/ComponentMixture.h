@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_ComponentMixture_h
-#define meniscus_Volume_Optics_ComponentMixture_h
+#pragma once
 
 namespace meniscus
 {
@@ -20,5 +19,3 @@ enum class ComponentMixture
 };
 
 }
-
-#endif

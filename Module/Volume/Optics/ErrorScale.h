@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_ErrorScale_h
-#define meniscus_Volume_Optics_ErrorScale_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -84,5 +83,3 @@ struct PictureFunction
 };
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * get them from Rendering/Backends/OpenGL/ShaderConstants.cxx. Data only: files of different
  * instruction sets share it.
  */
-#ifndef meniscus_Volume_Optics_MediumConstants_h
-#define meniscus_Volume_Optics_MediumConstants_h
+#pragma once
 
 namespace meniscus
 {
@@ -84,5 +83,3 @@ constexpr float GaussWeights[2] = { 5.0f / 18.0f, 8.0f / 18.0f };
 constexpr float LargestChange = 4.0f;
 
 }
-
-#endif

@@ -15,8 +15,7 @@
  * add up over the logarithm of the number of lengths only. The lengths are a geometric sequence
  * that begins at 0, because cell sizes differ by factors.
  */
-#ifndef meniscus_Volume_Optics_PreIntegration_h
-#define meniscus_Volume_Optics_PreIntegration_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -103,5 +102,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_RefractionMedium_h
-#define meniscus_Volume_Optics_RefractionMedium_h
+#pragma once
 
 #include <array>
 #include <string>
@@ -46,5 +45,3 @@ struct RefractionMedium
 bool operator==(const RefractionMedium& a, const RefractionMedium& b);
 
 }
-
-#endif

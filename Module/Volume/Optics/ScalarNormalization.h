@@ -10,8 +10,7 @@
  * example with a fill value of 1e20 among scalars around 300), it is a scalar at which the function
  * changes fastest.
  */
-#ifndef meniscus_Volume_Optics_ScalarNormalization_h
-#define meniscus_Volume_Optics_ScalarNormalization_h
+#pragma once
 
 #include "Common/TableVersion.h"
 
@@ -132,5 +131,3 @@ ScalarRange SampledRange(const ScalarDistribution& scalars,
   const std::vector<ScalarFeature>& features, const ScalarNormalization& normalization);
 
 }
-
-#endif

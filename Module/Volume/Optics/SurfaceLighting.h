@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_SurfaceLighting_h
-#define meniscus_Volume_Optics_SurfaceLighting_h
+#pragma once
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -72,5 +71,3 @@ ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
   const glm::dvec3& place, const glm::dvec2& raySlope, const glm::dvec3& reached);
 
 }
-
-#endif

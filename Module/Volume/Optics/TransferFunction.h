@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_TransferFunction_h
-#define meniscus_Volume_Optics_TransferFunction_h
+#pragma once
 
 #include "Volume/Optics/ScalarNormalization.h"
 
@@ -51,5 +50,3 @@ std::vector<TransferFunctionInterval> BuildIntervals(
 std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Optics_VisibleRanks_h
-#define meniscus_Volume_Optics_VisibleRanks_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -51,5 +50,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_BoundsInFrame_h
-#define meniscus_Volume_Rays_BoundsInFrame_h
+#pragma once
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -23,5 +22,3 @@ struct BoundsInFrame
 };
 
 }
-
-#endif

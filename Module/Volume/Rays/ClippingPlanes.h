@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_ClippingPlanes_h
-#define meniscus_Volume_Rays_ClippingPlanes_h
+#pragma once
 
 #include "Volume/Rays/RayFrame.h"
 
@@ -49,5 +48,3 @@ void ClipLine(const RayClippingPlane& plane, const glm::dvec3& place, const glm:
   double& start, double& end);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraRays.glsl (sign of an edge)
-#ifndef meniscus_Volume_Rays_ExactEdgeTest_h
-#define meniscus_Volume_Rays_ExactEdgeTest_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 
@@ -128,5 +127,3 @@ struct ExactEntry
 };
 
 }
-
-#endif

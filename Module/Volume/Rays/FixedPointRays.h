@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_FixedPointRays_h
-#define meniscus_Volume_Rays_FixedPointRays_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/RayFrame.h"
@@ -286,5 +285,3 @@ inline PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::d
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_PlacedVertices_h
-#define meniscus_Volume_Rays_PlacedVertices_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Packet/Data/PacketRays.h"
@@ -24,5 +23,3 @@ void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalar
   const FixedPointRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_ProjectedFaces_h
-#define meniscus_Volume_Rays_ProjectedFaces_h
+#pragma once
 
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Packet/Data/PacketRays.h"
@@ -106,5 +105,3 @@ private:
 };
 
 }
-
-#endif

@@ -11,8 +11,7 @@
  * the origin of coordinates and the size of the mesh; they are computed in double precision and
  * rounded once.
  */
-#ifndef meniscus_Volume_Rays_RayFrame_h
-#define meniscus_Volume_Rays_RayFrame_h
+#pragma once
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -122,5 +121,3 @@ enum class RayFrameStatus
 RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_RayPivot_h
-#define meniscus_Volume_Rays_RayPivot_h
+#pragma once
 
 #include "Volume/Rays/RayFrame.h"
 
@@ -24,5 +23,3 @@ class TetrahedralMesh;
 double FindPivot(const RayFrame& frame, int width, int height, const TetrahedralMesh& mesh);
 
 }
-
-#endif

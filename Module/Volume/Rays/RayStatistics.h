@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Rays_RayStatistics_h
-#define meniscus_Volume_Rays_RayStatistics_h
+#pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
@@ -21,6 +21,18 @@ struct RayStatistics
   std::int64_t Overlaps = 0;
 };
 
+/** Sums over the rays of all parts of a frame. */
+inline RayStatistics SumOf(const std::vector<RayStatistics>& parts)
+{
+  RayStatistics sum;
+  for (const RayStatistics& part : parts)
+  {
+    sum.Steps += part.Steps;
+    sum.Rays += part.Rays;
+    sum.Lost += part.Lost;
+    sum.Overlaps += part.Overlaps;
+  }
+  return sum;
 }
 
-#endif
+}

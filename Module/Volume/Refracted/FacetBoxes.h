@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_FacetBoxes_h
-#define meniscus_Volume_Refracted_FacetBoxes_h
+#pragma once
 
 #include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -213,5 +212,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Legs of many rays at once, compiled per instruction set; as in PatchIntersectionBatch.h. */
-#ifndef meniscus_Volume_Refracted_LegBlock_h
-#define meniscus_Volume_Refracted_LegBlock_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/LegBox.h"
@@ -95,5 +94,3 @@ void SetLines(const RefractionFrame& frame, LegBlock& legs, bool isOutside, Inst
   LineBlock& lines);
 
 }
-
-#endif

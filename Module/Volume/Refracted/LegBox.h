@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_LegBox_h
-#define meniscus_Volume_Refracted_LegBox_h
+#pragma once
 
 #include "Volume/Rays/BoundsInFrame.h"
 #include "Volume/Refracted/RayLegs.h"
@@ -88,5 +87,3 @@ private:
 };
 
 }
-
-#endif

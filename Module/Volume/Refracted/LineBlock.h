@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_LineBlock_h
-#define meniscus_Volume_Refracted_LineBlock_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 
@@ -76,5 +75,3 @@ struct LineBlock
 };
 
 }
-
-#endif

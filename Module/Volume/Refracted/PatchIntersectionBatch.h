@@ -5,8 +5,7 @@
  * over arrays, compiled per instruction set. Every lane performs the same operations in the
  * same order in every set, so the results are the same to the last bit.
  */
-#ifndef meniscus_Volume_Refracted_PatchIntersectionBatch_h
-#define meniscus_Volume_Refracted_PatchIntersectionBatch_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Simd/InstructionSets.h"
@@ -218,5 +217,3 @@ void FindStates(
 void Refract(double ratio, InstructionSet set, PatchIntersectionBatch& lanes);
 
 }
-
-#endif

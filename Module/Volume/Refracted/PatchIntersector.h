@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_PatchIntersector_h
-#define meniscus_Volume_Refracted_PatchIntersector_h
+#pragma once
 
 #include "Refraction/Membrane/CurvedPatch.h"
 #include "Refraction/Surface/PatchCrossings.h"
@@ -224,5 +223,3 @@ void PatchIntersector::MeetExactly(
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Tests of many rays with one box or one patch at once, compiled per instruction set. */
-#ifndef meniscus_Volume_Refracted_RayBlock_h
-#define meniscus_Volume_Refracted_RayBlock_h
+#pragma once
 
 #include "Refraction/Tubes/BoxTree.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -155,5 +154,3 @@ void MeetPatchReach(
   const PatchReach& patch, const RayRange& range, InstructionSet set, RayBlock& rays);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RayBundleEntries_h
-#define meniscus_Volume_Refracted_RayBundleEntries_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -139,5 +138,3 @@ private:
 };
 
 }
-
-#endif

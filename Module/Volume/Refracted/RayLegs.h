@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RayLegs_h
-#define meniscus_Volume_Refracted_RayLegs_h
+#pragma once
 
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RefractedRayTiles.h"
@@ -153,5 +152,3 @@ private:
 };
 
 }
-
-#endif

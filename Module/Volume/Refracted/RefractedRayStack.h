@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RefractedRayStack_h
-#define meniscus_Volume_Refracted_RefractedRayStack_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Surface/Interface.h"
@@ -170,5 +169,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RefractedRayTexels_h
-#define meniscus_Volume_Refracted_RefractedRayTexels_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Volume/Refracted/RayLegs.h"
@@ -56,5 +55,3 @@ void LayOutRefractedRays(const RayLegs& legs, const RefractionFrames& frames, co
   std::vector<RefractedRayLine>& lines);
 
 }
-
-#endif

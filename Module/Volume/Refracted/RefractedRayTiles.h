@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RefractedRayTiles_h
-#define meniscus_Volume_Refracted_RefractedRayTiles_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -144,5 +143,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_RefractionFrames_h
-#define meniscus_Volume_Refracted_RefractionFrames_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -121,5 +120,3 @@ private:
 };
 
 }
-
-#endif

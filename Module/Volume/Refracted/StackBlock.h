@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_StackBlock_h
-#define meniscus_Volume_Refracted_StackBlock_h
+#pragma once
 
 #include "Refraction/Surface/Interface.h"
 #include "Simd/InstructionSets.h"
@@ -176,5 +175,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Refracted_StackVisibility_h
-#define meniscus_Volume_Refracted_StackVisibility_h
+#pragma once
 
 #include "Refraction/Surface/Interface.h"
 #include "Refraction/Tubes/RayTubeTree.h"
@@ -128,5 +127,3 @@ private:
 };
 
 }
-
-#endif

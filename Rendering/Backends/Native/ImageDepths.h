@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_Native_ImageDepths_h
-#define meniscus_Rendering_Backends_Native_ImageDepths_h
+#pragma once
 
 #include "Volume/Entries/BoundaryRaster.h"
 
@@ -44,5 +43,3 @@ struct ImageDepths
 };
 
 }
-
-#endif

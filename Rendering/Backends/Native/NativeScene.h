@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_Native_NativeScene_h
-#define meniscus_Rendering_Backends_Native_NativeScene_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Simd/InstructionSets.h"
@@ -50,5 +49,3 @@ private:
 };
 
 }
-
-#endif

@@ -23,19 +23,6 @@ bool IsFilled(const RayStatistics& tile)
   return tile.Rays > 0;
 }
 
-RayStatistics SumOf(const std::vector<RayStatistics>& tiles)
-{
-  RayStatistics sum;
-  for (const RayStatistics& tile : tiles)
-  {
-    sum.Steps += tile.Steps;
-    sum.Rays += tile.Rays;
-    sum.Lost += tile.Lost;
-    sum.Overlaps += tile.Overlaps;
-  }
-  return sum;
-}
-
 /** Sets the box of an image of four numbers per pixel to zero. */
 void ClearRows(const BoundaryRaster::PixelBox& box, int width, std::vector<float>& image)
 {

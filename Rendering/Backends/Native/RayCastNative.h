@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_Native_RayCastNative_h
-#define meniscus_Rendering_Backends_Native_RayCastNative_h
+#pragma once
 
 #include "Rendering/Backends/Native/ImageDepths.h"
 #include "Rendering/Backends/Native/NativeScene.h"
@@ -60,5 +59,3 @@ private:
 std::unique_ptr<RayCastBackend> MakeNativeBackend(RayCastSharing& sharing);
 
 }
-
-#endif

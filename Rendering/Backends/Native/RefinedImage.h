@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_Native_RefinedImage_h
-#define meniscus_Rendering_Backends_Native_RefinedImage_h
+#pragma once
 
 #include "Rendering/Backends/Native/ImageDepths.h"
 #include "Rendering/Backends/Native/TilesToCast.h"
@@ -65,5 +64,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_Native_TilesToCast_h
-#define meniscus_Rendering_Backends_Native_TilesToCast_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 
@@ -38,5 +37,3 @@ private:
 };
 
 }
-
-#endif

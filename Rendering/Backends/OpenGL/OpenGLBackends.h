@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLBackends_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLBackends_h
+#pragma once
 
 #include "Rendering/Backends/RayCastBackend.h"
 
@@ -17,5 +16,3 @@ std::unique_ptr<RayCastBackend> MakeFragmentBackend(RayCastSharing& sharing);
 std::unique_ptr<RayCastBackend> MakeComputeBackend(RayCastSharing& sharing);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLComputeProgram_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLComputeProgram_h
+#pragma once
 
 #include "vtkShaderProgram.h"
 
@@ -44,5 +43,3 @@ protected:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLEntryLists_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLEntryLists_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Volume/Entries/EntryTiles.h"
@@ -62,5 +61,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/OpenGLPlacedVertices.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkTetrahedraPlaceFS.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -37,26 +38,16 @@ OpenGLPlacedVertices::~OpenGLPlacedVertices() = default;
 /** Creates the objects with which and to which the passes draw. */
 std::string OpenGLPlacedVertices::Prepare(vtkOpenGLRenderWindow* window, std::int64_t vertices)
 {
-  if (!this->Quad)
+  const std::string error = ReadyQuad(window, this->Quad, []() { return vtkTetrahedraPlaceFS; });
+  if (!error.empty())
   {
-    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, vtkTetrahedraPlaceFS, "");
-  }
-  else
-  {
-    window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program);
-  }
-  if (!this->Quad->Program || !this->Quad->Program->GetCompiled())
-  {
-    return "a shader does not compile on this graphics device";
+    return error;
   }
   const auto rows =
     static_cast<unsigned int>(std::min<std::int64_t>((vertices + Columns - 1) / Columns, MostRows));
   if (!this->Fragments || this->Fragments->GetHeight() < rows)
   {
-    this->Fragments = vtkSmartPointer<vtkTextureObject>::New();
-    this->Fragments->SetContext(window);
-    this->Fragments->SetMinificationFilter(vtkTextureObject::Nearest);
-    this->Fragments->SetMagnificationFilter(vtkTextureObject::Nearest);
+    this->Fragments = MakeTexelTexture(window);
     // VTK 9.1 has no default formats for integers.
     this->Fragments->SetInternalFormat(GL_RGBA32I);
     this->Fragments->SetFormat(GL_RGBA_INTEGER);

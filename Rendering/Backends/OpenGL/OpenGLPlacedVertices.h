@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
+#pragma once
 
 #include "Common/TableVersion.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
@@ -67,5 +66,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/OpenGLPreIntegration.h"
 
+#include "Rendering/Present/OpenGLTools.h"
 #include "Volume/Optics/PreIntegration.h"
 
 #include "vtkOpenGLError.h"
@@ -28,13 +29,10 @@ std::string OpenGLPreIntegration::Upload(
       std::to_string(lengths) +
       " lengths exceeds this graphics device's GL_MAX_3D_TEXTURE_SIZE of " + std::to_string(limit);
   }
-  auto texture = vtkSmartPointer<vtkTextureObject>::New();
-  texture->SetContext(window);
+  auto texture = MakeTexelTexture(window);
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   // VTK only reads the values, but requires a pointer to non-const data.
   auto* values = const_cast<float*>(table.GetValues().data());
   if (!texture->Create3DFromRaw(scalars, scalars, lengths, 4, VTK_FLOAT, values))

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
@@ -22,7 +21,6 @@ class PreIntegrationTable;
 class OpenGLPreIntegration
 {
 public:
-  bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /** Replaces the contents. Returns an error or an empty string. */
@@ -45,5 +43,3 @@ private:
 };
 
 }
-
-#endif

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/OpenGLRefractedRays.h"
 
+#include "Rendering/Present/OpenGLTools.h"
+
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
@@ -39,10 +41,7 @@ std::string OpenGLRefractedRays::Upload(vtkOpenGLRenderWindow* window,
 {
   static_assert(sizeof(RefractedRayLine) == 8 * sizeof(std::int32_t), "two texels of four numbers");
   this->Release(window);
-  auto texture = vtkSmartPointer<vtkTextureObject>::New();
-  texture->SetContext(window);
-  texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  auto texture = MakeTexelTexture(window);
   // VTK 9.1 has no default formats for integers.
   texture->SetInternalFormat(GL_RGBA32I);
   texture->SetFormat(GL_RGBA_INTEGER);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
+#pragma once
 
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
@@ -28,7 +27,6 @@ namespace meniscus
 class OpenGLRefractedRays
 {
 public:
-  bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /**
@@ -74,5 +72,3 @@ private:
 };
 
 }
-
-#endif

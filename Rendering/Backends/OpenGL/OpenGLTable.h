@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLTable_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLTable_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkOpenGLBufferObject.h"
@@ -64,5 +63,3 @@ private:
 };
 
 }
-
-#endif

@@ -80,52 +80,23 @@ std::string OpenGLTables::Update(RayCastTables& tables, const RayCastFrame& fram
 {
   for (const RayCastTableState& wanted : tables.ListWanted(frame))
   {
-    TableVersions& held = this->Held[static_cast<std::size_t>(wanted.Table)];
-    if (held == wanted.Versions && this->IsFilled(wanted.Table, frame.Optics))
+    std::optional<TableVersions>& held = this->Held[static_cast<std::size_t>(wanted.Table)];
+    const bool isSameLayout = wanted.Table != RayCastTable::Cells ||
+      (frame.Optics.CompactCells == this->CellsAreCompact &&
+        frame.Optics.WideCells == this->CellsAreWide);
+    if (held == wanted.Versions && isSameLayout)
     {
       continue;
     }
+    held.reset();
     const std::string error = this->Upload(wanted.Table, tables, frame);
-    held = error.empty() ? wanted.Versions : TableVersions();
     if (!error.empty())
     {
       return error;
     }
+    held = wanted.Versions;
   }
   return std::string();
-}
-
-//------------------------------------------------------------------------------
-bool OpenGLTables::IsFilled(RayCastTable table, const RayCastOptics& optics) const
-{
-  switch (table)
-  {
-    case RayCastTable::Cells:
-      return this->Cells.IsFilled() && optics.CompactCells == this->CellsAreCompact &&
-        optics.WideCells == this->CellsAreWide;
-    case RayCastTable::Boundary:
-      return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
-    case RayCastTable::Vertices:
-      return this->Vertices.IsFilled();
-    case RayCastTable::CellScalars:
-      return this->CellScalars.IsFilled();
-    case RayCastTable::VertexGradients:
-      return this->VertexGradients.IsFilled();
-    case RayCastTable::Illumination:
-      return this->VertexLight.IsFilled();
-    case RayCastTable::CellGradients:
-      return this->CellGradients.IsFilled();
-    case RayCastTable::Components:
-      return this->VertexComponents.IsFilled();
-    case RayCastTable::Functions:
-      return this->Intervals.IsFilled();
-    case RayCastTable::PreIntegration:
-      return this->PreIntegration.IsFilled();
-    case RayCastTable::RefractedRays:
-      return this->RefractedRayTexels.IsFilled();
-    default:
-      return false;
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -517,6 +488,7 @@ void OpenGLTables::Release(vtkOpenGLRenderWindow* owner)
   this->PlacedVertices.Release(owner);
   this->PreIntegration.Release(owner);
   this->RefractedRayTexels.Release(owner);
+  this->Held = {};
 }
 
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
-#define meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
+#pragma once
 
 #include "Volume/Entries/EntryTiles.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -22,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,7 +96,6 @@ public:
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
-  bool IsFilled(RayCastTable table, const RayCastOptics& optics) const;
   std::string Upload(RayCastTable table, RayCastTables& tables, const RayCastFrame& frame);
   /**
    * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
@@ -147,11 +146,10 @@ private:
   OpenGLTable Isosurfaces;
   OpenGLPreIntegration PreIntegration;
   OpenGLRefractedRays RefractedRayTexels;
-  /** Versions that are on the device. */
-  std::array<TableVersions, static_cast<std::size_t>(RayCastTable::NumberOfTables)> Held;
+  /** Versions of the tables that are on the device. */
+  std::array<std::optional<TableVersions>, static_cast<std::size_t>(RayCastTable::NumberOfTables)>
+    Held;
   std::int64_t UploadedBytes = 0;
 };
 
 }
-
-#endif

@@ -5,6 +5,7 @@
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
+#include "Rendering/Present/OpenGLTools.h"
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 
@@ -17,7 +18,6 @@
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
 #include "vtkPixelBufferObject.h"
 #include "vtkShaderProgram.h"
@@ -181,10 +181,7 @@ std::string RayCastOpenGL::Resize(int width, int height)
   {
     return std::string();
   }
-  this->StatisticsImage = vtkSmartPointer<vtkTextureObject>::New();
-  this->StatisticsImage->SetContext(this->Window);
-  this->StatisticsImage->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->StatisticsImage->SetMagnificationFilter(vtkTextureObject::Nearest);
+  this->StatisticsImage = MakeTexelTexture(this->Window);
   this->RefractedTiles = nullptr;
   this->Tiles[0] = (width + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
   this->Tiles[1] = (height + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
@@ -198,24 +195,6 @@ std::string RayCastOpenGL::Resize(int width, int height)
   this->Size[0] = width;
   this->Size[1] = height;
   return std::string();
-}
-
-//------------------------------------------------------------------------------
-template <typename Function>
-std::string RayCastOpenGL::ReadyQuad(
-  std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader)
-{
-  if (!quad)
-  {
-    const std::string source = makeFragmentShader();
-    quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source.c_str(), "");
-  }
-  else
-  {
-    this->Window->GetShaderCache()->ReadyShaderProgram(quad->Program);
-  }
-  const bool ready = quad->Program && quad->Program->GetCompiled();
-  return ready ? std::string() : "a shader does not compile on this graphics device";
 }
 
 //------------------------------------------------------------------------------
@@ -242,10 +221,7 @@ std::string RayCastOpenGL::ReadyCompute(
 /** Makes room for a number of lists per tile. */
 std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists)
 {
-  tiles = vtkSmartPointer<vtkTextureObject>::New();
-  tiles->SetContext(this->Window);
-  tiles->SetMinificationFilter(vtkTextureObject::Nearest);
-  tiles->SetMagnificationFilter(vtkTextureObject::Nearest);
+  tiles = MakeTexelTexture(this->Window);
   return tiles->Allocate3D(this->Tiles[0], this->Tiles[1], lists * TileLayers, 4, VTK_FLOAT)
     ? std::string()
     : "no lists of entries can be made on the graphics device";
@@ -305,7 +281,7 @@ std::string RayCastOpenGL::DrawEntries(const RayCastFrame& frame, int leg)
 
   const int legs = frame.Optics.NumberOfLegs;
   std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[{ legs, refracted }];
-  const std::string error = this->ReadyQuad(lister,
+  const std::string error = ReadyQuad(this->Window, lister,
     [legs, refracted]() { return EntryListerSource(vtkTetrahedraEntryTilesFS, legs, refracted); });
   if (!error.empty())
   {
@@ -376,8 +352,8 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
 
   std::unique_ptr<vtkOpenGLQuadHelper>& caster =
     this->RayCasters[RayCastShaderOptions(frame.Optics)];
-  const std::string error = this->ReadyQuad(
-    caster, [&frame]() { return RayCastShaderSource(vtkTetrahedraRayCastFS, frame.Optics); });
+  const std::string error = ReadyQuad(this->Window, caster,
+    [&frame]() { return RayCastShaderSource(vtkTetrahedraRayCastFS, frame.Optics); });
   if (!error.empty())
   {
     return error;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_RayCastOpenGL_h
-#define meniscus_Rendering_Backends_OpenGL_RayCastOpenGL_h
+#pragma once
 
 #include "Rendering/Backends/OpenGL/OpenGLComputeProgram.h"
 #include "Rendering/Backends/OpenGL/OpenGLEntryLists.h"
@@ -67,8 +66,6 @@ private:
   bool ReadStatistics();
   std::string Resize(int width, int height);
   template <typename Function>
-  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
-  template <typename Function>
   std::string ReadyCompute(vtkSmartPointer<OpenGLComputeProgram>& compute, Function&& makeShader);
   std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists);
   std::string ListEntries(const RayCastFrame& frame, int leg, RayProgram program);
@@ -121,5 +118,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_RayCastShader_h
-#define meniscus_Rendering_Backends_OpenGL_RayCastShader_h
+#pragma once
 
 #include "Rendering/Property/RayCastOptics.h"
 
@@ -40,5 +39,3 @@ std::string EntryListerSource(const char* mainShader, int legs, bool behind);
 void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics);
 
 }
-
-#endif

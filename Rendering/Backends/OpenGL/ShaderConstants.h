@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Backends_OpenGL_ShaderConstants_h
-#define meniscus_Rendering_Backends_OpenGL_ShaderConstants_h
+#pragma once
 
 #include <string>
 
@@ -15,5 +14,3 @@ namespace meniscus
 std::string ShaderConstants();
 
 }
-
-#endif

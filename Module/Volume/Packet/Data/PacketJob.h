@@ -4,8 +4,7 @@
  * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
  * functions that such files share with others.
  */
-#ifndef meniscus_Volume_Packet_Data_PacketJob_h
-#define meniscus_Volume_Packet_Data_PacketJob_h
+#pragma once
 
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
@@ -109,5 +108,3 @@ struct PacketJob
 };
 
 }
-
-#endif

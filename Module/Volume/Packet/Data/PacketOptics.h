@@ -4,8 +4,7 @@
  * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
  * functions that such files share with others.
  */
-#ifndef meniscus_Volume_Packet_Data_PacketOptics_h
-#define meniscus_Volume_Packet_Data_PacketOptics_h
+#pragma once
 
 #include <cstdint>
 
@@ -102,5 +101,3 @@ struct PacketSegmentTable
 };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
  * functions that such files share with others.
  */
-#ifndef meniscus_Volume_Packet_Data_RayMeasuring_h
-#define meniscus_Volume_Packet_Data_RayMeasuring_h
+#pragma once
 
 namespace meniscus
 {
@@ -58,5 +57,3 @@ enum MeasuredScalars
 constexpr int NumberOfMeasuredBins = 4;
 
 }
-
-#endif

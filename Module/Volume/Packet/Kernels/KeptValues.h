@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Kernels_KeptValues_h
-#define meniscus_Volume_Packet_Kernels_KeptValues_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 
@@ -18,5 +17,3 @@ void JoinValues(BlendMode mode, const float (&behind)[4], float (&values)[4]);
 void FinishValues(const PacketJob& job, const float (&values)[4], float (&color)[4]);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Kernels_PacketCast_h
-#define meniscus_Volume_Packet_Kernels_PacketCast_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/BinMeasureModel.h"
@@ -221,5 +220,3 @@ void CastPacketsWith(const PacketJob& job)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Kernels_PacketFaces_h
-#define meniscus_Volume_Packet_Kernels_PacketFaces_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Walk/PacketCorners.h"
@@ -171,5 +170,3 @@ void FindEntriesWith(PacketSpanJob& job)
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Kernels_PacketFadedCast_h
-#define meniscus_Volume_Packet_Kernels_PacketFadedCast_h
+#pragma once
 
 #include "Volume/Packet/Kernels/PacketCast.h"
 #include "Volume/Packet/Models/PacketFadedMedium.h"
@@ -37,5 +36,3 @@ void CastFadedPacketsWith(const PacketJob& job)
 }
 
 }
-
-#endif

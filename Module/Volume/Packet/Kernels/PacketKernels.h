@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Entry points of the packet kernels, dispatched to the code of an instruction set. */
-#ifndef meniscus_Volume_Packet_Kernels_PacketKernels_h
-#define meniscus_Volume_Packet_Kernels_PacketKernels_h
+#pragma once
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Packet/Data/PacketJob.h"
@@ -23,5 +22,3 @@ void CastPackets(const PacketJob& job, InstructionSet set);
 void FindEntries(PacketSpanJob& job, InstructionSet set);
 
 }
-
-#endif

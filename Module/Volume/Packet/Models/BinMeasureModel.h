@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_BinMeasureModel_h
-#define meniscus_Volume_Packet_Models_BinMeasureModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
@@ -180,5 +179,3 @@ auto BinMeasureModel<Simd, OfCells>::Advance(Mask lanes) -> Mask
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_BlendedColor_h
-#define meniscus_Volume_Packet_Models_BlendedColor_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -70,5 +69,3 @@ protected:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_CompensatedSum_h
-#define meniscus_Volume_Packet_Models_CompensatedSum_h
+#pragma once
 
 namespace meniscus
 {
@@ -45,5 +44,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraComposite.glsl (integral of a medium)
-#ifndef meniscus_Volume_Packet_Models_CompositeModel_h
-#define meniscus_Volume_Packet_Models_CompositeModel_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
@@ -386,5 +385,3 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
 }
 
 }
-
-#endif

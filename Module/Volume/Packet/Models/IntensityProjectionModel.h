@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraProjection.glsl (one number per ray)
-#ifndef meniscus_Volume_Packet_Models_IntensityProjectionModel_h
-#define meniscus_Volume_Packet_Models_IntensityProjectionModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
@@ -184,5 +183,3 @@ void IntensityProjectionModel<Simd>::Finish(
 }
 
 }
-
-#endif

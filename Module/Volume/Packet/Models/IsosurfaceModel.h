@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraIsosurfaces.glsl (isovalues next to a scalar)
-#ifndef meniscus_Volume_Packet_Models_IsosurfaceModel_h
-#define meniscus_Volume_Packet_Models_IsosurfaceModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -159,5 +158,3 @@ void IsosurfaceModel<Simd>::Cross(unsigned int lanes, Float from, Float to, cons
 }
 
 }
-
-#endif

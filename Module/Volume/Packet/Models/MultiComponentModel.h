@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraComponents.glsl (integral of several components)
-#ifndef meniscus_Volume_Packet_Models_MultiComponentModel_h
-#define meniscus_Volume_Packet_Models_MultiComponentModel_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
@@ -377,5 +376,3 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Advance(Mask 
 }
 
 }
-
-#endif

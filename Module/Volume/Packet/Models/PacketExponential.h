@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraMedium.glsl (absorption)
-#ifndef meniscus_Volume_Packet_Models_PacketExponential_h
-#define meniscus_Volume_Packet_Models_PacketExponential_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 
@@ -49,5 +48,3 @@ inline typename Simd::Float AbsorbedAll(typename Simd::Float x)
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraFading.glsl (light that a medium takes and scatters)
-#ifndef meniscus_Volume_Packet_Models_PacketFadedMedium_h
-#define meniscus_Volume_Packet_Models_PacketFadedMedium_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
@@ -170,5 +169,3 @@ inline void PacketFadedMedium<Simd, Inner>::Fade(
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraMedium.glsl (light and opacity by gradients)
-#ifndef meniscus_Volume_Packet_Models_PacketGradientShading_h
-#define meniscus_Volume_Packet_Models_PacketGradientShading_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -269,5 +268,3 @@ inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Begin(Mask lanes,
 }
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraTransferFunction.glsl (intervals of a function)
-#ifndef meniscus_Volume_Packet_Models_PacketIntervals_h
-#define meniscus_Volume_Packet_Models_PacketIntervals_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketOptics.h"
@@ -226,5 +225,3 @@ void PacketIntervals<Simd>::Fetch()
 }
 
 }
-
-#endif

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraLights.glsl (lights)
 // Twin: Module/Volume/Optics/SurfaceLighting.cxx (lights)
-#ifndef meniscus_Volume_Packet_Models_PacketLights_h
-#define meniscus_Volume_Packet_Models_PacketLights_h
+#pragma once
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketOptics.h"
@@ -377,5 +376,3 @@ PacketLitParts<Simd> PacketLights<Simd>::LightInParts(
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_PacketSegmentTable_h
-#define meniscus_Volume_Packet_Models_PacketSegmentTable_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketOptics.h"
 
@@ -16,5 +15,3 @@ void LookUpSegment(
   const PacketSegmentTable& table, float from, float to, float length, float (&mean)[4]);
 
 }
-
-#endif

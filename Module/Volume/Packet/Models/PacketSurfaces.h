@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_PacketSurfaces_h
-#define meniscus_Volume_Packet_Models_PacketSurfaces_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 
@@ -37,5 +36,3 @@ struct PacketSegment
 void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraPreIntegrated.glsl (parts of a segment)
-#ifndef meniscus_Volume_Packet_Models_PreIntegratedModel_h
-#define meniscus_Volume_Packet_Models_PreIntegratedModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/BlendedColor.h"
@@ -121,5 +120,3 @@ void PreIntegratedModel<Simd>::AddWithin(Mask lanes, Float from, Float to, Float
 }
 
 }
-
-#endif

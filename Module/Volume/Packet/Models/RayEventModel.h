@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_RayEventModel_h
-#define meniscus_Volume_Packet_Models_RayEventModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -154,5 +153,3 @@ void RayEventModel<Simd, Triples, CellGradients, Surfaces>::Process(
 }
 
 }
-
-#endif

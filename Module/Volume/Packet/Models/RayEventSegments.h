@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_RayEventSegments_h
-#define meniscus_Volume_Packet_Models_RayEventSegments_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Data/RayEvents.h"
@@ -40,5 +39,3 @@ double BoundAttenuation(const PacketJob& job);
 bool AddToEvents(const PacketJob& job, const RayEventSegment& segment, RayEventState& state);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_ScalarMeasureModel_h
-#define meniscus_Volume_Packet_Models_ScalarMeasureModel_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
@@ -138,5 +137,3 @@ auto ScalarMeasureModel<Simd, WithOpticalDepth>::Advance(Mask lanes) -> Mask
 }
 
 }
-
-#endif

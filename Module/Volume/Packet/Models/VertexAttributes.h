@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_VertexAttributes_h
-#define meniscus_Volume_Packet_Models_VertexAttributes_h
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -57,5 +56,3 @@ struct VertexAttributes
 };
 
 }
-
-#endif

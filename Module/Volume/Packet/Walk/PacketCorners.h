@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Walk_PacketCorners_h
-#define meniscus_Volume_Packet_Walk_PacketCorners_h
+#pragma once
 
 #include <cstdint>
 
@@ -151,5 +150,3 @@ template <class Simd>
 constexpr FaceTurnTable FaceTurns<Simd>::Table = FaceTurns<Simd>::Make();
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Rendering/glsl/vtkTetrahedraWalk.glsl (step through a cell)
-#ifndef meniscus_Volume_Packet_Walk_PacketWalk_h
-#define meniscus_Volume_Packet_Walk_PacketWalk_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -17,25 +16,18 @@ namespace meniscus
  * Walks rays from cell to cell by edge signs in the ray-aligned projection, one ray per lane. A
  * lane whose ray has ended takes the next ray of the job.
  *
- * A vertex has coordinates (u, v) relative to a ray: floats that are the same function of vertex
- * and ray wherever they are needed (PacketRay). The sign of an edge, which tells the side on which
- * the ray passes, is the sign of a cross product of these floats, and exact (ExactEdgeTest). A ray
- * through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e, and
- * edges whose ends coincide are ordered by vertex. Therefore every cell that is entered has exactly
- * one face by which to leave, every face and side can be reached in one way only, and a walk that
- * begins on the boundary ends on the boundary.
+ * A vertex has coordinates (u, v) relative to a ray (PacketRay). The sign of an edge, which tells
+ * the side on which the ray passes, is exact (ExactEdgeTest). A walk that begins on the boundary
+ * ends on the boundary: Documentation/volume-method.md, "Why no ray is lost".
  *
  * The order of the face's corners A, B, C, which tells where they are in their cell, is one number
  * of six. Together with the face's number in the cell it indexes a table (FaceTurns) of the link to
  * follow and the next order, for each corner that the next face may lack.
  *
- * Depths count from the pivot of the rays. The point in which a ray meets a face is an integer
- * depth and a remainder. Depths of corners are subtracted from the integer of the previous face,
- * which is exact, so that the length of a segment has a rounding error of a few times 2^-24 of the
- * mean distance of the corners from it, weighted as they are in the point: small cells are as
- * precise as large ones, wherever they are, and so are thin cells next to a corner. Only the ends
- * of rays are compared with depths in floats, which are precise to 2^-24 of the distance from the
- * pivot.
+ * Depths count from the pivot of the rays, in grid units. The point in which a ray meets a face is
+ * an integer depth and a remainder, so that lengths are as precise in small cells as in large ones
+ * ("Backends" in the same page). Only the ends of rays are compared with depths in floats, which
+ * are precise to 2^-24 of the distance from the pivot.
  */
 template <class Simd, class Model>
 class PacketWalk
@@ -694,5 +686,3 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
 #include "Volume/Packet/Walk/PacketWalkFaces.h"
 #include "Volume/Packet/Walk/PacketWalkOptics.h"
 #include "Volume/Packet/Walk/PacketWalkTies.h"
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of PacketWalk.h: points in which rays meet faces.
-#ifndef meniscus_Volume_Packet_Walk_PacketWalkFaces_h
-#define meniscus_Volume_Packet_Walk_PacketWalkFaces_h
+#pragma once
 
 #include "Volume/Packet/Walk/PacketWalk.h"
 
@@ -68,5 +67,3 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(Mask lanes, FacePoint& point) co
 }
 
 }
-
-#endif

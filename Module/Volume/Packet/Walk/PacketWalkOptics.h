@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of PacketWalk.h: values that only some models need.
-#ifndef meniscus_Volume_Packet_Walk_PacketWalkOptics_h
-#define meniscus_Volume_Packet_Walk_PacketWalkOptics_h
+#pragma once
 
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Packet/Walk/PacketWalk.h"
@@ -63,5 +62,3 @@ void PacketWalk<Simd, Model>::LoadLines()
 }
 
 }
-
-#endif

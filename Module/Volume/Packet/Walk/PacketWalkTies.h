@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of PacketWalk.h: rays through edges and vertices.
-#ifndef meniscus_Volume_Packet_Walk_PacketWalkTies_h
-#define meniscus_Volume_Packet_Walk_PacketWalkTies_h
+#pragma once
 
 #include "Volume/Packet/Walk/PacketWalk.h"
 
@@ -32,5 +31,3 @@ void PacketWalk<Simd, Model>::BreakTies(
 }
 
 }
-
-#endif
