@@ -2,18 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkExecutive.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::testing
 {
 

@@ -6,18 +6,8 @@
 #include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 
-#include "vtkCommand.h"
-#include "vtkPolyData.h"
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractedLightFilter.h"
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::testing
 {

@@ -8,24 +8,9 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "RefractionPicture.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkStripper.h"
 #include "vtkTriangleFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <optional>
-#include <vector>
 
 namespace
 {

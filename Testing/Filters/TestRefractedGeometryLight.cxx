@@ -3,17 +3,7 @@
 // Reflectance by either model, and normals for the lighting of virtual geometry.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "VTKTestBasics.h"
 
 namespace
 {

@@ -8,31 +8,12 @@
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"
 
-#include "vtkCellArray.h"
-#include "vtkCommand.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkImageData.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitFunction.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <sstream>
 
 namespace
 {

@@ -6,34 +6,15 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
 #include "vtkTruePositionFilter.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using meniscus::test::List;
+using meniscus::test::Product;
 using namespace meniscus::testing;
 namespace reference = meniscus::reference;
 
@@ -287,12 +268,9 @@ TEST(TruePositions, DoNotDependOnTheOrderOfPoints)
   {
     const auto membrane = MakeMembrane(mesh);
     std::vector<Point> rows;
-    for (int row = 0; row < 40; ++row)
+    for (const auto& [row, i] : Product(40, 100))
     {
-      for (int i = 0; i < 100; ++i)
-      {
-        rows.push_back({ -150.0 + 3.0 * i, -70.3 + 2.0 * row, -100.0 + 5.0 * row });
-      }
+      rows.push_back({ -150.0 + 3.0 * i, -70.3 + 2.0 * row, -100.0 + 5.0 * row });
     }
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), 0);
@@ -445,33 +423,30 @@ TEST(TruePositions, DepthsAreApparentOpticalOrGeometric)
   {
     const glm::dvec3 seen = sightPoint + factors[depth] * path * sight;
     // The second point has its own index around the eye: only the ratio counts.
-    for (const double scale : { 1.0, 1.2 })
+    for (const auto& [scale, isStack] : Product(List(1.0, 1.2), List(false, true)))
     {
-      for (const bool isStack : { false, true })
+      const auto filter = MakeInverse(MakePoints({ { seen.x, seen.y, seen.z } }), membrane);
+      filter->SetDepth(depth);
+      filter->SetExteriorIndexOfRefraction(scale);
+      filter->SetInteriorIndexOfRefraction(scale * Water);
+      if (isStack)
       {
-        const auto filter = MakeInverse(MakePoints({ { seen.x, seen.y, seen.z } }), membrane);
-        filter->SetDepth(depth);
-        filter->SetExteriorIndexOfRefraction(scale);
-        filter->SetInteriorIndexOfRefraction(scale * Water);
-        if (isStack)
+        // A second surface far below, which the ray does not reach.
+        auto bottom = vtkSmartPointer<vtkPolyData>::New();
+        bottom->DeepCopy(membrane);
+        for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
         {
-          // A second surface far below, which the ray does not reach.
-          auto bottom = vtkSmartPointer<vtkPolyData>::New();
-          bottom->DeepCopy(membrane);
-          for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
-          {
-            double point[3];
-            bottom->GetPoint(i, point);
-            bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
-          }
-          filter->AddMembraneData(bottom);
-          filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
+          double point[3];
+          bottom->GetPoint(i, point);
+          bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
         }
-        filter->Update();
-        EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
-        EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - truth), 1e-10)
-          << depth << " " << scale << " " << isStack;
+        filter->AddMembraneData(bottom);
+        filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
       }
+      filter->Update();
+      EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+      EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - truth), 1e-10)
+        << depth << " " << scale << " " << isStack;
     }
   }
 }

@@ -2,23 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // POV-Ray's scenes as text; POV-Ray itself is not needed.
 #include "PovrayWriter.h"
+#include "VTKTestBasics.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
 
 using namespace meniscus::test;
 

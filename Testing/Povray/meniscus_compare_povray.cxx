@@ -12,17 +12,7 @@
 
 #include <vtksys/SystemTools.hxx>
 
-#include <glm/geometric.hpp>
-
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 

@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpticsTruth.h"
 
-#include <vtkContourValues.h>
-#include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkMath.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace meniscus::test
 {

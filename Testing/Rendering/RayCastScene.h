@@ -6,17 +6,10 @@
 #include "ReferenceImage.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
+#include "VTKTestBasics.h"
 #include "VolumeScene.h"
 
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkTetrahedraRayCastMapper.h>
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 class vtkRenderer;
 class vtkUnstructuredGrid;

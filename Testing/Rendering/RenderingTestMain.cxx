@@ -1,12 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestBasics.h"
 #include "VolumeScene.h"
-
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <iostream>
-#include <memory>
 
 // VTK's skip code.
 constexpr int Skipped = 125;

@@ -7,15 +7,6 @@
 #include "SmoothSurface.h"
 #include "StressRandom.h"
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

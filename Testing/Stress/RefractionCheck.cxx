@@ -8,13 +8,6 @@
 #include "RefractionTriangles.h"
 #include "SightOracle.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-
 namespace meniscus::test
 {
 

@@ -3,12 +3,6 @@
 #include "RefractionCheck.h"
 #include "StackCheck.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace meniscus::test
 {
 

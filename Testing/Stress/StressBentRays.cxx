@@ -9,14 +9,6 @@
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <sstream>
-
 namespace meniscus::test
 {
 

@@ -8,11 +8,6 @@
 #include "VolumeFunctions.h"
 #include "VolumeView.h"
 
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -6,9 +6,6 @@
 #include "StressCase.h"
 #include "StressCasters.h"
 
-#include <cstdint>
-#include <string>
-
 namespace meniscus::test
 {
 

@@ -6,15 +6,6 @@
 #include "VolumeFunctions.h"
 #include "VolumeScene.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-
 namespace meniscus::test
 {
 

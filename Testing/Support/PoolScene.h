@@ -11,17 +11,6 @@
 #include "RefractionPicture.h"
 #include "VolumeScene.h"
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkType.h>
-
-#include <array>
-#include <vector>
-
 class vtkActor;
 class vtkImageData;
 

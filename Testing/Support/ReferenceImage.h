@@ -8,12 +8,6 @@
 #include "ReferenceTransferFunction.h"
 #include "VolumeScene.h"
 
-#include <array>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
 class vtkMatrix4x4;
 class vtkUnstructuredGrid;
 

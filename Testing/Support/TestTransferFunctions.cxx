@@ -2,15 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestTransferFunctions.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -4,9 +4,7 @@
 #define meniscus_Testing_Support_TestTransferFunctions_h
 
 #include "ReferenceTransferFunction.h"
-
-#include <vtkSmartPointer.h>
-#include <vtkVolumeProperty.h>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

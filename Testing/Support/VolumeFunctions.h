@@ -5,11 +5,7 @@
 
 #include "RandomNumbers.h"
 #include "ReferenceTransferFunction.h"
-
-#include <vtkSmartPointer.h>
-
-#include <string>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkUnstructuredGrid;
 class vtkVolumeProperty;

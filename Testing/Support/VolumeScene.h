@@ -3,13 +3,7 @@
 #ifndef meniscus_Testing_Support_VolumeScene_h
 #define meniscus_Testing_Support_VolumeScene_h
 
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <cstddef>
-#include <string>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkDataSet;
 class vtkFramebufferPass;

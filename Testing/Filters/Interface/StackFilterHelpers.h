@@ -6,16 +6,9 @@
 
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace meniscus::testing
 {

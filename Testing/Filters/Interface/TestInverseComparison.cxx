@@ -6,23 +6,8 @@
 #include "BoardScene.h"
 #include "StackPicture.h"
 
-#include "vtkCamera.h"
-#include "vtkDataArray.h"
 #include "vtkDepthImagePoints.h"
-#include "vtkDoubleArray.h"
-#include "vtkImageData.h"
-#include "vtkPointData.h"
 #include "vtkTruePositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <optional>
-#include <vector>
 
 namespace
 {

@@ -6,19 +6,7 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCellData.h"
-#include "vtkIdList.h"
 #include "vtkMembraneCellFilter.h"
-#include "vtkPointData.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
 
 namespace
 {

@@ -4,30 +4,15 @@
 // used.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-#include "vtkSphere.h"
-#include "vtkSphereSource.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using meniscus::test::Below;
+using meniscus::test::Product;
 using namespace meniscus::testing;
 
 const double Eye[3] = { 20.0, 300.0, 10.0 };
@@ -246,12 +231,9 @@ TEST(RefractedGeometryStack, AllImagesAreKeptWhileNothingChanges)
   ASSERT_EQ(output->GetNumberOfPoints(), 25);
   EXPECT_EQ(output->GetNumberOfPolys(), 16);
   vtkPolyData* input = vtkPolyData::SafeDownCast(plain->GetInput(0));
-  for (vtkIdType i = 0; i < 25; ++i)
+  for (const auto& [i, k] : Product(Below<vtkIdType>(25), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_EQ(output->GetPoint(i)[k], input->GetPoint(i)[k]);
-    }
+    EXPECT_EQ(output->GetPoint(i)[k], input->GetPoint(i)[k]);
   }
 }
 
@@ -323,12 +305,9 @@ TEST(RefractedGeometryStack, EqualIndicesAreTheIdentityWithoutWork)
   plain->Update();
   padded->Update();
   ASSERT_EQ(padded->GetOutput()->GetNumberOfPoints(), 25);
-  for (vtkIdType i = 0; i < 25; ++i)
+  for (const auto& [i, k] : Product(Below<vtkIdType>(25), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_EQ(padded->GetOutput()->GetPoint(i)[k], plain->GetOutput()->GetPoint(i)[k]);
-    }
+    EXPECT_EQ(padded->GetOutput()->GetPoint(i)[k], plain->GetOutput()->GetPoint(i)[k]);
   }
 }
 

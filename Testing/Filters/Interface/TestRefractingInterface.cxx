@@ -3,15 +3,11 @@
 // The list of refracting interfaces, and filters that share it.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractedLightFilter.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {

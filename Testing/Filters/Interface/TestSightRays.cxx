@@ -6,29 +6,10 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkCellData.h"
 #include "vtkDepthImagePoints.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
-#include "vtkImageData.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkSightRayFilter.h"
 #include "vtkTriangulatedPositionFilter.h"
 #include "vtkTruePositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace
 {

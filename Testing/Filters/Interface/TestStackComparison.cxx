@@ -6,13 +6,6 @@
 #include "SchematicEye.h"
 #include "StackPicture.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 namespace
 {
 

@@ -6,21 +6,7 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
 #include "vtkRefractionErrorVolume.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace
 {

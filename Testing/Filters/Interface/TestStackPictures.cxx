@@ -6,17 +6,6 @@
 #include "RandomNumbers.h"
 #include "StackPicture.h"
 
-#include "vtkDataArray.h"
-#include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 namespace
 {
 

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes whose triangles have corners of their own, and membranes with wild normals.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "VTKTestBasics.h"
 
 namespace
 {

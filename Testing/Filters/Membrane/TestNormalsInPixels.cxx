@@ -5,14 +5,6 @@
 #include "BoardScene.h"
 #include "StackPicture.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <vector>
-
 namespace
 {
 

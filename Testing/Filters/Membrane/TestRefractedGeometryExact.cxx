@@ -4,23 +4,14 @@
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkDataArray.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitFunction.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkSphere.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace
 {
 
+using meniscus::test::Product;
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 
@@ -71,12 +62,9 @@ vtkStandardNewMacro(NowhereZero);
 std::vector<Point> MakeDepths()
 {
   std::vector<Point> points;
-  for (int i = 0; i < 5; ++i)
+  for (const auto& [i, k] : Product(5, 5))
   {
-    for (int k = 0; k < 5; ++k)
-    {
-      points.push_back({ -40.0 + 20.0 * i, -30.0 - 5.0 * k, -40.0 + 20.0 * k });
-    }
+    points.push_back({ -40.0 + 20.0 * i, -30.0 - 5.0 * k, -40.0 + 20.0 * k });
   }
   return points;
 }
@@ -152,27 +140,21 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
   for (const int cells : { 2, 40 })
   {
     MembraneMesh& mesh = cells == 2 ? rough : fine;
-    for (int j = 0; j <= cells; ++j)
+    for (const auto& [j, i] : Product(cells + 1, cells + 1))
     {
-      for (int i = 0; i <= cells; ++i)
-      {
-        const double x = 300.0 * i / cells - 150.0;
-        const double z = 300.0 * j / cells - 150.0;
-        const glm::dvec3 p = onSphere(x, z);
-        const glm::dvec3 off = cells == 2 ? glm::dvec3(i - 1.0, 3.0 - j, j - i) : glm::dvec3(0.0);
-        const glm::dvec3 center(0.0, -radius, 0.0);
-        mesh.AddPoint(p + off, glm::normalize(p - center + 20.0 * off));
-      }
+      const double x = 300.0 * i / cells - 150.0;
+      const double z = 300.0 * j / cells - 150.0;
+      const glm::dvec3 p = onSphere(x, z);
+      const glm::dvec3 off = cells == 2 ? glm::dvec3(i - 1.0, 3.0 - j, j - i) : glm::dvec3(0.0);
+      const glm::dvec3 center(0.0, -radius, 0.0);
+      mesh.AddPoint(p + off, glm::normalize(p - center + 20.0 * off));
     }
     const int row = cells + 1;
-    for (int j = 0; j < cells; ++j)
+    for (const auto& [j, i] : Product(cells, cells))
     {
-      for (int i = 0; i < cells; ++i)
-      {
-        const std::int64_t a = j * row + i;
-        mesh.Triangles.insert(
-          mesh.Triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
-      }
+      const std::int64_t a = j * row + i;
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
     }
   }
   vtkNew<vtkSphere> sphere;

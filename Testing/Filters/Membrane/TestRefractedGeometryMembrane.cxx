@@ -4,30 +4,15 @@
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
+#include "VTKTestBasics.h"
 #include "vtkCharArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkShortArray.h"
-#include "vtkStringArray.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace
 {
 
+using meniscus::test::Numbers;
+using meniscus::test::Product;
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 
@@ -47,30 +32,24 @@ MembraneMesh MakeSphere(double radius, int rings, double sign)
     mesh.AddPoint(radius * n, sign * n);
   };
   add(0.0, 0.0);
-  for (int i = 1; i < rings; ++i)
+  for (const auto& [i, k] : Product(Numbers(1, rings), around))
   {
-    for (int k = 0; k < around; ++k)
-    {
-      add(Pi * i / rings, 2.0 * Pi * k / around);
-    }
+    add(Pi * i / rings, 2.0 * Pi * k / around);
   }
   add(Pi, 0.0);
   const auto at = [around, rings](int i, int k) -> std::int64_t
   {
     return i == 0 ? 0 : (i == rings ? 1 + (rings - 1) * around : 1 + (i - 1) * around + k % around);
   };
-  for (int i = 0; i < rings; ++i)
+  for (const auto& [i, k] : Product(rings, around))
   {
-    for (int k = 0; k < around; ++k)
+    if (i > 0)
     {
-      if (i > 0)
-      {
-        mesh.AddTriangle(at(i, k), at(i, k + 1), at(i + 1, k));
-      }
-      if (i + 1 < rings)
-      {
-        mesh.AddTriangle(at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
-      }
+      mesh.AddTriangle(at(i, k), at(i, k + 1), at(i + 1, k));
+    }
+    if (i + 1 < rings)
+    {
+      mesh.AddTriangle(at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
     }
   }
   return mesh;

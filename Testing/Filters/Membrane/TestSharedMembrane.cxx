@@ -6,15 +6,9 @@
 
 #include "HeightField.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {

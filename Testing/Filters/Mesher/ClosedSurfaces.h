@@ -3,11 +3,7 @@
 #ifndef meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
 #define meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
 
-#include "vtkSmartPointer.h"
-
-#include <array>
-#include <string>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkPolyData;
 

@@ -4,20 +4,12 @@
 #include "Mesher/ClosedSurfaces.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkNew.h"
+#include "VTKTestBasics.h"
 #include "vtkTetrahedralizeSurface.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <string>
 #include <thread>
-#include <utility>
 
 #ifdef __linux__
 #include <csignal>

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles that would need more parts than one may have.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkNew.h"
-#include "vtkPolyData.h"
-
-#include <gtest/gtest.h>
+#include "VTKTestBasics.h"
 
 using namespace meniscus::testing;
 

@@ -3,21 +3,7 @@
 // ALL_IMAGES in a pipeline: points, lines and polygons, objects that cross the membrane, caches.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "VTKTestBasics.h"
 
 namespace
 {

@@ -4,25 +4,7 @@
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Membrane/Optics.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
-#include "vtkMath.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkSMPTools.h"
-#include "vtkStringArray.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
+#include "VTKTestBasics.h"
 
 namespace
 {

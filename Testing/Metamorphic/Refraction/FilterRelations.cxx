@@ -5,18 +5,7 @@
 #include "FilterScene.h"
 #include "FilterTrial.h"
 
-#include "vtkCamera.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractedGeometryFilter.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace meniscus::test
 {

@@ -6,16 +6,7 @@
 
 #include "RandomNumbers.h"
 #include "RefractionTrial.h"
-
-#include "vtkCellArray.h"
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstdint>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkRefractedGeometryFilter;
 

@@ -8,14 +8,6 @@
 #include "RefractionTrial.h"
 #include "Relation.h"
 
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
 class vtkDataSetAttributes;
 
 namespace meniscus::test

@@ -7,13 +7,6 @@
 #include "ReferenceOptics.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkVolumeMapper.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {

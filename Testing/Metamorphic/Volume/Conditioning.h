@@ -6,11 +6,6 @@
 #include "TracedImage.h"
 #include "VolumeCase.h"
 
-#include <array>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -8,11 +8,6 @@
 #include "VolumeCase.h"
 #include "VolumeStage.h"
 
-#include <array>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -6,13 +6,6 @@
 #include "VolumeCase.h"
 #include "VolumeScene.h"
 
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-
-#include <memory>
-#include <string>
-#include <vector>
-
 class vtkDataObject;
 class vtkTetrahedraRayCastMapper;
 

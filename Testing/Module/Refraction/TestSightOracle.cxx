@@ -5,12 +5,7 @@
 #include "HeightField.h"
 #include "RefractionTestRandom.h"
 #include "SightOracle.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "TestBasics.h"
 
 namespace
 {

@@ -6,16 +6,8 @@
 #include "Simd/SimdPortable.h"
 #ifdef __aarch64__
 #include "Simd/SimdNEON.h"
+#include "TestBasics.h"
 #endif
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace
 {

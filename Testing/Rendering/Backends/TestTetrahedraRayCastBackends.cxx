@@ -6,23 +6,6 @@
 #include "ProjectionModes.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace

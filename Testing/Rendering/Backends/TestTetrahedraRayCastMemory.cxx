@@ -4,20 +4,6 @@
 #include "DeviceTableLimits.h"
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 using namespace meniscus::test;
 
 namespace

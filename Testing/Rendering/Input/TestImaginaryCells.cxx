@@ -4,29 +4,8 @@
 // them.
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
-#include <vtkIdList.h>
-#include <vtkIdTypeArray.h>
 #include <vtkImaginaryCellFilter.h>
-#include <vtkMath.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkTetra.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace meniscus::test;
 

@@ -4,22 +4,10 @@
 // bounds of what is drawn.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkDataObject.h>
 #include <vtkGenericDataObjectReader.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkXMLGenericDataObjectReader.h>
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <fstream>
-#include <ostream>
-#include <sstream>
 
 using namespace meniscus::test;
 
@@ -124,12 +112,9 @@ double LookDown(vtkRenderer* renderer, const double bounds[6])
 double MeasureVolume(const FloatImage& image, double pixelArea)
 {
   double depth = 0.0;
-  for (int y = 0; y < Height; ++y)
+  for (const auto& [y, x] : Product(Height, Width))
   {
-    for (int x = 0; x < Width; ++x)
-    {
-      depth -= std::log1p(-static_cast<double>(image.GetPixel(x, y)[3])) / Attenuation;
-    }
+    depth -= std::log1p(-static_cast<double>(image.GetPixel(x, y)[3])) / Attenuation;
   }
   return depth * pixelArea;
 }

@@ -4,30 +4,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <set>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -49,12 +25,9 @@ vtkDoubleArray* AddCellScalars(vtkUnstructuredGrid* grid, const Field& field)
   {
     grid->GetCellPoints(c, ids);
     double middle[3] = { 0.0, 0.0, 0.0 };
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    for (const auto& [i, axis] : Product(Below<vtkIdType>(ids->GetNumberOfIds()), 3))
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        middle[axis] += grid->GetPoint(ids->GetId(i))[axis] / ids->GetNumberOfIds();
-      }
+      middle[axis] += grid->GetPoint(ids->GetId(i))[axis] / ids->GetNumberOfIds();
     }
     values->SetValue(c, field(middle[0], middle[1], middle[2]));
   }
@@ -480,22 +453,16 @@ TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
   const vtkIdType triangle[3] = { 0, 1, 2 };
   hexahedra->InsertNextCell(VTK_TRIANGLE, 3, triangle); // not drawn, and must not shift the cell
                                                         // data
-  for (int k = 0; k < 4; ++k)
+  for (const auto& [k, j, i] : Product(4, 4, 4))
   {
-    for (int j = 0; j < 4; ++j)
+    vtkIdType ids[8];
+    for (int corner = 0; corner < 8; ++corner)
     {
-      for (int i = 0; i < 4; ++i)
-      {
-        vtkIdType ids[8];
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          const double x[3] = { -1.0 + 0.5 * (i + (corner & 1)),
-            -1.0 + 0.5 * (j + (corner >> 1 & 1)), -1.0 + 0.5 * (k + (corner >> 2)) };
-          ids[corner] = hexahedra->FindPoint(const_cast<double*>(x));
-        }
-        hexahedra->InsertNextCell(VTK_VOXEL, 8, ids);
-      }
+      const double x[3] = { -1.0 + 0.5 * (i + (corner & 1)), -1.0 + 0.5 * (j + (corner >> 1 & 1)),
+        -1.0 + 0.5 * (k + (corner >> 2)) };
+      ids[corner] = hexahedra->FindPoint(const_cast<double*>(x));
     }
+    hexahedra->InsertNextCell(VTK_VOXEL, 8, ids);
   }
   AddCellScalars(hexahedra,
     [](double x, double y, double z)

@@ -3,28 +3,9 @@
 // Composite data sets and structured grids: the image of the same cells in one unstructured grid.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkRenderWindow.h>
 #include <vtkStructuredGrid.h>
-#include <vtkTrivialProducer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus::test;
 

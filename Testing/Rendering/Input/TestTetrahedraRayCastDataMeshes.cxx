@@ -4,15 +4,6 @@
 // with a message if the data folder does not exist.
 #include "RayCastScene.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <iostream>
-
 using namespace meniscus::test;
 
 namespace

@@ -4,24 +4,6 @@
 // must be right, in every mode.
 #include "OpticsTruth.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -236,14 +218,12 @@ TEST(TetrahedraRayCastFillValues, Projections)
       {
         const auto function = FunctionOf(mode, scene.GetVolume()->GetProperty());
         std::array<double, 2> range{ 0.0, 0.0 };
-        for (std::size_t c = 0; c < integrator.MakeMesh().GetNumberOfCells(); ++c)
+        for (const auto& [c, i] :
+          Product(Below<std::size_t>(integrator.MakeMesh().GetNumberOfCells()), 4))
         {
-          for (int i = 0; i < 4; ++i)
-          {
-            const double scalar =
-              integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
-            range = { std::min(range[0], scalar), std::max(range[1], scalar) };
-          }
+          const double scalar =
+            integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
+          range = { std::min(range[0], scalar), std::max(range[1], scalar) };
         }
         return [=, &mode, &integrator](const Ray& ray)
         {

@@ -5,27 +5,7 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 
 using namespace meniscus::test;
 

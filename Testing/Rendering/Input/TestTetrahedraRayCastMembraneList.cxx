@@ -6,25 +6,8 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 

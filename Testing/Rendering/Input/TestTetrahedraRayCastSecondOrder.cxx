@@ -5,29 +5,6 @@
 // points inside a face or a cell have their own values.
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -180,15 +157,9 @@ LinearMesh MakeBox(
   const int (&n)[3], const std::function<std::pair<Shape, int>(int i, int j, int k)>& typeOf)
 {
   LinearMesh mesh;
-  for (int k = 0; k <= n[2]; ++k)
+  for (const auto& [k, j, i] : Product(n[2] + 1, n[1] + 1, n[0] + 1))
   {
-    for (int j = 0; j <= n[1]; ++j)
-    {
-      for (int i = 0; i <= n[0]; ++i)
-      {
-        mesh.Points.push_back({ 2.0 * i / n[0] - 1.0, 2.0 * j / n[1] - 1.0, 2.0 * k / n[2] - 1.0 });
-      }
-    }
+    mesh.Points.push_back({ 2.0 * i / n[0] - 1.0, 2.0 * j / n[1] - 1.0, 2.0 * k / n[2] - 1.0 });
   }
   for (int cube = 0; cube < n[0] * n[1] * n[2]; ++cube)
   {

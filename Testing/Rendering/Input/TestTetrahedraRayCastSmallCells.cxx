@@ -6,22 +6,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 

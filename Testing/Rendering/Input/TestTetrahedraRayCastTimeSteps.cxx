@@ -4,31 +4,8 @@
 // the positions. Counters prove the work, images of new mappers the result.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTrivialProducer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 

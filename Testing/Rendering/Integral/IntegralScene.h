@@ -6,14 +6,7 @@
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 
-#include <vtkSmartPointer.h>
 #include <vtkTetrahedraRayIntegral.h>
-
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

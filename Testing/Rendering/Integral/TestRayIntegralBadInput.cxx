@@ -4,25 +4,6 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace

@@ -3,27 +3,8 @@
 // Bounds are those of the cells that are drawn: of the mapper, for cameras, and of fitted rays.
 #include "IntegralScene.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSphereSource.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkUniformGrid.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
 
 using namespace meniscus::test;
 

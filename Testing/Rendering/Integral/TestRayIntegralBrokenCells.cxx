@@ -4,26 +4,8 @@
 // type, and the other cells are measured.
 #include "IntegralScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRectilinearGrid.h>
 #include <vtkStructuredGrid.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkVersionMacros.h>
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -131,31 +113,29 @@ class BrokenCells : public testing::TestWithParam<CellType>
 TEST_P(BrokenCells, TooFewPoints)
 {
   const CellType& type = GetParam();
-  for (const vtkIdType size : { vtkIdType{ 0 }, vtkIdType{ 1 }, vtkIdType{ 3 }, type.Points - 1 })
+  for (const auto& [size, isAdaptive] : Product(
+         std::vector<vtkIdType>{ vtkIdType{ 0 }, vtkIdType{ 1 }, vtkIdType{ 3 }, type.Points - 1 },
+         List(false, true)))
   {
-    for (const bool isAdaptive : { false, true })
-    {
-      const Grid grid = MakeCube();
-      const std::vector<vtkIdType> ids = FirstPoints(size);
-      grid->InsertNextCell(type.Type, size, ids.data());
-      ExpectCube(grid, "1 with a number of points that their type does not have", 1, isAdaptive);
-    }
+    const Grid grid = MakeCube();
+    const std::vector<vtkIdType> ids = FirstPoints(size);
+    grid->InsertNextCell(type.Type, size, ids.data());
+    ExpectCube(grid, "1 with a number of points that their type does not have", 1, isAdaptive);
   }
 }
 
 TEST_P(BrokenCells, PointsOutOfRange)
 {
   const CellType& type = GetParam();
-  for (const vtkIdType bad : { vtkIdType{ -1 }, vtkIdType{ 108 }, vtkIdType{ 1 } << 40 })
+  for (const auto& [bad, isAdaptive] :
+    Product(std::vector<vtkIdType>{ vtkIdType{ -1 }, vtkIdType{ 108 }, vtkIdType{ 1 } << 40 },
+      List(false, true)))
   {
-    for (const bool isAdaptive : { false, true })
-    {
-      const Grid grid = MakeCube();
-      std::vector<vtkIdType> ids = FirstPoints(type.Points);
-      ids[2] = bad;
-      grid->InsertNextCell(type.Type, type.Points, ids.data());
-      ExpectCube(grid, "1 with a point index out of range", 1, isAdaptive);
-    }
+    const Grid grid = MakeCube();
+    std::vector<vtkIdType> ids = FirstPoints(type.Points);
+    ids[2] = bad;
+    grid->InsertNextCell(type.Type, type.Points, ids.data());
+    ExpectCube(grid, "1 with a point index out of range", 1, isAdaptive);
   }
 }
 
@@ -182,27 +162,25 @@ TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
 
 TEST(BrokenCellArrays, OffsetsOutsideOfTheirArray)
 {
-  for (const int type : { VTK_TETRA, VTK_HEXAHEDRON })
+  for (const auto& [type, end] : Product(List(VTK_TETRA, VTK_HEXAHEDRON),
+         std::vector<vtkIdType>{ vtkIdType{ 1000 }, vtkIdType{ -4 }, vtkIdType{ 3 } }))
   {
-    for (const vtkIdType end : { vtkIdType{ 1000 }, vtkIdType{ -4 }, vtkIdType{ 3 } })
+    const Grid grid = MakeCube();
+    vtkNew<vtkIdTypeArray> offsets;
+    vtkNew<vtkIdTypeArray> ids;
+    for (const vtkIdType offset : { vtkIdType{ 0 }, vtkIdType{ 8 }, end })
     {
-      const Grid grid = MakeCube();
-      vtkNew<vtkIdTypeArray> offsets;
-      vtkNew<vtkIdTypeArray> ids;
-      for (const vtkIdType offset : { vtkIdType{ 0 }, vtkIdType{ 8 }, end })
-      {
-        offsets->InsertNextValue(offset);
-      }
-      for (vtkIdType i = 0; i < 12; ++i)
-      {
-        ids->InsertNextValue(i);
-      }
-      vtkNew<vtkCellArray> cells;
-      cells->SetData(offsets, ids);
-      int types[2] = { VTK_HEXAHEDRON, type };
-      grid->SetCells(types, cells);
-      ExpectCube(grid, "1 with points or faces outside of their array", 1);
+      offsets->InsertNextValue(offset);
     }
+    for (vtkIdType i = 0; i < 12; ++i)
+    {
+      ids->InsertNextValue(i);
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets, ids);
+    int types[2] = { VTK_HEXAHEDRON, type };
+    grid->SetCells(types, cells);
+    ExpectCube(grid, "1 with points or faces outside of their array", 1);
   }
 }
 

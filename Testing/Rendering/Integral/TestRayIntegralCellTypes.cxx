@@ -5,22 +5,6 @@
 #include "IntegralScene.h"
 #include "TrueCellMeshes.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -176,21 +160,18 @@ TEST(CellTypes, FoldedCellsOfSecondOrderAreCounted)
   // The order of Exodus and others: edges along z come before those of the upper face.
   std::vector<vtkIdType> other = vtkOrder;
   std::rotate(other.begin() + 12, other.begin() + 16, other.end());
-  for (const bool adaptive : { false, true })
+  for (const auto& [adaptive, right] : Product(List(false, true), List(true, false)))
   {
-    for (const bool right : { true, false })
-    {
-      const Filter rays = MakeIntegral(MakePermuted(right ? vtkOrder : other), 8);
-      rays->SetCellDivision(adaptive ? rays->ADAPTIVE_DIVISION : rays->FIXED_DIVISION);
-      rays->SetDivisionTolerance(0.1);
-      vtkNew<ErrorObserver> observer;
-      observer->Observe(rays);
-      rays->Update();
-      EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), right ? 0 : 1) << adaptive;
-      const std::string text = TextOf(observer);
-      EXPECT_EQ(text.find("1 cells are folded inside out") == std::string::npos, right) << text;
-      EXPECT_EQ(observer->Warnings.size(), right ? 0u : 1u) << text;
-    }
+    const Filter rays = MakeIntegral(MakePermuted(right ? vtkOrder : other), 8);
+    rays->SetCellDivision(adaptive ? rays->ADAPTIVE_DIVISION : rays->FIXED_DIVISION);
+    rays->SetDivisionTolerance(0.1);
+    vtkNew<ErrorObserver> observer;
+    observer->Observe(rays);
+    rays->Update();
+    EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), right ? 0 : 1) << adaptive;
+    const std::string text = TextOf(observer);
+    EXPECT_EQ(text.find("1 cells are folded inside out") == std::string::npos, right) << text;
+    EXPECT_EQ(observer->Warnings.size(), right ? 0u : 1u) << text;
   }
   // Points in the middle of the edges, and all of them displaced a little: no cell is folded.
   for (const CellCase& shape : CellCases)

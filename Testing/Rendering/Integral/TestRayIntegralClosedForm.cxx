@@ -3,25 +3,6 @@
 // Integrals along rays compared with closed forms, without a window.
 #include "IntegralScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace

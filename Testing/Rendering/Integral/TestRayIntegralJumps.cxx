@@ -4,25 +4,6 @@
 // Integrals compared with closed forms.
 #include "IntegralScene.h"
 
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <random>
-
 using namespace meniscus::test;
 
 namespace

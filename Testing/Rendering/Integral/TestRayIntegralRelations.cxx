@@ -5,24 +5,8 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCell.h>
-#include <vtkDataArraySelection.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <iostream>
 
 using namespace meniscus::test;
 

@@ -5,32 +5,6 @@
 #include "CellIntegrator.h"
 #include "TrueCellMeshes.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/common.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <iterator>
-#include <limits>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -66,12 +40,9 @@ std::vector<glm::dvec2> TruthOf(vtkTetrahedraRayIntegral* rays, vtkUnstructuredG
   CellIntegrator integrator(grid, 0);
   int size[2];
   rays->GetImageSize(size);
-  for (int row = 0; row < size[1]; ++row)
+  for (const auto& [row, column] : Product(size[1], size[0]))
   {
-    for (int column = 0; column < size[0]; ++column)
-    {
-      truth.push_back(integrator.Integrate(RayOf(rays, column, row)));
-    }
+    truth.push_back(integrator.Integrate(RayOf(rays, column, row)));
   }
   return truth;
 }
@@ -381,22 +352,20 @@ TEST(TrueCells, BadSettingsAreErrors)
 TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
 {
   // Sums of weights times a constant differ from it in the last digits, as do constants in arrays.
-  for (const double constant : { 0.0, 0.1, 1.0 / 3.0, 293.15, -1e300 })
+  for (const auto& [constant, step] :
+    Product(List(0.0, 0.1, 1.0 / 3.0, 293.15, -1e300), List(0.0, 1e-16)))
   {
-    for (const double step : { 0.0, 1e-16 })
+    SCOPED_TRACE(constant);
+    const Grid grid = MakeCell(CellCases[0], 0.0, 2);
+    vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < 8; ++i)
     {
-      SCOPED_TRACE(constant);
-      const Grid grid = MakeCell(CellCases[0], 0.0, 2);
-      vtkDataArray* scalars = grid->GetPointData()->GetScalars();
-      for (vtkIdType i = 0; i < 8; ++i)
-      {
-        scalars->SetTuple1(i, constant * (1.0 + step * static_cast<double>(i)));
-      }
-      const Filter rays = MakeAdaptive(grid, 4);
-      rays->Update();
-      EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
-      EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
+      scalars->SetTuple1(i, constant * (1.0 + step * static_cast<double>(i)));
     }
+    const Filter rays = MakeAdaptive(grid, 4);
+    rays->Update();
+    EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
+    EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
   }
   // The same for places far from the origin: a cube, whose edges are straight.
   Grid cube = MakeCell(CellCases[0], 0.0, 2);

@@ -4,22 +4,6 @@
 #include "HardMeshes.h"
 #include "IntegralScene.h"
 
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -34,33 +18,20 @@ Grid MakeLayers(int n, double thickness)
   points->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName(ScalarName);
-  for (int k = 0; k < 3; ++k)
+  for (const auto& [k, j, i] : Product(3, n + 1, n + 1))
   {
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        points->InsertNextPoint(static_cast<double>(i) / n, static_cast<double>(j) / n, heights[k]);
-        scalars->InsertNextValue(1.0);
-      }
-    }
+    points->InsertNextPoint(static_cast<double>(i) / n, static_cast<double>(j) / n, heights[k]);
+    scalars->InsertNextValue(1.0);
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
   const auto at = [n](int i, int j, int k)
   { return static_cast<vtkIdType>(i + (n + 1) * (j + (n + 1) * k)); };
-  for (int k = 0; k < 2; ++k)
+  for (const auto& [k, j, i] : Product(2, n, n))
   {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k),
-          at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
-          at(i, j + 1, k + 1) };
-        grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-      }
-    }
+    const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+      at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1) };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   return grid;
 }
@@ -105,32 +76,30 @@ double ErrorOfLayer(int n, double thickness)
 /** Layers below the precision of coordinates are counted; others are measured to 1 %. */
 TEST(MeshWarnings, ThinLayers)
 {
-  for (const int n : { 1, 4, 16 })
+  for (const auto& [n, thickness] :
+    Product(List(1, 4, 16), List(1.0e-2, 1.0e-4, 1.0e-5, 1.0e-6, 1.0e-8, 1.0e-12)))
   {
-    for (const double thickness : { 1.0e-2, 1.0e-4, 1.0e-5, 1.0e-6, 1.0e-8, 1.0e-12 })
+    const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
+    const Grid grid = MakeLayers(n, thickness);
+    const Filter rays = MakeFilter(grid, 4, 4);
+    rays->GetArraySelection()->EnableArray("PathLength");
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    const double error = ErrorOfLayer(n, thickness);
+    std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
+    if (warnings.empty())
     {
-      const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
-      const Grid grid = MakeLayers(n, thickness);
-      const Filter rays = MakeFilter(grid, 4, 4);
-      rays->GetArraySelection()->EnableArray("PathLength");
-      const std::vector<std::string> warnings = UpdateAndListen(rays);
-      const double error = ErrorOfLayer(n, thickness);
-      std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
-      if (warnings.empty())
-      {
-        EXPECT_LE(error, 0.01) << what;
-        EXPECT_GE(thickness, 1.0e-6) << what;
-        continue;
-      }
-      EXPECT_LE(thickness, 1.0e-5) << what;
-      ASSERT_EQ(warnings.size(), 1u) << what;
-      const std::string count = std::to_string(6 * n * n) + " of " + std::to_string(12 * n * n);
-      EXPECT_NE(warnings[0].find(count + " cells have an edge shorter than"), std::string::npos)
-        << warnings[0];
-      // The warning is about the mesh, and is not repeated for other rays.
-      rays->SetImageSize(5, 5);
-      EXPECT_TRUE(UpdateAndListen(rays).empty());
+      EXPECT_LE(error, 0.01) << what;
+      EXPECT_GE(thickness, 1.0e-6) << what;
+      continue;
     }
+    EXPECT_LE(thickness, 1.0e-5) << what;
+    ASSERT_EQ(warnings.size(), 1u) << what;
+    const std::string count = std::to_string(6 * n * n) + " of " + std::to_string(12 * n * n);
+    EXPECT_NE(warnings[0].find(count + " cells have an edge shorter than"), std::string::npos)
+      << warnings[0];
+    // The warning is about the mesh, and is not repeated for other rays.
+    rays->SetImageSize(5, 5);
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
   }
 }
 

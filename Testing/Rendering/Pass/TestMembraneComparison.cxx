@@ -7,23 +7,6 @@
 #include "ReferenceImage.h"
 #include "StackScene.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 using meniscus::testing::ComparisonSheet;

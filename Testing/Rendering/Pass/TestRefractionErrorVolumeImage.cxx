@@ -6,28 +6,10 @@
 #include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 #include "StrictImage.h"
+#include "VTKTestBasics.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCubeSource.h>
-#include <vtkDataArray.h>
 #include <vtkGlyph3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractionErrorVolume.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphere.h>
-#include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 

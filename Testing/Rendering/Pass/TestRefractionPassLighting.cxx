@@ -5,31 +5,9 @@
 #include "RayCastScene.h"
 #include "Refraction/Membrane/Optics.h"
 
-#include <vtkActor.h>
-#include <vtkLight.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;

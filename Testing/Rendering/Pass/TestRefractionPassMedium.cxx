@@ -6,26 +6,9 @@
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 
-#include <vtkActor.h>
-#include <vtkContourValues.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
 #include <vtkRefractionPass.h>
-#include <vtkSmartPointer.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTexture.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <string>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;

@@ -8,28 +8,12 @@
 #include "VolumeScene.h"
 #include "WaterParts.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkNew.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSSAAPass.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 
 using namespace meniscus::test;
 

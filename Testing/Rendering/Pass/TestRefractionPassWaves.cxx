@@ -4,43 +4,19 @@
 // waves, and waves without height compared with flat water.
 #include "HeightField.h"
 #include "RefractionPicture.h"
+#include "VTKTestBasics.h"
 #include "VolumeScene.h"
 
-#include <vtkActor.h>
 #include <vtkAppendFilter.h>
-#include <vtkCamera.h>
-#include <vtkFloatArray.h>
-#include <vtkLight.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkStripper.h>
 #include <vtkTriangleFilter.h>
-#include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
+using meniscus::test::Product;
 using namespace meniscus::testing;
 using meniscus::reference::HeightField;
 using meniscus::test::ByteImage;
@@ -295,12 +271,9 @@ TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
   const ByteImage image = pool.Render();
   EXPECT_EQ(pool.Pass->GetNumberOfLightUpdates(), 1);
   Bins drawn(pool.Middle);
-  for (int y = 0; y < pool.Pixels; ++y)
+  for (const auto& [y, x] : Product(pool.Pixels, pool.Pixels))
   {
-    for (int x = 0; x < pool.Pixels; ++x)
-    {
-      drawn.Add(pool.PlaceOf(x, y), image.GetPixel(x, y)[0] / 255.0 / intensity);
-    }
+    drawn.Add(pool.PlaceOf(x, y), image.GetPixel(x, y)[0] / 255.0 / intensity);
   }
   const Bins truth = ShinePhotons(pool, sun, AboveOf(sun), rays);
   double sum = 0.0;

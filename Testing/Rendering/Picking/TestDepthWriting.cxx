@@ -5,21 +5,10 @@
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 
-#include <vtkCamera.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus::test;
 using Mapper = vtkTetrahedraRayCastMapper;

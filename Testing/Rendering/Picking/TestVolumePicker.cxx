@@ -5,43 +5,14 @@
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 
-#include <vtkActor.h>
 #include <vtkAssembly.h>
 #include <vtkAssemblyNode.h>
 #include <vtkAssemblyPath.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
 #include <vtkTetrahedraRayIntegral.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 using namespace meniscus::test;
 using Picker = vtkTetrahedraVolumePicker;

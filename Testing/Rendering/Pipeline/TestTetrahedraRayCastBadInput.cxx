@@ -4,24 +4,8 @@
 // without the cells that were left out). Never a crash.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCellType.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkCubeSource.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkLongLongArray.h>
 #include <vtkOutputWindow.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <limits>
 
 using namespace meniscus::test;
 

@@ -23,26 +23,10 @@
 // step and more for hundreds of terms: a fiftieth of a step is allowed for that.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
 #include <vtkPointDataToCellData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridHomogeneousRayIntegrator.h>
 #include <vtkUnstructuredGridLinearRayIntegrator.h>
 #include <vtkUnstructuredGridVolumeRayCastMapper.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -64,14 +48,11 @@ public:
     FloatImage image;
     image.Width = image.Height = Size;
     image.Rgba.resize(std::size_t{ 4 } * Size * Size);
-    for (int y = 0; y < this->ImageInUseSize[1]; ++y)
+    for (const auto& [y, x] : Product(this->ImageInUseSize[1], this->ImageInUseSize[0]))
     {
-      for (int x = 0; x < this->ImageInUseSize[0]; ++x)
-      {
-        const unsigned char* rgba = this->Image + 4 * (y * this->ImageMemorySize[0] + x);
-        float* to = &image.Rgba[4 * ((y + this->ImageOrigin[1]) * Size + x + this->ImageOrigin[0])];
-        std::copy(rgba, rgba + 4, to);
-      }
+      const unsigned char* rgba = this->Image + 4 * (y * this->ImageMemorySize[0] + x);
+      float* to = &image.Rgba[4 * ((y + this->ImageOrigin[1]) * Size + x + this->ImageOrigin[0])];
+      std::copy(rgba, rgba + 4, to);
     }
     return image;
   }

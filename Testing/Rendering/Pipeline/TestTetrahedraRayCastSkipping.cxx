@@ -3,19 +3,6 @@
 // Invisible cells: they are not visited, not rebuilt without need, and do not change the image.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-
-#include <cmath>
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace

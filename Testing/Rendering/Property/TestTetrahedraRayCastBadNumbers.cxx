@@ -4,25 +4,6 @@
 // without them.
 #include "RayCastScene.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace

@@ -3,17 +3,7 @@
 // Clipping planes: cells are cut, not left out.
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkMath.h>
-#include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace meniscus::test;
 using meniscus::reference::ClipRay;
@@ -152,22 +142,19 @@ TEST(TetrahedraRayCastClipping, RaysInThePlanes)
   const FloatImage image = scene.RenderFloat();
   const PixelRays rays(scene.GetRenderer());
   const double inside = -std::expm1(-2.0 * 0.7 / 0.8);
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const bool met = std::fabs(ray.Origin[0]) < 0.999 && std::fabs(ray.Origin[1]) < 0.999;
+    if (met && std::fabs(ray.Origin[0]) > 1e-6)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const bool met = std::fabs(ray.Origin[0]) < 0.999 && std::fabs(ray.Origin[1]) < 0.999;
-      if (met && std::fabs(ray.Origin[0]) > 1e-6)
-      {
-        ASSERT_NEAR(image.GetPixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
-      }
-      else if (met)
-      {
-        // In the plane: either one side or the other.
-        const double alpha = image.GetPixel(x, y)[3];
-        ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
-      }
+      ASSERT_NEAR(image.GetPixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
+    }
+    else if (met)
+    {
+      // In the plane: either one side or the other.
+      const double alpha = image.GetPixel(x, y)[3];
+      ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
     }
   }
 }

@@ -5,27 +5,6 @@
 #include "OpticsTruth.h"
 #include "ReferenceComponents.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkIdList.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-
 using namespace meniscus::test;
 using meniscus::reference::IntegrateComponents;
 using meniscus::reference::Mixture;
@@ -170,26 +149,23 @@ double LargestDifference(const FloatImage& a, const FloatImage& b)
 
 TEST(TetrahedraRayCastComponents, IndependentComponents)
 {
-  for (const FunctionKind kind :
-    { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Opaque })
+  for (const auto& [kind, number] : Product(std::vector<FunctionKind>{ FunctionKind::Smooth,
+                                              FunctionKind::Peaked, FunctionKind::Opaque },
+         List(2, 3, 4)))
   {
-    for (const int number : { 2, 3, 4 })
+    const std::vector<int> ofFields{ 0, 1, 2, 3 };
+    const Grid grid = MakeComponents<vtkDoubleArray>(
+      std::vector<int>(ofFields.begin(), ofFields.begin() + number), 1.0);
+    const auto parts = MakeParts(number, kind);
+    std::vector<ReferenceTransferFunction> functions;
+    for (int c = 0; c < number; ++c)
     {
-      const std::vector<int> ofFields{ 0, 1, 2, 3 };
-      const Grid grid = MakeComponents<vtkDoubleArray>(
-        std::vector<int>(ofFields.begin(), ofFields.begin() + number), 1.0);
-      const auto parts = MakeParts(number, kind);
-      std::vector<ReferenceTransferFunction> functions;
-      for (int c = 0; c < number; ++c)
-      {
-        functions.push_back(Weighted(ToReference(parts[c]), Weights[c]));
-      }
-      RayCastScene scene(grid, Combine(parts, Weights), Size, Size);
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-      ExpectMixture(scene, Mixture::Independent, functions, 1.0,
-        std::to_string(number) + " independent, function " +
-          std::to_string(static_cast<int>(kind)));
+      functions.push_back(Weighted(ToReference(parts[c]), Weights[c]));
     }
+    RayCastScene scene(grid, Combine(parts, Weights), Size, Size);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    ExpectMixture(scene, Mixture::Independent, functions, 1.0,
+      std::to_string(number) + " independent, function " + std::to_string(static_cast<int>(kind)));
   }
 }
 
@@ -515,35 +491,32 @@ TEST(TetrahedraRayCastComponents, ColorFunctionChoosesTheComponent)
     for (const bool isOfCells : { false, true })
     {
       const Grid& grid = isOfCells ? cells : points;
-      for (const int blendMode : { 0, 1, 5 })
+      for (const auto& [blendMode, chosen] : Product(List(0, 1, 5), List(0, 1, 2, -1)))
       {
-        for (const int chosen : { 0, 1, 2, -1 })
+        const std::string what = std::to_string(ofFields.size()) + " components, of cells " +
+          std::to_string(isOfCells) + ", mode " + std::to_string(blendMode) + ", component " +
+          std::to_string(chosen);
+        colors->SetVectorModeToComponent();
+        colors->SetVectorComponent(0);
+        const FloatImage expected = Draw(Extract(grid, chosen, isOfCells), property, blendMode);
+        colors->SetVectorComponent(std::max(chosen, 0));
+        if (chosen < 0)
         {
-          const std::string what = std::to_string(ofFields.size()) + " components, of cells " +
-            std::to_string(isOfCells) + ", mode " + std::to_string(blendMode) + ", component " +
-            std::to_string(chosen);
-          colors->SetVectorModeToComponent();
-          colors->SetVectorComponent(0);
-          const FloatImage expected = Draw(Extract(grid, chosen, isOfCells), property, blendMode);
-          colors->SetVectorComponent(std::max(chosen, 0));
-          if (chosen < 0)
-          {
-            colors->SetVectorModeToMagnitude();
-          }
-          ExpectSamePicture(Draw(grid, property, blendMode), expected, what);
-          if (blendMode != 0)
-          {
-            continue;
-          }
-          // The mapper's own choice takes precedence.
-          const FloatImage other = Draw(grid, property, blendMode,
-            [](vtkTetrahedraRayCastMapper* mapper)
-            {
-              mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
-              mapper->SetVectorComponent(2);
-            });
-          EXPECT_EQ(LargestDifference(other, expected) == 0.0, chosen == 2) << what;
+          colors->SetVectorModeToMagnitude();
         }
+        ExpectSamePicture(Draw(grid, property, blendMode), expected, what);
+        if (blendMode != 0)
+        {
+          continue;
+        }
+        // The mapper's own choice takes precedence.
+        const FloatImage other = Draw(grid, property, blendMode,
+          [](vtkTetrahedraRayCastMapper* mapper)
+          {
+            mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+            mapper->SetVectorComponent(2);
+          });
+        EXPECT_EQ(LargestDifference(other, expected) == 0.0, chosen == 2) << what;
       }
     }
   }

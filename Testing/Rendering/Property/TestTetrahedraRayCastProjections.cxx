@@ -3,21 +3,6 @@
 // Maximum, minimum, average and additive blending.
 #include "OpticsTruth.h"
 
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
 using meniscus::reference::Projection;
 using meniscus::reference::Ray;

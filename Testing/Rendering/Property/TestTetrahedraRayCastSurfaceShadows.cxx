@@ -3,21 +3,6 @@
 // Shadows and occlusion of isosurfaces, and of independent components, against closed forms.
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -94,34 +79,31 @@ ShadowOnFloor CastOnFloor(int n)
   const double cell = 2.0 / n;
   ShadowOnFloor result;
   int floor = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const double place[2] = { ray.Origin[0], ray.Origin[1] };
+    // Near the ball the floor is hidden.
+    if (std::max(std::fabs(place[0]), std::fabs(place[1])) > 0.999 - cell ||
+      std::hypot(place[0], place[1]) < Radius + cell)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const double place[2] = { ray.Origin[0], ray.Origin[1] };
-      // Near the ball the floor is hidden.
-      if (std::max(std::fabs(place[0]), std::fabs(place[1])) > 0.999 - cell ||
-        std::hypot(place[0], place[1]) < Radius + cell)
-      {
-        continue;
-      }
-      // Distance of the ball's centre from the line to the light.
-      const double to[3] = { -place[0], -place[1], 0.2 - Height };
-      const double along = (0.8 * to[0] + 0.3 * to[1] + to[2]) / size;
-      const double distance =
-        std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2] - along * along);
-      const bool lit = distance > Radius;
-      const double error = std::fabs(image.GetPixel(x, y)[0] - (lit ? 1.0 / size : 0.0));
-      result.Mean += error;
-      ++floor;
-      // Vertices on the side of the light are within a cell's diagonal of the surface, and the
-      // polygons are inside of the ball by up to cell^2 / (2 Radius).
-      if (std::fabs(distance - Radius) > 2.0 * cell)
-      {
-        ++(lit ? result.Lit : result.Dark);
-        result.Wrong += error > 1.0 / 255.0 ? 1 : 0;
-      }
+      continue;
+    }
+    // Distance of the ball's centre from the line to the light.
+    const double to[3] = { -place[0], -place[1], 0.2 - Height };
+    const double along = (0.8 * to[0] + 0.3 * to[1] + to[2]) / size;
+    const double distance =
+      std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2] - along * along);
+    const bool lit = distance > Radius;
+    const double error = std::fabs(image.GetPixel(x, y)[0] - (lit ? 1.0 / size : 0.0));
+    result.Mean += error;
+    ++floor;
+    // Vertices on the side of the light are within a cell's diagonal of the surface, and the
+    // polygons are inside of the ball by up to cell^2 / (2 Radius).
+    if (std::fabs(distance - Radius) > 2.0 * cell)
+    {
+      ++(lit ? result.Lit : result.Dark);
+      result.Wrong += error > 1.0 / 255.0 ? 1 : 0;
     }
   }
   result.Mean /= std::max(floor, 1);

@@ -6,35 +6,9 @@
 #include "TestMeshes.h"
 
 #include <vtkApparentGeometryFilter.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
-#include <vtkSphereSource.h>
 #include <vtkTetrahedraMirage.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -174,27 +148,24 @@ TEST(Mirage, WallsAreSeenAlongParabolas)
     filter->SetCamera(MakeCamera({ 0, 0, Eye }, { 0, 0, 0 }, tangent));
     filter->Update();
     int compared = 0;
-    for (int row = 0; row < Size; ++row)
+    for (const auto& [row, column] : Product(Size, Size))
     {
-      for (int column = 0; column < Size; ++column)
+      const double step = 2.0 * tangent / Size;
+      const glm::dvec3 direction(
+        step * (column + 0.5 - 0.5 * Size), step * (row + 0.5 - 0.5 * Size), -1.0);
+      const glm::dvec3 place = FollowParabola(direction, z);
+      const glm::dvec3 last = FollowParabola(direction, -Half);
+      if (std::max(std::abs(last.x), std::abs(last.y)) > 0.95)
       {
-        const double step = 2.0 * tangent / Size;
-        const glm::dvec3 direction(
-          step * (column + 0.5 - 0.5 * Size), step * (row + 0.5 - 0.5 * Size), -1.0);
-        const glm::dvec3 place = FollowParabola(direction, z);
-        const glm::dvec3 last = FollowParabola(direction, -Half);
-        if (std::max(std::abs(last.x), std::abs(last.y)) > 0.95)
-        {
-          continue;
-        }
-        const vtkIdType pixel = row * Size + column;
-        ASSERT_EQ(ValueAt(filter, "Seen", pixel), vtkTetrahedraMirage::OBJECT);
-        // Positions of the mesh are rounded to 2^-31 of its radius of 50, and bend by as much.
-        EXPECT_NEAR(glm::distance(VectorAt(filter, "Position", pixel), place), 0.0, 2.0e-7);
-        EXPECT_NEAR(
-          ValueAt(filter, "Depth", pixel), glm::distance(place, glm::dvec3(0.0, 0.0, Eye)), 1.0e-5);
-        ++compared;
+        continue;
       }
+      const vtkIdType pixel = row * Size + column;
+      ASSERT_EQ(ValueAt(filter, "Seen", pixel), vtkTetrahedraMirage::OBJECT);
+      // Positions of the mesh are rounded to 2^-31 of its radius of 50, and bend by as much.
+      EXPECT_NEAR(glm::distance(VectorAt(filter, "Position", pixel), place), 0.0, 2.0e-7);
+      EXPECT_NEAR(
+        ValueAt(filter, "Depth", pixel), glm::distance(place, glm::dvec3(0.0, 0.0, Eye)), 1.0e-5);
+      ++compared;
     }
     EXPECT_GT(compared, Size * Size / 4) << z;
     EXPECT_EQ(filter->GetStatistic("NumberOfLostRays"), 0);

@@ -5,25 +5,7 @@
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
 #include <vtkTetrahedraSchlieren.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -93,12 +75,9 @@ vtkSmartPointer<vtkImageData> MakeRamp(int width, int height)
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(width, height, 1);
   image->AllocateScalars(VTK_FLOAT, 1);
-  for (int j = 0; j < height; ++j)
+  for (const auto& [j, i] : Product(height, width))
   {
-    for (int i = 0; i < width; ++i)
-    {
-      image->SetScalarComponentFromDouble(i, j, 0, 0, i);
-    }
+    image->SetScalarComponentFromDouble(i, j, 0, 0, i);
   }
   return image;
 }

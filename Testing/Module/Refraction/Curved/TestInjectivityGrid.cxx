@@ -9,14 +9,7 @@
 #include "Refraction/Images/EdgeSubdivision.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "RefractionTestRandom.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <tuple>
+#include "TestBasics.h"
 
 namespace
 {
@@ -32,6 +25,7 @@ using meniscus::MembraneStatus;
 using meniscus::VirtualVertex;
 using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
+using meniscus::test::Product;
 using meniscus::testing::Random;
 
 constexpr double Pi = 3.14159265358979323846;
@@ -235,24 +229,18 @@ MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& poi
   const std::function<bool(int, int)>& isThere)
 {
   MembraneMesh mesh;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const glm::dvec3 p = point(i, j);
-      mesh.Points.insert(mesh.Points.end(), { p.x, p.y, p.z });
-    }
+    const glm::dvec3 p = point(i, j);
+    mesh.Points.insert(mesh.Points.end(), { p.x, p.y, p.z });
   }
   const auto id = [cells](int i, int j) { return static_cast<std::int64_t>(j * (cells + 1) + i); };
-  for (int j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(cells, cells))
   {
-    for (int i = 0; i < cells; ++i)
+    if (isThere(i, j))
     {
-      if (isThere(i, j))
-      {
-        mesh.Triangles.insert(mesh.Triangles.end(),
-          { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
-      }
+      mesh.Triangles.insert(mesh.Triangles.end(),
+        { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
     }
   }
   return mesh;

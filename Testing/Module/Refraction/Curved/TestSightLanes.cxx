@@ -7,17 +7,7 @@
 #include "Refraction/Membrane/FacetWalk.h"
 #include "RefractionTestRandom.h"
 #include "Simd/InstructionSets.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {

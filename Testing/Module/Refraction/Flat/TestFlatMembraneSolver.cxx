@@ -5,12 +5,7 @@
 #include "MembraneMeshes.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "TestBasics.h"
 
 namespace
 {
@@ -22,6 +17,8 @@ using meniscus::MembraneStatus;
 using meniscus::VirtualVertex;
 using meniscus::reference::AnalyticMembrane;
 using meniscus::reference::MembraneMesh;
+using meniscus::test::List;
+using meniscus::test::Product;
 using meniscus::testing::Random;
 
 FlatMembraneSolver Make(
@@ -389,13 +386,10 @@ MembraneMesh MakeOctahedron()
     point[i / 2] = i % 2 == 0 ? -1.0 : 1.0;
     octahedron.AddPoint(point, point);
   }
-  for (const int x : { 0, 1 })
+  for (const auto& [x, y] : Product(List(0, 1), List(2, 3)))
   {
-    for (const int y : { 2, 3 })
-    {
-      octahedron.AddTriangle(x, y, 4);
-      octahedron.AddTriangle(x, y, 5);
-    }
+    octahedron.AddTriangle(x, y, 4);
+    octahedron.AddTriangle(x, y, 5);
   }
   return octahedron;
 }

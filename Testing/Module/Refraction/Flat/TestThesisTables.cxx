@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The thesis's own measurements, repeated.
+#include "TestBasics.h"
 #include "ThesisTables.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
 
 namespace
 {

@@ -7,18 +7,7 @@
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"
 #include "Stack/StackCellScene.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Snell's law, its extrapolations and Fresnel's equations against closed forms.
 #include "Refraction/Membrane/Optics.h"
+#include "TestBasics.h"
 
 #include <glm/trigonometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <utility>
 
 namespace
 {

@@ -5,16 +5,7 @@
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/ErrorSamples.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {

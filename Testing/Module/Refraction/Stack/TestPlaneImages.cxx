@@ -5,15 +5,6 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-
 namespace
 {
 

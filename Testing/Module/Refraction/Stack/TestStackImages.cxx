@@ -4,16 +4,6 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 namespace
 {
 
@@ -30,6 +20,8 @@ using meniscus::reference::ExactSurface;
 using meniscus::reference::MakePlane;
 using meniscus::reference::MakeSphere;
 using meniscus::reference::TraceExactly;
+using meniscus::test::Below;
+using meniscus::test::Product;
 using meniscus::testing::MakeSurface;
 using meniscus::testing::MakeWaves;
 using meniscus::testing::Random;
@@ -49,14 +41,11 @@ public:
   {
     const auto facets = static_cast<std::int32_t>(
       this->Stack.GetLinks()[0].Surface->GetMembrane().GetFacets().size());
-    for (std::int32_t facet = 0; facet < facets; ++facet)
+    for (const auto& [facet, i] : Product(Below<std::int32_t>(facets), parts + 1))
     {
-      for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j)
       {
-        for (int j = 0; i + j <= parts; ++j)
-        {
-          this->Rays.push_back(this->Trace({ facet, this->GetPlace(i, j) }));
-        }
+        this->Rays.push_back(this->Trace({ facet, this->GetPlace(i, j) }));
       }
     }
   }

@@ -6,14 +6,6 @@
 
 #include "Refraction/Stack/StackInverse.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
-
 namespace
 {
 
@@ -24,6 +16,9 @@ using meniscus::StackChain;
 using meniscus::StackSolver;
 using meniscus::TruePosition;
 using meniscus::reference::MembraneMesh;
+using meniscus::test::Below;
+using meniscus::test::List;
+using meniscus::test::Product;
 using meniscus::testing::MakeSurface;
 using meniscus::testing::MakeWaves;
 using meniscus::testing::Random;
@@ -196,15 +191,12 @@ TEST(StackInverse, SurfacesAreMetNearAPlace)
   }
   ASSERT_GT(distances.size(), 2u);
   const meniscus::StackPatches patches(stack.GetLinks(), stack.GetOrigin());
-  for (std::size_t i = 0; i < distances.size(); ++i)
+  for (const auto& [i, off] : Product(Below<std::size_t>(distances.size()), List(-0.5, 0.0, 0.5)))
   {
-    for (const double off : { -0.5, 0.0, 0.5 })
-    {
-      meniscus::PatchPoint at;
-      const glm::dvec3 near = eye + (distances[i] + off) * direction;
-      ASSERT_TRUE(patches.Meet(0, eye, direction, near, at));
-      EXPECT_NEAR(
-        glm::dot(at.Position - eye, direction), distances[std::max<std::size_t>(i, 1)], 1e-6);
-    }
+    meniscus::PatchPoint at;
+    const glm::dvec3 near = eye + (distances[i] + off) * direction;
+    ASSERT_TRUE(patches.Meet(0, eye, direction, near, at));
+    EXPECT_NEAR(
+      glm::dot(at.Position - eye, direction), distances[std::max<std::size_t>(i, 1)], 1e-6);
   }
 }

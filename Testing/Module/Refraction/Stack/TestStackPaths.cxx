@@ -5,14 +5,6 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
 namespace
 {
 

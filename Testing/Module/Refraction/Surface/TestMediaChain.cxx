@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sides from which rays pass the interfaces of a list, by their indices of refraction.
 #include "Refraction/Surface/MediaChain.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "TestBasics.h"
 
 namespace
 {

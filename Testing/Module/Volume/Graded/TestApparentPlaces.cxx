@@ -4,15 +4,8 @@
 #include "GradedScene.h"
 
 #include "RandomNumbers.h"
+#include "TestBasics.h"
 #include "Volume/Graded/ApparentPlaces.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

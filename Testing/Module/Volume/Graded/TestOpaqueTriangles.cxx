@@ -4,18 +4,8 @@
 #include "GradedScene.h"
 
 #include "RandomNumbers.h"
+#include "TestBasics.h"
 #include "Volume/Graded/OpaqueTriangles.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -8,11 +8,6 @@
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Rays/PlacedVertices.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
