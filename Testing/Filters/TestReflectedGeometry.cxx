@@ -16,8 +16,7 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 using Filter = vtkRefractedGeometryFilter;
 
 const double Pi = std::acos(-1.0);

@@ -7,8 +7,7 @@
 namespace
 {
 
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();

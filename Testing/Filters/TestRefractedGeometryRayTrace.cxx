@@ -8,8 +8,7 @@
 namespace
 {
 
-using meniscus::test::Numbers;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)

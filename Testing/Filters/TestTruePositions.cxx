@@ -13,8 +13,7 @@
 namespace
 {
 
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 namespace reference = meniscus::reference;
 

@@ -13,12 +13,7 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactPath;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 
 constexpr int Pixels = 512;
 constexpr int Side = Pixels / 2;

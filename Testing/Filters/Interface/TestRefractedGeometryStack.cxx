@@ -11,8 +11,7 @@
 namespace
 {
 
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double Eye[3] = { 20.0, 300.0, 10.0 };

@@ -10,10 +10,7 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 
 constexpr int Pixels = 512;
 constexpr double Glass = 1.5;

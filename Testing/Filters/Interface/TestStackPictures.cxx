@@ -10,12 +10,7 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakeCap;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::TraceExactly;
+using namespace meniscus::reference;
 using meniscus::test::RandomNumbers;
 
 constexpr int Pixels = 512;

@@ -8,8 +8,7 @@
 namespace
 {
 
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeSquare(double half, double z, int cells)

@@ -9,8 +9,7 @@ namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus::reference;
 
 constexpr double Glass = 1.52;
 constexpr int Rings = 47;

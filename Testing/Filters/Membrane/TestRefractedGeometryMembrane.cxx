@@ -11,8 +11,7 @@
 namespace
 {
 
-using meniscus::test::Numbers;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 

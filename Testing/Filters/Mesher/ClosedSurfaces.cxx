@@ -6,8 +6,7 @@
 #include "vtkPlatonicSolidSource.h"
 #include "vtkReverseSense.h"
 
-using meniscus::test::Numbers;
-using meniscus::test::Product;
+using namespace meniscus::test;
 
 namespace meniscus::testing
 {

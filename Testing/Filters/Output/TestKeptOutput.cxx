@@ -10,8 +10,7 @@
 namespace
 {
 
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using Filter = vtkRefractedGeometryFilter;
 

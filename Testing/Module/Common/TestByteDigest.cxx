@@ -3,9 +3,7 @@
 #include "Common/ByteDigest.h"
 #include "TestBasics.h"
 
-using meniscus::test::Below;
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace

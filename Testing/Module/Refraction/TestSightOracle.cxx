@@ -10,13 +10,7 @@
 namespace
 {
 
-using meniscus::reference::AnalyticMembrane;
-using meniscus::reference::HeightField;
-using meniscus::reference::OracleAnswer;
-using meniscus::reference::OracleImage;
-using meniscus::reference::SightOracle;
-using meniscus::reference::SmoothSurface;
-using meniscus::reference::SurfaceError;
+using namespace meniscus::reference;
 using meniscus::testing::Random;
 
 constexpr SurfaceError Exact{ 1e-12, 1e-12 };

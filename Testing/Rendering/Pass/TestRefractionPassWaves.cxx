@@ -16,10 +16,9 @@
 #include <vtkStripper.h>
 #include <vtkTriangleFilter.h>
 
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using meniscus::reference::HeightField;
-using meniscus::test::ByteImage;
 
 namespace
 {

@@ -4,8 +4,7 @@
 #include "RayCastScene.h"
 
 using namespace meniscus::test;
-using meniscus::reference::Ray;
-using meniscus::reference::Vector3;
+using namespace meniscus::reference;
 
 namespace
 {

@@ -6,10 +6,7 @@
 #include <vtkPlaneCollection.h>
 
 using namespace meniscus::test;
-using meniscus::reference::ClipRay;
-using meniscus::reference::HalfSpace;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
+using namespace meniscus::reference;
 
 namespace
 {

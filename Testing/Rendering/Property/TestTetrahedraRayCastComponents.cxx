@@ -6,12 +6,7 @@
 #include "ReferenceComponents.h"
 
 using namespace meniscus::test;
-using meniscus::reference::IntegrateComponents;
-using meniscus::reference::Mixture;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
-using meniscus::reference::ReferenceRayIntegrator;
-using meniscus::reference::ReferenceTransferFunction;
+using namespace meniscus::reference;
 
 namespace
 {

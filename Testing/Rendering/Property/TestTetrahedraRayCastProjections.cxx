@@ -4,9 +4,7 @@
 #include "OpticsTruth.h"
 
 using namespace meniscus::test;
-using meniscus::reference::Projection;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
+using namespace meniscus::reference;
 
 namespace
 {

@@ -22,8 +22,7 @@
 #include <string>
 #include <vector>
 
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace

@@ -14,17 +14,8 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::EdgeSubdivision;
-using meniscus::EyeStatus;
-using meniscus::ImagedPoint;
-using meniscus::ImageMesh;
-using meniscus::ImageState;
-using meniscus::InjectivityGrid;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using meniscus::test::Product;
 using meniscus::testing::Random;
 

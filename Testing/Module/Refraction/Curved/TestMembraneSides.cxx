@@ -10,16 +10,9 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::CurvedPatch;
-using meniscus::HeightFrame;
-using meniscus::MembraneStatus;
-using meniscus::PatchCrossing;
-using meniscus::PatchCrossings;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using meniscus::testing::Random;
 
 const double Pi = std::acos(-1.0);

@@ -15,15 +15,9 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::EyeStatus;
-using meniscus::ImageState;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using meniscus::testing::Random;
 
 EyeStatus SetMirror(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye)

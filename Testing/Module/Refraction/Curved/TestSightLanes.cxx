@@ -12,19 +12,7 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::CurvedPatch;
-using meniscus::EyeStatus;
-using meniscus::FacetWalk;
-using meniscus::FindOutside;
-using meniscus::ImageState;
-using meniscus::Media;
-using meniscus::MembraneStatus;
-using meniscus::SightEquation;
-using meniscus::SightLanes;
-using meniscus::SightRoot;
-using meniscus::VirtualPlace;
-using meniscus::VirtualVertex;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::Random;
 

@@ -10,15 +10,8 @@
 namespace
 {
 
-using meniscus::EyeStatus;
-using meniscus::FlatMembraneSolver;
-using meniscus::ImageState;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::AnalyticMembrane;
-using meniscus::reference::MembraneMesh;
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus;
+using namespace meniscus::test;
 using meniscus::testing::Random;
 
 FlatMembraneSolver Make(

@@ -7,8 +7,7 @@
 namespace
 {
 
-using meniscus::reference::GetThesisRows;
-using meniscus::reference::MeasureThesisRow;
+using namespace meniscus::reference;
 
 double PercentOff(double ours, double printed)
 {

@@ -11,16 +11,9 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::ImageMesh;
-using meniscus::ImagePoint;
-using meniscus::ObjectImages;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
-using meniscus::test::List;
-using meniscus::test::Numbers;
-using meniscus::test::Product;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 
 const double Pi = std::acos(-1.0);
 

@@ -12,11 +12,8 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::ObjectImages;
-using meniscus::reference::ExactPath;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);

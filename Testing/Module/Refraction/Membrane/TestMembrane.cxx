@@ -8,12 +8,9 @@
 namespace
 {
 
-using meniscus::Membrane;
-using meniscus::MembraneInput;
-using meniscus::MembraneStatus;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 

@@ -8,12 +8,9 @@
 namespace
 {
 
-using meniscus::Membrane;
-using meniscus::MembraneStatus;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
-using meniscus::test::Below;
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 
 glm::dvec3 Load(const std::vector<double>& array, std::int64_t index)
 {

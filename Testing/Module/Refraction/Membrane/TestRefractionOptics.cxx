@@ -9,10 +9,7 @@
 namespace
 {
 
-using meniscus::ComputeRefractionRay;
-using meniscus::FresnelReflectance;
-using meniscus::RayKind;
-using meniscus::SchlickReflectance;
+using namespace meniscus;
 
 const glm::dvec3 Up(0.0, 1.0, 0.0);
 

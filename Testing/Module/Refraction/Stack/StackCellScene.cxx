@@ -6,8 +6,7 @@
 #include "RefractionTestRandom.h"
 #include "TestBasics.h"
 
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 
 namespace meniscus::testing
 {

@@ -10,11 +10,8 @@
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::PatchPoint;
-using meniscus::VirtualVertex;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using meniscus::testing::Random;
 
 constexpr double Water = 1.333;

@@ -9,11 +9,8 @@ namespace
 {
 
 using meniscus::StackSolver;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);

@@ -7,26 +7,10 @@
 namespace
 {
 
-using meniscus::ImageState;
-using meniscus::ParallelPlanes;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackBeamParts;
-using meniscus::StackPath;
-using meniscus::StackPlace;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::TraceExactly;
-using meniscus::test::Below;
-using meniscus::test::Product;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
-using meniscus::testing::SolveAlone;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

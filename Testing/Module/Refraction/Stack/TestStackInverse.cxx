@@ -9,20 +9,10 @@
 namespace
 {
 
-using meniscus::FindTruePosition;
-using meniscus::Interface;
-using meniscus::SeenState;
-using meniscus::StackChain;
-using meniscus::StackSolver;
-using meniscus::TruePosition;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
-using meniscus::test::Below;
-using meniscus::test::List;
-using meniscus::test::Product;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 constexpr double Size = 200.0;
 

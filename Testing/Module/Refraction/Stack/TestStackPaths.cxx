@@ -8,20 +8,9 @@
 namespace
 {
 
-using meniscus::CurvedPatch;
-using meniscus::ImageState;
-using meniscus::PatchPoint;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

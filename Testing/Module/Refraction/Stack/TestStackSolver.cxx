@@ -8,26 +8,10 @@
 namespace
 {
 
-using meniscus::EyeStatus;
-using meniscus::ImageState;
-using meniscus::Interface;
-using meniscus::RayJet;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakeCap;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
-using meniscus::reference::TraceExactly;
-using meniscus::test::List;
-using meniscus::test::Product;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
-using meniscus::testing::SolveAlone;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

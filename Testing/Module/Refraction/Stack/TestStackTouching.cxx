@@ -9,15 +9,8 @@
 namespace
 {
 
-using meniscus::ImageMesh;
-using meniscus::ImagePoint;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackImages;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using meniscus::test::Product;
 using namespace meniscus::testing;
 

@@ -7,9 +7,7 @@
 namespace
 {
 
-using meniscus::InterfacePassage;
-using meniscus::MediaChain;
-using meniscus::MediaFault;
+using namespace meniscus;
 
 bool IsPassage(const InterfacePassage& passage, double before, double behind, bool fromFront)
 {

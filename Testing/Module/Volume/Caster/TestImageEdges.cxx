@@ -4,8 +4,7 @@
 #include "TestBasics.h"
 #include "Volume/Caster/ImageEdges.h"
 
-using meniscus::test::Numbers;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace

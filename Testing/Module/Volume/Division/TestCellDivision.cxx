@@ -9,8 +9,7 @@
 
 #include <thread>
 
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace

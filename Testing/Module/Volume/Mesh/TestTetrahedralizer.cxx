@@ -5,8 +5,7 @@
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
-using meniscus::test::Below;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace

@@ -4,8 +4,7 @@
 #include "TestBasics.h"
 #include "Volume/Rays/RayFrame.h"
 
-using meniscus::test::List;
-using meniscus::test::Product;
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
