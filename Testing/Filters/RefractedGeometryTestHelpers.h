@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
 #define meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
 
-#include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 
 #include "vtkRefractedGeometryFilter.h"

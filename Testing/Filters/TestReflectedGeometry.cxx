@@ -4,9 +4,7 @@
 #include "BoardScene.h"
 #include "ComparisonSheet.h"
 #include "ExactStack.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
 
 #include "VTKTestBasics.h"
 #include "vtkStripper.h"

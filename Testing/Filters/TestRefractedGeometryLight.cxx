@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Reflectance by either model, and normals for the lighting of virtual geometry.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "VTKTestBasics.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The filter's output, drawn, compared with ray tracing of the analytic membrane, pixel by pixel.
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
 #include "TestBasics.h"
 
 namespace

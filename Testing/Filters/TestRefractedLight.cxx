@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Irradiance through a membrane: closed forms for flat water, and photons through exact waves.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
-#include "vtkRefractedLightFilter.h"
 
 namespace
 {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error volumes compared with the thesis's tables, measured by other means; exact surfaces of every
 // kind; and invalid input.
-#include "AnalyticMembrane.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"

@@ -3,11 +3,8 @@
 // True positions of points that are seen through one interface or several: closed forms for planes
 // and balls, the way there and back through waves, and lists that cannot be used.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkRefractingInterface.h"
-#include "vtkRefractingInterfaceCollection.h"
 #include "vtkTruePositionFilter.h"
 
 namespace

@@ -3,12 +3,10 @@
 /**
  * Pictures of refracted scenes against POV-Ray's pictures of the same scenes.
  */
-#include "ComparisonScene.h"
 #include "PictureComparison.h"
 #include "PovrayProcess.h"
 #include "RefractedScene.h"
 #include "StrictImage.h"
-#include "VolumeScene.h"
 
 #include <vtksys/SystemTools.hxx>
 

@@ -7,13 +7,8 @@
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 #include "VTKTestBasics.h"
-#include "VolumeScene.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
-
-class vtkRenderer;
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
 
 namespace meniscus::test
 {

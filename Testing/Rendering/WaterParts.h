@@ -5,7 +5,6 @@
 
 #include "VTKBasics.h"
 
-class vtkActor;
 class vtkAlgorithmOutput;
 
 namespace meniscus::test

@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Stress_RefractionCase_h
 #define meniscus_Testing_Stress_RefractionCase_h
 
-#include "MembraneMeshes.h"
 #include "SmoothSurface.h"
 #include "StressRandom.h"
 

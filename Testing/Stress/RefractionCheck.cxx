@@ -6,7 +6,6 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTriangles.h"
-#include "SightOracle.h"
 
 namespace meniscus::test
 {

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RefractionCheck.h"
 #include "StackCheck.h"
 
 namespace meniscus::test

@@ -3,8 +3,6 @@
 #include "StressBentRays.h"
 
 #include "GradedPathCheck.h"
-#include "RandomNumbers.h"
-#include "StressCasters.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"

@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Stress_StressCase_h
 #define meniscus_Testing_Stress_StressCase_h
 
-#include "RandomNumbers.h"
 #include "TestMeshes.h"
 #include "VolumeFunctions.h"
 #include "VolumeView.h"

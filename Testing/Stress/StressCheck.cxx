@@ -3,7 +3,6 @@
 #include "StressCheck.h"
 
 #include "ReferenceImage.h"
-#include "VolumeFunctions.h"
 
 namespace meniscus::test
 {

@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Stress_StressCheck_h
 #define meniscus_Testing_Stress_StressCheck_h
 
-#include "StressCase.h"
 #include "StressCasters.h"
 
 namespace meniscus::test

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HardMeshes.h"
 #include "StressCase.h"
-#include "TestMeshes.h"
-#include "VolumeFunctions.h"
 #include "VolumeScene.h"
 
 namespace meniscus::test

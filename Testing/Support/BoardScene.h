@@ -6,8 +6,6 @@
 
 #include "VTKBasics.h"
 
-class vtkPolyData;
-
 namespace meniscus::testing
 {
 

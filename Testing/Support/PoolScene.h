@@ -7,12 +7,8 @@
 #ifndef meniscus_Testing_Support_PoolScene_h
 #define meniscus_Testing_Support_PoolScene_h
 
-#include "HeightField.h"
 #include "RefractionPicture.h"
 #include "VolumeScene.h"
-
-class vtkActor;
-class vtkImageData;
 
 class vtkRefractedGeometryFilter;
 class vtkRefractionPass;

@@ -5,11 +5,7 @@
 
 #include "PixelRays.h"
 #include "ReferenceRayIntegrator.h"
-#include "ReferenceTransferFunction.h"
 #include "VolumeScene.h"
-
-class vtkMatrix4x4;
-class vtkUnstructuredGrid;
 
 namespace meniscus::test
 {

@@ -11,8 +11,6 @@
 #include "HeightField.h"
 #include "VTKBasics.h"
 
-class vtkPolyData;
-
 namespace meniscus::testing
 {
 

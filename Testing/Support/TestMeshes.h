@@ -5,8 +5,6 @@
 
 #include "VTKBasics.h"
 
-class vtkUnstructuredGrid;
-
 namespace meniscus::test
 {
 

@@ -143,6 +143,38 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   return property;
 }
 
+void SetPoints(vtkPiecewiseFunction* function, const OpacityNodes& nodes)
+{
+  function->RemoveAllPoints();
+  for (const auto& [scalar, opacity] : nodes)
+  {
+    function->AddPoint(scalar, opacity);
+  }
+}
+
+void SetPoints(vtkColorTransferFunction* function, const ColorNodes& nodes)
+{
+  function->RemoveAllPoints();
+  for (const auto& [scalar, red, green, blue] : nodes)
+  {
+    function->AddRGBPoint(scalar, red, green, blue);
+  }
+}
+
+vtkSmartPointer<vtkPiecewiseFunction> MakeOpacity(const OpacityNodes& nodes)
+{
+  auto function = vtkSmartPointer<vtkPiecewiseFunction>::New();
+  SetPoints(function, nodes);
+  return function;
+}
+
+vtkSmartPointer<vtkColorTransferFunction> MakeColors(const ColorNodes& nodes)
+{
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  SetPoints(function, nodes);
+  return function;
+}
+
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkVolumeProperty> MakeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance)

@@ -7,9 +7,6 @@
 #include "ReferenceTransferFunction.h"
 #include "VTKBasics.h"
 
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
-
 namespace meniscus::test
 {
 

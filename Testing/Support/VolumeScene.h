@@ -7,11 +7,7 @@
 
 class vtkDataSet;
 class vtkFramebufferPass;
-class vtkRenderer;
-class vtkRenderWindow;
 class vtkUnstructuredGridVolumeMapper;
-class vtkVolume;
-class vtkVolumeProperty;
 
 namespace meniscus::test
 {

@@ -3,7 +3,6 @@
 // Cells of membranes: their corners on exact rays through planes and spheres, and facets that are
 // left out.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
 #include "vtkMembraneCellFilter.h"

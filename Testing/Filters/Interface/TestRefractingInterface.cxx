@@ -4,7 +4,6 @@
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
-#include "vtkRefractedLightFilter.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"

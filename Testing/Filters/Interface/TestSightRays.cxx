@@ -3,7 +3,6 @@
 // Sight rays of several eyes through panes and waves: true positions, triangulation and lines.
 // Truth: exact paths through planes and spheres, and the way there and back.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
 #include "vtkDepthImagePoints.h"

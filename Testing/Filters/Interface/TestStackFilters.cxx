@@ -3,7 +3,6 @@
 // Error volumes through several interfaces: planes and spheres in closed form, and lists that
 // cannot be used.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
 #include "vtkRefractionErrorVolume.h"

@@ -5,8 +5,6 @@
 #include "ExactStack.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkRefractedLightFilter.h"
-
 namespace
 {
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes that have a formula.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"

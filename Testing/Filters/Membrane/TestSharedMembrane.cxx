@@ -4,8 +4,6 @@
 // not share it.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "HeightField.h"
-
 #include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"

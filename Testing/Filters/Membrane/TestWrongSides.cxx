@@ -6,7 +6,6 @@
 
 #include "VTKTestBasics.h"
 #include "vtkMembraneCellFilter.h"
-#include "vtkRefractedLightFilter.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"

@@ -5,8 +5,6 @@
 
 #include "VTKBasics.h"
 
-class vtkPolyData;
-
 namespace meniscus::testing
 {
 

@@ -5,7 +5,6 @@
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
-#include "vtkRefractedLightFilter.h"
 
 namespace
 {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // ALL_IMAGES in a pipeline: points, lines and polygons, objects that cross the membrane, caches.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "VTKTestBasics.h"
 

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // ALL_IMAGES in a pipeline: arrays at new points, and images without cracks.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
 #include "VTKTestBasics.h"
 
 namespace

@@ -4,7 +4,6 @@
 #ifndef meniscus_FilterScene_h
 #define meniscus_FilterScene_h
 
-#include "RandomNumbers.h"
 #include "RefractionTrial.h"
 #include "VTKBasics.h"
 

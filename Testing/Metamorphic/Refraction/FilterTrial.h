@@ -4,9 +4,6 @@
 #define meniscus_FilterTrial_h
 
 #include "FilterScene.h"
-#include "RandomNumbers.h"
-#include "RefractionTrial.h"
-#include "Relation.h"
 
 class vtkDataSetAttributes;
 

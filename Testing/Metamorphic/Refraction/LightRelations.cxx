@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterRelations.h"
 
-#include "FilterScene.h"
 #include "FilterTrial.h"
 
 #include "vtkRefractedGeometryFilter.h"

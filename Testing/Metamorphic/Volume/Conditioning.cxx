@@ -4,7 +4,6 @@
 
 #include "ProjectionModes.h"
 #include "ReferenceComponents.h"
-#include "ReferenceOptics.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
 

@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Metamorphic_Volume_Conditioning_h
 #define meniscus_Testing_Metamorphic_Volume_Conditioning_h
 
-#include "TracedImage.h"
 #include "VolumeCase.h"
 
 namespace meniscus::test

@@ -3,7 +3,6 @@
 #include "DeviceTableLimits.h"
 #include "VolumeRelation.h"
 
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTypeInt64Array.h>
 
 namespace meniscus::test

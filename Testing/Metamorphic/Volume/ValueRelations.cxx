@@ -261,10 +261,8 @@ void CheckPlainGradientOpacity(VolumeTrial& trial)
 {
   trial.MakePicture();
   trial.GetStage().GetPlace(trial.MakeScene());
-  vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.0, 1.0);
-  function->AddPoint(3.0, 1.0);
-  trial.GetStage().MakeScene().GetVolume()->GetProperty()->SetGradientOpacity(function);
+  trial.GetStage().MakeScene().GetVolume()->GetProperty()->SetGradientOpacity(
+    MakeOpacity({ { 0.0, 1.0 }, { 3.0, 1.0 } }));
   trial.ExpectSame(trial.GetStage().Render(), "gradient opacity of 1");
 }
 

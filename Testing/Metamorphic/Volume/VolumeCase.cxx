@@ -5,8 +5,6 @@
 #include "MapScene.h"
 #include "MeshFamilies.h"
 #include "ProjectionModes.h"
-#include "ReferenceMesh.h"
-#include "VolumeScene.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
 

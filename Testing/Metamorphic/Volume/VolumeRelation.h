@@ -5,7 +5,6 @@
 
 #include "Conditioning.h"
 #include "Relation.h"
-#include "VolumeCase.h"
 #include "VolumeStage.h"
 
 namespace meniscus::test

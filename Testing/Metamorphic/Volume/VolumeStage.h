@@ -4,7 +4,6 @@
 #define meniscus_Testing_Metamorphic_Volume_VolumeStage_h
 
 #include "VolumeCase.h"
-#include "VolumeScene.h"
 
 class vtkDataObject;
 class vtkTetrahedraRayCastMapper;

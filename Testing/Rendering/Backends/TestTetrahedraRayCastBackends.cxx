@@ -21,10 +21,7 @@ vtkSmartPointer<vtkVolumeProperty> LitProperty()
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->ShadeOn();
   property->SetSpecular(0.4);
-  vtkNew<vtkPiecewiseFunction> factor;
-  factor->AddPoint(0.0, 0.2);
-  factor->AddPoint(3.0, 1.0);
-  property->SetGradientOpacity(factor);
+  property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 3.0, 1.0 } }));
   property->GetIsoSurfaceValues()->SetValue(0, 0.2);
   property->GetIsoSurfaceValues()->SetValue(1, -0.2);
   return property;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A backend registered from outside the library, with installed headers only, against the analytic
 // length of each ray within a box. Documentation/extending.md follows it.
-#include "PixelRays.h"
 #include "RayCastScene.h"
 
 #include <RayCastBackend.h>

@@ -239,12 +239,9 @@ TEST(TetrahedraRayCastCellData, TwoSlabs)
   const Grid grid = MakeBlock(4, ConstantField(0.0));
   AddCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
   auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.0);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(-1.0, 0.5);
-  property->GetScalarOpacity()->AddPoint(1.0, 2.0);
-  property->GetRGBTransferFunction()->RemoveAllPoints();
-  property->GetRGBTransferFunction()->AddRGBPoint(-1.0, 1.0, 0.0, 0.0);
-  property->GetRGBTransferFunction()->AddRGBPoint(1.0, 0.0, 0.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { -1.0, 0.5 }, { 1.0, 2.0 } });
+  SetPoints(
+    property->GetRGBTransferFunction(), { { -1.0, 1.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0, 1.0 } });
   CellScene scene(grid, property);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0, 1.3);
   const FloatImage image = scene.RenderFloat();
@@ -423,10 +420,7 @@ TEST(TetrahedraRayCastCellData, OnlyCellsThatCanBeSeenAreVisited)
 {
   const Grid grid = MakeCellBlock(6);
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.1, 0.0);
-  property->GetScalarOpacity()->AddPoint(0.2, 0.9);
-  property->GetScalarOpacity()->AddPoint(0.3, 0.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.1, 0.0 }, { 0.2, 0.9 }, { 0.3, 0.0 } });
   vtkTypeInt64 expected = 0;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {

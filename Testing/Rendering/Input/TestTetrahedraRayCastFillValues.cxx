@@ -168,10 +168,8 @@ TEST(TetrahedraRayCastFillValues, LightInTheMedium)
 TEST(TetrahedraRayCastFillValues, GradientOpacity)
 {
   const auto property = MakeFunction(false);
-  vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.5, GradientFactor(0.5));
-  function->AddPoint(2.5, GradientFactor(2.5));
-  property->SetGradientOpacity(function);
+  property->SetGradientOpacity(
+    MakeOpacity({ { 0.5, GradientFactor(0.5) }, { 2.5, GradientFactor(2.5) } }));
   ExpectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
@@ -324,11 +322,8 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
   }
   // A function at the fill value causes one.
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.0, 0.0);
-  property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);
-  property->GetRGBTransferFunction()->RemoveAllPoints();
-  property->GetRGBTransferFunction()->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.0, 0.0 }, { 1.0e20, 1.0 } });
+  SetPoints(property->GetRGBTransferFunction(), { { 0.0, 1.0, 1.0, 1.0 } });
   scene.GetWindow()->Render();
   scene.GetWindow()->Render();
   EXPECT_LE(mapper->GetNumberOfScalarUpdates(), 2);

@@ -3,8 +3,6 @@
 // A colour and an opacity per cell: one point per corner of each cell, with the cell's values at
 // all of its points. Frames compared with the closed form of two homogeneous cells.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
 
 using namespace meniscus::test;
 
@@ -45,10 +43,7 @@ Grid MakeTwoCells()
 vtkSmartPointer<vtkVolumeProperty> MakeDirectProperty()
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, UnitDistance);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(255.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 255.0, 1.0 } }));
   property->IndependentComponentsOff();
   return property;
 }

@@ -169,10 +169,8 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
     scene, "other active cells",
     [&]
     {
-      vtkNew<vtkPiecewiseFunction> opacity;
-      opacity->AddPoint(0.2, 0.0);
-      opacity->AddPoint(0.8, 2.0);
-      scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
+      scene.GetVolume()->GetProperty()->SetScalarOpacity(
+        MakeOpacity({ { 0.2, 0.0 }, { 0.8, 2.0 } }));
     },
     { 0, 0, 1, 1, 0, 0 }, true, true);
 }

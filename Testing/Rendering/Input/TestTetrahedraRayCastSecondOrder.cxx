@@ -239,10 +239,7 @@ void ExpectLinearTwin(const LinearMesh& mesh, const std::string& what)
 double AlphaAlong(vtkUnstructuredGrid* grid, int axis)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   RayCastScene scene(grid, property, 33, 33);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
   return scene.RenderFloat().GetPixel(16, 16)[3];

@@ -3,7 +3,6 @@
 // Adaptive division of cells in frames and picks: opacities and picked values compared with closed
 // forms of a trilinear field, and the counters of a mapper whose cells are divided.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkTetrahedraVolumePicker.h>
 
@@ -96,10 +95,7 @@ double OpticalDepthAt(vtkUnstructuredGrid* grid, double x, double y)
 vtkSmartPointer<vtkVolumeProperty> MakeLinearProperty()
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / Attenuation);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 

@@ -7,10 +7,6 @@
 
 #include <vtkGenericCell.h>
 
-class vtkDataArray;
-class vtkImageData;
-class vtkUnstructuredGrid;
-
 namespace meniscus::test
 {
 

@@ -4,7 +4,6 @@
 #define meniscus_Testing_Rendering_Integral_IntegralScene_h
 
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkTetrahedraRayIntegral.h>
 

@@ -3,7 +3,6 @@
 // Bounds are those of the cells that are drawn: of the mapper, for cameras, and of fitted rays.
 #include "IntegralScene.h"
 
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkUniformGrid.h>
 
 using namespace meniscus::test;

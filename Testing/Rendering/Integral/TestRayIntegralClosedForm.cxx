@@ -437,14 +437,8 @@ double TentIntegral(double scalar)
 vtkSmartPointer<vtkVolumeProperty> MakeTent()
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(1.0, 0.0);
-  opacity->AddPoint(2.0, 0.4);
-  opacity->AddPoint(4.0, 0.0);
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(0.0, 0.2, 0.5, 0.9);
-  property->SetScalarOpacity(opacity);
-  property->SetColor(color);
+  property->SetScalarOpacity(MakeOpacity({ { 1.0, 0.0 }, { 2.0, 0.4 }, { 4.0, 0.0 } }));
+  property->SetColor(MakeColors({ { 0.0, 0.2, 0.5, 0.9 } }));
   property->SetScalarOpacityUnitDistance(0.5);
   return property;
 }

@@ -54,12 +54,9 @@ std::vector<double> Render(vtkVolumeProperty* property, bool perUnitDistance = f
 /** A property that is opaque in a cell. */
 vtkSmartPointer<vtkVolumeProperty> MakeOpaque(vtkColorTransferFunction* color)
 {
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 1.0);
-  opacity->AddPoint(2.0, 1.0);
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(color);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 1.0 }, { 2.0, 1.0 } }));
   property->SetScalarOpacityUnitDistance(1.0e-3);
   return property;
 }
@@ -202,8 +199,7 @@ TEST(FunctionSampling, OpacitiesAgreeWithVTK)
     opacity->AddPoint(0.4, 0.2, 0.5, 0.6);
     opacity->AddPoint(0.9, 0.8, 0.7, 1.0);
     opacity->AddPoint(1.9, 0.1);
-    vtkNew<vtkColorTransferFunction> color;
-    color->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+    const auto color = MakeColors({ { 0.0, 1.0, 1.0, 1.0 } });
     const auto property = MakeOpaque(color);
     property->SetScalarOpacity(opacity);
     property->SetScalarOpacityUnitDistance(1.0);
@@ -221,9 +217,7 @@ TEST(FunctionSampling, OpacitiesAgreeWithVTK)
  */
 TEST(FunctionSampling, NodesAtTheEndsOfTheRange)
 {
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.7e308, 0.0, 0.2, 0.4);
-  color->AddRGBPoint(1.7e308, 1.0, 0.2, 0.6);
+  const auto color = MakeColors({ { -1.7e308, 0.0, 0.2, 0.4 }, { 1.7e308, 1.0, 0.2, 0.6 } });
   const std::vector<double> image = Render(MakeOpaque(color));
   for (int cell = 0; cell < NumberOfCells; ++cell)
   {

@@ -17,14 +17,8 @@ const char* const Names[] = { "Integral", "PathLength", "OpticalDepth", "FirstDe
 vtkSmartPointer<vtkVolumeProperty> MakeRamp()
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-1.0, 0.0);
-  opacity->AddPoint(1.0, 0.6);
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.0, 0.1, 0.3, 0.9);
-  color->AddRGBPoint(1.0, 0.9, 0.6, 0.2);
-  property->SetScalarOpacity(opacity);
-  property->SetColor(color);
+  property->SetScalarOpacity(MakeOpacity({ { -1.0, 0.0 }, { 1.0, 0.6 } }));
+  property->SetColor(MakeColors({ { -1.0, 0.1, 0.3, 0.9 }, { 1.0, 0.9, 0.6, 0.2 } }));
   return property;
 }
 

@@ -5,7 +5,6 @@
 #define meniscus_Testing_Rendering_Pass_FlatPool_h
 
 #include "RayCastScene.h"
-#include "VolumeScene.h"
 #include "WaterParts.h"
 
 #include <vtkAlgorithmOutput.h>

@@ -3,7 +3,6 @@
 // An error volume drawn as the thesis's figure 4.2 draws it: a cube of 400 flush with the top of a
 // hemisphere (yellow), one block per sample, green below one unit, blue below 10, red below 100,
 // white above, darker for smaller errors within each colour; cut open in the middle.
-#include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 #include "StrictImage.h"
 #include "VTKTestBasics.h"

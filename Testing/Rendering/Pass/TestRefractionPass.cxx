@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRefractionPass compared with closed forms: a plane of water, seen from above.
 #include "FlatPool.h"
-#include "RayCastScene.h"
-#include "VolumeScene.h"
-#include "WaterParts.h"
 
-#include <vtkAlgorithmOutput.h>
 #include <vtkLightCollection.h>
 #include <vtkOpenGLFXAAPass.h>
-#include <vtkRefractedGeometryFilter.h>
-#include <vtkRefractionPass.h>
 #include <vtkSSAAPass.h>
 #include <vtkTexture.h>
 

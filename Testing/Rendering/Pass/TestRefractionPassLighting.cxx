@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting in true space, compared with closed forms: the floor of a pool under flat water.
 #include "FlatPool.h"
-#include "RayCastScene.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRefractionPass.h>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The medium behind a membrane, compared with closed forms: a plane of water, seen from above.
 #include "FlatPool.h"
-#include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
 
-#include <vtkRefractionPass.h>
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTexture.h>
 
 using namespace meniscus::test;

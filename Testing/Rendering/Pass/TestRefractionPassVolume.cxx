@@ -3,9 +3,6 @@
 // Volumes behind the membranes of vtkRefractionPass: the image equals that of the mapper alone,
 // apart from Fresnel's transmittance.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
-#include "VolumeScene.h"
 #include "WaterParts.h"
 
 #include <vtkRefractedGeometryFilter.h>
@@ -13,7 +10,6 @@
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
 #include <vtkSSAAPass.h>
-#include <vtkTetrahedraRayCastMapper.h>
 
 using namespace meniscus::test;
 

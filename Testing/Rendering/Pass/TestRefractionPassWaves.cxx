@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting in true space behind waves: pictures of a floor compared with photons through exact
 // waves, and waves without height compared with flat water.
-#include "HeightField.h"
 #include "RefractionPicture.h"
 #include "VTKTestBasics.h"
 #include "VolumeScene.h"

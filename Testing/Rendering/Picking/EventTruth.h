@@ -10,8 +10,6 @@
 
 #include "MathBasics.h"
 #include "ReferenceOptics.h"
-#include "ReferenceRayIntegrator.h"
-#include "ReferenceTransferFunction.h"
 
 namespace meniscus::test
 {

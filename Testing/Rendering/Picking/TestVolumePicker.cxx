@@ -3,7 +3,6 @@
 // Closed forms of picks, VTK's convention for pickers, and input that cannot be used. No frame is
 // drawn and no display is needed.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkAssembly.h>
 #include <vtkAssemblyNode.h>
@@ -54,10 +53,7 @@ double PlaceOf(int pixel)
 vtkSmartPointer<vtkVolumeProperty> MakeRamp(double perScalar)
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / perScalar);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 
@@ -429,10 +425,7 @@ TEST(VolumePicker, GradientOpacityAndComponents)
 {
   const auto field = [](double, double, double z) { return z > 0.0 ? 0.1 * z : 4.0 * z; };
   auto property = MakeConstantProperty(0.5, 1.0, 1.0, 1.0, 1.0);
-  vtkNew<vtkPiecewiseFunction> steep;
-  steep->AddPoint(1.0, 0.0);
-  steep->AddPoint(1.001, 1.0);
-  property->SetGradientOpacity(steep);
+  property->SetGradientOpacity(MakeOpacity({ { 1.0, 0.0 }, { 1.001, 1.0 } }));
   PickScene scene(MakeBlock(4, field), property);
   scene.Mapper()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.Chooser->SetPlaceToFirstVisible();
@@ -450,10 +443,7 @@ TEST(VolumePicker, GradientOpacityAndComponents)
   grid->GetPointData()->SetScalars(pair);
   auto both = MakeRamp(2.0);
   both->SetIndependentComponents(1);
-  vtkNew<vtkPiecewiseFunction> second;
-  second->AddPoint(0.0, 0.0);
-  second->AddPoint(1.0, 0.6);
-  both->SetScalarOpacity(1, second);
+  both->SetScalarOpacity(1, MakeOpacity({ { 0.0, 0.0 }, { 1.0, 0.6 } }));
   PickScene mixed(grid, both);
   mixed.Chooser->SetPlaceToOpacityReached();
   ASSERT_EQ(mixed.Pick(), 1);

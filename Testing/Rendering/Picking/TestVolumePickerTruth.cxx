@@ -4,10 +4,7 @@
 // is drawn and no display is needed.
 #include "EventTruth.h"
 #include "MembraneScene.h"
-#include "PixelRays.h"
 #include "RayCastScene.h"
-#include "ReferenceImage.h"
-#include "TestMeshes.h"
 
 #include <vtkTetrahedraRayIntegral.h>
 #include <vtkTetrahedraVolumePicker.h>

@@ -137,10 +137,7 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
   // length.
   const Grid grid = MakeBlock(5, LinearField(0.5, 1.0, -0.5));
   auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.5);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-2.0, 0.0);
-  opacity->AddPoint(2.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { -2.0, 0.0 }, { 2.0, 1.0 } }));
   for (const Placement& placement : Placements)
   {
     RayCastScene scene(grid, property, Size, Size);

@@ -461,10 +461,7 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
     vtkVolumeProperty* property = test.Scene.GetVolume()->GetProperty();
     property->ShadeOn();
     property->SetSpecular(0.0);
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(0.0, 0.2);
-    opacity->AddPoint(4.0, 1.0);
-    property->SetGradientOpacity(opacity);
+    property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 4.0, 1.0 } }));
     test.Scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> sun;
     sun->SetPosition(-1.0, 2.0, 0.5);

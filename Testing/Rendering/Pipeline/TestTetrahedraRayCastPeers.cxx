@@ -143,23 +143,16 @@ void ExpectPicturesMatch(const PeerScene& scene, const std::string& what)
 
 vtkSmartPointer<vtkColorTransferFunction> Rainbow()
 {
-  auto colors = vtkSmartPointer<vtkColorTransferFunction>::New();
-  colors->AddRGBPoint(-2.0, 0.0, 0.0, 0.0);
-  colors->AddRGBPoint(-0.2, 0.0, 0.0, 1.0);
-  colors->AddRGBPoint(0.1, 1.0, 0.0, 0.0);
-  colors->AddRGBPoint(0.5, 0.0, 1.0, 0.0);
-  colors->AddRGBPoint(2.0, 0.0, 1.0, 1.0);
+  const auto colors = MakeColors({ { -2.0, 0.0, 0.0, 0.0 }, { -0.2, 0.0, 0.0, 1.0 },
+    { 0.1, 1.0, 0.0, 0.0 }, { 0.5, 0.0, 1.0, 0.0 }, { 2.0, 0.0, 1.0, 1.0 } });
   return colors;
 }
 
 // Nodes at the places of the colours' nodes: the peer ignores others.
 vtkSmartPointer<vtkPiecewiseFunction> Ramp(double factor)
 {
-  auto opacities = vtkSmartPointer<vtkPiecewiseFunction>::New();
-  opacities->AddPoint(-2.0, 0.0);
-  opacities->AddPoint(-0.2, 0.1 * factor);
-  opacities->AddPoint(0.5, 0.5 * factor);
-  opacities->AddPoint(2.0, 0.2 * factor);
+  const auto opacities = MakeOpacity(
+    { { -2.0, 0.0 }, { -0.2, 0.1 * factor }, { 0.5, 0.5 * factor }, { 2.0, 0.2 * factor } });
   return opacities;
 }
 
@@ -236,11 +229,7 @@ TEST(TetrahedraRayCastPeers, MovedVolume)
 TEST(TetrahedraRayCastPeers, GreyLevels)
 {
   PeerScene scene = MakeScene(MakeWavyBlock());
-  vtkNew<vtkPiecewiseFunction> grey;
-  grey->AddPoint(-2.0, 0.0);
-  grey->AddPoint(-0.2, 0.7);
-  grey->AddPoint(0.5, 0.2);
-  grey->AddPoint(2.0, 1.0);
+  const auto grey = MakeOpacity({ { -2.0, 0.0 }, { -0.2, 0.7 }, { 0.5, 0.2 }, { 2.0, 1.0 } });
   scene.Property->SetColor(grey);
   ExpectPicturesMatch(scene, "grey");
 }
@@ -257,10 +246,7 @@ TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
     { return std::clamp(0.5 + 0.5 * wavy(x + shift, y, z), 0.0, 1.0); };
   };
   SetComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
-  vtkNew<vtkPiecewiseFunction> identity;
-  identity->AddPoint(0.0, 0.0);
-  identity->AddPoint(1.0, 1.0);
-  scene.Property->SetScalarOpacity(identity);
+  scene.Property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   scene.Property->IndependentComponentsOff();
   ExpectPicturesMatch(scene, "colours");
 }

@@ -274,10 +274,8 @@ TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWi
   vtkNew<vtkCallbackCommand> edit;
   edit->SetClientData(this->Property.Get());
   edit->SetCallback(
-    [](vtkObject*, unsigned long, void* property, void*)
-    {
-      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->RemoveAllPoints();
-      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->AddPoint(0.0, 0.0);
+    [](vtkObject*, unsigned long, void* property, void*) {
+      SetPoints(static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity(), { { 0.0, 0.0 } });
     });
   const unsigned long tag = other.GetRenderer()->AddObserver(vtkCommand::EndEvent, edit);
   other.GetWindow()->Render();

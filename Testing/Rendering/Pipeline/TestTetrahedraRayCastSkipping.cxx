@@ -28,10 +28,7 @@ protected:
   void SetWindow(double lower, double upper)
   {
     vtkPiecewiseFunction* opacity = this->Property->GetScalarOpacity();
-    opacity->RemoveAllPoints();
-    opacity->AddPoint(lower, 0.0);
-    opacity->AddPoint(0.5 * (lower + upper), 1.0);
-    opacity->AddPoint(upper, 0.0);
+    SetPoints(opacity, { { lower, 0.0 }, { 0.5 * (lower + upper), 1.0 }, { upper, 0.0 } });
   }
 
   vtkTypeInt64 Builds() { return this->Scene.GetRayCaster()->GetNumberOfActiveSetBuilds(); }

@@ -275,13 +275,10 @@ TEST(TetrahedraRayCastComponents, LightOnDependentComponents)
     if (gradients == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS)
     {
       // Varying light times varying colour along a piece is integrated in another way.
-      part->GetRGBTransferFunction()->RemoveAllPoints();
-      part->GetRGBTransferFunction()->AddRGBPoint(0.0, 0.8, 0.6, 0.4);
+      SetPoints(part->GetRGBTransferFunction(), { { 0.0, 0.8, 0.6, 0.4 } });
     }
     part->ShadeOn();
-    part->GetGradientOpacity()->RemoveAllPoints();
-    part->GetGradientOpacity()->AddPoint(0.0, 0.2);
-    part->GetGradientOpacity()->AddPoint(2.0, 1.0);
+    SetPoints(part->GetGradientOpacity(), { { 0.0, 0.2 }, { 2.0, 1.0 } });
     RayCastScene single(one, part, Size, Size);
     vtkNew<vtkVolumeProperty> property;
     property->DeepCopy(part);
@@ -328,11 +325,8 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   for (int c = 0; c < 3; ++c)
   {
     parts.push_back(MakeConstantProperty(0.0, c == 0, c == 1, 1, 1.0));
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(-1.0, 0.0);
-    opacity->AddPoint(0.5, 0.0);
-    opacity->AddPoint(1.0, c < 2 ? 1.0 : 0.0);
-    parts.back()->SetScalarOpacity(opacity);
+    parts.back()->SetScalarOpacity(
+      MakeOpacity({ { -1.0, 0.0 }, { 0.5, 0.0 }, { 1.0, c < 2 ? 1.0 : 0.0 } }));
   }
   const std::vector<double> ones(3, 1.0);
   RayCastScene scene(grid, Combine(parts, ones), Size, Size);

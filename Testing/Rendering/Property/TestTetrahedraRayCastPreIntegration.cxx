@@ -3,7 +3,6 @@
 // Integration by the pre-integration table: its error, and when the table is built.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
-#include "RayCastScene.h"
 
 using namespace meniscus::test;
 

@@ -34,10 +34,7 @@ void ExpectReference(RayCastScene& scene, const ProjectionMode& mode, const std:
 vtkSmartPointer<vtkVolumeProperty> IdentityProperty(double unit)
 {
   auto property = MakeConstantProperty(0.0, 1, 1, 1, unit);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 

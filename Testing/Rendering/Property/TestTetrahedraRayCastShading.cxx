@@ -147,10 +147,8 @@ vtkSmartPointer<vtkVolumeProperty> MediumProperty(bool shade, bool factor)
   auto property = SurfaceProperty(shade);
   if (factor)
   {
-    vtkNew<vtkPiecewiseFunction> function;
-    function->AddPoint(0.5, GradientFactor(0.5));
-    function->AddPoint(2.5, GradientFactor(2.5));
-    property->SetGradientOpacity(function);
+    property->SetGradientOpacity(
+      MakeOpacity({ { 0.5, GradientFactor(0.5) }, { 2.5, GradientFactor(2.5) } }));
   }
   return property;
 }
@@ -334,9 +332,7 @@ TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
     const FloatImage hidden = scene.RenderFloat();
     EXPECT_EQ(std::count(hidden.Rgba.begin(), hidden.Rgba.end(), 0.0f),
       static_cast<std::ptrdiff_t>(hidden.Rgba.size()));
-    vtkNew<vtkPiecewiseFunction> one;
-    one->AddPoint(0.0, 1.0);
-    scene.GetVolume()->GetProperty()->SetGradientOpacity(one);
+    scene.GetVolume()->GetProperty()->SetGradientOpacity(MakeOpacity({ { 0.0, 1.0 } }));
     ExpectSamePicture(scene.RenderFloat(), without, "a factor of 1");
     scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
     scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(1);

@@ -220,9 +220,7 @@ TEST(TetrahedraRayCastShadows, ScalarsOfCellsHaveClosedForm)
   grid->GetCellData()->SetScalars(values);
   constexpr double dense = 0.4;
   const auto property = MakeScatteringProperty(dense);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.0, 0.5);
-  property->GetScalarOpacity()->AddPoint(1.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.0, 0.5 }, { 1.0, 1.0 } });
   RayCastScene scene(grid, property, 33, 33);
   scene.GetRayCaster()->SetScalarModeToUseCellData();
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);

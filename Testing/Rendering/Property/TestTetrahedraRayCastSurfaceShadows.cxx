@@ -203,12 +203,8 @@ TEST(TetrahedraRayCastSurfaceShadows, IndependentComponentsHaveClosedForm)
   constexpr double attenuation = 0.2; // of each component
   const auto property = MakeConstantProperty(1.0, 1.0, 0.5, 0.25, 1.0 / attenuation);
   property->IndependentComponentsOn();
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(0.0, 1.0, 0.5, 0.25);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 1.0);
-  property->SetColor(1, color);
-  property->SetScalarOpacity(1, opacity);
+  property->SetColor(1, MakeColors({ { 0.0, 1.0, 0.5, 0.25 } }));
+  property->SetScalarOpacity(1, MakeOpacity({ { 0.0, 1.0 } }));
   property->SetScalarOpacityUnitDistance(1, 1.0 / attenuation);
   property->ShadeOn();
   property->SetAmbient(0.0);

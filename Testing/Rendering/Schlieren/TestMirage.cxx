@@ -3,7 +3,6 @@
 // Pictures of objects through a medium that bends light, and objects where they are seen.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkApparentGeometryFilter.h>
 #include <vtkTetrahedraMirage.h>

@@ -3,7 +3,6 @@
 // Images of a medium that bends light: closed forms, pipeline, input that cannot be used.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkTetrahedraSchlieren.h>
 

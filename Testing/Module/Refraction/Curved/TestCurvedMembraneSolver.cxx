@@ -3,7 +3,6 @@
 // Curved patches and the sight points on them: closed forms, analytic membranes, a dense search.
 #include "ExactStack.h"
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"

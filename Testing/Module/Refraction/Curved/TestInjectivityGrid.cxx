@@ -3,7 +3,6 @@
 // Regions in which points have at most one image, compared with a search for all images; cells
 // divided there.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Images/EdgeSubdivision.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images in mirrors: planes in closed form, spheres by Alhazen's equation, waves by a dense search.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Membrane/Optics.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of images: within their cells, and without cracks between them.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Paths through wavy surfaces: derivatives, and a joint iteration for all sight points as oracle.
-#include "HeightField.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 

@@ -3,7 +3,6 @@
 // Directions in which points are seen through a medium: parabolas, images of a rod, shadows.
 #include "GradedScene.h"
 
-#include "RandomNumbers.h"
 #include "TestBasics.h"
 #include "Volume/Graded/ApparentPlaces.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cones and drawn faces shorten searches for entries and change no result.
 #include "GradedScene.h"
-#include "RandomNumbers.h"
 
 #include "TestBasics.h"
 #include "Volume/Graded/BoundaryCones.h"

@@ -4,7 +4,6 @@
 #include "GradedScene.h"
 
 #include "GradedRayIntegrator.h"
-#include "RandomNumbers.h"
 #include "TestBasics.h"
 #include "Volume/Graded/GradedCell.h"
 

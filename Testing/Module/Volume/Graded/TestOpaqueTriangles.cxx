@@ -3,7 +3,6 @@
 // Bent rays that end at triangles: closed forms, straight rays, closed surfaces, the way back.
 #include "GradedScene.h"
 
-#include "RandomNumbers.h"
 #include "TestBasics.h"
 #include "Volume/Graded/OpaqueTriangles.h"
 
