@@ -22,6 +22,13 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
   return counter;
 }
 
+void ExpectQuiet(vtkAlgorithm* filter)
+{
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+}
+
 //------------------------------------------------------------------------------
 void ProgressWatch::Execute(vtkObject* caller, unsigned long, void*)
 {

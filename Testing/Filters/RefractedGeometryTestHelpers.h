@@ -28,6 +28,9 @@ public:
 /** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
 
+/** Updates a filter, and expects neither errors nor warnings. */
+void ExpectQuiet(vtkAlgorithm* filter);
+
 /** Observes the progress of a filter, and aborts at the second report of any if `Aborts` is set. */
 class ProgressWatch : public vtkCommand
 {

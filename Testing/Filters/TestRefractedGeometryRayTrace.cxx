@@ -38,9 +38,7 @@ TEST_P(RefractedGeometryRayTrace, PixelsAgree)
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];
   const PixelCamera camera = scene.GetCamera();
   const auto filter = MakeSceneFilter(scene);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
 
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced =

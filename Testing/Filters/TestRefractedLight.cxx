@@ -8,7 +8,6 @@
 namespace
 {
 
-using meniscus::test::Product;
 using namespace meniscus::testing;
 using meniscus::reference::HeightField;
 

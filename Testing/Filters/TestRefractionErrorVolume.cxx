@@ -253,9 +253,7 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
     }
     ++rows;
     const auto volume = MakeThesisVolume(row);
-    const auto messages = Observe(volume);
-    volume->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(volume);
     const ErrorStatistics expected = MeasureThesisRow(row);
     EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.Points));
     EXPECT_NEAR(volume->GetMeanError(), expected.Mean, 1e-9 * expected.Mean);
@@ -417,8 +415,8 @@ TEST(RefractionErrorVolume, FieldDataHasTheStatistics)
     static_cast<double>(volume->GetNumberOfMeasuredSamples()));
   std::ostringstream text;
   volume->Print(text);
-  EXPECT_NE(text.str().find("FLAT_FACETS"), std::string::npos);
-  EXPECT_NE(text.str().find("SampleDimensions: (10, 11, 12)"), std::string::npos);
+  EXPECT_TRUE(HasText(text.str(), "FLAT_FACETS"));
+  EXPECT_TRUE(HasText(text.str(), "SampleDimensions: (10, 11, 12)"));
 }
 
 TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)

@@ -96,9 +96,7 @@ int StateOf(vtkPointSet* data, vtkIdType i)
 double MeasureInverse(
   vtkTruePositionFilter* filter, const std::vector<reference::ExactImage>& images)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   double largest = 0.0;
   for (std::size_t i = 0; i < images.size(); ++i)
   {
@@ -126,7 +124,7 @@ std::vector<Point> MakeDeepPoints(int count)
 }
 
 /** The parameter is the number of interfaces. */
-class TruePositionsThrough : public testing::TestWithParam<int>
+class TruePositionsThrough : public ::testing::TestWithParam<int>
 {
 };
 
@@ -244,7 +242,7 @@ TEST_P(TruePositionsThrough, EyesBehindTheSurfacesAreInTheLastMedium)
   EXPECT_EQ(messages->Warnings + messages->Errors, warnings) << messages->Text;
 }
 
-INSTANTIATE_TEST_SUITE_P(TruePositions, TruePositionsThrough, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(TruePositions, TruePositionsThrough, ::testing::Values(1, 2, 3));
 
 //------------------------------------------------------------------------------
 // Rays to points in rows start where the last one met the surface, those to points far apart are
@@ -386,8 +384,7 @@ TEST(TruePositions, BadInputIsAnError)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos)
-      << what << ": " << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty")) << what;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << what;
   };
   auto filter = MakeInverse(points, MakeFlatMembrane());

@@ -92,7 +92,7 @@ TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const s
   EXPECT_LE(static_cast<double>(comparison.Excused),
     std::max(1.0, excusedShare * static_cast<double>(comparison.Visible)));
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.GetText());
+  ::testing::Test::RecordProperty(what, comparison.GetText());
   return comparison;
 }
 

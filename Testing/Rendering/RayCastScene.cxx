@@ -151,6 +151,13 @@ void ErrorObserver::Observe(vtkObject* object)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object)
+{
+  auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  observer->Observe(object);
+  return observer;
+}
+
 std::string ErrorObserver::GetText() const
 {
   std::string all;

@@ -87,6 +87,9 @@ public:
   std::string GetText() const;
 };
 
+/** A new observer of an object. */
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object);
+
 } // namespace meniscus::test
 
 #endif

@@ -4,8 +4,6 @@
 
 #include "RefractionPicture.h"
 
-using meniscus::test::Product;
-
 namespace meniscus::testing
 {
 namespace

@@ -4,8 +4,6 @@
 
 #include "vtkPNGWriter.h"
 
-using meniscus::test::Product;
-
 namespace meniscus::testing
 {
 namespace

@@ -14,8 +14,6 @@
 
 #include <glm/exponential.hpp>
 
-using meniscus::test::Product;
-
 namespace meniscus::testing
 {
 namespace

@@ -6,8 +6,6 @@
 #include "vtkGenericCell.h"
 #include "vtkStaticCellLocator.h"
 
-using meniscus::test::Product;
-
 namespace meniscus::testing
 {
 namespace

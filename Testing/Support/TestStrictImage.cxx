@@ -89,7 +89,7 @@ TEST(StrictImage, MissingBaselineFails)
 {
   const BaselineResult result = CompareToBaseline(Ramp(), "NoSuchBaseline", Threshold);
   EXPECT_FALSE(result.Passed);
-  EXPECT_NE(result.Message.find("NoSuchBaseline"), std::string::npos);
+  EXPECT_TRUE(HasText(result.Message, "NoSuchBaseline"));
 }
 
 TEST(StrictImage, AnAlternateBaselinePasses)

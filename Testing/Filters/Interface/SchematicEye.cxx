@@ -3,8 +3,6 @@
 #include "SchematicEye.h"
 #include "MathBasics.h"
 
-using meniscus::test::Product;
-
 namespace meniscus::testing
 {
 namespace

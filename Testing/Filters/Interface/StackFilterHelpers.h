@@ -56,8 +56,8 @@ void ExpectBadLists(const Make& make, const Measure& measure)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(measure(filter.Get()), 0) << text;
   };
   const auto makePane = [&make](double before, double glass, double again, double behind)

@@ -256,7 +256,7 @@ TEST(MembraneCells, BadInputIsAnError)
     const auto messages = Observe(filter);
     spoil(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();

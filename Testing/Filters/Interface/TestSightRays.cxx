@@ -123,9 +123,7 @@ TEST(SightRays, PointsHaveTheirOwnEyesBehindAPane)
     truth.push_back(image.Point);
   }
   const auto filter = MakePaneFilter<vtkTruePositionFilter>(seen.Data);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
@@ -207,7 +205,7 @@ TEST(SightRays, EyesThatCannotBeUsedAreMarked)
 //------------------------------------------------------------------------------
 // An aborted run has no output, and the next one is whole.
 template <typename Filter>
-class SightRaySteps : public testing::Test
+class SightRaySteps : public ::testing::Test
 {
 };
 using StepFilters =
@@ -260,8 +258,8 @@ TEST(SightRays, ArraysThatAreMissingAreErrors)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   const auto truth = MakePaneFilter<vtkTruePositionFilter>(seen.Data);
@@ -302,9 +300,7 @@ TEST(SightRays, TriangulatePointsThroughAPane)
     }
   }
   const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 90);
   vtkPointData* arrays = filter->GetOutput()->GetPointData();
   for (vtkIdType i = 0; i < 90; ++i)
@@ -477,7 +473,7 @@ TEST(SightRays, NumbersOfPointsAreWhole)
     ids->SetValue(1, bad);
     ids->Modified();
     filter->Update();
-    EXPECT_NE(messages->Text.find("not whole numbers"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "not whole numbers"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 }
@@ -652,7 +648,7 @@ TEST(DepthImage, BadInputIsAnError)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   vtkNew<vtkDepthImagePoints> filter;

@@ -87,9 +87,7 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
   const auto told = Observe(view);
   view->Update();
   EXPECT_EQ(told->Warnings, 1);
-  EXPECT_NE(
-    told->Text.find(std::to_string(wild) + " of 1681 membrane normals deviate"), std::string::npos)
-    << told->Text;
+  EXPECT_TRUE(HasText(told->Text, std::to_string(wild) + " of 1681 membrane normals deviate"));
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), right->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < view->GetOutput()->GetNumberOfPoints(); ++i)
   {

@@ -7,7 +7,6 @@
 namespace
 {
 
-using meniscus::test::Product;
 using namespace meniscus::testing;
 using meniscus::reference::HeightField;
 

@@ -17,7 +17,7 @@ using meniscus::SimdPortable;
 constexpr int Rounds = 2000;
 
 template <class Simd>
-class SimdOperations : public testing::Test
+class SimdOperations : public ::testing::Test
 {
 protected:
   static constexpr int Width = Simd::Width;

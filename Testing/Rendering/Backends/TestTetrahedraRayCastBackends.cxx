@@ -230,8 +230,7 @@ TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   ExpectMatchesReference(scene, "compute asked for");
   const bool compute = HasCompute(scene.GetWindow());

@@ -218,7 +218,7 @@ double LengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWor
 }
 
 /** A box of 6 * 3^3 tetrahedra, and the backend registered as long as the test runs. */
-class TetrahedraRayCastRegisteredBackend : public testing::Test
+class TetrahedraRayCastRegisteredBackend : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRegisteredBackend()
@@ -307,8 +307,8 @@ TEST_F(TetrahedraRayCastRegisteredBackend, AutomaticAsksItFirstAndReportsItsReas
   this->Words.Reason = "it is out of ink";
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find("it is out of ink"), std::string::npos);
-  EXPECT_NE(this->Observer->Warnings[0].find(this->OwnBackend()), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], "it is out of ink"));
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], this->OwnBackend()));
   const FloatImage other = this->Scene.RenderFloat();
   EXPECT_EQ(this->Observer->Warnings.size(), 1u) << "said once";
   this->Words.Reason.clear();
@@ -334,12 +334,12 @@ TEST_F(TetrahedraRayCastRegisteredBackend, NamesTakePrecedenceAndFallBack)
   this->Mapper->SetBackendName("No such");
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find("No such"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], "No such"));
   this->Words.Reason = "it is out of ink";
   this->Mapper->SetBackendName("Path length");
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 2u);
-  EXPECT_NE(this->Observer->Warnings[1].find("it is out of ink"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[1], "it is out of ink"));
   EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->GetText();
 }
 

@@ -119,7 +119,7 @@ double MeasureVolume(const FloatImage& image, double pixelArea)
   return depth * pixelArea;
 }
 
-std::string NameOf(const testing::TestParamInfo<MenagerieFile>& info)
+std::string NameOf(const ::testing::TestParamInfo<MenagerieFile>& info)
 {
   std::string name = info.param.Name;
   for (char& letter : name)
@@ -131,7 +131,7 @@ std::string NameOf(const testing::TestParamInfo<MenagerieFile>& info)
 
 }
 
-class Menagerie : public testing::TestWithParam<MenagerieFile>
+class Menagerie : public ::testing::TestWithParam<MenagerieFile>
 {
 };
 
@@ -142,8 +142,7 @@ TEST_P(Menagerie, IsDrawn)
   ASSERT_TRUE(data);
   RayCastScene scene(nullptr, MakeConstantProperty(Attenuation, 1.0, 1.0, 1.0, 1.0), Width, Height);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(mapper);
+  const auto observer = ObserveErrors(mapper);
   mapper->SetInputDataObject(data);
   mapper->SetScalarMode(
     file.OfPoints ? VTK_SCALAR_MODE_USE_POINT_FIELD_DATA : VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
@@ -166,4 +165,4 @@ TEST_P(Menagerie, IsDrawn)
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Menagerie, testing::ValuesIn(ReadTable()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Files, Menagerie, ::testing::ValuesIn(ReadTable()), NameOf);

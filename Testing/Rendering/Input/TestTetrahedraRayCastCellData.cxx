@@ -402,8 +402,7 @@ TEST(TetrahedraRayCastCellData, CellsWithoutValueAreTransparentAndCounted)
                   : std::numeric_limits<double>::quiet_NaN());
   }
   CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   scene.ExpectComposite("with holes");
   EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfTransparentCells"), 7);
@@ -557,12 +556,11 @@ TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
 {
   const Grid grid = MakeCellBlock(3);
   CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   MakeCellScalars(grid)->SetNumberOfTuples(5);
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 1u);
-  EXPECT_NE(errors->GetText().find(" cells"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->GetText(), " cells"));
 
   vtkNew<vtkDoubleArray> field;
   field->SetName("field");
@@ -572,5 +570,5 @@ TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
   scene.GetRayCaster()->SelectScalarArray("field");
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 2u);
-  EXPECT_NE(errors->Errors[1].find("field data"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->Errors[1], "field data"));
 }

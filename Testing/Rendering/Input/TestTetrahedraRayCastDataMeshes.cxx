@@ -11,7 +11,7 @@ namespace
 
 constexpr int Size = 320;
 
-class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
+class TetrahedraRayCastDataMeshes : public ::testing::TestWithParam<const char*>
 {
 };
 
@@ -76,5 +76,5 @@ TEST_P(TetrahedraRayCastDataMeshes, MatchReference)
 }
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastDataMeshes,
-  testing::Values("blunt_fin", "combustor", "crushed_can"),
-  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
+  ::testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const ::testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });

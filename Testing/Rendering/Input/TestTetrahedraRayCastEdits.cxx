@@ -31,7 +31,7 @@ struct Work
   }
 };
 
-class TetrahedraRayCastEdits : public testing::Test
+class TetrahedraRayCastEdits : public ::testing::Test
 {
 protected:
   TetrahedraRayCastEdits()

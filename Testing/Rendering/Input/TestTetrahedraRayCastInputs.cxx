@@ -30,8 +30,7 @@ vtkSmartPointer<vtkVolumeProperty> Smooth()
 FloatImage PictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
 {
   RayCastScene scene(grid, Smooth(), Size, Size);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
   LookAt(scene.GetRenderer(), bounds, 25.0, 15.0);
   const FloatImage image = scene.RenderFloat();
@@ -190,8 +189,7 @@ TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
   ExpectSamePicture(scene.RenderFloat(), expected, "a single component with its sign");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(mapper);
+  const auto observer = ObserveErrors(mapper);
   mapper->SelectScalarArray("Vectors");
   mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
   mapper->SetVectorComponent(3);

@@ -217,8 +217,7 @@ void ExpectLinearTwin(const LinearMesh& mesh, const std::string& what)
     const Grid quadratic = MakeMesh(mesh, true, seed + 10);
     const auto expected = MakeScene(linear, property);
     const auto scene = MakeScene(quadratic, property);
-    const auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    told->Observe(scene->GetRayCaster());
+    const auto told = ObserveErrors(scene->GetRayCaster());
     ExpectSamePicture(scene->RenderFloat(), expected->RenderFloat(), what);
     EXPECT_TRUE(told->Warnings.empty()) << what << ": " << told->Warnings.front();
     EXPECT_TRUE(told->Errors.empty()) << what << ": " << told->GetText();

@@ -139,7 +139,7 @@ void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
   EXPECT_EQ(comparison.Wrong, 0u);
   EXPECT_LE(comparison.Excused, 1u);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.GetText());
+  ::testing::Test::RecordProperty(what, comparison.GetText());
 }
 
 void ExpectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,

@@ -36,8 +36,7 @@ Drawn Draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = null
   int blendMode = vtkVolumeMapper::COMPOSITE_BLEND)
 {
   RayCastScene scene(nullptr, property ? property : Smooth().Get(), Size, Size);
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   scene.GetRayCaster()->SetBackend(backend);
   scene.GetRayCaster()->SetBlendMode(blendMode);
   scene.GetRayCaster()->SetInputDataObject(input);

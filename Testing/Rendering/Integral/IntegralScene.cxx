@@ -134,12 +134,23 @@ std::vector<SolidMesh> MakeSolids(const Field& field)
 }
 
 //------------------------------------------------------------------------------
-Filter MakeFilter(vtkDataObject* input, int width, int height)
+void Enable(vtkTetrahedraRayIntegral* filter, const std::vector<const char*>& arrays)
+{
+  for (const char* name : arrays)
+  {
+    filter->GetArraySelection()->EnableArray(name);
+  }
+}
+
+//------------------------------------------------------------------------------
+Filter MakeFilter(
+  vtkDataObject* input, int width, int height, const std::vector<const char*>& arrays)
 {
   auto filter = Filter::New();
   filter->SetInputData(input);
   filter->SetImageSize(width, height);
   filter->GetArraySelection()->DisableArray("Integral");
+  Enable(filter, arrays);
   return filter;
 }
 

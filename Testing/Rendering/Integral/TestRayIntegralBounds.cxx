@@ -174,10 +174,8 @@ TEST(DrawnBounds, OfFittedRays)
 {
   for (const BoundsCase& bounds : MakeCases())
   {
-    const Filter rays = MakeFilter(bounds.Input, 8, 8);
-    rays->GetArraySelection()->EnableArray("PathLength");
-    vtkNew<ErrorObserver> quiet;
-    quiet->Observe(rays);
+    const Filter rays = MakeFilter(bounds.Input, 8, 8, { "PathLength" });
+    const auto quiet = ObserveErrors(rays);
     rays->Update();
     EXPECT_TRUE(quiet->Errors.empty()) << bounds.Name << ": " << quiet->GetText();
     const std::vector<double> lengths = ValuesOf(rays, "PathLength");

@@ -83,14 +83,12 @@ std::vector<vtkIdType> FirstPoints(vtkIdType count)
 void ExpectCube(
   vtkDataObject* input, const std::string& text, vtkTypeInt64 rejected, bool isAdaptive = false)
 {
-  const Filter rays = MakeFilter(input, 8, 8);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(input, 8, 8, { "PathLength" });
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.0, 0.0, 2.0);
   rays->SetCellDivision(isAdaptive);
   rays->SetDivisionTolerance(0.01);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
+  const auto observer = ObserveErrors(rays);
   rays->Update();
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   ASSERT_EQ(lengths.size(), 64u) << text << ": " << observer->GetText();
@@ -100,13 +98,13 @@ void ExpectCube(
   }
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
   ASSERT_EQ(observer->Warnings.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_NE(observer->Warnings[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Warnings[0], text));
   EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), rejected) << observer->GetText();
 }
 
 }
 
-class BrokenCells : public testing::TestWithParam<CellType>
+class BrokenCells : public ::testing::TestWithParam<CellType>
 {
 };
 
@@ -139,8 +137,8 @@ TEST_P(BrokenCells, PointsOutOfRange)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllTypes, BrokenCells, testing::ValuesIn(CellTypes),
-  [](const testing::TestParamInfo<CellType>& of) { return std::string(of.param.Name); });
+INSTANTIATE_TEST_SUITE_P(AllTypes, BrokenCells, ::testing::ValuesIn(CellTypes),
+  [](const ::testing::TestParamInfo<CellType>& of) { return std::string(of.param.Name); });
 
 TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
 {
@@ -193,8 +191,7 @@ TEST(BrokenCellArrays, TetrahedraWithUnequalNumbersOfPoints)
   cells->InsertNextCell(3, ids[0]);
   cells->InsertNextCell(5, ids[1]);
   grid->SetCells(VTK_TETRA, cells);
-  const Filter rays = MakeFilter(grid, 4, 4);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), 1);
   EXPECT_EQ(rays->GetStatistic("NumberOfTetrahedra"), 1);
@@ -244,13 +241,10 @@ TEST(BrokenCellArrays, ArraysThatContradictEachOther)
 {
   const auto expectError = [](vtkDataObject* input, const std::string& text)
   {
-    const Filter rays = MakeFilter(input, 4, 4);
-    rays->GetArraySelection()->EnableArray("PathLength");
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(rays);
+    const Filter rays = MakeFilter(input, 4, 4, { "PathLength" });
+    const auto observer = ObserveErrors(rays);
     rays->Update();
-    EXPECT_NE(observer->GetText().find(text), std::string::npos)
-      << text << ": " << observer->GetText();
+    EXPECT_TRUE(HasText(observer->GetText(), text)) << text;
   };
   const vtkIdType tetrahedron[4] = { 0, 1, 2, 5 };
   {

@@ -75,14 +75,9 @@ double MeanOf(const glm::dvec3& from, const glm::dvec3& to)
 void ExpectScalars(const Measured& measured)
 {
   vtkTetrahedraRayIntegral* rays = measured.Rays;
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("FirstDepth");
-  rays->GetArraySelection()->EnableArray("LastDepth");
-  rays->GetArraySelection()->EnableArray("Minimum");
-  rays->GetArraySelection()->EnableArray("MinimumDepth");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays,
+    { "Integral", "PathLength", "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum",
+      "MaximumDepth" });
   using Point = glm::dvec3;
   const auto worst = [&measured](const char* name, double missed, const Measured::OnStretch& truth)
   { EXPECT_LT(measured.Worst(name, missed, truth), Tolerance) << name; };
@@ -382,9 +377,7 @@ TEST(RayIntegralClosedForm, LayersOfCellDataInAStructuredGrid)
   Filter rays = MakeFilter(layers, 97, 83);
   SetRectangle(rays, Directions[0], 1.75);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "density");
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays, { "Integral", "Maximum", "MaximumDepth" });
   EXPECT_LT(WorstError(rays, "Integral",
               [](const WorldRay& ray)
               {

@@ -40,8 +40,7 @@ vtkSmartPointer<vtkImageData> MakeRow()
 /** Colours and opacities of the cells, four numbers each. */
 std::vector<double> Render(vtkVolumeProperty* property, bool perUnitDistance = false)
 {
-  const Filter rays = MakeFilter(MakeRow(), NumberOfCells, 1);
-  rays->GetArraySelection()->EnableArray("RGBA");
+  const Filter rays = MakeFilter(MakeRow(), NumberOfCells, 1, { "RGBA" });
   rays->SetVolumeProperty(property);
   rays->SetOpacityModel(perUnitDistance);
   rays->SetFrameModeToParallel();
@@ -110,7 +109,7 @@ std::vector<ColorCase> ColorCases()
 
 }
 
-class FunctionColors : public testing::TestWithParam<ColorCase>
+class FunctionColors : public ::testing::TestWithParam<ColorCase>
 {
 };
 
@@ -132,8 +131,8 @@ TEST_P(FunctionColors, AgreeWithVTK)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllKinds, FunctionColors, testing::ValuesIn(ColorCases()),
-  [](const testing::TestParamInfo<ColorCase>& of) { return std::string(of.param.Name); });
+INSTANTIATE_TEST_SUITE_P(AllKinds, FunctionColors, ::testing::ValuesIn(ColorCases()),
+  [](const ::testing::TestParamInfo<ColorCase>& of) { return std::string(of.param.Name); });
 
 TEST(FunctionSampling, DiscreteColors)
 {

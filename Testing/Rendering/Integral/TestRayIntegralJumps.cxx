@@ -64,8 +64,7 @@ Grid MakeGrid(const std::vector<CornerValues>& cells)
 
 void ExpectIntegrals(const std::vector<CornerValues>& cells, const glm::dvec3& direction)
 {
-  const Filter rays = MakeFilter(MakeGrid(cells), 48, 48);
-  rays->GetArraySelection()->EnableArray("Integral");
+  const Filter rays = MakeFilter(MakeGrid(cells), 48, 48, { "Integral" });
   SetRectangle(rays, direction, 1.1);
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfLostRays"), 0);

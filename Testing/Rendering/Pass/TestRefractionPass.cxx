@@ -447,8 +447,7 @@ TEST(RefractionPass, NothingToDraw)
 TEST(RefractionPass, NullPartsAreAnError)
 {
   Pool pool;
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(pool.Pass);
+  const auto errors = ObserveErrors(pool.Pass);
   pool.Pass->AddRefraction(nullptr, pool.Floor, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, nullptr, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, pool.Floor, nullptr);

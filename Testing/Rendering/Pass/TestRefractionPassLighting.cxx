@@ -392,8 +392,7 @@ TEST(RefractionPassLighting, BothSidesOfASurfaceAreLit)
 TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
 {
   LitPool pool;
-  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  messages->Observe(pool.Pass);
+  const auto messages = ObserveErrors(pool.Pass);
   const Lamp good = Near(0.7, -0.4, -0.6);
   pool.SetLamps({ Near(0.3, 0.1, 0.0), good, Distant(1.0, 0.5, 0.0) });
   ExpectColors(pool, "two of three left out",
@@ -419,8 +418,7 @@ TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
 TEST(RefractionPassLighting, WithoutTruePositionsThereIsAnError)
 {
   LitPool pool;
-  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  messages->Observe(pool.Pass);
+  const auto messages = ObserveErrors(pool.Pass);
   pool.SetLamps({ Near(0.7, -0.4, -0.6) });
   pool.Filter->TrueGeometryOff();
   const ByteImage without = pool.Render();

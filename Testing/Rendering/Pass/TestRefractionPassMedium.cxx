@@ -172,8 +172,7 @@ TEST(RefractionPassMedium, AMediumWithoutMeaningIsAnError)
 {
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(pool.Pass);
+  const auto errors = ObserveErrors(pool.Pass);
   const auto expectClear = [&](const char* what)
   {
     errors->Errors.clear();

@@ -262,8 +262,7 @@ TEST(RefractionPassVolume, WithinSSAA)
 TEST(RefractionPassVolume, BadInputIsAnError)
 {
   Basin basin(0.2);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(basin.Pass);
+  const auto errors = ObserveErrors(basin.Pass);
   vtkNew<vtkVolume> empty;
   basin.Pass->AddVolume(nullptr, basin.Volume);
   basin.Pass->AddVolume(basin.Membrane, nullptr);

@@ -255,7 +255,7 @@ struct SunOverWaves
 };
 
 /** Photons are summed, and the picture's pixels averaged, on 120 x 120 cells. */
-class RefractionPassWaves : public testing::TestWithParam<SunOverWaves>
+class RefractionPassWaves : public ::testing::TestWithParam<SunOverWaves>
 {
 };
 TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
@@ -302,7 +302,7 @@ TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
   EXPECT_LT(rms, 0.03);
 }
 INSTANTIATE_TEST_SUITE_P(Sun, RefractionPassWaves,
-  testing::Values(SunOverWaves{ 0.0, 0.04, 0.3 }, SunOverWaves{ 45.0, 0.04, 0.3 },
+  ::testing::Values(SunOverWaves{ 0.0, 0.04, 0.3 }, SunOverWaves{ 45.0, 0.04, 0.3 },
     SunOverWaves{ 75.0, 0.02, 0.38 }));
 
 /** Ripples without visible height give the picture of the closed form, for lights of all kinds. */

@@ -6,7 +6,6 @@
 #include "PoolScene.h"
 #include "TestBasics.h"
 
-using meniscus::test::Product;
 using namespace meniscus::testing;
 
 namespace

@@ -192,8 +192,7 @@ TEST(VolumePicker, ThroughAPane)
   EXPECT_NEAR(
     scene.Chooser->GetDepth(), 3.0 * std::hypot(1.0, tangent) + std::hypot(1.0, inside), bound);
   // A list that does not fit the surfaces is an error, and nothing is picked.
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.Mapper());
+  const auto observer = ObserveErrors(scene.Mapper());
   scene.Mapper()->RemoveAllMembranes();
   EXPECT_EQ(scene.Pick(), 0);
   EXPECT_EQ(observer->Errors.size(), 1u);
@@ -225,14 +224,13 @@ TEST(VolumePicker, ViewportAndRenderer)
   EXPECT_EQ(scene.Chooser->Pick(Size / 2 - 1, Row, 0.0, renderer), 0);
   EXPECT_EQ(scene.Chooser->Pick(3 * Size / 4, Row, 0.0, renderer), 1);
 
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.Chooser);
+  const auto observer = ObserveErrors(scene.Chooser);
   EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, nullptr), 0);
   vtkNew<vtkRenderer> windowless;
   EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, windowless), 0);
   ASSERT_EQ(observer->Errors.size(), 2u);
-  EXPECT_NE(observer->Errors[0].find("no renderer"), std::string::npos);
-  EXPECT_NE(observer->Errors[1].find("no render window"), std::string::npos);
+  EXPECT_TRUE(HasText(observer->Errors[0], "no renderer"));
+  EXPECT_TRUE(HasText(observer->Errors[1], "no render window"));
   EXPECT_EQ(scene.Chooser->GetCellId(), -1);
   EXPECT_TRUE(std::isnan(scene.Chooser->GetDepth()));
 }
@@ -564,14 +562,13 @@ TEST(VolumePicker, ImageBadInput)
   filter->SetImageSize(4, 4);
   filter->GetArraySelection()->DisableArray("Integral");
   filter->GetArraySelection()->EnableArray("FirstVisible");
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   const auto expectError = [&](const char* text)
   {
     observer->Errors.clear();
     filter->Update();
     ASSERT_EQ(observer->Errors.size(), 1u) << text;
-    EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->Errors[0];
+    EXPECT_TRUE(HasText(observer->Errors[0], text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   expectError("Events need a volume property");

@@ -146,7 +146,7 @@ Difference Compare(const FloatImage& image, const FloatImage& truth, const Float
   return difference;
 }
 
-class TetrahedraRayCastEdges : public testing::TestWithParam<Look>
+class TetrahedraRayCastEdges : public ::testing::TestWithParam<Look>
 {
 };
 
@@ -179,7 +179,7 @@ TEST_P(TetrahedraRayCastEdges, AreThoseOfSixteenRays)
 }
 
 INSTANTIATE_TEST_SUITE_P(Looks, TetrahedraRayCastEdges,
-  testing::Values(Look::Silhouette, Look::Isosurfaces, Look::Clipped, Look::Peaks, Look::Shadows,
+  ::testing::Values(Look::Silhouette, Look::Isosurfaces, Look::Clipped, Look::Peaks, Look::Shadows,
     Look::PreIntegrated, Look::Membrane));
 
 // Pictures that consist of edges take a bounded number of steps, with the error of others.

@@ -253,11 +253,10 @@ TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
   const ByteImage translucent = scene.RenderBytes();
   EXPECT_NE(translucent.Rgb, alone.Rgb);
   scene.GetVolume()->VisibilityOn();
-  vtkNew<ErrorObserver> told;
-  told->Observe(scene.GetRayCaster());
+  const auto told = ObserveErrors(scene.GetRayCaster());
   EXPECT_EQ(scene.RenderBytes().Rgb, translucent.Rgb);
   ASSERT_EQ(told->Warnings.size(), 1u);
-  EXPECT_NE(told->Warnings.front().find("UseDepthPeelingForVolumes"), std::string::npos);
+  EXPECT_TRUE(HasText(told->Warnings.front(), "UseDepthPeelingForVolumes"));
   plane->VisibilityOff();
   EXPECT_EQ(scene.RenderBytes().Rgb, alone.Rgb);
 }

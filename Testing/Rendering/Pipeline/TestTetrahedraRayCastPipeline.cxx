@@ -46,7 +46,7 @@ void ExpectChange(RayCastScene& scene, const Expected& expected, const std::stri
   EXPECT_EQ(after.Bytes != before.Bytes, expected.Uploads) << what;
 }
 
-class TetrahedraRayCastPipeline : public testing::Test
+class TetrahedraRayCastPipeline : public ::testing::Test
 {
 protected:
   TetrahedraRayCastPipeline()

@@ -28,7 +28,7 @@ public:
   bool Wanted = false;
 };
 
-class TetrahedraRayCastRefinement : public testing::Test
+class TetrahedraRayCastRefinement : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRefinement()

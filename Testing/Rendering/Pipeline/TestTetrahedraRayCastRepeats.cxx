@@ -27,7 +27,7 @@ vtkSmartPointer<vtkActor> MakeBall(double radius)
   return actor;
 }
 
-class TetrahedraRayCastRepeats : public testing::Test
+class TetrahedraRayCastRepeats : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRepeats()

@@ -11,7 +11,7 @@ namespace
 constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-class TetrahedraRayCastSkipping : public testing::TestWithParam<int>
+class TetrahedraRayCastSkipping : public ::testing::TestWithParam<int>
 {
 protected:
   TetrahedraRayCastSkipping()
@@ -39,7 +39,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, TetrahedraRayCastSkipping,
-  testing::Values(
+  ::testing::Values(
     int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE)));
 
 } // anonymous namespace

@@ -59,8 +59,7 @@ void ExpectWarning(
   ASSERT_EQ(drawn.Told->Warnings.size(), 1u) << words.front();
   for (const std::string& word : words)
   {
-    EXPECT_NE(drawn.Told->Warnings.front().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << drawn.Told->Warnings.front();
+    EXPECT_TRUE(HasText(drawn.Told->Warnings.front(), word)) << "no \"" << word << "\" in: ";
   }
 }
 
@@ -74,8 +73,7 @@ void ExpectError(const Edit& edit, const std::vector<std::string>& words)
   EXPECT_FALSE(drawn.Told->Errors.empty());
   for (const std::string& word : words)
   {
-    EXPECT_NE(drawn.Told->GetText().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << drawn.Told->GetText();
+    EXPECT_TRUE(HasText(drawn.Told->GetText(), word)) << "no \"" << word << "\" in: ";
   }
 }
 

@@ -177,9 +177,8 @@ TEST(TetrahedraRayCastClipping, TooManyPlanesAreAnError)
   RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
   Clip(scene, std::vector<HalfSpace>(33, Planes[0]));
   LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   const ByteImage image = scene.RenderBytes();
-  EXPECT_NE(errors->GetText().find("33 clipping planes"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->GetText(), "33 clipping planes"));
   EXPECT_EQ(*std::max_element(image.Rgb.begin(), image.Rgb.end()), 0);
 }

@@ -301,8 +301,7 @@ TEST(TetrahedraRayCastComponents, LightOnIndependentOnesWarnsAndIsLeftOut)
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage plain = scene.RenderFloat();
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   property->ShadeOn();
   EXPECT_EQ(scene.RenderFloat().Rgba, plain.Rgba);
   EXPECT_EQ(scene.RenderFloat().Rgba, plain.Rgba);
@@ -342,8 +341,7 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   array->SetComponent(0, 2, std::numeric_limits<double>::quiet_NaN());
   array->SetComponent(grid->GetNumberOfPoints() - 1, 1, std::numeric_limits<double>::infinity());
   array->Modified();
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   scene.GetWindow()->Render();
   EXPECT_EQ(std::count_if(warnings->Warnings.begin(), warnings->Warnings.end(),
               [](const std::string& text) { return text.find("2 of 729 vert") != text.npos; }),
@@ -395,8 +393,7 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
     property->SetIndependentComponents(item.Independent);
     RayCastScene scene(grid, property, Size, Size);
     scene.GetRayCaster()->SetBlendMode(item.BlendMode);
-    const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    errors->Observe(scene.GetRayCaster());
+    const auto errors = ObserveErrors(scene.GetRayCaster());
     LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const FloatImage image = scene.RenderFloat();
     EXPECT_EQ(errors->Errors.size(), 1u) << item.Components;
@@ -442,8 +439,7 @@ FloatImage Draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blen
   {
     prepare(scene.GetRayCaster());
   }
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage image = scene.RenderFloat();
   EXPECT_TRUE(errors->Errors.empty()) << errors->GetText();
@@ -552,11 +548,10 @@ TEST(TetrahedraRayCastComponents, ChosenComponentOutOfRangeIsAnError)
   const auto property = MakeParts(1, FunctionKind::Smooth)[0];
   property->GetRGBTransferFunction()->SetVectorComponent(2);
   RayCastScene scene(grid, property, Size, Size);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 1u);
-  EXPECT_NE(errors->Errors[0].find("none of number 2"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->Errors[0], "none of number 2"));
 }
 
 TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
@@ -564,8 +559,7 @@ TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
   const auto drawBoth = [](RayCastScene& scene, const std::string& what)
   {
     LookAt(scene.GetRenderer(), scene.MakeGrid()->GetBounds(), 30.0, 20.0);
-    const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    warnings->Observe(scene.GetRayCaster());
+    const auto warnings = ObserveErrors(scene.GetRayCaster());
     scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
     const FloatImage fragments = scene.RenderFloat();
     scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);

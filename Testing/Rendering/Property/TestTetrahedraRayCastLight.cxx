@@ -105,7 +105,7 @@ void ExpectLit(vtkUnstructuredGrid* grid, const std::string& name)
   }
 }
 
-class TetrahedraRayCastLightOnData : public testing::TestWithParam<const char*>
+class TetrahedraRayCastLightOnData : public ::testing::TestWithParam<const char*>
 {
 };
 
@@ -122,8 +122,8 @@ TEST_P(TetrahedraRayCastLightOnData, MatchesReference)
 }
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastLightOnData,
-  testing::Values("blunt_fin", "combustor", "crushed_can"),
-  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
+  ::testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const ::testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
 
 TEST(TetrahedraRayCastLight, CellsOfAllSizes)
 {

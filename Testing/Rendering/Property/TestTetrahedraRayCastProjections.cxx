@@ -135,8 +135,7 @@ TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
   {
     RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
     scene.GetRayCaster()->SetBlendMode(mode);
-    const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    warnings->Observe(scene.GetRayCaster());
+    const auto warnings = ObserveErrors(scene.GetRayCaster());
     LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectMatchesReference(scene, "mode " + std::to_string(mode));
     EXPECT_EQ(warnings->Warnings.size(), 1u);

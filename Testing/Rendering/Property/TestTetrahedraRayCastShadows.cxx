@@ -324,10 +324,9 @@ TEST(TetrahedraRayCastShadows, LightsAnywhere)
     LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     if (number > 16)
     {
-      vtkNew<ErrorObserver> observer;
-      observer->Observe(scene.GetRayCaster());
+      const auto observer = ObserveErrors(scene.GetRayCaster());
       scene.GetWindow()->Render();
-      EXPECT_NE(observer->GetText().find("30 lights exceed the limit of 16"), std::string::npos);
+      EXPECT_TRUE(HasText(observer->GetText(), "30 lights exceed the limit of 16"));
       continue;
     }
     const FloatImage image = scene.RenderFloat();
@@ -573,7 +572,7 @@ void PrintTo(const ShadowCase& tested, std::ostream* os)
   *os << tested.Mesh;
 }
 
-class TetrahedraRayCastShadowRays : public testing::TestWithParam<ShadowCase>
+class TetrahedraRayCastShadowRays : public ::testing::TestWithParam<ShadowCase>
 {
 };
 
@@ -625,6 +624,6 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, TetrahedraRayCastShadowRays,
-  testing::Values(ShadowCase{ "block", 64, 7 }, ShadowCase{ "blunt_fin", 64, 9 },
+  ::testing::Values(ShadowCase{ "block", 64, 7 }, ShadowCase{ "blunt_fin", 64, 9 },
     ShadowCase{ "combustor", 64, 9 }),
   [](const auto& tested) { return std::string(tested.param.Mesh); });

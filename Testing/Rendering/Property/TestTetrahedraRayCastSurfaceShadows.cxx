@@ -215,8 +215,7 @@ TEST(TetrahedraRayCastSurfaceShadows, IndependentComponentsHaveClosedForm)
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
   AddSun(scene.GetRenderer(), 0.0, 0.0, 1.0);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   const FloatImage image = scene.RenderFloat();
   EXPECT_EQ(observer->GetText(), "");
   const PixelRays rays(scene.GetRenderer());

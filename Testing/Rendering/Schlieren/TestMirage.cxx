@@ -330,12 +330,11 @@ TEST(Mirage, OddObjectsAreWarnings)
   for (const auto& one : cases)
   {
     Filter filter = MakeFilter(air, one.first);
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(filter);
+    const auto observer = ObserveErrors(filter);
     filter->Update();
     EXPECT_EQ(observer->Errors.size(), 0u);
     ASSERT_EQ(observer->Warnings.size(), 1u) << one.second;
-    EXPECT_NE(observer->Warnings[0].find(one.second), std::string::npos);
+    EXPECT_TRUE(HasText(observer->Warnings[0], one.second));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
     // Four of 35 rectangles have the point.
     EXPECT_EQ(filter->GetStatistic("NumberOfBrokenCells"), one.first == nothing ? 0 : 4);
@@ -349,11 +348,10 @@ TEST(Mirage, RaysThatStayAreStoppedWithAWarning)
   filter->SetCamera(MakeCamera({ 0.1, 0.15, 0.3 }, { 1.1, 1.25, -0.9 }, 0.02));
   filter->SetImageSize(2, 2);
   filter->SetOutsideIndex(1.0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   filter->Update();
   ASSERT_EQ(observer->Warnings.size(), 1u);
-  EXPECT_NE(observer->Warnings[0].find("4 rays were stopped"), std::string::npos);
+  EXPECT_TRUE(HasText(observer->Warnings[0], "4 rays were stopped"));
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
   EXPECT_EQ(ValueAt(filter, "Seen", 2), vtkTetrahedraMirage::STOPPED);
 }
@@ -390,8 +388,7 @@ TEST(ApparentGeometry, PointsAreWhereThePictureShowsThem)
   apparent->SetEyePosition(0.0, 0.0, Eye);
   apparent->SetSearchAngle(0.5);
   apparent->SetSearchResolution(16);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(apparent);
+  const auto observer = ObserveErrors(apparent);
   apparent->Update();
   EXPECT_EQ(observer->Warnings.size() + observer->Errors.size(), 0u) << observer->GetText();
   EXPECT_EQ(apparent->GetStatistic("NumberOfPointsWithOneImage"), wall->GetNumberOfPoints());
@@ -435,13 +432,11 @@ TEST(ApparentGeometry, PointsWithoutOneImageAreMarkedAndTold)
   auto apparent = MakeApparent(air, object);
   apparent->SetEyePosition(0.0, 0.0, 0.95);
   apparent->SetSearchAngle(35.0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(apparent);
+  const auto observer = ObserveErrors(apparent);
   apparent->Update();
   // One warning tells of an index below 1, in the lower half.
   ASSERT_EQ(observer->Warnings.size(), 2u);
-  EXPECT_NE(observer->Warnings[1].find("2 points have no image"), std::string::npos)
-    << observer->Warnings[1];
+  EXPECT_TRUE(HasText(observer->Warnings[1], "2 points have no image"));
   EXPECT_EQ(apparent->GetStatistic("NumberOfPointsWithoutImage"), 2);
   vtkDataSet* seen = vtkDataSet::SafeDownCast(apparent->GetOutput());
   EXPECT_EQ(seen->GetPoint(0)[1], -0.95);

@@ -97,7 +97,7 @@ const UniqueCase Cases[] = {
     300.0, 10, 2 },
 };
 
-class RefractionUnique : public testing::TestWithParam<UniqueCase>
+class RefractionUnique : public ::testing::TestWithParam<UniqueCase>
 {
 };
 }
@@ -120,7 +120,7 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
+INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, ::testing::ValuesIn(Cases));
 
 //------------------------------------------------------------------------------
 TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
@@ -317,7 +317,7 @@ const SheetCase Sheets[] = {
   { "Folded", FoldedPlace, [](int, int) { return true; }, 0, 5 },
 };
 
-class RefractionUniqueSheet : public testing::TestWithParam<SheetCase>
+class RefractionUniqueSheet : public ::testing::TestWithParam<SheetCase>
 {
 };
 
@@ -339,7 +339,7 @@ TEST_P(RefractionUniqueSheet, NoPointOfABoxHasSeveral)
   EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, testing::ValuesIn(Sheets),
+INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, ::testing::ValuesIn(Sheets),
   [](const auto& test) { return test.param.Name; });
 
 //------------------------------------------------------------------------------

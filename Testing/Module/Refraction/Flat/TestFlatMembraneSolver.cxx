@@ -13,6 +13,7 @@ namespace
 using namespace meniscus;
 using namespace meniscus::test;
 using meniscus::testing::Random;
+using namespace meniscus::reference;
 
 FlatMembraneSolver Make(
   const MembraneMesh& mesh, const glm::dvec3& eye, double exterior, double interior)

@@ -91,7 +91,7 @@ TEST(RefractionThesis, ReproducesTheTables)
     closeDeviations += std::fabs(deviation) <= 2.0;
     printedPoints += row.Points > 0;
     closePoints += row.Points > 0 && std::fabs(points) <= 1.5;
-    const auto name = testing::Message()
+    const auto name = ::testing::Message()
       << "Table " << row.Table << ", h = " << row.EyeHeight << ", offset " << row.EyeOffset
       << ", sphere " << row.SphereRatio << ", " << row.SquareCells << " cells, " << row.Exterior
       << " / " << row.Interior;

@@ -141,7 +141,7 @@ TEST(RefractionNormals, OfFacetsOfVeryDifferentSizesHaveUnitLength)
   }
 }
 
-class SeparateFacets : public testing::TestWithParam<bool>
+class SeparateFacets : public ::testing::TestWithParam<bool>
 {
 };
 
@@ -214,7 +214,7 @@ TEST_P(SeparateFacets, KeepCreases)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(RefractionNormals, SeparateFacets, testing::Values(false, true),
+INSTANTIATE_TEST_SUITE_P(RefractionNormals, SeparateFacets, ::testing::Values(false, true),
   [](const auto& which) { return which.param ? "WithNormals" : "WithoutNormals"; });
 
 // Vertices that differ in their normals only, as along the seam of a texture, are one.

@@ -11,7 +11,6 @@ namespace
 
 using meniscus::StackSolver;
 using meniscus::reference::MembraneMesh;
-using meniscus::test::Product;
 using namespace meniscus::testing;
 
 constexpr double HalfWidth = 3.0;

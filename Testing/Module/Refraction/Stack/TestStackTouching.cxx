@@ -11,7 +11,6 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using meniscus::test::Product;
 using namespace meniscus::testing;
 
 // Walls with a side on a plane interface, in front of it and behind it, sails that touch it with

@@ -20,7 +20,7 @@ constexpr double Tolerance = 1.0e-6;
 constexpr double MeasuredFrom = -3.0;
 
 /** Rays along -z through the unit cube, with a linear field. */
-class MeasuredRaysTest : public testing::TestWithParam<InstructionSet>
+class MeasuredRaysTest : public ::testing::TestWithParam<InstructionSet>
 {
 protected:
   MeasuredRaysTest()
@@ -88,7 +88,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  Sets, MeasuredRaysTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+  Sets, MeasuredRaysTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -176,12 +176,12 @@ struct WalkKind
   bool InLanes;
 };
 
-class GradedRayWalkOfKind : public testing::TestWithParam<WalkKind>
+class GradedRayWalkOfKind : public ::testing::TestWithParam<WalkKind>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Walks, GradedRayWalkOfKind,
-  testing::Values(WalkKind{ true, false }, WalkKind{ false, false }, WalkKind{ true, true },
+  ::testing::Values(WalkKind{ true, false }, WalkKind{ false, false }, WalkKind{ true, true },
     WalkKind{ false, true }),
   [](const auto& one)
   {

@@ -130,12 +130,12 @@ std::vector<TransferFunctionInterval> Bumps(double shift)
     ScalarNormalization());
 }
 
-class PacketOpticsTest : public testing::TestWithParam<InstructionSet>
+class PacketOpticsTest : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  Sets, PacketOpticsTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+  Sets, PacketOpticsTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -44,11 +44,12 @@ PictureScene MakeSceneOfSize(double scale)
 }
 
 /** Runs each test with every instruction set that this processor supports. */
-class PacketWalkTest : public testing::TestWithParam<InstructionSet>
+class PacketWalkTest : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+INSTANTIATE_TEST_SUITE_P(
+  Sets, PacketWalkTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -72,11 +72,12 @@ double MeasureLength(const TetrahedralMesh& mesh, InstructionSet set)
   return workspace.Measured.Scalars[static_cast<std::size_t>(pixel)].Length;
 }
 
-class SegmentLengths : public testing::TestWithParam<InstructionSet>
+class SegmentLengths : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, SegmentLengths, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+INSTANTIATE_TEST_SUITE_P(
+  Sets, SegmentLengths, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 
