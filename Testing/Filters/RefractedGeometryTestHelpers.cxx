@@ -2,18 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkExecutive.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::testing
 {
 
@@ -32,6 +20,13 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
   filter->AddObserver(vtkCommand::WarningEvent, counter);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
   return counter;
+}
+
+void ExpectQuiet(vtkAlgorithm* filter)
+{
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
 }
 
 //------------------------------------------------------------------------------

@@ -4,35 +4,17 @@
 #include "BoardScene.h"
 #include "ComparisonSheet.h"
 #include "ExactStack.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkStripper.h"
 #include "vtkTriangleFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <optional>
-#include <vector>
 
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 using Filter = vtkRefractedGeometryFilter;
 
 const double Pi = std::acos(-1.0);
@@ -124,9 +106,7 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const char* name, const Pix
   // A tenth of a pixel.
   const double pixel = 2.0 * std::atan(glm::length(camera.GetUp())) / camera.GetPixels();
   filter->SetAngularTolerance(0.1 * pixel * 180.0 / Pi);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced = TraceRays(camera, rays, MakeMeshTracer(data));
   const PlaceComparison compared = AddComparison(sheet, row, name, camera, drawn, traced,
@@ -333,9 +313,7 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
 TEST(ReflectedGeometryOutput, PiercingObjectsEndAtTheMirror)
 {
   const auto filter = MakeMirror(MakeScreen(-5.0, -30.0, 50.0), MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   vtkPolyData* output = filter->GetOutput();
   double area = 0.0;
   for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
@@ -412,7 +390,7 @@ TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
   EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 16);
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("None of the 25 points has an image"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "None of the 25 points has an image"));
 }
 
 TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
@@ -421,7 +399,7 @@ TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
   filter->SetEyePosition(10.0, 0.0, 10.0);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_NE(messages->Text.find("lies on the membrane"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "lies on the membrane"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -434,8 +412,8 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(open->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("No facet of the membrane faces the eye"), std::string::npos);
-  EXPECT_NE(messages->Text.find("sees the back of the mirror only"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "No facet of the membrane faces the eye"));
+  EXPECT_TRUE(HasText(messages->Text, "sees the back of the mirror only"));
 
   const auto ball =
     MakeMirror(MakeGrid(5, 0.4, 0.3), MakeMembrane(meniscus::reference::MakeSphere(16, 1.0)));
@@ -444,7 +422,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   ball->Update();
   EXPECT_EQ(ball->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(ball->GetStatistic("IsEyeEnclosed"));
-  EXPECT_NE(told->Text.find("sees the back of the mirror only"), std::string::npos);
+  EXPECT_TRUE(HasText(told->Text, "sees the back of the mirror only"));
 }
 
 TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
@@ -454,7 +432,7 @@ TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
   const auto messages = Observe(flat);
   flat->Update();
   EXPECT_EQ(flat->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_NE(messages->Text.find("REFLECTION needs the membrane model CURVED"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "REFLECTION needs the membrane model CURVED"));
 
   const auto stack = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   stack->AddInputData(1, MakeFlatMembrane());

@@ -2,23 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Input that is missing, empty or invalid: an error or a counted skip, a defined output, no crash.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "VTKTestBasics.h"
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
@@ -70,7 +59,7 @@ TEST(RefractedGeometryBadInput, MembraneWithoutTriangles)
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(messages->Errors, 1) << messages->Text;
-    EXPECT_NE(messages->Text.find("no usable triangle"), std::string::npos);
+    EXPECT_TRUE(HasText(messages->Text, "no usable triangle"));
     EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
   }
 }
@@ -187,23 +176,20 @@ TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)
 //------------------------------------------------------------------------------
 TEST(RefractedGeometryBadInput, IndicesOfRefraction)
 {
-  for (const double index : { 0.0, -1.333, NaN, Infinity })
+  for (const auto& [index, exterior] : Product(List(0.0, -1.333, NaN, Infinity), List(true, false)))
   {
-    for (const bool exterior : { true, false })
-    {
-      const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
-      const auto messages = Observe(filter);
-      filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
-      filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
-      filter->Update();
-      EXPECT_GE(messages->Errors, 1) << index;
-      EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
-      // The filter recovers afterwards.
-      filter->SetExteriorIndexOfRefraction(1.0);
-      filter->SetInteriorIndexOfRefraction(1.333);
-      filter->Update();
-      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9) << index;
-    }
+    const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+    const auto messages = Observe(filter);
+    filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
+    filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
+    filter->Update();
+    EXPECT_GE(messages->Errors, 1) << index;
+    EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
+    // The filter recovers afterwards.
+    filter->SetExteriorIndexOfRefraction(1.0);
+    filter->SetInteriorIndexOfRefraction(1.333);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9) << index;
   }
 }
 
@@ -258,7 +244,7 @@ TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find("2 of 81"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "2 of 81"));
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
@@ -296,7 +282,7 @@ TEST(RefractedGeometryBadInput, MissingModesWarnOnce)
   filter->SetImagesToAllImages();
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("FIRST_IMAGE"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "FIRST_IMAGE"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
 }
 

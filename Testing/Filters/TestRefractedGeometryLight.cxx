@@ -1,19 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Reflectance by either model, and normals for the lighting of virtual geometry.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "VTKTestBasics.h"
 
 namespace
 {

@@ -2,37 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error volumes compared with the thesis's tables, measured by other means; exact surfaces of every
 // kind; and invalid input.
-#include "AnalyticMembrane.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"
 
-#include "vtkCellArray.h"
-#include "vtkCommand.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkImageData.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitFunction.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <sstream>
 
 namespace
 {
@@ -274,9 +253,7 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
     }
     ++rows;
     const auto volume = MakeThesisVolume(row);
-    const auto messages = Observe(volume);
-    volume->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(volume);
     const ErrorStatistics expected = MeasureThesisRow(row);
     EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.Points));
     EXPECT_NEAR(volume->GetMeanError(), expected.Mean, 1e-9 * expected.Mean);
@@ -438,8 +415,8 @@ TEST(RefractionErrorVolume, FieldDataHasTheStatistics)
     static_cast<double>(volume->GetNumberOfMeasuredSamples()));
   std::ostringstream text;
   volume->Print(text);
-  EXPECT_NE(text.str().find("FLAT_FACETS"), std::string::npos);
-  EXPECT_NE(text.str().find("SampleDimensions: (10, 11, 12)"), std::string::npos);
+  EXPECT_TRUE(HasText(text.str(), "FLAT_FACETS"));
+  EXPECT_TRUE(HasText(text.str(), "SampleDimensions: (10, 11, 12)"));
 }
 
 TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)

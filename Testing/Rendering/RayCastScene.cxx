@@ -2,24 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <utility>
-
 namespace meniscus::test
 {
 
@@ -169,6 +151,13 @@ void ErrorObserver::Observe(vtkObject* object)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object)
+{
+  auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  observer->Observe(object);
+  return observer;
+}
+
 std::string ErrorObserver::GetText() const
 {
   std::string all;

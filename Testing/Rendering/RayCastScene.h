@@ -6,21 +6,9 @@
 #include "ReferenceImage.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
-#include "VolumeScene.h"
+#include "VTKTestBasics.h"
 
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkTetrahedraRayCastMapper.h>
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
-
-class vtkRenderer;
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
 
 namespace meniscus::test
 {
@@ -98,6 +86,9 @@ public:
 
   std::string GetText() const;
 };
+
+/** A new observer of an object. */
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object);
 
 } // namespace meniscus::test
 

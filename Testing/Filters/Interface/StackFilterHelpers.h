@@ -6,16 +6,9 @@
 
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace meniscus::testing
 {
@@ -63,8 +56,8 @@ void ExpectBadLists(const Make& make, const Measure& measure)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(measure(filter.Get()), 0) << text;
   };
   const auto makePane = [&make](double before, double glass, double again, double behind)

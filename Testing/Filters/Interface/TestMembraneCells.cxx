@@ -3,22 +3,9 @@
 // Cells of membranes: their corners on exact rays through planes and spheres, and facets that are
 // left out.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCellData.h"
-#include "vtkIdList.h"
 #include "vtkMembraneCellFilter.h"
-#include "vtkPointData.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
 
 namespace
 {
@@ -269,7 +256,7 @@ TEST(MembraneCells, BadInputIsAnError)
     const auto messages = Observe(filter);
     spoil(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -5,11 +5,6 @@
 #include "SchematicEye.h"
 #include "StackFilterHelpers.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 namespace
 {
 

@@ -3,20 +3,11 @@
 // Cameras at different windows of one tank: a surface of a list may have several pieces.
 #include "RefractedGeometryTestHelpers.h"
 
+#include "VTKTestBasics.h"
 #include "vtkAppendPolyData.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
-#include "vtkPlaneSource.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkTriangulatedPositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
 
 namespace
 {

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes whose triangles have corners of their own, and membranes with wild normals.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -100,9 +87,7 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
   const auto told = Observe(view);
   view->Update();
   EXPECT_EQ(told->Warnings, 1);
-  EXPECT_NE(
-    told->Text.find(std::to_string(wild) + " of 1681 membrane normals deviate"), std::string::npos)
-    << told->Text;
+  EXPECT_TRUE(HasText(told->Text, std::to_string(wild) + " of 1681 membrane normals deviate"));
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), right->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < view->GetOutput()->GetNumberOfPoints(); ++i)
   {

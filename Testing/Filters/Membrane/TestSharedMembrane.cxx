@@ -4,17 +4,9 @@
 // not share it.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "HeightField.h"
-
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {

@@ -3,29 +3,10 @@
 #include "Mesher/ClosedSurfaces.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitPolyDataDistance.h"
-#include "vtkIntArray.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkStringArray.h"
 #include "vtkTetra.h"
 #include "vtkTetrahedralizeSurface.h"
-#include "vtkTriangle.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <set>
 
 using namespace meniscus::testing;
 

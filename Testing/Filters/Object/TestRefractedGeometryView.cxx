@@ -2,22 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells and points that a camera cannot show through the membrane are left out, and no others.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkFieldData.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <set>
-#include <tuple>
+#include "VTKTestBasics.h"
 
 namespace
 {

@@ -4,25 +4,13 @@
 // mappers do not upload them again.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using Filter = vtkRefractedGeometryFilter;
 
@@ -160,12 +148,10 @@ void ExpectSameArrays(vtkDataSetAttributes* found, vtkDataSetAttributes* expecte
     ASSERT_STREQ(a->GetName(), b->GetName());
     ASSERT_EQ(a->GetDataType(), b->GetDataType());
     ASSERT_EQ(a->GetNumberOfValues(), b->GetNumberOfValues());
-    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+    for (const auto& [i, c] :
+      Product(Below<vtkIdType>(a->GetNumberOfTuples()), a->GetNumberOfComponents()))
     {
-      for (int c = 0; c < a->GetNumberOfComponents(); ++c)
-      {
-        ASSERT_EQ(a->GetComponent(i, c), b->GetComponent(i, c)) << a->GetName();
-      }
+      ASSERT_EQ(a->GetComponent(i, c), b->GetComponent(i, c)) << a->GetName();
     }
   }
 }

@@ -1,23 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // ALL_IMAGES in a pipeline: arrays at new points, and images without cracks.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
-
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -129,22 +114,19 @@ vtkSmartPointer<vtkPolyData> MakeRing(const glm::dvec3& center, double radius, d
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
-  for (int j = 0; j < across; ++j)
+  for (const auto& [j, i] : Product(across, around))
   {
-    for (int i = 0; i < around; ++i)
-    {
-      const double u = 2.0 * Pi * i / around;
-      const double v = 2.0 * Pi * j / across;
-      const double reach = radius + thickness * std::cos(v);
-      points->InsertNextPoint(center.x + reach * std::cos(u), center.y + thickness * std::sin(v),
-        center.z + reach * std::sin(u));
-      const vtkIdType a = j * around + i;
-      const vtkIdType b = j * around + (i + 1) % around;
-      const vtkIdType c = (j + 1) % across * around + (i + 1) % around;
-      const vtkIdType d = (j + 1) % across * around + i;
-      cells->InsertNextCell({ a, b, c });
-      cells->InsertNextCell({ a, c, d });
-    }
+    const double u = 2.0 * Pi * i / around;
+    const double v = 2.0 * Pi * j / across;
+    const double reach = radius + thickness * std::cos(v);
+    points->InsertNextPoint(center.x + reach * std::cos(u), center.y + thickness * std::sin(v),
+      center.z + reach * std::sin(u));
+    const vtkIdType a = j * around + i;
+    const vtkIdType b = j * around + (i + 1) % around;
+    const vtkIdType c = (j + 1) % across * around + (i + 1) % around;
+    const vtkIdType d = (j + 1) % across * around + i;
+    cells->InsertNextCell({ a, b, c });
+    cells->InsertNextCell({ a, c, d });
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);

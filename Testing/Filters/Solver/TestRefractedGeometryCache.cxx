@@ -3,22 +3,11 @@
 // Recomputation after a change, measured by the counters; eye, camera, composite data, abort.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkCommand.h"
-#include "vtkFloatArray.h"
+#include "VTKTestBasics.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTrivialProducer.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {

@@ -2,15 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Objects whose points come in random order are solved along a curve, with the same images.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
+#include "VTKTestBasics.h"
 
 namespace
 {

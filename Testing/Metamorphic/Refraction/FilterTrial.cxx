@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTrial.h"
 
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkRefractedGeometryFilter.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {
@@ -49,16 +38,14 @@ bool AreEqual(vtkDataArray* a, vtkDataArray* b)
   {
     return a == b;
   }
-  for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+  for (const auto& [i, k] :
+    Product(Below<vtkIdType>(a->GetNumberOfTuples()), a->GetNumberOfComponents()))
   {
-    for (int k = 0; k < a->GetNumberOfComponents(); ++k)
+    const double x = a->GetComponent(i, k);
+    const double y = b->GetComponent(i, k);
+    if (!(x == y || (std::isnan(x) && std::isnan(y))))
     {
-      const double x = a->GetComponent(i, k);
-      const double y = b->GetComponent(i, k);
-      if (!(x == y || (std::isnan(x) && std::isnan(y))))
-      {
-        return false;
-      }
+      return false;
     }
   }
   return true;

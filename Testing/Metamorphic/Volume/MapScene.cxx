@@ -2,14 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapScene.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 namespace meniscus::test
 {
 

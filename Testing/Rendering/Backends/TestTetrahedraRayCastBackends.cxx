@@ -6,23 +6,6 @@
 #include "ProjectionModes.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -38,10 +21,7 @@ vtkSmartPointer<vtkVolumeProperty> LitProperty()
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->ShadeOn();
   property->SetSpecular(0.4);
-  vtkNew<vtkPiecewiseFunction> factor;
-  factor->AddPoint(0.0, 0.2);
-  factor->AddPoint(3.0, 1.0);
-  property->SetGradientOpacity(factor);
+  property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 3.0, 1.0 } }));
   property->GetIsoSurfaceValues()->SetValue(0, 0.2);
   property->GetIsoSurfaceValues()->SetValue(1, -0.2);
   return property;
@@ -250,8 +230,7 @@ TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   ExpectMatchesReference(scene, "compute asked for");
   const bool compute = HasCompute(scene.GetWindow());

@@ -5,27 +5,6 @@
 // new objects prove both.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -52,7 +31,7 @@ struct Work
   }
 };
 
-class TetrahedraRayCastEdits : public testing::Test
+class TetrahedraRayCastEdits : public ::testing::Test
 {
 protected:
   TetrahedraRayCastEdits()

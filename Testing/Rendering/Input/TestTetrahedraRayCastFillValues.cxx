@@ -4,24 +4,6 @@
 // must be right, in every mode.
 #include "OpticsTruth.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -186,10 +168,8 @@ TEST(TetrahedraRayCastFillValues, LightInTheMedium)
 TEST(TetrahedraRayCastFillValues, GradientOpacity)
 {
   const auto property = MakeFunction(false);
-  vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.5, GradientFactor(0.5));
-  function->AddPoint(2.5, GradientFactor(2.5));
-  property->SetGradientOpacity(function);
+  property->SetGradientOpacity(
+    MakeOpacity({ { 0.5, GradientFactor(0.5) }, { 2.5, GradientFactor(2.5) } }));
   ExpectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
@@ -236,14 +216,12 @@ TEST(TetrahedraRayCastFillValues, Projections)
       {
         const auto function = FunctionOf(mode, scene.GetVolume()->GetProperty());
         std::array<double, 2> range{ 0.0, 0.0 };
-        for (std::size_t c = 0; c < integrator.MakeMesh().GetNumberOfCells(); ++c)
+        for (const auto& [c, i] :
+          Product(Below<std::size_t>(integrator.MakeMesh().GetNumberOfCells()), 4))
         {
-          for (int i = 0; i < 4; ++i)
-          {
-            const double scalar =
-              integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
-            range = { std::min(range[0], scalar), std::max(range[1], scalar) };
-          }
+          const double scalar =
+            integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
+          range = { std::min(range[0], scalar), std::max(range[1], scalar) };
         }
         return [=, &mode, &integrator](const Ray& ray)
         {
@@ -344,11 +322,8 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
   }
   // A function at the fill value causes one.
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.0, 0.0);
-  property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);
-  property->GetRGBTransferFunction()->RemoveAllPoints();
-  property->GetRGBTransferFunction()->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.0, 0.0 }, { 1.0e20, 1.0 } });
+  SetPoints(property->GetRGBTransferFunction(), { { 0.0, 1.0, 1.0, 1.0 } });
   scene.GetWindow()->Render();
   scene.GetWindow()->Render();
   EXPECT_LE(mapper->GetNumberOfScalarUpdates(), 2);

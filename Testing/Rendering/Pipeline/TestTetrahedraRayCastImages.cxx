@@ -6,18 +6,6 @@
 #include "RayCastScene.h"
 #include "StrictImage.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
 using namespace meniscus::test;
 
 namespace

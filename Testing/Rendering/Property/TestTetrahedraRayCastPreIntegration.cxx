@@ -3,20 +3,6 @@
 // Integration by the pre-integration table: its error, and when the table is built.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
-#include "RayCastScene.h"
-
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 
@@ -201,8 +187,7 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
   LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   const auto expectSame = [&](const char* what, std::size_t expectedWarnings)
   {
     scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
@@ -225,8 +210,7 @@ TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Opaque), Size, Size);
   LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   // Two and three dimensions, and a coarse table, whose errors the other backend must have, too.
   const int sizes[3][2] = { { 64, 1 }, { 64, 16 }, { 8, 4 } };
   for (const auto& size : sizes)

@@ -2,34 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images in mirrors: planes in closed form, spheres by Alhazen's equation, waves by a dense search.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "RefractionTestRandom.h"
+#include "TestBasics.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <complex>
-#include <cstdio>
-#include <limits>
-#include <vector>
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::EyeStatus;
-using meniscus::ImageState;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using meniscus::testing::Random;
 
 EyeStatus SetMirror(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye)
@@ -147,22 +134,19 @@ std::array<Complex, 4> FindRoots(const std::array<Complex, 5>& coefficients)
   {
     roots[i] = std::pow(Complex(0.4L, 0.9L), static_cast<int>(i));
   }
-  for (int step = 0; step < 500; ++step)
+  for (const auto& [step, i] : Product(500, Below<std::size_t>(4)))
   {
-    for (std::size_t i = 0; i < 4; ++i)
+    Complex value = coefficients[4];
+    for (std::size_t k = 4; k-- > 0;)
     {
-      Complex value = coefficients[4];
-      for (std::size_t k = 4; k-- > 0;)
-      {
-        value = value * roots[i] + coefficients[k];
-      }
-      Complex product = coefficients[4];
-      for (std::size_t k = 0; k < 4; ++k)
-      {
-        product *= k == i ? Complex(1.0L) : roots[i] - roots[k];
-      }
-      roots[i] -= value / product;
+      value = value * roots[i] + coefficients[k];
     }
+    Complex product = coefficients[4];
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      product *= k == i ? Complex(1.0L) : roots[i] - roots[k];
+    }
+    roots[i] -= value / product;
   }
   return roots;
 }

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Support_VTKBasics_h
+#define meniscus_Testing_Support_VTKBasics_h
+
+/** @file
+ * Headers of VTK that most programs of the tests use, and those of MathBasics.h.
+ */
+
+#include "MathBasics.h"
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkCommand.h>
+#include <vtkContourValues.h>
+#include <vtkCubeSource.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkLight.h>
+#include <vtkMath.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphere.h>
+#include <vtkSphereSource.h>
+#include <vtkStringArray.h>
+#include <vtkTransform.h>
+#include <vtkTriangle.h>
+#include <vtkTrivialProducer.h>
+#include <vtkType.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#endif
