@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of programs as the pages show them, within the code that they assume. Writes an image of
 // each.
+#include "VTKBasics.h"
+
 #include <vtkDataSetTriangleFilter.h>
 #include <vtkElevationFilter.h>
 #include <vtkPNGWriter.h>
@@ -74,7 +76,6 @@ void DrawVolume()
   const auto water = MakeWater(30.0, 14.0);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
   mapper->SetInputConnection(tetrahedra->GetOutputPort());
-#include "VTKBasics.h"
 #include "volume.inc"
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
