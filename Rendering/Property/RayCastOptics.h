@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <string>
 #include <vector>
 
 class vtkPlaneCollection;
@@ -117,6 +118,12 @@ struct ViewContext
  */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);
+
+/**
+ * Describes a number of the material or of a light that is not finite; empty if there is none, or
+ * without shading.
+ */
+std::string DescribeUnlit(const RayCastOptics& optics);
 
 /**
  * True if a volume with shading can attenuate its own light. Isosurfaces of scalars of cells
