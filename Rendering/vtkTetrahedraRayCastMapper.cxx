@@ -532,7 +532,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   {
     frame.Optics.Medium = internals.Medium;
   }
-  return error;
+  return meniscus::DescribeUnlit(frame.Optics);
 }
 
 //------------------------------------------------------------------------------

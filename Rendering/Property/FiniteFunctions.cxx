@@ -112,13 +112,55 @@ std::string DescribeNodes(const std::string& name, Function* function)
   return text.str();
 }
 
-void Add(const std::string& sentence, InputReport& report)
+/** True if the values between nodes are the means of theirs. */
+bool IsStraight(vtkPiecewiseFunction*)
+{
+  return true;
+}
+
+bool IsStraight(vtkColorTransferFunction* function)
+{
+  return function->GetColorSpace() == VTK_CTF_RGB && function->GetScale() == VTK_CTF_LINEAR;
+}
+
+/**
+ * Sentence about two nodes, the first ones whose distance exceeds the largest number, and between
+ * which the function is not straight; empty if there are none.
+ */
+template <typename Function>
+std::string DescribeWidths(const std::string& name, Function* function)
+{
+  for (int i = 0; i + 1 < function->GetSize(); ++i)
+  {
+    const auto node = NodeOf(function, i);
+    const auto next = NodeOf(function, i + 1);
+    // Midpoint and sharpness come last.
+    const bool isLinear = node[node.size() - 2] == 0.5 && node.back() == 0.0;
+    if (IsFinite(node) && IsFinite(next) && !std::isfinite(next[0] - node[0]) &&
+      !(isLinear && IsStraight(function)))
+    {
+      std::ostringstream text;
+      text << "The nodes of the " << name << " at " << node[0] << " and " << next[0]
+           << " are too far apart for a curve between them";
+      return text.str();
+    }
+  }
+  return std::string();
+}
+
+void AddSentence(const std::string& sentence, const std::string& remedy, InputReport& report)
 {
   if (!sentence.empty())
   {
-    report.Warning +=
-      (report.Warning.empty() ? "" : " ") + sentence + ": left out; set finite numbers.";
+    report.Warning += (report.Warning.empty() ? "" : " ") + sentence + remedy;
   }
+}
+
+template <typename Function>
+void AddNodes(const std::string& name, Function* function, InputReport& report)
+{
+  AddSentence(DescribeNodes(name, function), ": left out; set finite numbers.", report);
+  AddSentence(DescribeWidths(name, function), ": it is straight; use smaller scalars.", report);
 }
 
 }
@@ -165,18 +207,18 @@ InputReport CheckFunctions(vtkVolumeProperty* property, int component, OpacityMe
     report.Error = ofOpacity + ", and no other node is left; set finite numbers";
     return report;
   }
-  Add(ofOpacity, report);
+  AddNodes("scalar opacity", opacity, report);
   if (property->GetColorChannels(component) == 1)
   {
-    Add(DescribeNodes("grey levels", property->GetGrayTransferFunction(component)), report);
+    AddNodes("grey levels", property->GetGrayTransferFunction(component), report);
   }
   else
   {
-    Add(DescribeNodes("colour function", property->GetRGBTransferFunction(component)), report);
+    AddNodes("colour function", property->GetRGBTransferFunction(component), report);
   }
   if (component == 0 && UsesGradientOpacity(property))
   {
-    Add(DescribeNodes("gradient opacity", property->GetGradientOpacity(0)), report);
+    AddNodes("gradient opacity", property->GetGradientOpacity(0), report);
   }
   return report;
 }

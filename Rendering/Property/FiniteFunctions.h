@@ -24,7 +24,8 @@ vtkSmartPointer<vtkColorTransferFunction> KeepFiniteNodes(vtkColorTransferFuncti
 
 /**
  * Report of the functions of a property's component: an error if its unit distance is no length, or
- * if none of its opacities is finite; a warning about the nodes that KeepFiniteNodes() leaves out.
+ * if none of its opacities is finite; a warning about the nodes that KeepFiniteNodes() leaves out,
+ * and about curves between nodes whose distance exceeds the largest number, which become straight.
  */
 InputReport CheckFunctions(vtkVolumeProperty* property, int component, OpacityMeaning meaning);
 

@@ -185,21 +185,14 @@ void RemoveRepetitions(Stretch& stretch)
   stretch.Between = std::move(kept);
 }
 
-/** Returns false if no scalar between the nodes can be sampled. */
+/** Returns false if no scalar between the nodes can be sampled, or if their distance is no number.
+ */
 bool Follow(const PropertyFunction& function, double node, double next, Stretch& stretch)
 {
   if (!std::isfinite(next - node))
   {
-    // Such a width has no table, and the nodes are on both sides of 0.
-    Stretch upper;
-    if (!Follow(function, node, 0.0, stretch) || !Follow(function, 0.0, next, upper))
-    {
-      return false;
-    }
-    stretch.Between.push_back(stretch.Last);
-    stretch.Between.insert(stretch.Between.end(), upper.Between.begin(), upper.Between.end());
-    stretch.Last = upper.Last;
-    return true;
+    // VTK's tables are wrong between such nodes.
+    return false;
   }
   double first = node;
   double last = next;

@@ -17,7 +17,11 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
 #include <tuple>
+#include <utility>
 
 namespace meniscus
 {
@@ -73,6 +77,19 @@ RayCastLight ToFrame(vtkLight* source, const ViewContext& place)
     light.Cone = glm::dvec4(axis, std::cos(vtkMath::RadiansFromDegrees(source->GetConeAngle())));
   }
   return light;
+}
+
+template <typename Vector>
+bool IsFinite(const Vector& vector)
+{
+  // Infinity less itself is no number.
+  return vector - vector == Vector(0.0);
+}
+
+bool IsFinite(const RayCastLight& light)
+{
+  return IsFinite(light.Position) && IsFinite(light.Diffuse) && IsFinite(light.Specular) &&
+    IsFinite(light.Cone) && IsFinite(light.Falloff);
 }
 
 }
@@ -149,6 +166,39 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Vie
       optics.Lighting.Lights.push_back(ToFrame(light, place));
     }
   }
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeUnlit(const RayCastOptics& optics)
+{
+  if (!optics.Shading)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  const SurfaceLighting& lighting = optics.Lighting;
+  const std::pair<const char*, double> material[] = { { "Ambient", lighting.Ambient },
+    { "Diffuse", lighting.Diffuse }, { "Specular", lighting.Specular },
+    { "SpecularPower", lighting.SpecularPower }, { "ScatteringAnisotropy", lighting.Anisotropy } };
+  for (const auto& [name, number] : material)
+  {
+    if (!std::isfinite(number))
+    {
+      text << "the " << name << " of the volume property is " << number
+           << "; shading needs finite numbers";
+      return text.str();
+    }
+  }
+  for (std::size_t i = 0; i < lighting.Lights.size(); ++i)
+  {
+    if (!IsFinite(lighting.Lights[i]))
+    {
+      text << "the switched-on light of number " << i
+           << " has no direction, or a number that is not finite";
+      return text.str();
+    }
+  }
+  return std::string();
 }
 
 //------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <string>
 #include <vector>
 
 class vtkPlaneCollection;
@@ -115,6 +116,12 @@ struct ViewContext
  */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);
+
+/**
+ * Describes a number of the material or of a light that is not finite; empty if there is none, or
+ * without shading.
+ */
+std::string DescribeUnlit(const RayCastOptics& optics);
 
 /**
  * True if a volume with shading can attenuate its own light. Isosurfaces of scalars of cells

@@ -27,6 +27,11 @@ constexpr int DeepestLevel = 14;
 // digits.
 constexpr int LastLevel = 40;
 
+// Longest side, in units of its height, above which a triangle is slender. Quarters are as slender:
+// those that are as wide as their distance from eye or point are more, by this factor. Triangles of
+// usual meshes are below.
+constexpr double LargestSlenderness = 8.0;
+
 // Isolated roots take at most a dozen divisions each, a few more near a caustic. A ring of roots
 // would need a division of every triangle that it crosses, on every level. Triangles that are wider
 // than their distance from eye or point are few on each level, and do not count.
@@ -80,6 +85,15 @@ void PatchRoots::Find()
   this->Count = 0;
   this->Divisions = 0;
   this->Complete = true;
+  const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
+  const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
+  const glm::dvec3 normal = glm::cross(first, second);
+  this->Area = glm::length(normal);
+  if (this->Area == 0.0)
+  {
+    return;
+  }
+  this->Plane = { first, glm::cross(normal / this->Area, first) };
   for (std::size_t i = 0; i < 3; ++i)
   {
     this->Evaluate(whole, i);
@@ -92,12 +106,42 @@ void PatchRoots::Find()
   {
     this->Evaluate(whole, i);
   }
-  for (int k = 0; k < 3; ++k)
+  const std::array<double, 3> sides = this->MeasureSides(whole);
+  this->Size = *std::max_element(sides.begin(), sides.end());
+  whole.Size = this->Size;
+  this->Slender = this->Size * this->Size > LargestSlenderness * this->Area;
+  this->Search(whole);
+}
+
+//------------------------------------------------------------------------------
+// Lengths of the sides of the flat triangle, opposite to its corners.
+std::array<double, 3> PatchRoots::MeasureSides(const Triangle& triangle) const
+{
+  const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
+  const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
+  std::array<double, 3> sides;
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    this->Size =
-      std::max(this->Size, glm::length(this->Patch.Corner[(k + 1) % 3] - this->Patch.Corner[k]));
+    const glm::dvec2 side = triangle.B[(k + 2) % 3] - triangle.B[(k + 1) % 3];
+    sides[k] = glm::length(side.x * first + side.y * second);
   }
-  this->Search(whole, 0);
+  return sides;
+}
+
+//------------------------------------------------------------------------------
+// If the triangle is slender, `corner` is the one opposite to its longest side.
+bool PatchRoots::IsSlender(const Triangle& triangle, std::size_t& corner) const
+{
+  if (!this->Slender)
+  {
+    return false;
+  }
+  const std::array<double, 3> sides = this->MeasureSides(triangle);
+  const auto longest = std::max_element(sides.begin(), sides.end());
+  corner = static_cast<std::size_t>(longest - sides.begin());
+  const double area =
+    this->Area * std::fabs(Cross(triangle.B[1] - triangle.B[0], triangle.B[2] - triangle.B[0]));
+  return *longest * *longest > LargestSlenderness * area;
 }
 
 //------------------------------------------------------------------------------
@@ -124,15 +168,15 @@ bool PatchRoots::IsFar() const
 //------------------------------------------------------------------------------
 void PatchRoots::Evaluate(Triangle& triangle, std::size_t place) const
 {
-  triangle.F[place] =
-    this->Equation.GetResidual(this->Patch, triangle.B[place], triangle.Nearest[place]);
+  triangle.F[place] = this->Equation.GetResidual(
+    this->Patch, this->Plane, triangle.B[place], triangle.Nearest[place]);
 }
 
 //------------------------------------------------------------------------------
 // By how much the interpolant may be off for a cone that it does not show; 0 if there is none.
-double PatchRoots::BoundCone(const Triangle& triangle, int depth) const
+double PatchRoots::BoundCone(const Triangle& triangle) const
 {
-  const double size = std::ldexp(this->Size, -depth);
+  const double size = triangle.Size;
   const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
   if (nearest >= NearestCone * size)
   {
@@ -141,7 +185,7 @@ double PatchRoots::BoundCone(const Triangle& triangle, int depth) const
   double slope = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    slope = std::max(slope, this->Equation.GetConeSlope(this->Patch, triangle.B[k]));
+    slope = std::max(slope, this->Equation.GetConeSlope(this->Patch, this->Plane, triangle.B[k]));
   }
   return ConeDeviation * size * slope;
 }
@@ -177,33 +221,34 @@ PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle, double cone)
 }
 
 //------------------------------------------------------------------------------
-bool PatchRoots::IsDeepest(const Triangle& triangle, int depth) const
+bool PatchRoots::IsDeepest(const Triangle& triangle) const
 {
   const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
-  return depth >= DeepestLevel &&
-    (depth >= LastLevel || std::ldexp(this->Size, DeepestLevel - depth) <= nearest);
+  return triangle.Size <= std::ldexp(this->Size, -DeepestLevel) &&
+    (triangle.Size <= std::ldexp(this->Size, -LastLevel) ||
+      std::ldexp(triangle.Size, DeepestLevel) <= nearest);
 }
 
 //------------------------------------------------------------------------------
-void PatchRoots::Search(const Triangle& triangle, int depth)
+void PatchRoots::Search(const Triangle& triangle)
 {
-  const bool isDeepest = this->IsDeepest(triangle, depth);
+  const bool isDeepest = this->IsDeepest(triangle);
   const bool isLast = isDeepest || this->Divisions >= MostDivisions;
   // At the last level a cone is as small as the resolution of Newton's method.
-  const Verdict verdict = Judge(triangle, isLast ? 0.0 : this->BoundCone(triangle, depth));
+  const Verdict verdict = Judge(triangle, isLast ? 0.0 : this->BoundCone(triangle));
   if (verdict == Verdict::None)
   {
     return;
   }
   if (!isLast && verdict == Verdict::Unknown)
   {
-    this->Divide(triangle, depth);
+    this->Divide(triangle);
     return;
   }
   const bool isAnswered = this->TakeRoot(triangle);
   if (!isLast && !isAnswered)
   {
-    this->Divide(triangle, depth);
+    this->Divide(triangle);
     return;
   }
   // At the deepest level two roots are one within SameRoot; above it, there may be any number.
@@ -252,10 +297,55 @@ bool PatchRoots::TakeRoot(const Triangle& triangle)
 }
 
 //------------------------------------------------------------------------------
-void PatchRoots::Divide(const Triangle& t, int depth)
+void PatchRoots::Divide(const Triangle& triangle)
 {
-  const double nearest = *std::min_element(t.Nearest.begin(), t.Nearest.end());
-  this->Divisions += std::ldexp(this->Size, -depth) <= nearest ? 1 : 0;
+  const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
+  this->Divisions += triangle.Size <= nearest ? 1 : 0;
+  std::size_t corner = 0;
+  if (this->IsSlender(triangle, corner))
+  {
+    this->Halve(triangle, corner);
+  }
+  else
+  {
+    this->Quarter(triangle);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Two children on both sides of the line from a corner to the middle of the opposite edge.
+void PatchRoots::Halve(const Triangle& t, std::size_t corner)
+{
+  const std::size_t i = (corner + 1) % 3;
+  const std::size_t j = (corner + 2) % 3;
+  const glm::dvec2 middle = 0.5 * (t.B[corner] + t.B[corner + 3]);
+  const auto copy = [&t](std::size_t from, Triangle& child, std::size_t to)
+  {
+    child.B[to] = t.B[from];
+    child.F[to] = t.F[from];
+    child.Nearest[to] = t.Nearest[from];
+  };
+  for (const bool isFirst : { true, false })
+  {
+    // The corner, and the ends of a half of the edge.
+    Triangle child;
+    copy(corner, child, 0);
+    copy(isFirst ? i : corner + 3, child, 1);
+    copy(isFirst ? corner + 3 : j, child, 2);
+    copy(isFirst ? j + 3 : i + 3, child, isFirst ? 5 : 4);
+    child.B[3] = 0.5 * (child.B[1] + child.B[2]);
+    child.B[isFirst ? 4 : 5] = middle;
+    this->Evaluate(child, 3);
+    this->Evaluate(child, isFirst ? 4 : 5);
+    const std::array<double, 3> sides = this->MeasureSides(child);
+    child.Size = *std::max_element(sides.begin(), sides.end());
+    this->Search(child);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PatchRoots::Quarter(const Triangle& t)
+{
   // Three children at the corners, and one in the middle whose corners are the midpoints of the
   // edges.
   Triangle middle;
@@ -270,7 +360,8 @@ void PatchRoots::Divide(const Triangle& t, int depth)
     middle.B[k + 3] = 0.5 * (middle.B[(k + 1) % 3] + middle.B[(k + 2) % 3]);
     this->Evaluate(middle, k + 3);
   }
-  this->Search(middle, depth + 1);
+  middle.Size = 0.5 * t.Size;
+  this->Search(middle);
   for (std::size_t k = 0; k < 3; ++k)
   {
     const std::size_t i = (k + 1) % 3;
@@ -282,7 +373,8 @@ void PatchRoots::Divide(const Triangle& t, int depth)
     child.Nearest = { t.Nearest[k], t.Nearest[j + 3], t.Nearest[i + 3], middle.Nearest[k + 3] };
     this->Evaluate(child, 4);
     this->Evaluate(child, 5);
-    this->Search(child, depth + 1);
+    child.Size = 0.5 * t.Size;
+    this->Search(child);
   }
 }
 

@@ -18,9 +18,9 @@ namespace meniscus
  * of the interpolant bound it, with a margin for the parts of higher degree. If a line separates
  * them from zero, there is no root. If the determinants of all pairs of control vectors of its two
  * derivatives have one sign, the map is injective, so there is at most one root and Newton's method
- * finds it. Otherwise the triangle is divided in four. Where it is larger than its distance from
- * the eye or from the point, distances have a cone that the six places do not show: there the
- * margin is larger, and no map counts as injective.
+ * finds it. Otherwise the triangle is divided in four, or in two across its longest side if it is
+ * slender. Where it is larger than its distance from the eye or from the point, distances have a
+ * cone that the six places do not show: there the margin is larger, and no map counts as injective.
  *
  * Where the patch focuses on the point, the roots are not isolated: a dome with eye and point on
  * its axis shows a ring. In that case the number of divisions is limited, the roots found
@@ -69,6 +69,7 @@ private:
     std::array<glm::dvec2, 6> B;
     std::array<glm::dvec2, 6> F;
     std::array<double, 6> Nearest; ///< eye or point
+    double Size = 0.0;             ///< longest side
   };
   enum class Verdict
   {
@@ -78,18 +79,25 @@ private:
   };
 
   bool IsFar() const;
-  bool IsDeepest(const Triangle& triangle, int depth) const;
-  void Search(const Triangle& triangle, int depth);
-  void Divide(const Triangle& triangle, int depth);
+  bool IsDeepest(const Triangle& triangle) const;
+  void Search(const Triangle& triangle);
+  void Divide(const Triangle& triangle);
+  void Quarter(const Triangle& triangle);
+  void Halve(const Triangle& triangle, std::size_t corner);
+  std::array<double, 3> MeasureSides(const Triangle& triangle) const;
+  bool IsSlender(const Triangle& triangle, std::size_t& corner) const;
   bool TakeRoot(const Triangle& triangle);
   void Evaluate(Triangle& triangle, std::size_t place) const;
-  double BoundCone(const Triangle& triangle, int depth) const;
+  double BoundCone(const Triangle& triangle) const;
   static Verdict Judge(const Triangle& triangle, double cone);
   void Add(const SightRoot& root);
 
   const SightEquation& Equation;
   const CurvedPatch& Patch;
+  SightEquation::Plane Plane;
   double Size = 0.0; ///< longest side of the facet
+  double Area = 0.0; ///< twice the area of the facet
+  bool Slender = false;
   std::array<SightRoot, Capacity> Roots;
   std::size_t Count = 0;
   int Divisions = 0;

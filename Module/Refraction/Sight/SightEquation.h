@@ -61,19 +61,27 @@ public:
   {
   }
 
+  /** Two vectors of equal lengths in the plane of a facet, at right angles. */
+  struct Plane
+  {
+    glm::dvec3 First;
+    glm::dvec3 Second;
+  };
+
   /**
-   * Component of h tangential to the surface, in the two directions of the facet's edges and
+   * Component of h tangential to the surface, in the two directions of the facet's plane and
    * multiplied by the square of the normal's length; zero at a sight point. `nearest` is set to the
    * distance from the eye or from the point, whichever is nearer.
    */
-  glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b, double& nearest) const;
+  glm::dvec2 GetResidual(
+    const CurvedPatch& patch, const Plane& plane, const glm::dvec2& b, double& nearest) const;
 
   /**
    * Derivative of the residual with respect to the distance from the eye or from the point,
    * whichever is nearer. Of the residual's factors, this one is not smooth where that distance is
    * small.
    */
-  double GetConeSlope(const CurvedPatch& patch, const glm::dvec2& b) const;
+  double GetConeSlope(const CurvedPatch& patch, const Plane& plane, const glm::dvec2& b) const;
 
   /**
    * Newton's method from `b` with at most `steps` steps; an iterate may leave the facet by `reach`
@@ -142,9 +150,9 @@ private:
     double Nearest; ///< distance of the nearer of eye and point
   };
   Step GetStep(const PatchJet& jet) const;
-  /** h without its part along the normal, in the directions of the facet's edges. */
+  /** h without its part along the normal, in the directions of the plane. */
   static glm::dvec2 GetTangential(
-    const CurvedPatch& patch, const glm::dvec3& normal, const glm::dvec3& h);
+    const Plane& plane, const glm::dvec3& normal, const glm::dvec3& h);
 
   glm::dvec3 Eye;
   glm::dvec3 Point;
@@ -155,7 +163,7 @@ private:
 
 //------------------------------------------------------------------------------
 inline glm::dvec2 SightEquation::GetResidual(
-  const CurvedPatch& patch, const glm::dvec2& b, double& nearest) const
+  const CurvedPatch& patch, const Plane& plane, const glm::dvec2& b, double& nearest) const
 {
   const PatchPoint at = patch.Evaluate(b);
   const glm::dvec3 a = at.Position - this->Eye;
@@ -164,29 +172,28 @@ inline glm::dvec2 SightEquation::GetResidual(
   const double lengthP = glm::length(p);
   nearest = std::min(lengthA, lengthP);
   const glm::dvec3 h = (this->Exterior * lengthP) * a - (this->Interior * lengthA) * p;
-  return GetTangential(patch, at.Normal, h);
+  return GetTangential(plane, at.Normal, h);
 }
 
 //------------------------------------------------------------------------------
-inline double SightEquation::GetConeSlope(const CurvedPatch& patch, const glm::dvec2& b) const
+inline double SightEquation::GetConeSlope(
+  const CurvedPatch& patch, const Plane& plane, const glm::dvec2& b) const
 {
   const PatchPoint at = patch.Evaluate(b);
   const glm::dvec3 a = at.Position - this->Eye;
   const glm::dvec3 p = this->Point - at.Position;
   const glm::dvec3 h = glm::dot(p, p) < glm::dot(a, a) ? this->Exterior * a : this->Interior * p;
-  return glm::length(GetTangential(patch, at.Normal, h));
+  return glm::length(GetTangential(plane, at.Normal, h));
 }
 
 //------------------------------------------------------------------------------
 inline glm::dvec2 SightEquation::GetTangential(
-  const CurvedPatch& patch, const glm::dvec3& normal, const glm::dvec3& h)
+  const Plane& plane, const glm::dvec3& normal, const glm::dvec3& h)
 {
   const double squared = glm::dot(normal, normal);
   const double along = glm::dot(h, normal);
-  const glm::dvec3 first = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 second = patch.Corner[2] - patch.Corner[0];
-  return { squared * glm::dot(h, first) - along * glm::dot(normal, first),
-    squared * glm::dot(h, second) - along * glm::dot(normal, second) };
+  return { squared * glm::dot(h, plane.First) - along * glm::dot(normal, plane.First),
+    squared * glm::dot(h, plane.Second) - along * glm::dot(normal, plane.Second) };
 }
 
 //------------------------------------------------------------------------------

@@ -138,20 +138,13 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 }
 
 //------------------------------------------------------------------------------
-// The unknown is the tangent t of LateralSum.
-glm::dvec3 ParallelPlanes::FindSight(
-  const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
+double ParallelPlanes::FindTangent(
+  double depth, double straight, std::size_t count, double least, const glm::dvec3& near) const
 {
-  const glm::dvec3 away = point - this->Eye;
-  const double depth = glm::dot(this->Axis, away);
-  const glm::dvec3 lateral = away - depth * this->Axis;
-  const double distance = glm::length(lateral);
   const std::vector<PlaneLayer>& layers = this->Layers;
-  const double least = FindLeastIndex(layers, count + 1);
   const double along = glm::dot(this->Axis, near);
   const double nearSine =
     layers[0].Index / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
-  const double straight = distance / depth;
   double t =
     along > 0.0 && nearSine < 1.0 ? nearSine / std::sqrt(1.0 - nearSine * nearSine) : straight;
   for (int tries = 0; tries < LateralSum::MostSteps; ++tries)
@@ -162,7 +155,7 @@ glm::dvec3 ParallelPlanes::FindSight(
       const double ratio = layers[i].Index / least;
       sum.Add((i < count ? layers[i].End : depth) - layers[i].Begin, ratio * ratio, t);
     }
-    const double step = sum.GetStep(distance, t);
+    const double step = sum.GetStep(straight * depth, t);
     t = std::max(t + step, straight);
     // Written so that a NaN ends the search.
     if (!(std::fabs(step) > LateralSum::LastStep * t))
@@ -170,10 +163,91 @@ glm::dvec3 ParallelPlanes::FindSight(
       break;
     }
   }
-  const double sine = least / layers[0].Index * t / std::sqrt(1.0 + t * t);
+  return t;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 ParallelPlanes::FindSight(
+  const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
+{
+  const glm::dvec3 away = point - this->Eye;
+  const double depth = glm::dot(this->Axis, away);
+  const glm::dvec3 lateral = away - depth * this->Axis;
+  const double distance = glm::length(lateral);
+  const double least = FindLeastIndex(this->Layers, count + 1);
+  const double t = this->FindTangent(depth, distance / depth, count, least, near);
+  const double sine = least / this->Layers[0].Index * t / std::sqrt(1.0 + t * t);
   return distance > 0.0
     ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->Axis + (sine / distance) * lateral
     : this->Axis;
+}
+
+//------------------------------------------------------------------------------
+// The part of the direction along the planes is divided by the ratio of the indices. The other part
+// follows from that: next to a critical angle, Snell's law for rounded directions loses it.
+void ParallelPlanes::Refract(std::size_t plane, const glm::dvec3& direction, RayJet& ray) const
+{
+  const double ratio = this->Layers[plane].Index / this->Layers[plane + 1].Index;
+  const VectorBy along = ratio * (ray.DirectionBy - this->Axis * Dot(this->Axis, ray.DirectionBy));
+  const double inverse = 1.0 / glm::dot(this->Axis, direction);
+  ray.Direction = direction;
+  ray.DirectionBy = along - this->Axis * (inverse * Dot(direction, along));
+}
+
+//------------------------------------------------------------------------------
+bool ParallelPlanes::FindPath(
+  const RefractionStack& stack, const glm::dvec3& point, std::size_t count, StackPath& path) const
+{
+  const glm::dvec3 away = point - this->Eye;
+  const double depth = glm::dot(this->Axis, away);
+  const glm::dvec3 lateral = away - depth * this->Axis;
+  const double straight = glm::length(lateral) / depth;
+  const glm::dvec3 side = straight > 0.0 ? glm::normalize(lateral) : glm::dvec3(0.0);
+  const double least = FindLeastIndex(this->Layers, count + 1);
+  const double t = this->FindTangent(depth, straight, count, least, glm::dvec3(0.0));
+  // The ray in a layer, with a part of 1 along the axis.
+  const auto getWay = [this, least, t, &side](std::size_t layer)
+  {
+    const double ratio = this->Layers[layer].Index / least;
+    return this->Axis + t * LateralSum::GetScale(ratio * ratio, t) * side;
+  };
+  path.Forget(stack.GetLinks().size());
+  path.Count = 0;
+  RayJet ray;
+  ray.Origin = this->Eye;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const RefractionStack::Link& link = stack.GetLinks()[i];
+    const double thickness = this->Layers[i].End - this->Layers[i].Begin;
+    const glm::dvec3 way = getWay(i);
+    const glm::dvec3 place = ray.Origin + thickness * way;
+    SurfaceCrossing crossing;
+    if (!link.FindCrossing(place - thickness * this->Axis - link.Shift, this->Axis, 0.0, crossing))
+    {
+      return false;
+    }
+    PathPoint& at = path.Points[i];
+    at.Place = { crossing.Facet, crossing.B };
+    at.Cosine = 1.0 / glm::length(way);
+    PatchJet jet;
+    link.Surface->GetPatch(crossing.Facet, !link.Passage.FromFront).Evaluate(crossing.B, jet);
+    jet.Position = place;
+    if (i == 0)
+    {
+      ray = MakeSightRay(this->Eye, jet);
+      at.By = { NumberBy{ 1.0, 0.0 }, NumberBy{ 0.0, 1.0 } };
+      path.Sight = ray.Direction;
+      path.SightBy = ray.DirectionBy;
+    }
+    else
+    {
+      at.By = Transfer(ray, jet, GetPlaceGradient(jet, ray.Direction));
+    }
+    this->Refract(i, glm::normalize(getWay(i + 1)), ray);
+    at.Ray = ray;
+    path.Count = i + 1;
+  }
+  return true;
 }
 
 }

@@ -52,7 +52,23 @@ public:
   glm::dvec3 FindSight(
     const glm::dvec3& point, std::size_t count, const glm::dvec3& near = glm::dvec3(0.0)) const;
 
+  /**
+   * Path to a point behind `count` planes, at least one, of the stack that these planes are of. Its
+   * places are exact within rounding of their coordinates, at any slant of the rays between.
+   * Returns false if it misses one of the planes.
+   */
+  bool FindPath(const RefractionStack& stack, const glm::dvec3& point, std::size_t count,
+    StackPath& path) const;
+
 private:
+  /**
+   * Tangent of LateralSum, in a layer of the smallest index of those in front of the point.
+   * `straight` is the tangent of the straight way to the point.
+   */
+  double FindTangent(
+    double depth, double straight, std::size_t count, double least, const glm::dvec3& near) const;
+  void Refract(std::size_t plane, const glm::dvec3& direction, RayJet& ray) const;
+
   glm::dvec3 Eye{ 0.0 };
   glm::dvec3 Axis{ 0.0 };
   std::vector<PlaneLayer> Layers;

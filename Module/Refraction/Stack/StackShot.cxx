@@ -259,22 +259,26 @@ ShotEnd ShootNear(const RefractionStack& stack, const StackTarget& target, Stack
 }
 
 //------------------------------------------------------------------------------
-bool IsImage(const RefractionStack& stack, const StackTarget& target, const StackPath& path)
+bool GoesOn(const RefractionStack& stack, const StackTarget& target, const StackPath& path)
 {
-  const RayJet& ray = path.GetLast();
-  const double distance = glm::dot(target.Point - ray.Origin, ray.Direction);
-  if (!(distance > 0.0) || !stack.IsFirstCrossing(path))
-  {
-    return false;
-  }
   if (target.Count == stack.GetLinks().size())
   {
     return true;
   }
+  const RayJet& ray = path.GetLast();
+  const double distance = glm::dot(target.Point - ray.Origin, ray.Direction);
   SurfaceCrossing next;
   const double slack = stack.GetLinks()[target.Count].Surface->GetSlack(glm::length(target.Point));
   return stack.FindNext(target.Count, ray.Origin, ray.Direction, next) &&
     next.Distance >= distance - slack;
+}
+
+//------------------------------------------------------------------------------
+bool IsImage(const RefractionStack& stack, const StackTarget& target, const StackPath& path)
+{
+  const RayJet& ray = path.GetLast();
+  const double distance = glm::dot(target.Point - ray.Origin, ray.Direction);
+  return distance > 0.0 && stack.IsFirstCrossing(path) && GoesOn(stack, target, path);
 }
 
 //------------------------------------------------------------------------------

@@ -79,6 +79,12 @@ ShotEnd ShootNear(const RefractionStack& stack, const StackTarget& target, Stack
   int steps, StackPath& path, std::vector<HeldPatch>& held);
 
 /**
+ * True if the last ray of a path, which leads to the target, meets the next interface behind it, or
+ * if there is none.
+ */
+bool GoesOn(const RefractionStack& stack, const StackTarget& target, const StackPath& path);
+
+/**
  * True if a path that Shoot found is physical: each leg goes on to its nearest crossing, and the
  * last one reaches the target, before the next interface, if there is one, which it meets.
  */

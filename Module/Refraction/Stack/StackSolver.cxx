@@ -196,7 +196,8 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory) con
     memory.Changes.clear();
     isFound = this->FindBehindPlanes(local, memory.Next);
   }
-  for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
+  const std::size_t most = this->IsBehindExactPlanes(local) ? 0 : this->Stack.GetLinks().size();
+  for (std::size_t count = most; count > 0 && !isFound; --count)
   {
     isFound = this->MayBeOnLeg(local, count) && this->FindFirst({ local, count }, memory.Next);
   }
@@ -280,9 +281,17 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
 }
 
 //------------------------------------------------------------------------------
-// The only image of a point behind parallel planes. Newton's method moves the sight ray by
-// rounding. Returns false if there is none, or if the point is seen within rounding of a critical
-// angle.
+// True if FindBehindPlanes decides about the point: there is no other way to it than through all
+// planes in front of it.
+bool StackSolver::IsBehindExactPlanes(const glm::dvec3& local) const
+{
+  return this->Planes.AreExact() && this->Planes.CountInFront(local) > 0;
+}
+
+//------------------------------------------------------------------------------
+// The only image of a point behind parallel planes. If they are not exact, Newton's method moves
+// the sight ray by rounding. Returns false if there is none, or, if they are not exact, if the
+// point is seen within rounding of a critical angle.
 bool StackSolver::FindBehindPlanes(const glm::dvec3& local, StackPath& path) const
 {
   const int inFront = this->Planes.CountInFront(local);
@@ -291,6 +300,11 @@ bool StackSolver::FindBehindPlanes(const glm::dvec3& local, StackPath& path) con
     return false;
   }
   const StackTarget target{ local, static_cast<std::size_t>(inFront) };
+  if (this->Planes.AreExact())
+  {
+    return this->Planes.FindPath(this->Stack, local, target.Count, path) &&
+      GoesOn(this->Stack, target, path);
+  }
   SurfaceCrossing crossing;
   path.Forget(this->Stack.GetLinks().size());
   return this->Stack.FindNext(
@@ -316,6 +330,10 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
   {
     images.push_back(path);
     return ImageState::Found;
+  }
+  if (this->IsBehindExactPlanes(local))
+  {
+    return ImageState::NoImage;
   }
   bool isComplete = true;
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0; --count)

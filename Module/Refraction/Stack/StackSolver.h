@@ -159,6 +159,7 @@ private:
   bool MayBeOnLeg(const glm::dvec3& local, std::size_t count) const;
   bool Follow(const glm::dvec3& local, Memory& memory) const;
   bool FindBehindPlanes(const glm::dvec3& local, StackPath& path) const;
+  bool IsBehindExactPlanes(const glm::dvec3& local) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
   StackVertex PassThrough(const glm::dvec3& point) const;

@@ -132,7 +132,11 @@ ScalarNormalization NormalizeAbout(const ScalarFeature& feature, const ScalarDis
 //------------------------------------------------------------------------------
 double ScalarNormalization::operator()(double scalar) const
 {
-  const double normalized = (scalar - this->Offset) * this->Scale;
+  const double away = scalar - this->Offset;
+  // Halves where the difference exceeds the largest number.
+  const double normalized = std::isinf(away) && std::isfinite(scalar)
+    ? (0.5 * scalar - 0.5 * this->Offset) * this->Scale * 2.0
+    : away * this->Scale;
   const double size = std::abs(normalized);
   if (!(this->Farthest > 1.0) || !(size > NearEnd))
   {

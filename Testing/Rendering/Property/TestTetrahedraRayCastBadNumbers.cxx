@@ -196,7 +196,8 @@ TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
   const ByteImage expected = draw(0.0, 1.0);
   for (const auto& [offset, step] : std::vector<std::pair<double, double>>{ { 1.0e+15, 0.125 },
          { -1.0e+300, 8.0 * (1.0e+300 - std::nextafter(1.0e+300, 0.0)) }, { 0.0, 1.0e+307 },
-         { -0.8e+308, 1.0e+307 }, { 0.0, 1.0e-305 }, { 0.0, 4096.0 * smallest } })
+         { -0.8e+308, 1.0e+307 }, { -1.6e+308, 2.0e+307 }, { 0.0, 1.0e-305 },
+         { 0.0, 4096.0 * smallest } })
   {
     const ByteImage picture = draw(offset, step);
     int worst = 0;
@@ -205,6 +206,104 @@ TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
       worst = std::max(worst, std::abs(int{ picture.Rgb[i] } - int{ expected.Rgb[i] }));
     }
     EXPECT_LE(worst, 1) << offset << " + " << step;
+  }
+}
+
+// The difference of two nodes exceeds the largest number.
+TEST(TetrahedraRayCastBadNumbers, CurvesOfAnyWidth)
+{
+  const auto setOpacity = [](vtkVolumeProperty* property, double sharpness)
+  {
+    OpacityOf(property)->RemoveAllPoints();
+    OpacityOf(property)->AddPoint(-1.0e+308, 0.2, 0.5, sharpness);
+    OpacityOf(property)->AddPoint(1.0e+308, 0.8);
+  };
+  ExpectWarning(
+    vtkVolumeMapper::COMPOSITE_BLEND,
+    [&](vtkVolumeProperty* property) { setOpacity(property, 0.7); },
+    [&](vtkVolumeProperty* property) { setOpacity(property, 0.0); },
+    { "nodes of the scalar opacity at -1e+308 and 1e+308 are too far apart" });
+  const auto setColor = [](vtkVolumeProperty* property, bool curved)
+  {
+    vtkColorTransferFunction* color = property->GetRGBTransferFunction();
+    color->RemoveAllPoints();
+    color->AddRGBPoint(-1.0e+308, 1.0, 0.2, 0.1);
+    color->AddRGBPoint(1.0e+308, 0.1, 0.5, 1.0);
+    if (curved)
+    {
+      color->SetColorSpaceToLab();
+    }
+  };
+  ExpectWarning(
+    vtkVolumeMapper::COMPOSITE_BLEND,
+    [&](vtkVolumeProperty* property) { setColor(property, true); },
+    [&](vtkVolumeProperty* property) { setColor(property, false); },
+    { "nodes of the colour function at -1e+308 and 1e+308 are too far apart" });
+}
+
+TEST(TetrahedraRayCastBadNumbers, Shading)
+{
+  using Setter = void (vtkVolumeProperty::*)(double);
+  const std::pair<const char*, Setter> setters[] = { { "Ambient", &vtkVolumeProperty::SetAmbient },
+    { "Diffuse", &vtkVolumeProperty::SetDiffuse }, { "Specular", &vtkVolumeProperty::SetSpecular },
+    { "SpecularPower", &vtkVolumeProperty::SetSpecularPower } };
+  for (const auto& [name, setter] : setters)
+  {
+    for (const double bad : { NaN, Infinity, -Infinity })
+    {
+      const Edit edit = [setter = setter, bad](vtkVolumeProperty* property)
+      { (property->*setter)(bad); };
+      ExpectError(
+        [&edit](vtkVolumeProperty* property)
+        {
+          edit(property);
+          property->ShadeOn();
+        },
+        { "Nothing is rendered", name, "finite numbers" });
+      // Without shading they are not used.
+      const Drawn unlit = Draw(vtkVolumeMapper::COMPOSITE_BLEND, edit);
+      EXPECT_TRUE(unlit.Told->Errors.empty());
+      EXPECT_TRUE(unlit.Picture.Rgb == Draw(vtkVolumeMapper::COMPOSITE_BLEND, Keep).Picture.Rgb);
+    }
+  }
+}
+
+TEST(TetrahedraRayCastBadNumbers, Lights)
+{
+  const std::pair<const char*, std::function<void(vtkLight*)>> edits[] = { { "", [](vtkLight*) {} },
+    { "number that is not finite", [](vtkLight* light) { light->SetIntensity(NaN); } },
+    { "number that is not finite",
+      [](vtkLight* light) { light->SetDiffuseColor(1.0, Infinity, 1.0); } },
+    { "number that is not finite",
+      [](vtkLight* light)
+      {
+        light->PositionalOn();
+        light->SetAttenuationValues(1.0, NaN, 0.0);
+      } },
+    { "no direction", [](vtkLight* light) { light->SetPosition(light->GetFocalPoint()); } },
+    { "",
+      [](vtkLight* light)
+      {
+        light->SetIntensity(NaN);
+        light->SwitchOff();
+      } } };
+  for (const auto& [words, edit] : edits)
+  {
+    const Grid grid = MakeBlock(4, WavyField(2.0));
+    vtkNew<vtkVolumeProperty> property;
+    property->ShadeOn();
+    RayCastScene scene(grid, property, Size, Size);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    vtkNew<vtkLight> light;
+    light->SetPosition(1.0, 2.0, 3.0);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    edit(light);
+    scene.GetRenderer()->AddLight(light);
+    auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+    told->Observe(scene.GetRayCaster());
+    scene.RenderBytes();
+    EXPECT_EQ(told->Errors.empty(), std::string(words).empty()) << told->GetText();
+    EXPECT_NE(told->GetText().find(words), std::string::npos) << told->GetText();
   }
 }
 

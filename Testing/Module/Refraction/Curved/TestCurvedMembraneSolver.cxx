@@ -65,7 +65,8 @@ TEST(RefractionCurved, ImagesInHugeFacetsAreDecided)
     double Slenderness;
   };
   for (const Sea& size : { Sea{ 1e2, 1.0 }, Sea{ 1e4, 1.0 }, Sea{ 1e5, 1.0 }, Sea{ 1e6, 1.0 },
-         Sea{ 1e7, 1.0 }, Sea{ 1e4, 20.0 }, Sea{ 1e6, 8.0 } })
+         Sea{ 1e7, 1.0 }, Sea{ 1e4, 20.0 }, Sea{ 1e6, 8.0 }, Sea{ 1e2, 50.0 }, Sea{ 1e6, 20.0 },
+         Sea{ 1e7, 50.0 }, Sea{ 1e7, 200.0 } })
   {
     const double half = size.HalfWidth;
     for (const double interior : { 1.333, 0.75 })

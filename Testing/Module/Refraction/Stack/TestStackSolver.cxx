@@ -506,6 +506,79 @@ TEST(RefractionStack, PointsBehindPlanesNeedNoSearch)
 }
 
 //------------------------------------------------------------------------------
+// Rays run nearly along a gap of a millimetre: their directions there are lost in rounding, the
+// places on the planes are not. The last plane of two lists is too small to show all points.
+TEST(RefractionStack, PointsBehindThinGapsAreFound)
+{
+  struct Trial
+  {
+    double Indices[4];
+    double HalfWidth;
+    double Last;
+    double Gap;
+  };
+  for (const Trial& trial : { Trial{ { 1.5, 1.0, 1.5, 1.33 }, 50.0, 60.0, 1e-3 },
+         Trial{ { 2.27, 1.051, 2.258, 1.3 }, 50.0, 2.0, 1.6e-3 },
+         Trial{ { 1.94, 1.313, 1.8, 1.505 }, 6.3e3, 60.0, 1.2e-3 },
+         Trial{ { 2.09, 1.249, 2.094, 1.8 }, 5e6, 60.0, 3e-3 },
+         Trial{ { 1.61, 1.28, 1.601, 1.62 }, 5e7, 4.0, 1e-3 } })
+  {
+    SCOPED_TRACE(::testing::Message() << "half width " << trial.HalfWidth);
+    const double* n = trial.Indices;
+    const double levels[5] = { 0.0, -trial.Gap, -0.5, 0.0, 0.0 };
+    MembraneMesh first = MakePlane(0.0, 2.0 * trial.HalfWidth, 1);
+    first.Translate(trial.HalfWidth * glm::dvec3(0.3, 0.0, -0.2));
+    const glm::dvec3 eye(0.3, 0.1, -0.4);
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(first), { n[0], n[1] } },
+        { MakeSurface(MakePlane(levels[1], 120.0, 2)), { n[1], n[2] } },
+        { MakeSurface(MakePlane(levels[2], 2.0 * trial.Last, 2)), { n[2], n[3] } } },
+      eye);
+    ASSERT_EQ(solver.GetStack().GetLinks().size(), 3u);
+    Random random(37);
+    int seen = 0;
+    for (int i = 0; i < 100; ++i)
+    {
+      const glm::dvec3 point(random(-9.0, 9.0), random(-2.2, -0.55), random(-9.0, 9.0));
+      std::vector<StackPath> images;
+      solver.FindImages(point, images);
+      EXPECT_EQ(
+        SolveAlone(solver, point).State, images.empty() ? ImageState::NoImage : ImageState::Found);
+      seen += static_cast<int>(images.size());
+      if (images.empty())
+      {
+        continue;
+      }
+      ASSERT_EQ(images.size(), 1u);
+      ASSERT_EQ(images[0].Count, 3u);
+      std::vector<glm::dvec3> places{ eye };
+      for (int k = 0; k < 3; ++k)
+      {
+        places.push_back(images[0].Points[k].Ray.Origin + solver.GetStack().GetOrigin());
+        EXPECT_NEAR(places.back().y, levels[k], 1e-12 + 1e-15 * trial.HalfWidth);
+      }
+      places.push_back(point);
+      const auto sine = [&places](int k)
+      {
+        const glm::dvec3 way = places[k + 1] - places[k];
+        return std::hypot(way.x, way.z) / glm::length(way);
+      };
+      // Coordinates have about 2e-16 of the half width, and legs are as short as the gap.
+      const double rounding = 1e-11 + 1e-15 * trial.HalfWidth / trial.Gap;
+      for (int k = 1; k < 4; ++k)
+      {
+        EXPECT_NEAR(n[0] * sine(0), n[k] * sine(k), rounding);
+      }
+      EXPECT_LE(std::max(std::fabs(places[3].x), std::fabs(places[3].z)), trial.Last + 1e-9);
+    }
+    EXPECT_EQ(seen == 100, trial.Last == 60.0);
+    EXPECT_GT(seen, 0);
+    EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionStack, WrongOrderIsNoticed)
 {
   StackSolver solver;

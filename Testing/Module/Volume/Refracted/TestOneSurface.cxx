@@ -93,3 +93,47 @@ TEST(RefractedRayStack, CountsRaysThatRunAlongAPatch)
     EXPECT_EQ(sight.GetCounts().Undecided > 0, isAlong);
   }
 }
+
+/**
+ * A dome of two facets above the eye, which is between them and their curved patches, and a plane
+ * below. Rays continued backwards meet the dome from the same side as the plane: the plane is what
+ * they meet.
+ */
+TEST(RefractedRayStack, MeetsNothingBehindTheEye)
+{
+  constexpr double radius = 6.0;
+  const glm::dvec3 center(0.0, 0.0, -std::sqrt(radius * radius - 2.0)); // corners at the height 0
+  std::vector<double> points;
+  std::vector<double> normals;
+  for (const bool isDome : { false, true })
+  {
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const glm::dvec2 place(corner % 2 * 2.0 - 1.0, corner / 2 * 2.0 - 1.0);
+      const glm::dvec3 up =
+        glm::dvec3(place, std::sqrt(radius * radius - glm::dot(place, place))) / radius;
+      const glm::dvec3 point = isDome ? center + radius * up : glm::dvec3(place, -1.0);
+      const glm::dvec3 normal = isDome ? up : glm::dvec3(0.0, 0.0, 1.0);
+      points.insert(points.end(), { point.x, point.y, point.z });
+      normals.insert(normals.end(), { normal.x, normal.y, normal.z });
+    }
+  }
+  const std::int64_t triangles[] = { 0, 1, 2, 1, 3, 2, 4, 5, 6, 5, 7, 6 };
+  const TestSurface plane({ points.data(), 4, triangles, 2, nullptr, normals.data() });
+  const TestSurface both({ points.data(), 8, triangles, 4, nullptr, normals.data() });
+  const RefractedRayStack::View view =
+    LookAtAll(glm::dvec3(0.05, 0.02, 0.07), glm::dvec3(0.0, 0.0, -1.0), 1.0, false);
+  RefractedRayStack expected;
+  expected.Build({ plane.Between(1.0, 1.333) }, view);
+  RefractedRayStack rays;
+  rays.Build({ both.Between(1.0, 1.333) }, view);
+  for (int pixel = 0; pixel < Size * Size; ++pixel)
+  {
+    const RefractedRay ray = RayOf(rays.GetRays()[0], pixel % Size, pixel / Size);
+    const RefractedRay known = RayOf(expected.GetRays()[0], pixel % Size, pixel / Size);
+    ASSERT_TRUE(known.MeetsInterface());
+    ASSERT_TRUE(ray.MeetsInterface());
+    // The patch of the plane reproduces it within rounding.
+    ASSERT_NEAR(ray.Depth, known.Depth, 1e-9);
+  }
+}
