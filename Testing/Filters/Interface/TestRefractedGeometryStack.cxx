@@ -24,8 +24,7 @@ vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
   points->DeepCopy(plane->GetPoints());
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    points->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(points, i);
     points->SetPoint(i, p[0], p[1] + y, p[2]);
   }
   plane->SetPoints(points);
@@ -259,8 +258,7 @@ TEST(RefractedGeometryStack, ClosedBodyIsListedTwice)
   const double toEye = std::sqrt(20.0 * 20.0 + 300.0 * 300.0 + 10.0 * 10.0);
   const auto alongAxis = [output, toEye](vtkIdType i)
   {
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     EXPECT_NEAR(p[0] * 300.0 - p[1] * 20.0, 0.0, 1e-6);
     EXPECT_NEAR(p[2] * 300.0 - p[1] * 10.0, 0.0, 1e-6);
     return (p[0] * 20.0 + p[1] * 300.0 + p[2] * 10.0) / toEye;

@@ -141,8 +141,7 @@ TEST(StackLight, VectorsOfTheLightBehindAPane)
   vtkDataSetAttributes* data = filter->GetOutput()->GetCellData();
   for (vtkIdType i = 0; i < 16; ++i)
   {
-    double vector[3];
-    data->GetArray("RefractionLightVector")->GetTuple(i, vector);
+    const glm::dvec3 vector = TupleOf(data->GetArray("RefractionLightVector"), i);
     EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel);
     EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel);
     EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel);
