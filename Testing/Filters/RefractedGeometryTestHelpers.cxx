@@ -50,8 +50,7 @@ double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
   double largest = 0.0;
   for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    floor->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(floor, i);
     const double r = std::hypot(p[0], p[2]);
     if (r < 5.0 || r > 35.0)
     {
@@ -147,22 +146,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   filter->SetImagesToAllImages();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   return filter;
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  glm::dvec3 tuple;
-  array->GetTuple(i, &tuple.x);
-  return tuple;
 }
 
 //------------------------------------------------------------------------------

@@ -73,10 +73,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   vtkPolyData* geometry, vtkPolyData* membrane);
 
-/** Coordinates of a point, and three components of a tuple. */
-glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i);
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i);
-
 /** Adds the true position as a point array `Truth`, so that interpolation can be checked. */
 void AddTruth(vtkPolyData* data);
 

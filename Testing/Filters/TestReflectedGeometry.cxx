@@ -223,8 +223,8 @@ TEST(ReflectedGeometryOutput, PlaneMirrorsReverseNormalsAndWinding)
     {
       const glm::dvec3 truth = PointOf(grid, i);
       EXPECT_LT(glm::length(PointOf(output, i) - glm::dvec3(truth.x, -truth.y, truth.z)), 1e-10);
-      const glm::dvec3 n = GetTuple(normals, i);
-      EXPECT_LT(glm::length(GetTuple(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
+      const glm::dvec3 n = TupleOf(normals, i);
+      EXPECT_LT(glm::length(TupleOf(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
       EXPECT_GT(n.y, 0.0);
     }
     for (vtkIdType cell = 0; cell < 64; ++cell)
@@ -297,8 +297,8 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
     {
       const auto source =
         static_cast<vtkIdType>(output->GetPointData()->GetArray("SourcePointId")->GetTuple1(i));
-      const glm::dvec3 truth = GetTuple(normals, source);
-      const glm::dvec3 n = GetTuple(made, i);
+      const glm::dvec3 truth = TupleOf(normals, source);
+      const glm::dvec3 n = TupleOf(made, i);
       EXPECT_NEAR(glm::length(n), 1.0, 1e-12);
       const bool isAtEye = light == glm::dvec3(0.0);
       const glm::dvec3 toLamp = isAtEye ? glm::normalize(Eye - PointOf(grid, source)) : light;
@@ -346,7 +346,7 @@ TEST(ReflectedGeometryOutput, PiercingObjectsEndAtWaves)
   ASSERT_GT(output->GetNumberOfPoints(), 20);
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 place = GetTuple(places, i);
+    const glm::dvec3 place = TupleOf(places, i);
     const double above = place.y - waves.GetHeight(place.x, place.z);
     EXPECT_GT(above, -0.01); // chords of the cut, within 0.005 degrees at a distance of 300
     onMirror += above < 0.01;
@@ -373,7 +373,7 @@ TEST(ReflectedGeometryOutput, SteepWavesShowNothingBelowThem)
     glm::dvec3 middle(0.0);
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
-      middle += GetTuple(places, ids->GetId(k)) / static_cast<double>(ids->GetNumberOfIds());
+      middle += TupleOf(places, ids->GetId(k)) / static_cast<double>(ids->GetNumberOfIds());
     }
     // The mesh's own error is of third order in facets of 2, some 0.01.
     EXPECT_GT(middle.y - waves.GetHeight(middle.x, middle.z), -0.05);

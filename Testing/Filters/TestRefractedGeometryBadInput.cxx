@@ -131,8 +131,7 @@ TEST(RefractedGeometryBadInput, PointsThatAreNotFinite)
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
   for (vtkIdType i = 0; i < 7; ++i)
   {
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
   }
 }
@@ -227,10 +226,8 @@ TEST(RefractedGeometryBadInput, NormalsOfTheWrongSizeAreComputed)
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
-  double a[3];
-  double b[3];
-  filter->GetOutput()->GetPoint(4, a);
-  reference->GetOutput()->GetPoint(4, b);
+  const glm::dvec3 a = PointOf(filter->GetOutput(), 4);
+  const glm::dvec3 b = PointOf(reference->GetOutput(), 4);
   EXPECT_NEAR(a[1], b[1], 1e-12);
 }
 
@@ -250,10 +247,8 @@ TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
   reference->Update();
   for (vtkIdType i = 0; i < 9; ++i)
   {
-    double a[3];
-    double b[3];
-    filter->GetOutput()->GetPoint(i, a);
-    reference->GetOutput()->GetPoint(i, b);
+    const glm::dvec3 a = PointOf(filter->GetOutput(), i);
+    const glm::dvec3 b = PointOf(reference->GetOutput(), i);
     EXPECT_NEAR(a[1], b[1], 1e-12);
   }
 }
@@ -265,8 +260,7 @@ TEST(RefractedGeometryBadInput, EyeBehindTheMembrane)
   filter->Update(); // extrapolated by Eq. 3.1; must only be finite
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    filter->GetOutput()->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(filter->GetOutput(), i);
     EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
   }
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 9);

@@ -137,8 +137,7 @@ TEST(RefractionErrorVolume, AnglesAtTheEye)
     vtkDataArray* states = output->GetPointData()->GetArray("SampleState");
     for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
-      glm::dvec3 point;
-      output->GetPoint(i, &point.x);
+      const glm::dvec3 point = PointOf(output, i);
       const auto sights = exact.FindSightPoints(eye, point);
       if (states->GetTuple1(i) != vtkRefractionErrorVolume::MEASURED || sights.size() != 1)
       {
@@ -375,8 +374,7 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
     ++counts[state];
     EXPECT_EQ(std::isfinite(errors[static_cast<std::size_t>(i)]),
       state == vtkRefractionErrorVolume::MEASURED);
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
     const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
       ? vtkRefractionErrorVolume::NO_IMAGE
@@ -428,8 +426,7 @@ TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)
   volume->Update();
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 1);
   EXPECT_EQ(volume->GetStandardDeviation(), 0.0);
-  double p[3];
-  volume->GetOutput()->GetPoint(0, p);
+  const glm::dvec3 p = PointOf(volume->GetOutput(), 0);
   EXPECT_EQ(p[1], -50.0);
   EXPECT_EQ(p[2], 3.0);
 }

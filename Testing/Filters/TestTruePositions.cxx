@@ -142,8 +142,8 @@ TEST_P(TruePositionsThrough, LayersObeySnellsLaw)
   for (std::size_t i = 0; i < images.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
-    glm::dvec3 sight;
-    filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetTuple(id, &sight.x);
+    const glm::dvec3 sight =
+      TupleOf(filter->GetOutput()->GetPointData()->GetArray("SightPoint"), id);
     const auto path = reference::TraceExactly(layers, Eye, images[i].Virtual - Eye);
     EXPECT_LT(glm::length(sight - path->Points[0]), 1e-11);
     double optical = glm::length(path->Points[0] - Eye);
@@ -429,8 +429,7 @@ TEST(TruePositions, DepthsAreApparentOpticalOrGeometric)
         bottom->DeepCopy(membrane);
         for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
         {
-          double point[3];
-          bottom->GetPoint(i, point);
+          const glm::dvec3 point = PointOf(bottom, i);
           bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
         }
         filter->AddMembraneData(bottom);

@@ -14,6 +14,10 @@ RayCastScene::RayCastScene(
   if (grid)
   {
     this->RayCaster->SetInputDataObject(grid);
+    if (grid->GetNumberOfPoints() > 0)
+    {
+      LookAt(this->GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    }
   }
   this->RayCaster->SetBackend(BackendUnderTest());
   this->SetMapper(this->RayCaster);

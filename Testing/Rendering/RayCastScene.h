@@ -13,7 +13,10 @@
 namespace meniscus::test
 {
 
-/** A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper. */
+/**
+ * A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper, seen from an azimuth of 30
+ * degrees and an elevation of 20.
+ */
 class RayCastScene : public VolumeScene
 {
 public:

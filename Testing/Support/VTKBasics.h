@@ -4,7 +4,8 @@
 #define meniscus_Testing_Support_VTKBasics_h
 
 /** @file
- * Headers of VTK that most programs of the tests use, and those of MathBasics.h.
+ * Headers of VTK that most programs of the tests use, those of MathBasics.h, and
+ * PointOf() and TupleOf().
  */
 
 #include "MathBasics.h"
@@ -62,5 +63,36 @@
 #include <vtkVolume.h>
 #include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
+
+namespace meniscus::test
+{
+
+/** Coordinates of a point of a data set or of vtkPoints. */
+template <typename Points>
+glm::dvec3 PointOf(const Points& points, vtkIdType i)
+{
+  glm::dvec3 point;
+  points->GetPoint(i, &point.x);
+  return point;
+}
+
+/** A tuple of three components. */
+template <typename Array>
+glm::dvec3 TupleOf(const Array& array, vtkIdType i)
+{
+  glm::dvec3 tuple;
+  array->GetTuple(i, &tuple.x);
+  return tuple;
+}
+
+} // namespace meniscus::test
+
+namespace meniscus::testing
+{
+
+using test::PointOf;
+using test::TupleOf;
+
+} // namespace meniscus::testing
 
 #endif

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRefractedGeometryFilter with several interfaces: output, caches, and input that cannot be
 // used.
-#include "RefractedGeometryTestHelpers.h"
-
-#include "VTKTestBasics.h"
-#include "vtkRefractingInterface.h"
-#include "vtkRefractingInterfaceCollection.h"
+#include "StackFilterHelpers.h"
 
 namespace
 {
@@ -15,32 +11,6 @@ using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double Eye[3] = { 20.0, 300.0, 10.0 };
-
-// The flat membrane of side 200, moved to height y.
-vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
-{
-  const auto plane = MakeFlatMembrane();
-  vtkNew<vtkPoints> points;
-  points->DeepCopy(plane->GetPoints());
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    points->SetPoint(i, p[0], p[1] + y, p[2]);
-  }
-  plane->SetPoints(points);
-  return plane;
-}
-
-void AddInterface(
-  vtkRefractedGeometryFilter* filter, vtkPolyData* surface, double exterior, double interior)
-{
-  vtkNew<vtkRefractingInterface> interface;
-  interface->SetExteriorIndexOfRefraction(exterior);
-  interface->SetInteriorIndexOfRefraction(interior);
-  filter->GetInterfaces()->AddItem(interface);
-  filter->AddInputData(1, surface);
-}
 
 // A filter without surfaces, and an empty list.
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeStackFilter(vtkPolyData* geometry)
@@ -259,8 +229,7 @@ TEST(RefractedGeometryStack, ClosedBodyIsListedTwice)
   const double toEye = std::sqrt(20.0 * 20.0 + 300.0 * 300.0 + 10.0 * 10.0);
   const auto alongAxis = [output, toEye](vtkIdType i)
   {
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     EXPECT_NEAR(p[0] * 300.0 - p[1] * 20.0, 0.0, 1e-6);
     EXPECT_NEAR(p[2] * 300.0 - p[1] * 10.0, 0.0, 1e-6);
     return (p[0] * 20.0 + p[1] * 300.0 + p[2] * 10.0) / toEye;

@@ -64,8 +64,8 @@ vtkSmartPointer<Filter> MakePaneFilter(vtkPointSet* seen)
   filter->SetInputData(seen);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
   filter->SetEyeArrayName("Eye");
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.5, 1.333);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.5, 1.333);
   return filter;
 }
 

@@ -53,8 +53,8 @@ vtkSmartPointer<vtkRefractedLightFilter> MakePaneLight(
   vtkPolyData* geometry, const glm::dvec3& light)
 {
   auto filter = MakeLight(geometry, light);
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, Glass);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), Glass, Water);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, Glass);
+  AddInterface(filter, MakePlaneAt(-10.0), Glass, Water);
   return filter;
 }
 
@@ -81,8 +81,8 @@ vtkSmartPointer<vtkRefractedLightFilter> MakeBallLight(vtkPolyData* floor)
 {
   auto filter = MakeLight(floor, Up);
   const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 4, true));
-  AddInterface(filter.Get(), ball, 1.0, Glass);
-  AddInterface(filter.Get(), ball, 1.0, Glass);
+  AddInterface(filter, ball, 1.0, Glass);
+  AddInterface(filter, ball, 1.0, Glass);
   return filter;
 }
 
@@ -141,8 +141,7 @@ TEST(StackLight, VectorsOfTheLightBehindAPane)
   vtkDataSetAttributes* data = filter->GetOutput()->GetCellData();
   for (vtkIdType i = 0; i < 16; ++i)
   {
-    double vector[3];
-    data->GetArray("RefractionLightVector")->GetTuple(i, vector);
+    const glm::dvec3 vector = TupleOf(data->GetArray("RefractionLightVector"), i);
     EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel);
     EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel);
     EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel);
@@ -283,15 +282,15 @@ TEST(StackLight, OneSideOfAFloor)
   {
     const auto filter =
       MakeLight(MakeGrid(5, 20.0, fromBelow ? 20.0 : -20.0), fromBelow ? -Up : Up);
-    AddInterface(filter.Get(), MakePlaneAt(fromBelow ? 10.0 : 0.0), 1.0, Glass);
-    AddInterface(filter.Get(), MakePlaneAt(fromBelow ? 0.0 : -10.0), Glass, 1.0);
+    AddInterface(filter, MakePlaneAt(fromBelow ? 10.0 : 0.0), 1.0, Glass);
+    AddInterface(filter, MakePlaneAt(fromBelow ? 0.0 : -10.0), Glass, 1.0);
     if (fromBelow)
     {
       // From below the list is passed from the back, in the other order.
       filter->GetInterfaces()->RemoveAllItems();
       filter->RemoveAllMembranes();
-      AddInterface(filter.Get(), MakePlaneAt(0.0), Glass, 1.0);
-      AddInterface(filter.Get(), MakePlaneAt(10.0), 1.0, Glass);
+      AddInterface(filter, MakePlaneAt(0.0), Glass, 1.0);
+      AddInterface(filter, MakePlaneAt(10.0), 1.0, Glass);
     }
     filter->OneSidedOn();
     filter->Update();
@@ -304,8 +303,8 @@ TEST(StackLight, OneSideOfAFloor)
 TEST(StackLight, EqualIndicesAreLightWithoutRefraction)
 {
   const auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), { 0.6, 0.8, 0.0 });
-  AddInterface(filter.Get(), MakePlaneAt(0.0), Water, Water);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), Water, Water);
+  AddInterface(filter, MakePlaneAt(0.0), Water, Water);
+  AddInterface(filter, MakePlaneAt(-10.0), Water, Water);
   filter->Update();
   for (vtkIdType i = 0; i < 64; ++i)
   {

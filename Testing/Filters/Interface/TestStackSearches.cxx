@@ -31,8 +31,7 @@ vtkSmartPointer<vtkPolyData> MakeWavySquare(double half, double z, double amplit
   vtkPoints* points = surface->GetPoints();
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    points->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(points, i);
     points->SetPoint(
       i, p[0], p[1], z + amplitude * std::sin(5.0 * p[0] + 0.3) * std::cos(4.0 * p[1]));
   }

@@ -76,8 +76,7 @@ TEST(TankWindows, CamerasAtSeveralWindowsAreTriangulatedTogether)
   found->AddMembraneData(MakeWindows(2.0));
   found->Update();
   ASSERT_EQ(found->GetOutput()->GetNumberOfPoints(), 1);
-  glm::dvec3 position;
-  found->GetOutput()->GetPoint(0, &position.x);
+  const glm::dvec3 position = PointOf(found->GetOutput(), 0);
   EXPECT_LT(glm::length(position - truth), 1e-9);
 }
 

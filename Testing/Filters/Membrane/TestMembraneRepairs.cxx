@@ -60,10 +60,8 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
     double worst = 0.0;
     for (vtkIdType i = 0; i < seen->GetNumberOfPoints(); ++i)
     {
-      glm::dvec3 ours;
-      glm::dvec3 theirs;
-      seen->GetPoint(i, &ours.x);
-      expected->GetOutput()->GetPoint(i, &theirs.x);
+      const glm::dvec3 ours = PointOf(seen, i);
+      const glm::dvec3 theirs = PointOf(expected->GetOutput(), i);
       worst = std::max(worst, glm::length(ours - theirs));
     }
     EXPECT_LT(worst, 1e-9);
@@ -91,10 +89,8 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), right->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < view->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 ours;
-    glm::dvec3 theirs;
-    view->GetOutput()->GetPoint(i, &ours.x);
-    right->GetOutput()->GetPoint(i, &theirs.x);
+    const glm::dvec3 ours = PointOf(view->GetOutput(), i);
+    const glm::dvec3 theirs = PointOf(right->GetOutput(), i);
     EXPECT_LT(glm::length(ours - theirs), 0.2);
   }
 }

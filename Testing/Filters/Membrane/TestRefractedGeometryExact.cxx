@@ -81,10 +81,8 @@ double FindLargestDifference(vtkPolyData* a, vtkPolyData* b)
   double largest = 0.0;
   for (vtkIdType i = 0; i < std::min(a->GetNumberOfPoints(), b->GetNumberOfPoints()); ++i)
   {
-    glm::dvec3 p;
-    glm::dvec3 q;
-    a->GetPoint(i, &p.x);
-    b->GetPoint(i, &q.x);
+    const glm::dvec3 p = PointOf(a, i);
+    const glm::dvec3 q = PointOf(b, i);
     largest = std::max(largest, glm::length(p - q));
   }
   return largest;
@@ -170,8 +168,7 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
   vtkDataArray* normals = turned->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
   {
-    double n[3];
-    normals->GetTuple(i, n);
+    const glm::dvec3 n = TupleOf(normals, i);
     normals->SetTuple3(i, -n[0], -n[1], -n[2]);
   }
   const auto below = MakeCurved(turned);

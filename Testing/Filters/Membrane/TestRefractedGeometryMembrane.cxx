@@ -75,11 +75,11 @@ double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
   double worst = 0.0;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 s = GetTuple(output->GetPointData()->GetArray("SightPoint"), i);
+    const glm::dvec3 s = TupleOf(output->GetPointData()->GetArray("SightPoint"), i);
     const double depth = output->GetPointData()->GetArray("RefractionDepth")->GetTuple1(i);
     glm::dvec3 v(0.0);
     output->GetPoint(i, &v.x);
-    const glm::dvec3 truth = GetTuple(output->GetPointData()->GetArray("Truth"), i);
+    const glm::dvec3 truth = TupleOf(output->GetPointData()->GetArray("Truth"), i);
     const glm::dvec3 n = sign * glm::normalize(s);
     const glm::dvec3 in = glm::normalize(s - eye);
     const glm::dvec3 out = glm::normalize(truth - s);
@@ -237,10 +237,8 @@ TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
   ASSERT_EQ(output->GetNumberOfPoints(), expected->GetNumberOfPoints());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    double a[3];
-    double b[3];
-    output->GetPoint(i, a);
-    expected->GetPoint(i, b);
+    const glm::dvec3 a = PointOf(output, i);
+    const glm::dvec3 b = PointOf(expected, i);
     EXPECT_NEAR(a[0], b[0], 1e-9);
     EXPECT_NEAR(a[1], b[1], 1e-9);
     EXPECT_NEAR(a[2], b[2], 1e-9);

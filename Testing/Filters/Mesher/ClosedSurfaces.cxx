@@ -89,10 +89,8 @@ Surface Divided(vtkPolyData* surface)
     const auto known = middles.emplace(std::minmax(a, b), points->GetNumberOfPoints());
     if (known.second)
     {
-      double x[3];
-      double y[3];
-      points->GetPoint(a, x);
-      points->GetPoint(b, y);
+      const glm::dvec3 x = PointOf(points, a);
+      const glm::dvec3 y = PointOf(points, b);
       points->InsertNextPoint(0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]), 0.5 * (x[2] + y[2]));
     }
     return known.first->second;
@@ -278,8 +276,7 @@ Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
   Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     copy->GetPoints()->SetPoint(p, x[0] + by[0], x[1] + by[1], x[2] + by[2]);
   }
   return copy;
@@ -292,8 +289,7 @@ Surface Flattened(vtkPolyData* surface)
   Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     copy->GetPoints()->SetPoint(p, x[0] + 2.0 * x[2], x[1] + 2.0 * x[2], 0.0);
   }
   return copy;

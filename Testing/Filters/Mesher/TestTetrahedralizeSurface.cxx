@@ -226,8 +226,7 @@ vtkSmartPointer<vtkPolyData> MakeEllipsoid(int levels, double y, double z)
   const auto surface = MakeGeodesicSphere(1.0, levels);
   for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    surface->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(surface, p);
     surface->GetPoints()->SetPoint(p, x[0], y * x[1], z * x[2]);
   }
   return surface;

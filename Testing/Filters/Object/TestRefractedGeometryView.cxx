@@ -41,8 +41,7 @@ using Cell = std::tuple<int, long, long, long>;
 
 Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
 {
-  double p[3];
-  output->GetPoint(point, p);
+  const glm::dvec3 p = PointOf(output, point);
   return { static_cast<int>(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(cell)),
     std::lround(1e6 * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2]) };
 }
@@ -63,8 +62,7 @@ std::multiset<Cell> GetCells(vtkPolyData* output, vtkCamera* camera)
     bool isInView = !camera;
     for (vtkIdType k = 0; camera && k < ids->GetNumberOfIds(); ++k)
     {
-      double p[3];
-      output->GetPoint(ids->GetId(k), p);
+      const glm::dvec3 p = PointOf(output, ids->GetId(k));
       bool inside = true;
       for (int plane = 0; plane < 4; ++plane)
       {

@@ -82,11 +82,9 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
   double farthest = 0.0;
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    double truth[3];
-    double sight[3];
     double at[2];
-    output->GetArray("Truth")->GetTuple(i, truth);
-    output->GetArray("SightPoint")->GetTuple(i, sight);
+    const glm::dvec3 truth = TupleOf(output->GetArray("Truth"), i);
+    const glm::dvec3 sight = TupleOf(output->GetArray("SightPoint"), i);
     output->GetTCoords()->GetTuple(i, at);
     const glm::dvec3 place(truth[0], truth[1], truth[2]);
     const glm::dvec3 from(sight[0], sight[1], sight[2]);
@@ -140,10 +138,8 @@ double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
   double worst = 0.0;
   for (vtkIdType i = 0; i < pieces->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 place;
-    glm::dvec3 from;
-    pieces->GetPointData()->GetArray("Truth")->GetTuple(i, &place.x);
-    pieces->GetPointData()->GetArray("SightPoint")->GetTuple(i, &from.x);
+    const glm::dvec3 place = TupleOf(pieces->GetPointData()->GetArray("Truth"), i);
+    const glm::dvec3 from = TupleOf(pieces->GetPointData()->GetArray("SightPoint"), i);
     const glm::dvec3 law = test.Field.Exterior * glm::normalize(from - test.Eye) -
       test.Field.Interior * glm::normalize(place - from);
     worst = std::max(worst, std::hypot(law.x, law.z));

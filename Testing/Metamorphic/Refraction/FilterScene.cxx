@@ -251,8 +251,7 @@ vtkSmartPointer<vtkPolyData> GetResult(vtkRefractedGeometryFilter* filter)
 //------------------------------------------------------------------------------
 glm::dvec3 GetTuple(vtkPolyData* data, const char* name, vtkIdType point)
 {
-  glm::dvec3 value;
-  data->GetPointData()->GetArray(name)->GetTuple(point, &value.x);
+  const glm::dvec3 value = TupleOf(data->GetPointData()->GetArray(name), point);
   return value;
 }
 

@@ -120,7 +120,6 @@ TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 {
   const Grid grid = MakeBlock(7, WavyField(3.0), Torus(0.6, 0.35));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   if (!HasCompute(scene.GetWindow()))
   {
@@ -137,7 +136,6 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   // A convex mesh, since rays next to a silhouette may count as inside or outside.
   const Grid grid = MakeBlock(7, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const std::vector<int> backends{ vtkTetrahedraRayCastMapper::NATIVE };
   ExpectAgreement(scene, backends, "plain");
   scene.GetVolume()->SetProperty(LitProperty());
@@ -184,7 +182,6 @@ TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
 {
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, LitProperty(), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
   scene.GetWindow()->Render();
@@ -231,7 +228,6 @@ TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
   const auto warnings = ObserveErrors(scene.GetRayCaster());
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   ExpectMatchesReference(scene, "compute asked for");
   const bool compute = HasCompute(scene.GetWindow());
   EXPECT_EQ(scene.GetRayCaster()->GetActiveBackend(),
@@ -245,7 +241,6 @@ TEST(TetrahedraRayCastBackends, SwitchingKeepsTheTables)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const auto drawWithEach = [&]()
   {
     for (const int backend : { 3, 1, 2 })

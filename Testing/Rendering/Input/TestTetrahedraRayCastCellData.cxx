@@ -500,7 +500,6 @@ TEST(TetrahedraRayCastCellData, PointDataAndBack)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   AddCellScalars(grid, WavyField(2.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   // By default point data is used, if there is any.
   const FloatImage points = scene.RenderFloat();

@@ -122,8 +122,7 @@ void AddScalars(vtkDataSet* grid, const Field& field)
   scalars->SetName(ScalarName);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double x[3];
-    grid->GetPoint(i, x);
+    const glm::dvec3 x = PointOf(grid, i);
     scalars->InsertNextValue(field(x[0], x[1], x[2]));
   }
   grid->GetPointData()->SetScalars(scalars);

@@ -139,8 +139,7 @@ TEST_F(TetrahedraRayCastEdits, Points)
       { "point data", this->Mesh->GetPointData() } },
     [points](int i)
     {
-      double x[3];
-      points->GetPoint(62, x);
+      const glm::dvec3 x = PointOf(points, 62);
       points->SetPoint(62, x[0], x[1] + 0.02 * (i + 1), x[2]);
     },
     Part::Points);

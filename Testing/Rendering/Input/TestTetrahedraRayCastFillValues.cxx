@@ -82,7 +82,6 @@ void ExpectFills(const std::string& mode, vtkVolumeProperty* property, const Sce
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     prepare(scene);
     scene.GetWindow()->Render();
     const Grid trueGrid = MakeFilled(ForTruth(fill));
@@ -254,7 +253,6 @@ TEST(TetrahedraRayCastFillValues, CellData)
       grid->GetCellData()->SetScalars(values);
       RayCastScene scene(grid, property, Size, Size);
       scene.GetRayCaster()->SetBlendMode(mode);
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
       images[i] = scene.RenderFloat();
     }
     ExpectSamePicture(images[0], images[1], "1e10");
@@ -287,7 +285,6 @@ TEST(TetrahedraRayCastFillValues, Components)
     }
     grid->GetPointData()->SetScalars(pairs);
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     images[i] = scene.RenderFloat();
   }
   ASSERT_EQ(images[0].Rgba.size(), images[1].Rgba.size());
@@ -306,7 +303,6 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
   const auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   RayCastScene scene(grid, property, Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
   // A node moved through the data, and out of it.

@@ -121,8 +121,7 @@ Grid WithWave(vtkUnstructuredGrid* grid, double time)
   vtkDataArray* scalars = copy->GetPointData()->GetScalars();
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     scalars->SetComponent(p, 0, std::sin(3.0 * x[0] + time) * std::cos(2.0 * x[1] - x[2]));
   }
   return copy;

@@ -70,8 +70,7 @@ glm::dvec3 CellIntegrator::Position(const glm::dvec3& place)
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < this->Weights.size(); ++i)
   {
-    double at[3];
-    this->Cell->GetPoints()->GetPoint(static_cast<vtkIdType>(i), at);
+    const glm::dvec3 at = PointOf(this->Cell->GetPoints(), static_cast<vtkIdType>(i));
     sum += this->Weights[i] * glm::dvec3(at[0], at[1], at[2]);
   }
   return sum;

@@ -20,8 +20,7 @@ Grid MakeCube()
   const Grid grid = MakeCubeOfFive(ConstantField(1.0));
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    grid->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(grid, i);
     grid->GetPoints()->SetPoint(
       i, Place[0] + 10.0 * at[0], Place[1] + 10.0 * at[1], Place[2] + 10.0 * at[2]);
   }

@@ -148,8 +148,7 @@ TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
   const Grid second = MakeCube();
   for (vtkIdType i = 0; i < second->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    second->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(second, i);
     second->GetPoints()->SetPoint(i, at[0] + 5.0, at[1], at[2]);
   }
   vtkNew<vtkMultiBlockDataSet> blocks;

@@ -111,8 +111,7 @@ TEST(RayIntegralPipeline, AnotherFrameKeepsTheMesh)
   grid->Modified();
   rays->Update();
   expect(1, 2, 2, 2, 11);
-  double p[3];
-  grid->GetPoint(0, p);
+  const glm::dvec3 p = PointOf(grid, 0);
   grid->GetPoints()->SetPoint(0, p[0] + 0.01, p[1], p[2]);
   grid->GetPoints()->Modified();
   grid->Modified();

@@ -93,8 +93,7 @@ ConvexSolid MakeSolid(vtkUnstructuredGrid* grid, vtkIdType cell)
   glm::dvec3 corners[4];
   for (int k = 0; k < 4; ++k)
   {
-    double p[3];
-    grid->GetPoint(ids->GetId(k), p);
+    const glm::dvec3 p = PointOf(grid, ids->GetId(k));
     corners[k] = { p[0], p[1], p[2] };
   }
   ConvexSolid solid;

@@ -100,8 +100,7 @@ vtkSmartPointer<vtkImageData> MakeImage(int n)
   scalars->SetName("s");
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 at;
-    image->GetPoint(i, &at.x);
+    const glm::dvec3 at = PointOf(image, i);
     scalars->InsertNextValue(SmoothField(at));
   }
   image->GetPointData()->SetScalars(scalars);
@@ -114,8 +113,7 @@ void SetScalars(vtkDataSet* grid, const std::function<double(const glm::dvec3&)>
   scalars->SetName("s");
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 at;
-    grid->GetPoint(i, &at.x);
+    const glm::dvec3 at = PointOf(grid, i);
     scalars->InsertNextValue(field(at));
   }
   grid->GetPointData()->SetScalars(scalars);
@@ -268,8 +266,7 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   // Stretched points keep the division: the positions of all points are interpolated.
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    grid->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(grid, i);
     grid->GetPoints()->SetPoint(i, 0.9 * at[0], 0.9 * at[1], 0.9 * at[2]);
   }
   grid->GetPoints()->Modified();
@@ -366,8 +363,7 @@ TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
   Grid cube = MakeCell(CellCases[0], 0.0, 2);
   for (vtkIdType i = 0; i < 8; ++i)
   {
-    double at[3];
-    cube->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(cube, i);
     cube->GetPoints()->SetPoint(i, at[0] + 1e6, at[1] - 2e6, at[2] + 3e6);
     cube->GetPointData()->GetScalars()->SetTuple1(i, 1.0);
   }
@@ -579,8 +575,7 @@ TEST(TrueCells, BlocksMayDifferInComponents)
     vectors->FillComponent(0, 0.0);
     for (vtkIdType i = 0; i < 8; ++i)
     {
-      double at[3];
-      grid->GetPoint(i, at);
+      const glm::dvec3 at = PointOf(grid, i);
       grid->GetPoints()->SetPoint(i, at[0] + 3.0 * block, at[1], at[2]);
       std::vector<double> tuple(static_cast<std::size_t>(block) + 1, 0.0);
       tuple.back() = 1.0 + static_cast<double>(i % 2);

@@ -70,8 +70,7 @@ private:
 
   glm::dvec3 PointAt(vtkIdType id) const
   {
-    glm::dvec3 at;
-    this->Points->GetPoint(id, &at.x);
+    const glm::dvec3 at = PointOf(this->Points, id);
     return at;
   }
 

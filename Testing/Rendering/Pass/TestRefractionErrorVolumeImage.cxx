@@ -86,8 +86,7 @@ void ExpectErrorsOfTheThesis(vtkImageData* volume)
     {
       continue;
     }
-    double p[3];
-    volume->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(volume, i);
     const int part = std::hypot(p[0], p[2]) > 0.5 * Radius ? 1 : 0;
     sum[part] += error;
     ++count[part];

@@ -394,8 +394,7 @@ TEST(RefractionPassWavesLimit, BehindAPaneTheLightOfBothSidesArrives)
   lower->DeepCopy(pool.Surface);
   for (vtkIdType i = 0; i < lower->GetNumberOfPoints(); ++i)
   {
-    double place[3];
-    lower->GetPoint(i, place);
+    const glm::dvec3 place = PointOf(lower, i);
     lower->GetPoints()->SetPoint(i, place[0], -2.0, place[2]);
   }
   pool.Filter->AddMembraneData(lower);

@@ -34,7 +34,6 @@ TEST(TetrahedraRayCastImages, SmoothBlock)
 {
   const Grid grid = MakeBlock(12, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.5), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   ExpectBaseline(scene, "TetrahedraRayCastSmoothBlock");
 }
 

@@ -178,7 +178,6 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   scene.GetRenderer()->SetBackground(0.2, 0.4, 0.8);
   const SceneTruth truth = [&]
   {
@@ -267,7 +266,6 @@ TEST(TetrahedraRayCastScenes, ClippingRangesOfAnyRatio)
   for (const bool inside : { false, true })
   {
     RayCastScene scene(block.Mesh, block.Property, Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
     if (inside)
     {
@@ -351,7 +349,6 @@ TEST(TetrahedraRayCastScenes, ResizedWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   const int sizes[4][2] = { { 160, 160 }, { 160, 230 }, { 240, 100 }, { 33, 57 } };
   for (const auto& size : sizes)
   {
@@ -366,6 +363,5 @@ TEST(TetrahedraRayCastScenes, MultisampledWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size, 4);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   ExpectMatchesReference(scene, "four samples");
 }

@@ -38,7 +38,6 @@ Drawn Draw(int blendMode, const Edit& edit)
   edit(property);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetBlendMode(blendMode);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   Drawn drawn;
   drawn.Told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
   drawn.Told->Observe(scene.GetRayCaster());
@@ -189,7 +188,6 @@ TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
       MakeOpacity({ { at(0.0), 0.1 }, { at(4.0), 0.9 }, { at(steps), 0.3 } }));
     property->SetColor(MakeColors({ { at(0.0), 1.0, 0.2, 0.1 }, { at(steps), 0.1, 0.5, 1.0 } }));
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     return scene.RenderBytes();
   };
   const double smallest = std::numeric_limits<double>::denorm_min();

@@ -93,7 +93,6 @@ TEST(TetrahedraRayCastClipping, CellsAreCutExactly)
   {
     RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
     Clip(scene, Planes);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectReference(scene, Planes, "torus");
   }
 }

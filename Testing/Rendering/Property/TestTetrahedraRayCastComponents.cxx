@@ -158,7 +158,6 @@ TEST(TetrahedraRayCastComponents, IndependentComponents)
       functions.push_back(Weighted(ToReference(parts[c]), Weights[c]));
     }
     RayCastScene scene(grid, Combine(parts, Weights), Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectMixture(scene, Mixture::Independent, functions, 1.0,
       std::to_string(number) + " independent, function " + std::to_string(static_cast<int>(kind)));
   }
@@ -174,7 +173,6 @@ TEST(TetrahedraRayCastComponents, ColorByTheFirstOpacityByTheSecond)
     auto property = Combine({ part }, Weights);
     property->IndependentComponentsOff();
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const ReferenceTransferFunction function = ToReference(part);
     ExpectMixture(scene, Mixture::ColorAndOpacity, { function, function }, 1.0,
       "colour and opacity, function " + std::to_string(static_cast<int>(kind)));
@@ -193,7 +191,6 @@ TEST(TetrahedraRayCastComponents, ColorsAsTheyAre)
     auto property = Combine({ part }, Weights);
     property->IndependentComponentsOff();
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const ReferenceTransferFunction opacity = ToReference(part);
     const ReferenceTransferFunction none;
     ExpectMixture(scene, Mixture::RedGreenBlueOpacity, { none, none, none, opacity }, 1.0 / factor,
@@ -242,7 +239,6 @@ TEST(TetrahedraRayCastComponents, ComputeShadersDrawTheSame)
 {
   const Grid grid = MakeComponents<vtkDoubleArray>({ 0, 1, 2 }, 1.0);
   RayCastScene scene(grid, Combine(MakeParts(3, FunctionKind::Smooth), Weights), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage fragments = scene.RenderFloat();
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
@@ -258,7 +254,6 @@ TEST(TetrahedraRayCastComponents, PartsOfOneMediumMakeTheWhole)
   const Grid four = MakeComponents<vtkDoubleArray>({ 0, 0, 0, 0 }, 1.0);
   RayCastScene single(one, part, Size, Size);
   RayCastScene mixed(four, Combine({ part, part, part, part }, shares), Size, Size);
-  LookAt(single.GetRenderer(), one->GetBounds(), 30.0, 20.0);
   LookAt(mixed.GetRenderer(), one->GetBounds(), 30.0, 20.0);
   EXPECT_LT(LargestDifference(mixed.RenderFloat(), single.RenderFloat()), 2e-5);
 }
@@ -298,7 +293,6 @@ TEST(TetrahedraRayCastComponents, LightOnIndependentOnesWarnsAndIsLeftOut)
   const Grid grid = MakeComponents<vtkDoubleArray>({ 0, 1 }, 1.0);
   const auto property = Combine(MakeParts(2, FunctionKind::Smooth), Weights);
   RayCastScene scene(grid, property, Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage plain = scene.RenderFloat();
   const auto warnings = ObserveErrors(scene.GetRayCaster());
@@ -329,7 +323,6 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   }
   const std::vector<double> ones(3, 1.0);
   RayCastScene scene(grid, Combine(parts, ones), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   // Two of the 8 layers along x reach above 0.5, and two along y: 1 - (3/4)^2 of the cubes are
   // visible.
@@ -360,7 +353,6 @@ TEST(TetrahedraRayCastComponents, OnlyWhatChangedIsSent)
   const auto property = Combine(MakeParts(2, FunctionKind::Smooth), Weights);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   const vtkTypeInt64 bytes = scene.GetRayCaster()->GetUploadedBytes();
   LookAt(scene.GetRenderer(), grid->GetBounds(), 80.0, 20.0);
@@ -394,7 +386,6 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
     RayCastScene scene(grid, property, Size, Size);
     scene.GetRayCaster()->SetBlendMode(item.BlendMode);
     const auto errors = ObserveErrors(scene.GetRayCaster());
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const FloatImage image = scene.RenderFloat();
     EXPECT_EQ(errors->Errors.size(), 1u) << item.Components;
     EXPECT_EQ(std::count(image.Rgba.begin(), image.Rgba.end(), 0.0f),
@@ -440,7 +431,6 @@ FloatImage Draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blen
     prepare(scene.GetRayCaster());
   }
   const auto errors = ObserveErrors(scene.GetRayCaster());
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage image = scene.RenderFloat();
   EXPECT_TRUE(errors->Errors.empty()) << errors->GetText();
   return image;
@@ -610,7 +600,6 @@ TEST(TetrahedraRayCastComponents, DenseBeyondMeasureEnds)
   const std::vector<double> ones(2, 1.0);
   RayCastScene scene(grid, Combine({ part, part }, ones), Size, Size);
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage image = scene.RenderFloat();
   const float* middle = image.GetPixel(Size / 2, Size / 2);
   EXPECT_NEAR(middle[0], 1.0f, 2e-6);

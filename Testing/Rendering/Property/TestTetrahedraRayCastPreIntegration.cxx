@@ -53,7 +53,6 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Opaque })
   {
     RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = TruthOf(scene);
     double coarse = 0.0;
     double fine = 0.0;
@@ -82,7 +81,6 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
     { FunctionKind::Smooth, FunctionKind::Opaque, FunctionKind::Sparse, FunctionKind::Peaked })
   {
     RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = TruthOf(scene);
     scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     const Comparison result = Compare(scene, truth);
@@ -135,7 +133,6 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   int builds = 0;
   vtkTypeInt64 bytes = mapper->GetUploadedBytes();
@@ -185,7 +182,6 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const auto warnings = ObserveErrors(scene.GetRayCaster());
   const auto expectSame = [&](const char* what, std::size_t expectedWarnings)
@@ -209,7 +205,6 @@ TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Opaque), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   const auto warnings = ObserveErrors(scene.GetRayCaster());
   // Two and three dimensions, and a coarse table, whose errors the other backend must have, too.
   const int sizes[3][2] = { { 64, 1 }, { 64, 16 }, { 8, 4 } };
@@ -230,7 +225,6 @@ TEST(TetrahedraRayCastPreIntegration, ComputeShadersDrawTheSame)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   UsePreIntegration(scene, 64, 16);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage fragments = scene.RenderFloat();

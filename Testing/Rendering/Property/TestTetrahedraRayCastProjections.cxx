@@ -136,7 +136,6 @@ TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
     RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
     scene.GetRayCaster()->SetBlendMode(mode);
     const auto warnings = ObserveErrors(scene.GetRayCaster());
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectMatchesReference(scene, "mode " + std::to_string(mode));
     EXPECT_EQ(warnings->Warnings.size(), 1u);
   }
@@ -149,7 +148,6 @@ TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage first = scene.RenderFloat();
   for (const ProjectionMode& mode : ProjectionModes)
   {
@@ -168,7 +166,6 @@ TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
   const double range[2] = { -1.0, 1.0 };
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   const vtkTypeInt64 steps = scene.GetRayCaster()->GetNumberOfTraversalSteps();
   EXPECT_GT(steps, 0);
@@ -190,7 +187,6 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   auto property = MakeProperty(FunctionKind::Sparse, range, 3.4);
   property->GetIsoSurfaceValues()->SetValue(0, 0.1);
   RayCastScene scene(grid, property, Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
   for (const ProjectionMode& mode : ProjectionModes)

@@ -200,7 +200,6 @@ TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
     scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     scene.GetRayCaster()->SetGradients(gradients);
     AddLights(scene.GetRenderer());
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectSurfaces(scene,
       std::string(shade ? "lit, " : "unlit, ") + (gradients ? "vertex" : "cell") + " gradients");
   }
@@ -283,7 +282,6 @@ TEST(TetrahedraRayCastIsosurfaces, NoValues)
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetVolume()->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
   scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
@@ -302,7 +300,6 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
     light->SetPosition(4.0, 2.0, 1.0);
     light->SetDiffuseColor(1.0, 0.6, 0.2);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectShadedMedium(scene, factor, FloatTolerance, factor ? "with factor" : "shading");
   }
 }
@@ -325,7 +322,6 @@ TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
   {
     RayCastScene scene(grid, MediumProperty(shade, false), 64, 64);
     scene.GetRayCaster()->SetGradients(gradients);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const FloatImage without = scene.RenderFloat();
     vtkNew<vtkPiecewiseFunction> empty;
     scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
@@ -353,7 +349,6 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const TracedComparison comparison = CompareShadedMedium(scene, MembraneCase());
     RecordProperty("cubes" + std::to_string(cubes), comparison.GetText());
     EXPECT_TRUE(last == 0.0 || comparison.Rms < 0.75 * last) << comparison.Rms << " after " << last;
@@ -387,7 +382,6 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MediumProperty(false, false), 64, 64);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   for (const int mode : AllBlendModes())
   {
     mapper->SetBlendMode(mode);

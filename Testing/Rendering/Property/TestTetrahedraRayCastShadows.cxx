@@ -386,7 +386,6 @@ TEST(TetrahedraRayCastShadows, AbortedCastGoesOn)
   RayCastScene scene(grid, property, 24, 24);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   AddParallelLight(scene.GetRenderer(), 1.0, 1.0, 1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   mapper->SetGlobalIlluminationReach(1.0f);
   vtkNew<vtkCallbackCommand> abort;
@@ -600,7 +599,6 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   RayCastScene scene(grid, property, GetParam().Size, GetParam().Size);
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
   AddParallelLight(scene.GetRenderer(), 1.0, 2.0, 3.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const char* const wanted = std::getenv("MENISCUS_TEST_SHADOW_STEP");
   const int step = wanted ? std::max(std::atoi(wanted), 1) : GetParam().Step;
   std::unique_ptr<meniscus::testing::ComparisonSheet> sheet;
