@@ -104,49 +104,23 @@ void vtkTetrahedraRayIntegral::SetNumberOfEnergyBins(int bins)
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayIntegral::SetBinAttenuation(int bin, double attenuation)
-{
-  if (SetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Attenuation, attenuation))
-  {
-    this->Modified();
+// Setter and getter of a number of each bin.
+#define meniscusBinMacro(name)                                                                     \
+  void vtkTetrahedraRayIntegral::SetBin##name(int bin, double value)                               \
+  {                                                                                                \
+    if (SetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::name, value))             \
+    {                                                                                              \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  double vtkTetrahedraRayIntegral::GetBin##name(int bin)                                           \
+  {                                                                                                \
+    return GetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::name);                 \
   }
-}
 
-//------------------------------------------------------------------------------
-double vtkTetrahedraRayIntegral::GetBinAttenuation(int bin)
-{
-  return GetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Attenuation);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayIntegral::SetBinEmission(int bin, double emission)
-{
-  if (SetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Emission, emission))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-double vtkTetrahedraRayIntegral::GetBinEmission(int bin)
-{
-  return GetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Emission);
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayIntegral::SetBinIntensity(int bin, double intensity)
-{
-  if (SetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Intensity, intensity))
-  {
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-double vtkTetrahedraRayIntegral::GetBinIntensity(int bin)
-{
-  return GetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Intensity);
-}
+meniscusBinMacro(Attenuation);
+meniscusBinMacro(Emission);
+meniscusBinMacro(Intensity);
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkTetrahedraRayIntegral::GetMTime()

@@ -12,6 +12,7 @@
 #include "vtkWedge.h"
 
 #include <algorithm>
+#include <array>
 
 namespace meniscus
 {
@@ -50,22 +51,24 @@ constexpr CellKind Kinds[] = {
   { VTK_BEZIER_PYRAMID, {}, 5, 1 },
 };
 
+/** The kinds by type; the last entry is for unknown types. */
+constexpr std::array<CellKind, VTK_NUMBER_OF_CELL_TYPES + 1> ListByType()
+{
+  std::array<CellKind, VTK_NUMBER_OF_CELL_TYPES + 1> byType{};
+  for (const CellKind& kind : Kinds)
+  {
+    byType[kind.Type] = kind;
+  }
+  return byType;
+}
+
 }
 
 //------------------------------------------------------------------------------
 const CellKind& KindOf(int type)
 {
-  static const std::vector<CellKind> all = []()
-  {
-    std::vector<CellKind> byType(VTK_NUMBER_OF_CELL_TYPES + 1); // the last for unknown types
-    for (const CellKind& kind : Kinds)
-    {
-      byType[static_cast<std::size_t>(kind.Type)] = kind;
-    }
-    return byType;
-  }();
-  const bool isKnown = type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES;
-  return isKnown ? all[static_cast<std::size_t>(type)] : all.back();
+  static constexpr auto all = ListByType();
+  return all[type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES ? type : VTK_NUMBER_OF_CELL_TYPES];
 }
 
 //------------------------------------------------------------------------------
