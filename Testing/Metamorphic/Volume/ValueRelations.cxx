@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestTransferFunctions.h"
 #include "VolumeRelation.h"
 
 #include <vtkTetrahedraRayCastMapper.h>

@@ -3,8 +3,8 @@
 #ifndef meniscus_Testing_Module_Volume_KernelPicture_h
 #define meniscus_Testing_Module_Volume_KernelPicture_h
 
+#include "MathBasics.h"
 #include "Simd/InstructionSets.h"
-#include "TestBasics.h"
 #include "Volume/Caster/TileCaster.h"
 
 namespace meniscus::test
