@@ -56,7 +56,8 @@ function (meniscus_optimize_less target)
   endif ()
 endfunction ()
 
-# Headers that many sources include, by subject: kernel, vtk, rendering, tests.
+# Headers that many sources include, by subject: kernel, vtk, rendering, and those of tests, without
+# VTK and with it.
 set(meniscus_headers_kernel
   <algorithm> <array> <cmath> <cstddef> <cstdint> <functional> <limits> <memory> <numeric> <string>
   <utility> <vector>
@@ -70,7 +71,8 @@ set(meniscus_headers_vtk
 set(meniscus_headers_rendering
   <vtkCamera.h> <vtkColorTransferFunction.h> <vtkPiecewiseFunction.h> <vtkRenderWindow.h>
   <vtkRenderer.h> <vtkVolume.h> <vtkVolumeProperty.h>)
-set(meniscus_headers_tests <gtest/gtest.h>)
+set(meniscus_headers_tests "${PROJECT_SOURCE_DIR}/Testing/Support/TestBasics.h")
+set(meniscus_headers_vtk_tests "${PROJECT_SOURCE_DIR}/Testing/Support/VTKTestBasics.h")
 
 # meniscus_precompile_headers(TARGET SUBJECT...): reads the headers of these subjects once for all
 # sources of a target. No source relies on it: each includes the headers that it uses, and

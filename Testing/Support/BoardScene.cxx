@@ -4,15 +4,6 @@
 
 #include "RefractionPicture.h"
 
-#include "vtkCellArray.h"
-#include "vtkNew.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace meniscus::testing
 {
 namespace
@@ -56,33 +47,27 @@ std::array<glm::dvec3, 2> GetAcross(const glm::dvec3& axis)
 void AddCells(vtkCellArray* triangles, vtkIdType first, int rows, int columns, bool isClosed)
 {
   const int width = isClosed ? columns : columns + 1;
-  for (int j = 0; j < rows; ++j)
+  for (const auto& [j, i] : Product(rows, columns))
   {
-    for (int i = 0; i < columns; ++i)
-    {
-      const int right = isClosed ? (i + 1) % columns : i + 1;
-      const int above = isClosed ? (j + 1) % rows : j + 1;
-      const vtkIdType a = first + j * width + i;
-      const vtkIdType b = first + j * width + right;
-      const vtkIdType c = first + above * width + right;
-      const vtkIdType d = first + above * width + i;
-      triangles->InsertNextCell({ a, b, c });
-      triangles->InsertNextCell({ a, c, d });
-    }
+    const int right = isClosed ? (i + 1) % columns : i + 1;
+    const int above = isClosed ? (j + 1) % rows : j + 1;
+    const vtkIdType a = first + j * width + i;
+    const vtkIdType b = first + j * width + right;
+    const vtkIdType c = first + above * width + right;
+    const vtkIdType d = first + above * width + i;
+    triangles->InsertNextCell({ a, b, c });
+    triangles->InsertNextCell({ a, c, d });
   }
 }
 
 void AddBoard(const Board& board, vtkPoints* points, vtkCellArray* triangles)
 {
   const vtkIdType first = points->GetNumberOfPoints();
-  for (int j = 0; j <= board.Squares; ++j)
+  for (const auto& [j, i] : Product(board.Squares + 1, board.Squares + 1))
   {
-    for (int i = 0; i <= board.Squares; ++i)
-    {
-      const glm::dvec3 p = board.Centre + (static_cast<double>(i) / board.Squares - 0.5) * board.U +
-        (static_cast<double>(j) / board.Squares - 0.5) * board.V;
-      points->InsertNextPoint(&p.x);
-    }
+    const glm::dvec3 p = board.Centre + (static_cast<double>(i) / board.Squares - 0.5) * board.U +
+      (static_cast<double>(j) / board.Squares - 0.5) * board.V;
+    points->InsertNextPoint(&p.x);
   }
   AddCells(triangles, first, board.Squares, board.Squares, false);
 }

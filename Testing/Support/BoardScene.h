@@ -4,14 +4,7 @@
 #ifndef meniscus_Testing_Support_BoardScene_h
 #define meniscus_Testing_Support_BoardScene_h
 
-#include "vtkSmartPointer.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <optional>
-
-class vtkPolyData;
+#include "VTKBasics.h"
 
 namespace meniscus::testing
 {

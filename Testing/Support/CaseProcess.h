@@ -3,10 +3,7 @@
 #ifndef meniscus_Testing_Support_CaseProcess_h
 #define meniscus_Testing_Support_CaseProcess_h
 
-#include <cstddef>
-#include <functional>
-#include <string>
-#include <vector>
+#include "MathBasics.h"
 
 namespace meniscus::test
 {

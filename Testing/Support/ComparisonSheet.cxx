@@ -2,17 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComparisonSheet.h"
 
-#include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPNGWriter.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
 
 namespace meniscus::testing
 {
@@ -90,25 +80,22 @@ PlaceComparison AddComparison(ComparisonSheet& sheet, int row, const std::string
   const PlaceColour& colour)
 {
   const int part = camera.GetPixels() / sheet.GetSide();
-  for (int y = 0; y < sheet.GetSide(); ++y)
+  for (const auto& [y, x] : Product(sheet.GetSide(), sheet.GetSide()))
   {
-    for (int x = 0; x < sheet.GetSide(); ++x)
+    glm::dvec3 ours(0.0);
+    glm::dvec3 truth(0.0);
+    glm::dvec3 difference(1.0);
+    for (int k = 0; k < part * part; ++k)
     {
-      glm::dvec3 ours(0.0);
-      glm::dvec3 truth(0.0);
-      glm::dvec3 difference(1.0);
-      for (int k = 0; k < part * part; ++k)
-      {
-        const auto i = static_cast<std::size_t>(
-          (y * part + k / part) * camera.GetPixels() + x * part + k % part);
-        ours += GetColour(drawn[i], colour) / static_cast<double>(part * part);
-        truth += GetColour(traced[i], colour) / static_cast<double>(part * part);
-        difference = glm::min(difference, GetDifference(drawn[i], traced, camera, i));
-      }
-      sheet.SetPixel(row, 0, x, y, ours);
-      sheet.SetPixel(row, 1, x, y, truth);
-      sheet.SetPixel(row, 2, x, y, difference);
+      const auto i =
+        static_cast<std::size_t>((y * part + k / part) * camera.GetPixels() + x * part + k % part);
+      ours += GetColour(drawn[i], colour) / static_cast<double>(part * part);
+      truth += GetColour(traced[i], colour) / static_cast<double>(part * part);
+      difference = glm::min(difference, GetDifference(drawn[i], traced, camera, i));
     }
+    sheet.SetPixel(row, 0, x, y, ours);
+    sheet.SetPixel(row, 1, x, y, truth);
+    sheet.SetPixel(row, 2, x, y, difference);
   }
   const PlaceComparison compared = ComparePlaces(traced, drawn, camera);
   std::printf("%s: %d pixels, %d differ in coverage, %d in place\n", name.c_str(), compared.Covered,

@@ -9,13 +9,6 @@
 
 #include "RefractionPicture.h"
 
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <string>
-
 class vtkImageData;
 
 namespace meniscus::testing

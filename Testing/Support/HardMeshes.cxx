@@ -2,19 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HardMeshes.h"
 
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-
 namespace meniscus::test
 {
 

@@ -2,14 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MembraneScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-
-#include <cmath>
-
 namespace meniscus::test
 {
 
@@ -33,26 +25,20 @@ vtkSmartPointer<vtkPolyData> MakeHeightField(const std::function<double(double, 
   vtkNew<vtkDoubleArray> normals;
   normals->SetNumberOfComponents(3);
   vtkNew<vtkCellArray> triangles;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const double x = half * (2.0 * i / cells - 1.0);
-      const double z = half * (2.0 * j / cells - 1.0);
-      const reference::Vector3 place{ x, height(x, z), z };
-      points->InsertNextPoint(place.data());
-      normals->InsertNextTuple(surface.Normal(place).data());
-    }
+    const double x = half * (2.0 * i / cells - 1.0);
+    const double z = half * (2.0 * j / cells - 1.0);
+    const reference::Vector3 place{ x, height(x, z), z };
+    points->InsertNextPoint(place.data());
+    normals->InsertNextTuple(surface.Normal(place).data());
   }
-  for (vtkIdType j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(Below<vtkIdType>(cells), Below<vtkIdType>(cells)))
   {
-    for (vtkIdType i = 0; i < cells; ++i)
-    {
-      const vtkIdType a = j * (cells + 1) + i;
-      const vtkIdType b = a + cells + 1;
-      triangles->InsertNextCell({ a, b, a + 1 });
-      triangles->InsertNextCell({ a + 1, b, b + 1 });
-    }
+    const vtkIdType a = j * (cells + 1) + i;
+    const vtkIdType b = a + cells + 1;
+    triangles->InsertNextCell({ a, b, a + 1 });
+    triangles->InsertNextCell({ a + 1, b, b + 1 });
   }
   auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);

@@ -6,11 +6,6 @@
 #include "RefractedRays.h"
 #include "TracedImage.h"
 
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <functional>
-
 namespace meniscus::test
 {
 

@@ -1,12 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PixelRays.h"
-
-#include <vtkCamera.h>
-#include <vtkMath.h>
-#include <vtkRenderer.h>
-
-#include <cmath>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

@@ -2,41 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PoolScene.h"
 
-#include <vtkActor.h>
 #include <vtkAppendPolyData.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkConeSource.h>
-#include <vtkCubeSource.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
-#include <vtkIdList.h>
-#include <vtkImageData.h>
-#include <vtkLight.h>
-#include <vtkMath.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkSphereSource.h>
 #include <vtkStaticCellLocator.h>
 #include <vtkTexture.h>
-#include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
 
-#include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace meniscus::testing
 {
@@ -87,18 +63,15 @@ vtkSmartPointer<vtkImageData> MakeTiles()
     const double t = 8.0 * (i + 0.5) / TextureSize; // eight tiles
     return std::pow(std::sin(vtkMath::Pi() * t), 2.0);
   };
-  for (int j = 0; j < TextureSize; ++j)
+  for (const auto& [j, i] : Product(TextureSize, TextureSize))
   {
-    for (int i = 0; i < TextureSize; ++i)
+    const double tile = std::sqrt(std::min(joint(i), joint(j)));
+    const bool dark = (i * 8 / TextureSize + j * 8 / TextureSize) % 2 != 0;
+    const glm::dvec3 color = dark ? glm::dvec3(0.25, 0.55, 0.75) : glm::dvec3(0.85, 0.9, 0.8);
+    auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
+    for (int c = 0; c < 3; ++c)
     {
-      const double tile = std::sqrt(std::min(joint(i), joint(j)));
-      const bool dark = (i * 8 / TextureSize + j * 8 / TextureSize) % 2 != 0;
-      const glm::dvec3 color = dark ? glm::dvec3(0.25, 0.55, 0.75) : glm::dvec3(0.85, 0.9, 0.8);
-      auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
-      for (int c = 0; c < 3; ++c)
-      {
-        pixel[c] = ToByte(0.5 + tile * (color[c] - 0.5));
-      }
+      pixel[c] = ToByte(0.5 + tile * (color[c] - 0.5));
     }
   }
   return image;
@@ -146,16 +119,13 @@ vtkSmartPointer<vtkTexture> MakeSky()
     vtkNew<vtkImageData> image;
     image->SetDimensions(SkySize, SkySize, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    for (int j = 0; j < SkySize; ++j)
+    for (const auto& [j, i] : Product(SkySize, SkySize))
     {
-      for (int i = 0; i < SkySize; ++i)
+      const glm::dvec3 color = SkyColor(CubeDirection(face, i, j));
+      auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
+      for (int c = 0; c < 3; ++c)
       {
-        const glm::dvec3 color = SkyColor(CubeDirection(face, i, j));
-        auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
-        for (int c = 0; c < 3; ++c)
-        {
-          pixel[c] = ToByte(color[c]);
-        }
+        pixel[c] = ToByte(color[c]);
       }
     }
     sky->SetInputDataObject(face, image);

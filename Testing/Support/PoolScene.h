@@ -7,23 +7,8 @@
 #ifndef meniscus_Testing_Support_PoolScene_h
 #define meniscus_Testing_Support_PoolScene_h
 
-#include "HeightField.h"
 #include "RefractionPicture.h"
 #include "VolumeScene.h"
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkType.h>
-
-#include <array>
-#include <vector>
-
-class vtkActor;
-class vtkImageData;
 
 class vtkRefractedGeometryFilter;
 class vtkRefractionPass;

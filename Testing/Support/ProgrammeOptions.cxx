@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ProgrammeOptions.h"
 
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
-
 namespace meniscus::test
 {
 

@@ -3,11 +3,7 @@
 #ifndef meniscus_Testing_Support_ProgrammeOptions_h
 #define meniscus_Testing_Support_ProgrammeOptions_h
 
-#include <cstdint>
-#include <functional>
-#include <ostream>
-#include <sstream>
-#include <string>
+#include "MathBasics.h"
 
 namespace meniscus::test
 {

@@ -4,12 +4,7 @@
 #define meniscus_Testing_Support_ProjectionModes_h
 
 #include "ReferenceOptics.h"
-
-#include <vtkVolumeMapper.h>
-
-#include <algorithm>
-#include <iterator>
-#include <vector>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

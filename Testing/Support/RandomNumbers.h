@@ -3,10 +3,7 @@
 #ifndef meniscus_Testing_Support_RandomNumbers_h
 #define meniscus_Testing_Support_RandomNumbers_h
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <cstdint>
+#include "MathBasics.h"
 
 namespace meniscus::test
 {

@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceImage.h"
 
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
-#include <sstream>
 #include <thread>
 
 namespace meniscus::test
@@ -260,18 +249,15 @@ Comparison CompareToReference(const FloatImage& image, const ReferenceImage& tru
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
 {
   Comparer comparer(integrator, truth.Function, rayOf, tolerance);
-  for (int y = 0; y < truth.Height; ++y)
+  for (const auto& [y, x] : Product(truth.Height, truth.Width))
   {
-    for (int x = 0; x < truth.Width; ++x)
-    {
-      const float* drawn = image.GetPixel(x, y);
-      PixelPair pair;
-      std::copy(drawn, drawn + 4, pair.Image.begin());
-      pair.Reference = truth.GetPixel(x, y);
-      pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
-      pair.Drawn = drawn[3] != 0.0f;
-      comparer.Add(x, y, pair);
-    }
+    const float* drawn = image.GetPixel(x, y);
+    PixelPair pair;
+    std::copy(drawn, drawn + 4, pair.Image.begin());
+    pair.Reference = truth.GetPixel(x, y);
+    pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
+    pair.Drawn = drawn[3] != 0.0f;
+    comparer.Add(x, y, pair);
   }
   return comparer.GetResult();
 }
@@ -287,24 +273,21 @@ Comparison CompareToReference(const ByteImage& image, const ReferenceImage& trut
   const double brightest = std::max({ background[0], background[1], background[2] });
   const double tolerance = GreyLevel * (1.0 + 0.5 * brightest) * (1.0 + 1e-9);
   Comparer comparer(integrator, truth.Function, rayOf, tolerance);
-  for (int y = 0; y < truth.Height; ++y)
+  for (const auto& [y, x] : Product(truth.Height, truth.Width))
   {
-    for (int x = 0; x < truth.Width; ++x)
+    const unsigned char* drawn = image.GetPixel(left + x, bottom + y);
+    const std::array<double, 4>& exact = truth.GetPixel(x, y);
+    PixelPair pair;
+    pair.Image[3] = pair.Reference[3] = exact[3];
+    for (int c = 0; c < 3; ++c)
     {
-      const unsigned char* drawn = image.GetPixel(left + x, bottom + y);
-      const std::array<double, 4>& exact = truth.GetPixel(x, y);
-      PixelPair pair;
-      pair.Image[3] = pair.Reference[3] = exact[3];
-      for (int c = 0; c < 3; ++c)
-      {
-        const double value = exact[c] + (1.0 - exact[3]) * background[c];
-        pair.Image[c] = GreyLevel * drawn[c];
-        pair.Reference[c] = std::min(std::max(value, 0.0), 1.0);
-      }
-      pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
-      pair.Drawn = false; // indistinguishable from the background
-      comparer.Add(x, y, pair);
+      const double value = exact[c] + (1.0 - exact[3]) * background[c];
+      pair.Image[c] = GreyLevel * drawn[c];
+      pair.Reference[c] = std::min(std::max(value, 0.0), 1.0);
     }
+    pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
+    pair.Drawn = false; // indistinguishable from the background
+    comparer.Add(x, y, pair);
   }
   return comparer.GetResult();
 }

@@ -5,17 +5,7 @@
 
 #include "PixelRays.h"
 #include "ReferenceRayIntegrator.h"
-#include "ReferenceTransferFunction.h"
 #include "VolumeScene.h"
-
-#include <array>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
-class vtkMatrix4x4;
-class vtkUnstructuredGrid;
 
 namespace meniscus::test
 {

@@ -2,22 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionPicture.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
-#include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStaticCellLocator.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace meniscus::testing
 {
@@ -178,15 +165,12 @@ PlacePicture TraceRays(const PixelCamera& camera, const RayTracer& rays, const P
 {
   const int pixels = camera.GetPixels();
   PlacePicture picture(static_cast<std::size_t>(pixels) * pixels);
-  for (int y = 0; y < pixels; ++y)
+  for (const auto& [y, x] : Product(pixels, pixels))
   {
-    for (int x = 0; x < pixels; ++x)
+    const std::optional<LastLeg> leg = rays(camera.GetRay(x, y));
+    if (leg)
     {
-      const std::optional<LastLeg> leg = rays(camera.GetRay(x, y));
-      if (leg)
-      {
-        picture[static_cast<std::size_t>(y * pixels + x)] = object(leg->Start, leg->Direction);
-      }
+      picture[static_cast<std::size_t>(y * pixels + x)] = object(leg->Start, leg->Direction);
     }
   }
   return picture;

@@ -9,18 +9,7 @@
 #define meniscus_Testing_Support_RefractionPicture_h
 
 #include "HeightField.h"
-
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
-
-class vtkPolyData;
+#include "VTKBasics.h"
 
 namespace meniscus::testing
 {

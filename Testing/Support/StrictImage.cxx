@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StrictImage.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNGWriter.h>
 #include <vtksys/SystemTools.hxx>
-
-#include <algorithm>
-#include <cstdlib>
-#include <sstream>
 
 namespace meniscus::test
 {

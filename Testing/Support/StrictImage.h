@@ -5,9 +5,6 @@
 
 #include "VolumeScene.h"
 
-#include <cstddef>
-#include <string>
-
 namespace meniscus::test
 {
 

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestMeshes.h"
 
-#include <vtkCellType.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <random>
 
 namespace meniscus::test
 {
@@ -152,15 +139,9 @@ Grid MakeBlock(int n, const Field& field, const Region& region)
   std::vector<double> points;
   points.reserve(3 * static_cast<std::size_t>(n + 1) * (n + 1) * (n + 1));
   const auto at = [n](double i) { return -1.0 + 2.0 * i / n; };
-  for (int k = 0; k <= n; ++k)
+  for (const auto& [k, j, i] : Product(n + 1, n + 1, n + 1))
   {
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        points.insert(points.end(), { at(i), at(j), at(k) });
-      }
-    }
+    points.insert(points.end(), { at(i), at(j), at(k) });
   }
   std::vector<vtkIdType> cells;
   for (int cube = 0; cube < n * n * n; ++cube)

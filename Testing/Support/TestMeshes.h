@@ -3,14 +3,7 @@
 #ifndef meniscus_Testing_Support_TestMeshes_h
 #define meniscus_Testing_Support_TestMeshes_h
 
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <functional>
-#include <string>
-#include <vector>
-
-class vtkUnstructuredGrid;
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

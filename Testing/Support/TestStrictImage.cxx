@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests of the strict comparison: it must detect differences that VTK's own comparison accepts.
 #include "StrictImage.h"
+#include "TestBasics.h"
 
-#include <gtest/gtest.h>
 #include <vtksys/SystemTools.hxx>
-
-#include <algorithm>
-#include <string>
 
 using namespace meniscus::test;
 
@@ -22,14 +19,11 @@ ByteImage Ramp()
   ByteImage image;
   image.Width = 40;
   image.Height = 30;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    for (const int value : { 5 * x, 7 * y, 2 * x + 3 * y })
     {
-      for (const int value : { 5 * x, 7 * y, 2 * x + 3 * y })
-      {
-        image.Rgb.push_back(static_cast<unsigned char>(value));
-      }
+      image.Rgb.push_back(static_cast<unsigned char>(value));
     }
   }
   return image;
@@ -95,7 +89,7 @@ TEST(StrictImage, MissingBaselineFails)
 {
   const BaselineResult result = CompareToBaseline(Ramp(), "NoSuchBaseline", Threshold);
   EXPECT_FALSE(result.Passed);
-  EXPECT_NE(result.Message.find("NoSuchBaseline"), std::string::npos);
+  EXPECT_TRUE(HasText(result.Message, "NoSuchBaseline"));
 }
 
 TEST(StrictImage, AnAlternateBaselinePasses)

@@ -2,15 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestTransferFunctions.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 namespace meniscus::test
 {
 
@@ -150,6 +141,38 @@ vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   property->SetScalarOpacityUnitDistance(shape.Unit * diagonal);
   property->SetInterpolationTypeToLinear();
   return property;
+}
+
+void SetPoints(vtkPiecewiseFunction* function, const OpacityNodes& nodes)
+{
+  function->RemoveAllPoints();
+  for (const auto& [scalar, opacity] : nodes)
+  {
+    function->AddPoint(scalar, opacity);
+  }
+}
+
+void SetPoints(vtkColorTransferFunction* function, const ColorNodes& nodes)
+{
+  function->RemoveAllPoints();
+  for (const auto& [scalar, red, green, blue] : nodes)
+  {
+    function->AddRGBPoint(scalar, red, green, blue);
+  }
+}
+
+vtkSmartPointer<vtkPiecewiseFunction> MakeOpacity(const OpacityNodes& nodes)
+{
+  auto function = vtkSmartPointer<vtkPiecewiseFunction>::New();
+  SetPoints(function, nodes);
+  return function;
+}
+
+vtkSmartPointer<vtkColorTransferFunction> MakeColors(const ColorNodes& nodes)
+{
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  SetPoints(function, nodes);
+  return function;
 }
 
 //------------------------------------------------------------------------------

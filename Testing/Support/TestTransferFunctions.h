@@ -4,9 +4,7 @@
 #define meniscus_Testing_Support_TestTransferFunctions_h
 
 #include "ReferenceTransferFunction.h"
-
-#include <vtkSmartPointer.h>
-#include <vtkVolumeProperty.h>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {
@@ -25,6 +23,16 @@ enum class FunctionKind
  */
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   FunctionKind kind, const double range[2], double diagonal);
+
+/** Scalar and opacity, or scalar and colour. */
+using OpacityNodes = std::vector<std::array<double, 2>>;
+using ColorNodes = std::vector<std::array<double, 4>>;
+
+/** Piecewise linear functions through nodes; SetPoints() replaces all nodes of a function. */
+vtkSmartPointer<vtkPiecewiseFunction> MakeOpacity(const OpacityNodes& nodes);
+vtkSmartPointer<vtkColorTransferFunction> MakeColors(const ColorNodes& nodes);
+void SetPoints(vtkPiecewiseFunction* function, const OpacityNodes& nodes);
+void SetPoints(vtkColorTransferFunction* function, const ColorNodes& nodes);
 
 /** One colour and opacity everywhere. */
 vtkSmartPointer<vtkVolumeProperty> MakeConstantProperty(

@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TracedImage.h"
 
-#include <vtkMath.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <mutex>
-#include <sstream>
 #include <thread>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -6,11 +6,6 @@
 #include "PixelRays.h"
 #include "VolumeScene.h"
 
-#include <array>
-#include <cstddef>
-#include <functional>
-#include <string>
-
 namespace meniscus::test
 {
 

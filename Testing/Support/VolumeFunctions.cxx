@@ -5,17 +5,6 @@
 #include "TestTransferFunctions.h"
 #include "VolumeScene.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::test
 {
 

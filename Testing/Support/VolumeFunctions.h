@@ -5,14 +5,7 @@
 
 #include "RandomNumbers.h"
 #include "ReferenceTransferFunction.h"
-
-#include <vtkSmartPointer.h>
-
-#include <string>
-#include <vector>
-
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

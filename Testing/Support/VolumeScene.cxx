@@ -2,24 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeScene.h"
 
-#include <vtkCamera.h>
 #include <vtkFramebufferPass.h>
-#include <vtkMath.h>
 #include <vtkPixelBufferObject.h>
 #include <vtkRenderStepsPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTextureObject.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGridVolumeMapper.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <sstream>
 
 namespace meniscus::test
 {

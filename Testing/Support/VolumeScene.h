@@ -3,21 +3,11 @@
 #ifndef meniscus_Testing_Support_VolumeScene_h
 #define meniscus_Testing_Support_VolumeScene_h
 
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <cstddef>
-#include <string>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkDataSet;
 class vtkFramebufferPass;
-class vtkRenderer;
-class vtkRenderWindow;
 class vtkUnstructuredGridVolumeMapper;
-class vtkVolume;
-class vtkVolumeProperty;
 
 namespace meniscus::test
 {

@@ -1,15 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeView.h"
-
-#include <vtkCamera.h>
-#include <vtkMath.h>
-#include <vtkRenderer.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

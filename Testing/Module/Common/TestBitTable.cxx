@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/BitTable.h"
+#include "TestBasics.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
 #include <thread>
-#include <vector>
 
 using namespace meniscus;
 

@@ -1,15 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ByteDigest.h"
+#include "TestBasics.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstring>
-#include <random>
-#include <set>
-#include <vector>
-
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
@@ -70,18 +64,15 @@ TEST(ByteDigest, OrderOfWordsCounts)
   std::set<std::uint64_t> digests{ DigestOf(bytes) };
   const std::size_t words = bytes.size() / 8;
   std::size_t count = 1;
-  for (std::size_t i = 0; i < words; ++i)
+  for (const auto& [i, distance] : Product(Below<std::size_t>(words), List(1, 2, 3, 128, 256)))
   {
-    for (const std::size_t distance : { 1, 2, 3, 128, 256 })
+    if (i + distance < words)
     {
-      if (i + distance < words)
-      {
-        std::vector<unsigned char> swapped = bytes;
-        std::swap_ranges(swapped.begin() + 8 * i, swapped.begin() + 8 * i + 8,
-          swapped.begin() + 8 * (i + distance));
-        digests.insert(DigestOf(swapped));
-        ++count;
-      }
+      std::vector<unsigned char> swapped = bytes;
+      std::swap_ranges(
+        swapped.begin() + 8 * i, swapped.begin() + 8 * i + 8, swapped.begin() + 8 * (i + distance));
+      digests.insert(DigestOf(swapped));
+      ++count;
     }
   }
   EXPECT_EQ(digests.size(), count);

@@ -3,16 +3,7 @@
 // The Hilbert curve, and orders in which each point is near the one before.
 #include "Common/CoherentOrder.h"
 #include "Common/HilbertCurve.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "TestBasics.h"
 
 using namespace meniscus;
 

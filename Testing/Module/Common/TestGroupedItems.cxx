@@ -1,14 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/GroupedItems.h"
-
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <random>
-#include <utility>
-#include <vector>
+#include "TestBasics.h"
 
 using namespace meniscus;
 

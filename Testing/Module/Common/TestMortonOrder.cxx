@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Codes of positions along the Morton curve, and the order that they give.
 #include "Common/MortonOrder.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <iterator>
-#include <vector>
+#include "TestBasics.h"
 
 using namespace meniscus;
 

@@ -3,9 +3,7 @@
 #ifndef meniscus_Testing_Module_Refraction_RefractionTestRandom_h
 #define meniscus_Testing_Module_Refraction_RefractionTestRandom_h
 
-#include <glm/vec3.hpp>
-
-#include <random>
+#include "MathBasics.h"
 
 namespace meniscus::testing
 {

@@ -5,23 +5,12 @@
 #include "HeightField.h"
 #include "RefractionTestRandom.h"
 #include "SightOracle.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::reference::AnalyticMembrane;
-using meniscus::reference::HeightField;
-using meniscus::reference::OracleAnswer;
-using meniscus::reference::OracleImage;
-using meniscus::reference::SightOracle;
-using meniscus::reference::SmoothSurface;
-using meniscus::reference::SurfaceError;
+using namespace meniscus::reference;
 using meniscus::testing::Random;
 
 constexpr SurfaceError Exact{ 1e-12, 1e-12 };

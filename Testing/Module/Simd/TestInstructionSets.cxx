@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Simd/InstructionSets.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
+#include "TestBasics.h"
 
 namespace
 {

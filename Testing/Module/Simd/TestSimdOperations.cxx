@@ -6,16 +6,8 @@
 #include "Simd/SimdPortable.h"
 #ifdef __aarch64__
 #include "Simd/SimdNEON.h"
+#include "TestBasics.h"
 #endif
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace
 {
@@ -25,7 +17,7 @@ using meniscus::SimdPortable;
 constexpr int Rounds = 2000;
 
 template <class Simd>
-class SimdOperations : public testing::Test
+class SimdOperations : public ::testing::Test
 {
 protected:
   static constexpr int Width = Simd::Width;

@@ -5,12 +5,9 @@
 #include "Surface/MeshingFiles.h"
 #include "Surface/SolidCells.h"
 #include "Surface/TetrahedronShape.h"
+#include "TestBasics.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
 using namespace meniscus;
 

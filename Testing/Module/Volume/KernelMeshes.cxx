@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KernelMeshes.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <random>
-
 namespace meniscus::test
 {
 
@@ -25,36 +21,24 @@ MeshArrays KuhnGrid(int n)
 MeshArrays KuhnBlock(int nx, int ny, int nz, double perUnit)
 {
   MeshArrays mesh;
-  for (int k = 0; k <= nz; ++k)
+  for (const auto& [k, j, i] : Product(nz + 1, ny + 1, nx + 1))
   {
-    for (int j = 0; j <= ny; ++j)
-    {
-      for (int i = 0; i <= nx; ++i)
-      {
-        mesh.Points.insert(mesh.Points.end(), { i / perUnit, j / perUnit, k / perUnit });
-      }
-    }
+    mesh.Points.insert(mesh.Points.end(), { i / perUnit, j / perUnit, k / perUnit });
   }
   // From one corner of the cube to the opposite one, along the axes in every order.
   const std::int64_t axis[3] = { 1, nx + 1, std::int64_t(nx + 1) * (ny + 1) };
   const int orders[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
     { 2, 1, 0 } };
-  for (int k = 0; k < nz; ++k)
+  for (const auto& [k, j, i] : Product(nz, ny, nx))
   {
-    for (int j = 0; j < ny; ++j)
+    for (const auto& order : orders)
     {
-      for (int i = 0; i < nx; ++i)
+      std::int64_t vertex = i + j * axis[1] + k * axis[2];
+      mesh.Cells.push_back(vertex);
+      for (const int step : order)
       {
-        for (const auto& order : orders)
-        {
-          std::int64_t vertex = i + j * axis[1] + k * axis[2];
-          mesh.Cells.push_back(vertex);
-          for (const int step : order)
-          {
-            vertex += axis[step];
-            mesh.Cells.push_back(vertex);
-          }
-        }
+        vertex += axis[step];
+        mesh.Cells.push_back(vertex);
       }
     }
   }

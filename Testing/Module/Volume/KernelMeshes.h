@@ -3,15 +3,11 @@
 #ifndef meniscus_Testing_Module_Volume_KernelMeshes_h
 #define meniscus_Testing_Module_Volume_KernelMeshes_h
 
+#include "MathBasics.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Rays/RayFrame.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstdint>
-#include <vector>
 
 namespace meniscus::test
 {

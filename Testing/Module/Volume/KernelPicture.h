@@ -4,14 +4,8 @@
 #define meniscus_Testing_Module_Volume_KernelPicture_h
 
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Caster/TileCaster.h"
-
-#include <glm/vec4.hpp>
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -1,17 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KernelSurfaces.h"
+#include "TestBasics.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 namespace meniscus::test
 {
@@ -27,23 +19,17 @@ Sheet::Sheet(const std::function<double(double, double)>& height, int cells)
 {
   std::vector<double> points;
   std::vector<std::int64_t> triangles;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const double x = 2.0 * i / cells - 1.0;
-      const double y = 2.0 * j / cells - 1.0;
-      points.insert(points.end(), { x, y, height(x, y) });
-    }
+    const double x = 2.0 * i / cells - 1.0;
+    const double y = 2.0 * j / cells - 1.0;
+    points.insert(points.end(), { x, y, height(x, y) });
   }
-  for (std::int64_t j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(Below<std::int64_t>(cells), Below<std::int64_t>(cells)))
   {
-    for (std::int64_t i = 0; i < cells; ++i)
-    {
-      const std::int64_t a = j * (cells + 1) + i;
-      const std::int64_t b = a + cells + 1;
-      triangles.insert(triangles.end(), { a, a + 1, b, a + 1, b + 1, b });
-    }
+    const std::int64_t a = j * (cells + 1) + i;
+    const std::int64_t b = a + cells + 1;
+    triangles.insert(triangles.end(), { a, a + 1, b, a + 1, b + 1, b });
   }
   this->Set(
     { points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr, nullptr });

@@ -3,13 +3,9 @@
 #ifndef meniscus_Testing_Module_Volume_KernelSurfaces_h
 #define meniscus_Testing_Module_Volume_KernelSurfaces_h
 
+#include "MathBasics.h"
 #include "Refraction/Surface/Interface.h"
 #include "Volume/Refracted/RefractedRayStack.h"
-
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <memory>
 
 namespace meniscus::test
 {

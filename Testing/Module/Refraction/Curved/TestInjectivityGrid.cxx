@@ -3,35 +3,19 @@
 // Regions in which points have at most one image, compared with a search for all images; cells
 // divided there.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Images/EdgeSubdivision.h"
 #include "Refraction/Membrane/HeightField.h"
 #include "RefractionTestRandom.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <tuple>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::EdgeSubdivision;
-using meniscus::EyeStatus;
-using meniscus::ImagedPoint;
-using meniscus::ImageMesh;
-using meniscus::ImageState;
-using meniscus::InjectivityGrid;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
+using meniscus::test::Product;
 using meniscus::testing::Random;
 
 constexpr double Pi = 3.14159265358979323846;
@@ -113,7 +97,7 @@ const UniqueCase Cases[] = {
     300.0, 10, 2 },
 };
 
-class RefractionUnique : public testing::TestWithParam<UniqueCase>
+class RefractionUnique : public ::testing::TestWithParam<UniqueCase>
 {
 };
 }
@@ -136,7 +120,7 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
+INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, ::testing::ValuesIn(Cases));
 
 //------------------------------------------------------------------------------
 TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
@@ -235,24 +219,18 @@ MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& poi
   const std::function<bool(int, int)>& isThere)
 {
   MembraneMesh mesh;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const glm::dvec3 p = point(i, j);
-      mesh.Points.insert(mesh.Points.end(), { p.x, p.y, p.z });
-    }
+    const glm::dvec3 p = point(i, j);
+    mesh.Points.insert(mesh.Points.end(), { p.x, p.y, p.z });
   }
   const auto id = [cells](int i, int j) { return static_cast<std::int64_t>(j * (cells + 1) + i); };
-  for (int j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(cells, cells))
   {
-    for (int i = 0; i < cells; ++i)
+    if (isThere(i, j))
     {
-      if (isThere(i, j))
-      {
-        mesh.Triangles.insert(mesh.Triangles.end(),
-          { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
-      }
+      mesh.Triangles.insert(mesh.Triangles.end(),
+        { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
     }
   }
   return mesh;
@@ -339,7 +317,7 @@ const SheetCase Sheets[] = {
   { "Folded", FoldedPlace, [](int, int) { return true; }, 0, 5 },
 };
 
-class RefractionUniqueSheet : public testing::TestWithParam<SheetCase>
+class RefractionUniqueSheet : public ::testing::TestWithParam<SheetCase>
 {
 };
 
@@ -361,7 +339,7 @@ TEST_P(RefractionUniqueSheet, NoPointOfABoxHasSeveral)
   EXPECT_GE(100 * counts.Several, test.LeastSeveral * 5 * count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, testing::ValuesIn(Sheets),
+INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, ::testing::ValuesIn(Sheets),
   [](const auto& test) { return test.param.Name; });
 
 //------------------------------------------------------------------------------

@@ -5,25 +5,14 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Surface/PatchCrossings.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::CurvedPatch;
-using meniscus::HeightFrame;
-using meniscus::MembraneStatus;
-using meniscus::PatchCrossing;
-using meniscus::PatchCrossings;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using meniscus::testing::Random;
 
 const double Pi = std::acos(-1.0);
@@ -148,30 +137,27 @@ int CountWrong(const CurvedMembraneSolver& geometry, bool front,
 // Patches reproduce spheres up to rounding, so only rounding limits how close a point may be.
 TEST(RefractionSide, OfClosedSpheres)
 {
-  for (const int resolution : { 16, 64, 192 })
+  for (const auto& [resolution, side] : Product(List(16, 64, 192), List(1.0, -1.0)))
   {
-    for (const double side : { 1.0, -1.0 })
+    CurvedMembraneSolver geometry;
+    Set(geometry, MakeSphere(resolution, side));
+    ASSERT_TRUE(geometry.IsClosed());
+    const auto at = [](double least, double most)
     {
-      CurvedMembraneSolver geometry;
-      Set(geometry, MakeSphere(resolution, side));
-      ASSERT_TRUE(geometry.IsClosed());
-      const auto at = [](double least, double most)
+      return [least, most](Random& random)
       {
-        return [least, most](Random& random)
-        {
-          const double distance = random(least, most);
-          return GetDirection(random) * distance;
-        };
+        const double distance = random(least, most);
+        return GetDirection(random) * distance;
       };
-      EXPECT_EQ(CountWrong(geometry, side < 0.0, at(0.0, 0.95), 1), 0) << resolution << " " << side;
-      EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.05, 3.0), 2, 5000), 0)
-        << resolution << " " << side;
-      EXPECT_EQ(CountWrong(geometry, side < 0.0, at(1.0 - 1e-9, 1.0 - 1e-9), 3, 2000), 0)
-        << resolution;
-      EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.0 + 1e-9, 1.0 + 1e-9), 4, 2000), 0)
-        << resolution;
-      EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
-    }
+    };
+    EXPECT_EQ(CountWrong(geometry, side < 0.0, at(0.0, 0.95), 1), 0) << resolution << " " << side;
+    EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.05, 3.0), 2, 5000), 0)
+      << resolution << " " << side;
+    EXPECT_EQ(CountWrong(geometry, side < 0.0, at(1.0 - 1e-9, 1.0 - 1e-9), 3, 2000), 0)
+      << resolution;
+    EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.0 + 1e-9, 1.0 + 1e-9), 4, 2000), 0)
+      << resolution;
+    EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
   }
 }
 

@@ -7,34 +7,12 @@
 #include "Refraction/Membrane/FacetWalk.h"
 #include "RefractionTestRandom.h"
 #include "Simd/InstructionSets.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::CurvedPatch;
-using meniscus::EyeStatus;
-using meniscus::FacetWalk;
-using meniscus::FindOutside;
-using meniscus::ImageState;
-using meniscus::Media;
-using meniscus::MembraneStatus;
-using meniscus::SightEquation;
-using meniscus::SightLanes;
-using meniscus::SightRoot;
-using meniscus::VirtualPlace;
-using meniscus::VirtualVertex;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::Random;
 

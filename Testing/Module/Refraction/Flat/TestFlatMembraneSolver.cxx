@@ -5,24 +5,15 @@
 #include "MembraneMeshes.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::EyeStatus;
-using meniscus::FlatMembraneSolver;
-using meniscus::ImageState;
-using meniscus::MembraneStatus;
-using meniscus::VirtualVertex;
-using meniscus::reference::AnalyticMembrane;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::test;
 using meniscus::testing::Random;
+using namespace meniscus::reference;
 
 FlatMembraneSolver Make(
   const MembraneMesh& mesh, const glm::dvec3& eye, double exterior, double interior)
@@ -389,13 +380,10 @@ MembraneMesh MakeOctahedron()
     point[i / 2] = i % 2 == 0 ? -1.0 : 1.0;
     octahedron.AddPoint(point, point);
   }
-  for (const int x : { 0, 1 })
+  for (const auto& [x, y] : Product(List(0, 1), List(2, 3)))
   {
-    for (const int y : { 2, 3 })
-    {
-      octahedron.AddTriangle(x, y, 4);
-      octahedron.AddTriangle(x, y, 5);
-    }
+    octahedron.AddTriangle(x, y, 4);
+    octahedron.AddTriangle(x, y, 5);
   }
   return octahedron;
 }

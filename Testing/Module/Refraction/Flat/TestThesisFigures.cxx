@@ -5,17 +5,8 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Membrane/Optics.h"
+#include "TestBasics.h"
 #include "ThesisTables.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <optional>
-#include <vector>
 
 namespace
 {

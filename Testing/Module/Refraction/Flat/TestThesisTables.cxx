@@ -1,18 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The thesis's own measurements, repeated.
+#include "TestBasics.h"
 #include "ThesisTables.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
 
 namespace
 {
 
-using meniscus::reference::GetThesisRows;
-using meniscus::reference::MeasureThesisRow;
+using namespace meniscus::reference;
 
 double PercentOff(double ours, double printed)
 {
@@ -96,7 +91,7 @@ TEST(RefractionThesis, ReproducesTheTables)
     closeDeviations += std::fabs(deviation) <= 2.0;
     printedPoints += row.Points > 0;
     closePoints += row.Points > 0 && std::fabs(points) <= 1.5;
-    const auto name = testing::Message()
+    const auto name = ::testing::Message()
       << "Table " << row.Table << ", h = " << row.EyeHeight << ", offset " << row.EyeOffset
       << ", sphere " << row.SphereRatio << ", " << row.SquareCells << " cells, " << row.Exterior
       << " / " << row.Interior;

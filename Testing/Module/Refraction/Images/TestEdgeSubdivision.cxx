@@ -5,14 +5,7 @@
 #include "HeightField.h"
 
 #include "Refraction/Images/EdgeSubdivision.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {

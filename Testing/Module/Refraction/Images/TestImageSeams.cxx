@@ -2,32 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of images: within their cells, and without cracks between them.
 #include "HeightField.h"
-#include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <tuple>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::ImageMesh;
-using meniscus::ImagePoint;
-using meniscus::ObjectImages;
-using meniscus::VirtualVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 
 const double Pi = std::acos(-1.0);
 
@@ -52,17 +37,14 @@ Object MakeBall(const glm::dvec3& center, double radius, int rings)
   Object ball;
   const int columns = 2 * rings;
   ball.Points.push_back(center + glm::dvec3(0.0, radius, 0.0));
-  for (int i = 1; i < rings; ++i)
+  for (const auto& [i, j] : Product(Numbers(1, rings), columns))
   {
-    for (int j = 0; j < columns; ++j)
-    {
-      const double polar = Pi * i / rings;
-      const double turn = 2.0 * Pi * j / columns;
-      ball.Points.push_back(center +
-        radius *
-          glm::dvec3(
-            std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)));
-    }
+    const double polar = Pi * i / rings;
+    const double turn = 2.0 * Pi * j / columns;
+    ball.Points.push_back(center +
+      radius *
+        glm::dvec3(
+          std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)));
   }
   ball.Points.push_back(center - glm::dvec3(0.0, radius, 0.0));
   const auto last = static_cast<std::int64_t>(ball.Points.size()) - 1;
@@ -395,23 +377,21 @@ TEST(RefractionSeamsCriticalAngle, SnellsWindowIsFoundInHugeFacets)
     int Cells;
     double Shift; ///< in widths; with 0, four facets have a corner in the window
   };
-  for (const double width : { 400.0, 2e3, 1e5, 1e7 })
+  for (const auto& [width, sea] : Product(List(400.0, 2e3, 1e5, 1e7),
+         std::vector<Sea>{ Sea{ 1, 0.21 }, Sea{ 2, 0.21 }, Sea{ 8, 0.21 }, Sea{ 2, 0.0 } }))
   {
-    for (const Sea& sea : { Sea{ 1, 0.21 }, Sea{ 2, 0.21 }, Sea{ 8, 0.21 }, Sea{ 2, 0.0 } })
-    {
-      const HeightField field{ HeightField::Shape::Waves, width, 0.0, 0.03 * Pi, 1.333, 1.0 };
-      MembraneMesh mesh = field.MakeMesh(sea.Cells);
-      mesh.Translate(sea.Shift * width * glm::dvec3(1.0, 0.0, -0.7));
-      CurvedMembraneSolver geometry;
-      geometry.SetMembrane(mesh.AsInput());
-      geometry.SetEye({ 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
-      const std::array<glm::dvec3, 3> corners = { glm::dvec3(-9.0, -8.0, 1.0),
-        glm::dvec3(3.0, -8.0, 7.0), glm::dvec3(1.0, -8.0, -6.0) };
-      const double area =
-        0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-      EXPECT_NEAR(MapWholeTriangle(geometry, corners), area, 1e-9 * area)
-        << width << ", " << sea.Cells << " cells, shift " << sea.Shift;
-    }
+    const HeightField field{ HeightField::Shape::Waves, width, 0.0, 0.03 * Pi, 1.333, 1.0 };
+    MembraneMesh mesh = field.MakeMesh(sea.Cells);
+    mesh.Translate(sea.Shift * width * glm::dvec3(1.0, 0.0, -0.7));
+    CurvedMembraneSolver geometry;
+    geometry.SetMembrane(mesh.AsInput());
+    geometry.SetEye({ 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
+    const std::array<glm::dvec3, 3> corners = { glm::dvec3(-9.0, -8.0, 1.0),
+      glm::dvec3(3.0, -8.0, 7.0), glm::dvec3(1.0, -8.0, -6.0) };
+    const double area =
+      0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    EXPECT_NEAR(MapWholeTriangle(geometry, corners), area, 1e-9 * area)
+      << width << ", " << sea.Cells << " cells, shift " << sea.Shift;
   }
 }
 

@@ -7,27 +7,13 @@
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"
 #include "Stack/StackCellScene.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::ObjectImages;
-using meniscus::reference::ExactPath;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);

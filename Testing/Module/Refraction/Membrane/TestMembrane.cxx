@@ -3,19 +3,14 @@
 // Triangles that a membrane accepts, skips and counts, and the normals that it computes.
 #include "MembraneMeshes.h"
 #include "Refraction/Membrane/Membrane.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <limits>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::Membrane;
-using meniscus::MembraneInput;
-using meniscus::MembraneStatus;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
+using namespace meniscus::test;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -165,12 +160,9 @@ TEST(RefractionMembrane, ReplacesOnlyBadNormals)
 {
   MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 2, 0.0);
   const glm::dvec3 given = glm::normalize(glm::dvec3(0.1, 1.0, 0.2));
-  for (std::size_t i = 0; i < 9; ++i)
+  for (const auto& [i, k] : Product(Below<std::size_t>(9), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      mesh.Normals[3 * i + static_cast<std::size_t>(k)] = 5.0 * given[k];
-    }
+    mesh.Normals[3 * i + static_cast<std::size_t>(k)] = 5.0 * given[k];
   }
   std::fill(mesh.Normals.begin(), mesh.Normals.begin() + 3, 0.0);
   mesh.Normals[3 * 4] = NaN;

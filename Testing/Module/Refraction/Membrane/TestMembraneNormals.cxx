@@ -3,20 +3,14 @@
 // Normals that a membrane computes, joins at coincident vertices, and replaces.
 #include "MembraneMeshes.h"
 #include "Refraction/Membrane/Membrane.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::Membrane;
-using meniscus::MembraneStatus;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
+using namespace meniscus::test;
 
 glm::dvec3 Load(const std::vector<double>& array, std::int64_t index)
 {
@@ -60,17 +54,14 @@ NormalErrors MeasureSquare(const MembraneMesh& mesh, int cells)
   Membrane membrane;
   EXPECT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
   NormalErrors errors;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const auto v = static_cast<std::size_t>(j * (cells + 1) + i);
-      const double error =
-        glm::length(membrane.GetNormals()[v] - Load(mesh.Normals, static_cast<std::int64_t>(v)));
-      const bool isAtBorder = i == 0 || j == 0 || i == cells || j == cells;
-      double& worst = isAtBorder ? errors.AtBorder : errors.Inside;
-      worst = std::max(worst, error);
-    }
+    const auto v = static_cast<std::size_t>(j * (cells + 1) + i);
+    const double error =
+      glm::length(membrane.GetNormals()[v] - Load(mesh.Normals, static_cast<std::int64_t>(v)));
+    const bool isAtBorder = i == 0 || j == 0 || i == cells || j == cells;
+    double& worst = isAtBorder ? errors.AtBorder : errors.Inside;
+    worst = std::max(worst, error);
   }
   return errors;
 }
@@ -150,7 +141,7 @@ TEST(RefractionNormals, OfFacetsOfVeryDifferentSizesHaveUnitLength)
   }
 }
 
-class SeparateFacets : public testing::TestWithParam<bool>
+class SeparateFacets : public ::testing::TestWithParam<bool>
 {
 };
 
@@ -167,14 +158,12 @@ TEST_P(SeparateFacets, AreJoinedToASmoothSurface)
   EXPECT_EQ(membrane.GetReport().JoinedVertices, (soup.Points.size() - mesh.Points.size()) / 3);
   EXPECT_EQ(membrane.GetReport().WildNormals, 0u);
   ASSERT_EQ(membrane.GetFacets().size(), expected.GetFacets().size());
-  for (std::size_t f = 0; f < membrane.GetFacets().size(); ++f)
+  for (const auto& [f, k] :
+    Product(Below<std::size_t>(membrane.GetFacets().size()), Below<std::size_t>(3)))
   {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto a = static_cast<std::size_t>(membrane.GetFacets()[f][k]);
-      const auto b = static_cast<std::size_t>(expected.GetFacets()[f][k]);
-      EXPECT_LT(glm::length(membrane.GetNormals()[a] - expected.GetNormals()[b]), 1e-12);
-    }
+    const auto a = static_cast<std::size_t>(membrane.GetFacets()[f][k]);
+    const auto b = static_cast<std::size_t>(expected.GetFacets()[f][k]);
+    EXPECT_LT(glm::length(membrane.GetNormals()[a] - expected.GetNormals()[b]), 1e-12);
   }
   // The joined surface stays when it is built again, as a moving one is.
   ASSERT_EQ(membrane.Build(soup.AsInput(GetParam())), MembraneStatus::Ready);
@@ -185,24 +174,21 @@ TEST_P(SeparateFacets, AreJoinedToASmoothSurface)
 MembraneMesh MakeCube()
 {
   MembraneMesh mesh;
-  for (int axis = 0; axis < 3; ++axis)
+  for (const auto& [axis, side] : Product(3, List(-1.0, 1.0)))
   {
-    for (const double side : { -1.0, 1.0 })
-    {
-      glm::dvec3 normal(0.0);
-      normal[axis] = side;
-      glm::dvec3 u(0.0);
-      u[(axis + 1) % 3] = side;
-      glm::dvec3 v(0.0);
-      v[(axis + 2) % 3] = 1.0;
-      const auto first = static_cast<std::int64_t>(mesh.Points.size() / 3);
-      mesh.AddPoint(normal - u - v, normal);
-      mesh.AddPoint(normal + u - v, normal);
-      mesh.AddPoint(normal + u + v, normal);
-      mesh.AddPoint(normal - u + v, normal);
-      mesh.AddTriangle(first, first + 1, first + 2);
-      mesh.AddTriangle(first, first + 2, first + 3);
-    }
+    glm::dvec3 normal(0.0);
+    normal[axis] = side;
+    glm::dvec3 u(0.0);
+    u[(axis + 1) % 3] = side;
+    glm::dvec3 v(0.0);
+    v[(axis + 2) % 3] = 1.0;
+    const auto first = static_cast<std::int64_t>(mesh.Points.size() / 3);
+    mesh.AddPoint(normal - u - v, normal);
+    mesh.AddPoint(normal + u - v, normal);
+    mesh.AddPoint(normal + u + v, normal);
+    mesh.AddPoint(normal - u + v, normal);
+    mesh.AddTriangle(first, first + 1, first + 2);
+    mesh.AddTriangle(first, first + 2, first + 3);
   }
   return mesh;
 }
@@ -228,7 +214,7 @@ TEST_P(SeparateFacets, KeepCreases)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(RefractionNormals, SeparateFacets, testing::Values(false, true),
+INSTANTIATE_TEST_SUITE_P(RefractionNormals, SeparateFacets, ::testing::Values(false, true),
   [](const auto& which) { return which.param ? "WithNormals" : "WithoutNormals"; });
 
 // Vertices that differ in their normals only, as along the seam of a texture, are one.
@@ -304,25 +290,19 @@ TEST(RefractionNormals, ExactNormalsAtSliversOfARimAreNotWild)
   constexpr int cells = 50;
   const double rim = std::sqrt(0.5);
   MembraneMesh cap;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      const glm::dvec2 place(2.0 * i / cells - 1.0, 2.0 * j / cells - 1.0);
-      const double r = rim * std::max(std::fabs(place.x), std::fabs(place.y));
-      const glm::dvec2 at = r > 0.0 ? r / glm::length(place) * place : place;
-      const glm::dvec3 point(at.x, std::sqrt(1.0 - r * r), at.y);
-      cap.AddPoint(point, point);
-    }
+    const glm::dvec2 place(2.0 * i / cells - 1.0, 2.0 * j / cells - 1.0);
+    const double r = rim * std::max(std::fabs(place.x), std::fabs(place.y));
+    const glm::dvec2 at = r > 0.0 ? r / glm::length(place) * place : place;
+    const glm::dvec3 point(at.x, std::sqrt(1.0 - r * r), at.y);
+    cap.AddPoint(point, point);
   }
-  for (std::int64_t j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(Below<std::int64_t>(cells), Below<std::int64_t>(cells)))
   {
-    for (std::int64_t i = 0; i < cells; ++i)
-    {
-      const std::int64_t a = j * (cells + 1) + i;
-      cap.AddTriangle(a, a + cells + 1, a + 1);
-      cap.AddTriangle(a + 1, a + cells + 1, a + cells + 2);
-    }
+    const std::int64_t a = j * (cells + 1) + i;
+    cap.AddTriangle(a, a + cells + 1, a + 1);
+    cap.AddTriangle(a + 1, a + cells + 1, a + cells + 2);
   }
   Membrane membrane;
   ASSERT_EQ(membrane.Build(cap.AsInput()), MembraneStatus::Ready);
@@ -342,18 +322,15 @@ TEST(RefractionNormals, SteepAndCreasedNormalsAreNotWild)
   MembraneMesh steep;
   MembraneMesh ridge;
   constexpr int columns = 5;
-  for (int j = 0; j < 2; ++j)
+  for (const auto& [j, i] : Product(2, columns))
   {
-    for (int i = 0; i < columns; ++i)
-    {
-      // A quarter of a circle in three steps of 30 degrees, then flat.
-      const double angle = std::acos(-1.0) / 6.0 * std::min(i, 3);
-      const glm::dvec3 normal(std::cos(angle), std::sin(angle), 0.0);
-      steep.AddPoint(glm::dvec3(std::max(0, i - 3) + 1.0 - normal.x, 1.0 - normal.y, j), normal);
-      const double slope = i == columns / 2 ? 0.0 : (i < columns / 2 ? -1.0 : 1.0);
-      ridge.AddPoint(
-        glm::dvec3(i, -std::abs(i - columns / 2), j), glm::normalize(glm::dvec3(slope, 1.0, 0.0)));
-    }
+    // A quarter of a circle in three steps of 30 degrees, then flat.
+    const double angle = std::acos(-1.0) / 6.0 * std::min(i, 3);
+    const glm::dvec3 normal(std::cos(angle), std::sin(angle), 0.0);
+    steep.AddPoint(glm::dvec3(std::max(0, i - 3) + 1.0 - normal.x, 1.0 - normal.y, j), normal);
+    const double slope = i == columns / 2 ? 0.0 : (i < columns / 2 ? -1.0 : 1.0);
+    ridge.AddPoint(
+      glm::dvec3(i, -std::abs(i - columns / 2), j), glm::normalize(glm::dvec3(slope, 1.0, 0.0)));
   }
   for (MembraneMesh* mesh : { &steep, &ridge })
   {

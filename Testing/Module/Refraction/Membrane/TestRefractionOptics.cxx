@@ -2,21 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Snell's law, its extrapolations and Fresnel's equations against closed forms.
 #include "Refraction/Membrane/Optics.h"
+#include "TestBasics.h"
 
 #include <glm/trigonometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <utility>
 
 namespace
 {
 
-using meniscus::ComputeRefractionRay;
-using meniscus::FresnelReflectance;
-using meniscus::RayKind;
-using meniscus::SchlickReflectance;
+using namespace meniscus;
 
 const glm::dvec3 Up(0.0, 1.0, 0.0);
 

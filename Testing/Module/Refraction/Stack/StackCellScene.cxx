@@ -4,14 +4,9 @@
 
 #include "Refraction/Stack/StackSolver.h"
 #include "RefractionTestRandom.h"
+#include "TestBasics.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <optional>
+using namespace meniscus::test;
 
 namespace meniscus::testing
 {
@@ -49,26 +44,24 @@ std::vector<Hit> FindHits(
     to.push_back(path.Points[path.Count].Ray.Origin);
   }
   std::vector<Hit> hits;
-  for (std::size_t leg = 0; leg < to.size(); ++leg)
+  for (const auto& [leg, cell] :
+    Product(Below<std::size_t>(to.size()), Below<std::size_t>(object.GetCount())))
   {
-    for (std::size_t cell = 0; cell < object.GetCount(); ++cell)
+    const glm::dvec3 a = object.GetCorner(cell, 0) - stack.GetOrigin();
+    const glm::dvec3 u = object.GetCorner(cell, 1) - stack.GetOrigin() - a;
+    const glm::dvec3 v = object.GetCorner(cell, 2) - stack.GetOrigin() - a;
+    const glm::dvec3 way = to[leg] - from[leg];
+    const glm::dvec3 n = glm::cross(u, v);
+    const double t = glm::dot(a - from[leg], n) / glm::dot(way, n);
+    const glm::dvec3 at = from[leg] + t * way - a;
+    const double y = glm::dot(glm::cross(at, v), n) / glm::dot(n, n);
+    const double z = glm::dot(glm::cross(u, at), n) / glm::dot(n, n);
+    const double margin = std::min({ y, z, 1.0 - y - z });
+    const double length = glm::length(way);
+    const double near = std::min(t, 1.0 - t) * length;
+    if (margin > -clear && near > -100.0 * clear)
     {
-      const glm::dvec3 a = object.GetCorner(cell, 0) - stack.GetOrigin();
-      const glm::dvec3 u = object.GetCorner(cell, 1) - stack.GetOrigin() - a;
-      const glm::dvec3 v = object.GetCorner(cell, 2) - stack.GetOrigin() - a;
-      const glm::dvec3 way = to[leg] - from[leg];
-      const glm::dvec3 n = glm::cross(u, v);
-      const double t = glm::dot(a - from[leg], n) / glm::dot(way, n);
-      const glm::dvec3 at = from[leg] + t * way - a;
-      const double y = glm::dot(glm::cross(at, v), n) / glm::dot(n, n);
-      const double z = glm::dot(glm::cross(u, at), n) / glm::dot(n, n);
-      const double margin = std::min({ y, z, 1.0 - y - z });
-      const double length = glm::length(way);
-      const double near = std::min(t, 1.0 - t) * length;
-      if (margin > -clear && near > -100.0 * clear)
-      {
-        hits.push_back({ cell, margin > clear && near > 100.0 * clear });
-      }
+      hits.push_back({ cell, margin > clear && near > 100.0 * clear });
     }
   }
   return hits;

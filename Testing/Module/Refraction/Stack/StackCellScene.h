@@ -7,13 +7,8 @@
 #ifndef meniscus_Testing_Module_Refraction_Stack_StackCellScene_h
 #define meniscus_Testing_Module_Refraction_Stack_StackCellScene_h
 
+#include "MathBasics.h"
 #include "Refraction/StackImages/StackImages.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace meniscus::testing
 {

@@ -6,12 +6,7 @@
 #include "ExactStack.h"
 #include "HeightField.h"
 #include "Refraction/Stack/StackSolver.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
+#include "TestBasics.h"
 
 namespace meniscus::testing
 {

@@ -5,25 +5,13 @@
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/ErrorSamples.h"
 #include "RefractionTestRandom.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::CurvedMembraneSolver;
-using meniscus::PatchPoint;
-using meniscus::VirtualVertex;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using meniscus::testing::Random;
 
 constexpr double Water = 1.333;

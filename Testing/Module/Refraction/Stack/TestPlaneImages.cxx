@@ -5,32 +5,12 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-
 namespace
 {
 
-using meniscus::ImageState;
-using meniscus::Interface;
-using meniscus::PlaneLanes;
-using meniscus::PlaneLayer;
-using meniscus::StackDetail;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::VirtualVertex;
-using meniscus::reference::MakeSquare;
-using meniscus::reference::MembraneMesh;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::testing;
 
 // A rotation without zeros, about the diagonal of the axes.
 const glm::dmat3 Tilt = glm::dmat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;

@@ -6,16 +6,6 @@
 #include "StackCellScene.h"
 #include "StackTestScene.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <ostream>
-#include <vector>
-
 namespace
 {
 
@@ -60,22 +50,16 @@ template <typename Place>
 MembraneMesh MakeWall(double y, int columns, int rows, const Place& place)
 {
   MembraneMesh mesh;
-  for (int j = 0; j <= rows; ++j)
+  for (const auto& [j, i] : Product(rows + 1, columns + 1))
   {
-    for (int i = 0; i <= columns; ++i)
-    {
-      const glm::dvec2 at = place(i, j);
-      mesh.AddPoint({ at.x, y, at.y }, { 0.0, -1.0, 0.0 });
-    }
+    const glm::dvec2 at = place(i, j);
+    mesh.AddPoint({ at.x, y, at.y }, { 0.0, -1.0, 0.0 });
   }
-  for (int j = 0; j < rows; ++j)
+  for (const auto& [j, i] : Product(rows, columns))
   {
-    for (int i = 0; i < columns; ++i)
-    {
-      const std::int64_t corner = j * (columns + 1) + i;
-      mesh.AddTriangle(corner, corner + 1, corner + columns + 2);
-      mesh.AddTriangle(corner, corner + columns + 2, corner + columns + 1);
-    }
+    const std::int64_t corner = j * (columns + 1) + i;
+    mesh.AddTriangle(corner, corner + 1, corner + columns + 2);
+    mesh.AddTriangle(corner, corner + columns + 2, corner + columns + 1);
   }
   return mesh;
 }
@@ -251,30 +235,27 @@ Difference Compare(const Scene& scene, const Object& object, const glm::dvec3& e
       });
   };
   Difference result;
-  for (int row = 0; row < Scene::Pixels; ++row)
+  for (const auto& [row, column] : Product(Scene::Pixels, Scene::Pixels))
   {
-    for (int column = 0; column < Scene::Pixels; ++column)
+    const double x = column + 0.5;
+    const double y = row + 0.5;
+    const glm::dvec3 direction = scene.GetDirection(x, y);
+    const bool truth = scene.ShowsBoard(direction);
+    const auto count = countPieces(direction);
+    result.Covered += truth;
+    bool isTwice = count > 1;
+    bool isWrong = truth != (count > 0);
+    for (int k = 0; k < around && (isTwice || isWrong); ++k)
     {
-      const double x = column + 0.5;
-      const double y = row + 0.5;
-      const glm::dvec3 direction = scene.GetDirection(x, y);
-      const bool truth = scene.ShowsBoard(direction);
-      const auto count = countPieces(direction);
-      result.Covered += truth;
-      bool isTwice = count > 1;
-      bool isWrong = truth != (count > 0);
-      for (int k = 0; k < around && (isTwice || isWrong); ++k)
-      {
-        const double angle = 2.0 * std::acos(-1.0) * k / around;
-        const glm::dvec3 near =
-          scene.GetDirection(x + within * std::cos(angle), y + within * std::sin(angle));
-        isTwice = isTwice && countPieces(near) > 1;
-        isWrong = isWrong && scene.ShowsBoard(near) == truth;
-      }
-      result.Twice += isTwice;
-      result.Wrong += isWrong;
-      result.Missing += isWrong && truth;
+      const double angle = 2.0 * std::acos(-1.0) * k / around;
+      const glm::dvec3 near =
+        scene.GetDirection(x + within * std::cos(angle), y + within * std::sin(angle));
+      isTwice = isTwice && countPieces(near) > 1;
+      isWrong = isWrong && scene.ShowsBoard(near) == truth;
     }
+    result.Twice += isTwice;
+    result.Wrong += isWrong;
+    result.Missing += isWrong && truth;
   }
   return result;
 }

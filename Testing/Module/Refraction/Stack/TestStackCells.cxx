@@ -5,21 +5,12 @@
 #include "StackCellScene.h"
 #include "StackTestScene.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <string>
-
 namespace
 {
 
 using meniscus::StackSolver;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus::reference;
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
@@ -172,18 +163,15 @@ TEST(RefractionStackCells, TrianglesThatKeepTheirCornersAreDrawnWell)
   Object object;
   constexpr int cells = 16;
   constexpr double side = 50.0 / cells;
-  for (int i = 0; i <= cells; ++i)
+  for (const auto& [i, j] : Product(cells + 1, cells + 1))
   {
-    for (int j = 0; j <= cells; ++j)
+    object.Points.push_back({ -25.0 + side * i, -100.0 + 0.5 * i, -25.0 + side * j });
+    if (i < cells && j < cells)
     {
-      object.Points.push_back({ -25.0 + side * i, -100.0 + 0.5 * i, -25.0 + side * j });
-      if (i < cells && j < cells)
+      const std::int64_t corner = i * (cells + 1) + j;
+      for (const std::int64_t k : { 0, cells + 1, cells + 2, 0, cells + 2, 1 })
       {
-        const std::int64_t corner = i * (cells + 1) + j;
-        for (const std::int64_t k : { 0, cells + 1, cells + 2, 0, cells + 2, 1 })
-        {
-          object.Connectivity.push_back(corner + k);
-        }
+        object.Connectivity.push_back(corner + k);
       }
     }
   }
@@ -293,21 +281,18 @@ double GetSeenArea(const Object& object, const glm::dvec3& eye, double unit)
 MembraneMesh MakeSea(double half, int columns, int rows)
 {
   MembraneMesh mesh;
-  for (int i = 0; i <= columns; ++i)
+  for (const auto& [i, j] : Product(columns + 1, rows + 1))
   {
-    for (int j = 0; j <= rows; ++j)
+    const double x = half * (2.0 * i / columns - 1.0);
+    const double z = half * (2.0 * j / rows - 1.0);
+    mesh.Points.insert(mesh.Points.end(), { x, 0.0, z });
+    mesh.Normals.insert(mesh.Normals.end(), { 0.0, 1.0, 0.0 });
+    if (i < columns && j < rows)
     {
-      const double x = half * (2.0 * i / columns - 1.0);
-      const double z = half * (2.0 * j / rows - 1.0);
-      mesh.Points.insert(mesh.Points.end(), { x, 0.0, z });
-      mesh.Normals.insert(mesh.Normals.end(), { 0.0, 1.0, 0.0 });
-      if (i < columns && j < rows)
+      const std::int64_t corner = i * (rows + 1) + j;
+      for (const std::int64_t k : { 0, 1, rows + 2, 0, rows + 2, rows + 1 })
       {
-        const std::int64_t corner = i * (rows + 1) + j;
-        for (const std::int64_t k : { 0, 1, rows + 2, 0, rows + 2, rows + 1 })
-        {
-          mesh.Triangles.push_back(corner + k);
-        }
+        mesh.Triangles.push_back(corner + k);
       }
     }
   }
@@ -383,14 +368,11 @@ TEST(RefractionStackCells, ImagesInHugeFacetsAreThoseInSmallOnes)
   for (const double unit : { 1.0, 1e-6, 1e2, 1e4, 1e6 })
   {
     const SeenFloor floor(unit);
-    for (const double half : { 1.0, 1e2, 1e4, 1e6 })
+    for (const auto& [half, shift] : Product(List(1.0, 1e2, 1e4, 1e6), List(0.1, 0.37)))
     {
-      for (const double shift : { 0.1, 0.37 })
-      {
-        SCOPED_TRACE(::testing::Message()
-          << "half width " << half << " in units of " << unit << ", shift " << shift);
-        floor.ExpectImage(MakeSea(half * unit, 1, 1), half * unit * glm::dvec2(shift));
-      }
+      SCOPED_TRACE(::testing::Message()
+        << "half width " << half << " in units of " << unit << ", shift " << shift);
+      floor.ExpectImage(MakeSea(half * unit, 1, 1), half * unit * glm::dvec2(shift));
     }
   }
 }

@@ -4,37 +4,13 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 namespace
 {
 
-using meniscus::ImageState;
-using meniscus::ParallelPlanes;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackBeamParts;
-using meniscus::StackPath;
-using meniscus::StackPlace;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::TraceExactly;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
-using meniscus::testing::SolveAlone;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 
@@ -49,14 +25,11 @@ public:
   {
     const auto facets = static_cast<std::int32_t>(
       this->Stack.GetLinks()[0].Surface->GetMembrane().GetFacets().size());
-    for (std::int32_t facet = 0; facet < facets; ++facet)
+    for (const auto& [facet, i] : Product(Below<std::int32_t>(facets), parts + 1))
     {
-      for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j)
       {
-        for (int j = 0; i + j <= parts; ++j)
-        {
-          this->Rays.push_back(this->Trace({ facet, this->GetPlace(i, j) }));
-        }
+        this->Rays.push_back(this->Trace({ facet, this->GetPlace(i, j) }));
       }
     }
   }

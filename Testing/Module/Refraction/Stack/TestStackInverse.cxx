@@ -6,28 +6,13 @@
 
 #include "Refraction/Stack/StackInverse.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
-
 namespace
 {
 
-using meniscus::FindTruePosition;
-using meniscus::Interface;
-using meniscus::SeenState;
-using meniscus::StackChain;
-using meniscus::StackSolver;
-using meniscus::TruePosition;
+using namespace meniscus;
 using meniscus::reference::MembraneMesh;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 constexpr double Size = 200.0;
 
@@ -196,15 +181,12 @@ TEST(StackInverse, SurfacesAreMetNearAPlace)
   }
   ASSERT_GT(distances.size(), 2u);
   const meniscus::StackPatches patches(stack.GetLinks(), stack.GetOrigin());
-  for (std::size_t i = 0; i < distances.size(); ++i)
+  for (const auto& [i, off] : Product(Below<std::size_t>(distances.size()), List(-0.5, 0.0, 0.5)))
   {
-    for (const double off : { -0.5, 0.0, 0.5 })
-    {
-      meniscus::PatchPoint at;
-      const glm::dvec3 near = eye + (distances[i] + off) * direction;
-      ASSERT_TRUE(patches.Meet(0, eye, direction, near, at));
-      EXPECT_NEAR(
-        glm::dot(at.Position - eye, direction), distances[std::max<std::size_t>(i, 1)], 1e-6);
-    }
+    meniscus::PatchPoint at;
+    const glm::dvec3 near = eye + (distances[i] + off) * direction;
+    ASSERT_TRUE(patches.Meet(0, eye, direction, near, at));
+    EXPECT_NEAR(
+      glm::dot(at.Position - eye, direction), distances[std::max<std::size_t>(i, 1)], 1e-6);
   }
 }

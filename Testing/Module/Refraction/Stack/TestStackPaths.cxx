@@ -1,35 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Paths through wavy surfaces: derivatives, and a joint iteration for all sight points as oracle.
-#include "HeightField.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
 
 namespace
 {
 
-using meniscus::CurvedPatch;
-using meniscus::ImageState;
-using meniscus::PatchPoint;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::HeightField;
-using meniscus::reference::MembraneMesh;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::MakeWaves;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

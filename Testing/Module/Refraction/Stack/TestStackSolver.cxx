@@ -5,33 +5,13 @@
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace
 {
 
-using meniscus::EyeStatus;
-using meniscus::ImageState;
-using meniscus::Interface;
-using meniscus::RayJet;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::StackVertex;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakeCap;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::MembraneMesh;
-using meniscus::reference::TraceExactly;
-using meniscus::testing::MakeSurface;
-using meniscus::testing::Random;
-using meniscus::testing::SetStack;
-using meniscus::testing::SolveAlone;
+using namespace meniscus;
+using namespace meniscus::reference;
+using namespace meniscus::test;
+using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 
@@ -462,20 +442,17 @@ TEST(RefractionStack, ListBeginsAtFacetsMuchLargerThanTheNextSurface)
 // them is as large.
 TEST(RefractionStack, ListBeginsAtFacetsThatReflectNearlyEverywhere)
 {
-  for (const double half : { 300.0, 4e3, 7e4, 5e6 })
+  for (const auto& [half, index] : Product(List(300.0, 4e3, 7e4, 5e6), List(1.0003, 1.35)))
   {
-    for (const double index : { 1.0003, 1.35 })
-    {
-      MembraneMesh first = MakePlane(0.0, 2.0 * half, 2);
-      first.Translate(half * glm::dvec3(0.3, 0.0, -0.2));
-      MembraneMesh second = MakePlane(-0.5, 200.0 * half, 1);
-      second.Translate(100.0 * half * glm::dvec3(-0.6, 0.0, 0.45));
-      StackSolver solver;
-      SetStack(solver,
-        { { MakeSurface(first), { index, 1.0 } }, { MakeSurface(second), { 1.0, 2.3 } } },
-        { 0.2, 1.5, 0.1 });
-      EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u) << half << ", index " << index;
-    }
+    MembraneMesh first = MakePlane(0.0, 2.0 * half, 2);
+    first.Translate(half * glm::dvec3(0.3, 0.0, -0.2));
+    MembraneMesh second = MakePlane(-0.5, 200.0 * half, 1);
+    second.Translate(100.0 * half * glm::dvec3(-0.6, 0.0, 0.45));
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(first), { index, 1.0 } }, { MakeSurface(second), { 1.0, 2.3 } } },
+      { 0.2, 1.5, 0.1 });
+    EXPECT_EQ(solver.GetStack().GetLinks().size(), 2u) << half << ", index " << index;
   }
 }
 

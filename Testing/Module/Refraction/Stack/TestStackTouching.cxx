@@ -6,27 +6,11 @@
 #include "StackCellScene.h"
 #include "StackTestScene.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 namespace
 {
 
-using meniscus::ImageMesh;
-using meniscus::ImagePoint;
-using meniscus::PathEnd;
-using meniscus::RefractionStack;
-using meniscus::StackImages;
-using meniscus::StackPath;
-using meniscus::StackSolver;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus;
+using namespace meniscus::reference;
 using namespace meniscus::testing;
 
 // Walls with a side on a plane interface, in front of it and behind it, sails that touch it with
@@ -261,18 +245,15 @@ TEST(RefractionStackTouching, BallInAPaneLosesNoPieces)
         glm::dvec3(
           std::sin(polar) * std::cos(turn), std::cos(polar), -std::sin(polar) * std::sin(turn));
     };
-    for (int ring = 0; ring < ball.Rings; ++ring)
+    for (const auto& [ring, k] : Product(ball.Rings, around))
     {
-      for (int k = 0; k < around; ++k)
+      if (ring + 1 < ball.Rings)
       {
-        if (ring + 1 < ball.Rings)
-        {
-          object.AddTriangle(place(ring, k), place(ring + 1, k), place(ring + 1, k + 1));
-        }
-        if (ring > 0)
-        {
-          object.AddTriangle(place(ring, k), place(ring + 1, k + 1), place(ring, k + 1));
-        }
+        object.AddTriangle(place(ring, k), place(ring + 1, k), place(ring + 1, k + 1));
+      }
+      if (ring > 0)
+      {
+        object.AddTriangle(place(ring, k), place(ring + 1, k + 1), place(ring, k + 1));
       }
     }
     // The filter's default.

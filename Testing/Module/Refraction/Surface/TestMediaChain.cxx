@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sides from which rays pass the interfaces of a list, by their indices of refraction.
 #include "Refraction/Surface/MediaChain.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "TestBasics.h"
 
 namespace
 {
 
-using meniscus::InterfacePassage;
-using meniscus::MediaChain;
-using meniscus::MediaFault;
+using namespace meniscus;
 
 bool IsPassage(const InterfacePassage& passage, double before, double behind, bool fromFront)
 {

@@ -5,15 +5,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Refraction/Surface/RefractingSurface.h"
-
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <vector>
+#include "TestBasics.h"
 
 namespace meniscus
 {

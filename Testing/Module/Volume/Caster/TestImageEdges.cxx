@@ -1,18 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of images that are known.
+#include "TestBasics.h"
 #include "Volume/Caster/ImageEdges.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <functional>
-#include <vector>
-
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
@@ -26,12 +18,9 @@ std::vector<std::uint8_t> EdgesOf(
   const std::function<float(int, int)>& opacity, int width = Width, int height = Height)
 {
   std::vector<float> image;
-  for (int row = 0; row < height; ++row)
+  for (const auto& [row, column] : Product(height, width))
   {
-    for (int column = 0; column < width; ++column)
-    {
-      image.insert(image.end(), { 0.0f, 0.0f, 0.0f, opacity(column, row) });
-    }
+    image.insert(image.end(), { 0.0f, 0.0f, 0.0f, opacity(column, row) });
   }
   std::vector<std::uint8_t> edges;
   FindImageEdges(image, width, height, { 0, width, 0, height }, SerialLoop, edges);
@@ -44,12 +33,9 @@ TEST(ImageEdges, LinearImagesHaveThemAtTheBorderAtMost)
 {
   const auto edges =
     EdgesOf([](int column, int row) { return 0.02f * column + 0.03f * row + 0.1f; });
-  for (int row = 1; row < Height - 1; ++row)
+  for (const auto& [row, column] : Product(Numbers<int>(1, Height - 1), Numbers<int>(1, Width - 1)))
   {
-    for (int column = 1; column < Width - 1; ++column)
-    {
-      EXPECT_EQ(edges[row * Width + column], 0) << column << ", " << row;
-    }
+    EXPECT_EQ(edges[row * Width + column], 0) << column << ", " << row;
   }
 }
 
@@ -62,17 +48,14 @@ TEST(ImageEdges, BothSidesOfAStep)
       EdgesOf([height](int column, int) { return column < 5 ? 0.3f : 0.3f + height; });
     const auto diagonal =
       EdgesOf([height](int column, int row) { return column < row ? 0.3f : 0.3f + height; });
-    for (int row = 0; row < Height; ++row)
+    for (const auto& [row, column] : Product(Height, Width))
     {
-      for (int column = 0; column < Width; ++column)
-      {
-        const std::size_t pixel = static_cast<std::size_t>(row * Width + column);
-        const bool isBeside = column == 4 || column == 5;
-        EXPECT_EQ(upright[pixel], isEdge && isBeside ? 2 : 0) << column << ", " << row;
-        const bool isNear = column == row || column == row - 1;
-        EXPECT_TRUE(diagonal[pixel] != 0 || !(isEdge && isNear)) << column << ", " << row;
-        EXPECT_TRUE(diagonal[pixel] == 0 || isEdge) << column << ", " << row;
-      }
+      const std::size_t pixel = static_cast<std::size_t>(row * Width + column);
+      const bool isBeside = column == 4 || column == 5;
+      EXPECT_EQ(upright[pixel], isEdge && isBeside ? 2 : 0) << column << ", " << row;
+      const bool isNear = column == row || column == row - 1;
+      EXPECT_TRUE(diagonal[pixel] != 0 || !(isEdge && isNear)) << column << ", " << row;
+      EXPECT_TRUE(diagonal[pixel] == 0 || isEdge) << column << ", " << row;
     }
   }
 }
@@ -92,13 +75,10 @@ TEST(ImageEdges, PixelsNextToTheFilledBoxCount)
   image[4 * (4 * Width + 5) + 1] = 1.0f;
   std::vector<std::uint8_t> edges;
   FindImageEdges(image, Width, Height, { 5, 6, 4, 5 }, SerialLoop, edges);
-  for (int row = 0; row < Height; ++row)
+  for (const auto& [row, column] : Product(Height, Width))
   {
-    for (int column = 0; column < Width; ++column)
-    {
-      const bool isNear = std::abs(column - 5) <= 1 && std::abs(row - 4) <= 1;
-      EXPECT_EQ(edges[row * Width + column] != 0, isNear) << column << ", " << row;
-    }
+    const bool isNear = std::abs(column - 5) <= 1 && std::abs(row - 4) <= 1;
+    EXPECT_EQ(edges[row * Width + column] != 0, isNear) << column << ", " << row;
   }
   FindImageEdges(image, Width, Height, { Width, 0, Height, 0 }, SerialLoop, edges);
   EXPECT_EQ(edges, std::vector<std::uint8_t>(Width * Height, 0));

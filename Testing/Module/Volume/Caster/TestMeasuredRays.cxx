@@ -8,11 +8,6 @@
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Rays/PlacedVertices.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -25,7 +20,7 @@ constexpr double Tolerance = 1.0e-6;
 constexpr double MeasuredFrom = -3.0;
 
 /** Rays along -z through the unit cube, with a linear field. */
-class MeasuredRaysTest : public testing::TestWithParam<InstructionSet>
+class MeasuredRaysTest : public ::testing::TestWithParam<InstructionSet>
 {
 protected:
   MeasuredRaysTest()
@@ -67,18 +62,16 @@ protected:
       sums.Rays += ofTile.Rays;
       sums.Lost += ofTile.Lost;
       const auto box = caster.GetBox(tile);
-      for (int row = box.Bottom; row < box.Top; ++row)
+      for (const auto& [row, column] :
+        Product(Numbers<int>(box.Bottom, box.Top), Numbers<int>(box.Left, box.Right)))
       {
-        for (int column = box.Left; column < box.Right; ++column)
+        const double x = 0.5 + Extent * (2.0 * (column + 0.5) / Size - 1.0);
+        const double y = 0.5 + Extent * (2.0 * (row + 0.5) / Size - 1.0);
+        const int inTile = (row - box.Bottom) * RefractedRayTiles::TileSize + column - box.Left;
+        if (x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0)
         {
-          const double x = 0.5 + Extent * (2.0 * (column + 0.5) / Size - 1.0);
-          const double y = 0.5 + Extent * (2.0 * (row + 0.5) / Size - 1.0);
-          const int inTile = (row - box.Bottom) * RefractedRayTiles::TileSize + column - box.Left;
-          if (x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0)
-          {
-            check(x, y, static_cast<std::size_t>(inTile), workspace.Measured);
-            ++met;
-          }
+          check(x, y, static_cast<std::size_t>(inTile), workspace.Measured);
+          ++met;
         }
       }
     }
@@ -95,7 +88,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  Sets, MeasuredRaysTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+  Sets, MeasuredRaysTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -13,18 +13,6 @@
 #include "Volume/Refracted/RefractedRayTexels.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -89,12 +77,9 @@ public:
     {
       tiles.Resize((Size / TileSize) * (Size / TileSize));
     }
-    for (int row = 0; row < Size; ++row)
+    for (const auto& [row, column] : Product(Size, Size))
     {
-      for (int column = 0; column < Size; ++column)
-      {
-        this->Trace(column, row);
-      }
+      this->Trace(column, row);
     }
     this->UseLegs();
   }
@@ -162,19 +147,16 @@ public:
     EXPECT_EQ(picture.Statistics.Lost, 0);
     double largest = 0.0;
     int seen = 0;
-    for (int row = 0; row < Size; ++row)
+    for (const auto& [row, column] : Product(Size, Size))
     {
-      for (int column = 0; column < Size; ++column)
+      double length = 0.0;
+      for (int number = drawn.First; number < std::min(drawn.End, 3); ++number)
       {
-        double length = 0.0;
-        for (int number = drawn.First; number < std::min(drawn.End, 3); ++number)
-        {
-          length += this->LengthInCube(column, row, number);
-        }
-        seen += length > 0.1 ? 1 : 0;
-        const double alpha = 1.0 - std::exp(-1.5 * length);
-        largest = std::max(largest, std::fabs(alpha - picture.Alpha(column, row)));
+        length += this->LengthInCube(column, row, number);
       }
+      seen += length > 0.1 ? 1 : 0;
+      const double alpha = 1.0 - std::exp(-1.5 * length);
+      largest = std::max(largest, std::fabs(alpha - picture.Alpha(column, row)));
     }
     EXPECT_LT(largest, Tolerance) << NameOf(set) << ", legs " << drawn.First << " to " << drawn.End
                                   << ", inside " << beginsInside;
@@ -277,26 +259,23 @@ TEST(RayLegs, PaneDisplacesRaysAndKeepsTheirDirection)
   const RayLegs legs = scene.GetLegs();
   const double thickness = scene.Glass.Heights[0] - scene.Glass.Heights[1];
   ASSERT_EQ(legs.GetNumberOfLegs(), 3);
-  for (int row = 0; row < Size; ++row)
+  for (const auto& [row, column] : Product(Size, Size))
   {
-    for (int column = 0; column < Size; ++column)
-    {
-      const int tile = PaneScene::TileOf(column, row);
-      const int pixel = PaneScene::PixelOf(column, row);
-      RayLeg sight;
-      RayLeg behind;
-      ASSERT_TRUE(legs.Find(tile, pixel, 0, sight));
-      ASSERT_TRUE(legs.Find(tile, pixel, 2, behind));
-      EXPECT_EQ(behind.End, Infinity);
-      EXPECT_LE(glm::length(behind.Step - sight.Step), 1e-15 * 8.0);
-      // d sin(t1 - t2) / cos(t2)
-      const glm::dvec3 direction = glm::normalize(sight.Step);
-      const double outside = std::acos(-glm::dot(direction, scene.Glass.Normal));
-      const double inside = std::asin(std::sin(outside) / 1.5);
-      const glm::dvec3 between = behind.Begin - sight.Begin;
-      EXPECT_NEAR(glm::length(between - glm::dot(between, direction) * direction),
-        thickness * std::sin(outside - inside) / std::cos(inside), 1e-13);
-    }
+    const int tile = PaneScene::TileOf(column, row);
+    const int pixel = PaneScene::PixelOf(column, row);
+    RayLeg sight;
+    RayLeg behind;
+    ASSERT_TRUE(legs.Find(tile, pixel, 0, sight));
+    ASSERT_TRUE(legs.Find(tile, pixel, 2, behind));
+    EXPECT_EQ(behind.End, Infinity);
+    EXPECT_LE(glm::length(behind.Step - sight.Step), 1e-15 * 8.0);
+    // d sin(t1 - t2) / cos(t2)
+    const glm::dvec3 direction = glm::normalize(sight.Step);
+    const double outside = std::acos(-glm::dot(direction, scene.Glass.Normal));
+    const double inside = std::asin(std::sin(outside) / 1.5);
+    const glm::dvec3 between = behind.Begin - sight.Begin;
+    EXPECT_NEAR(glm::length(between - glm::dot(between, direction) * direction),
+      thickness * std::sin(outside - inside) / std::cos(inside), 1e-13);
   }
 }
 
@@ -381,13 +360,10 @@ TEST(RayLegs, RaysEndWhereTheirLegsEnd)
   // reflected there.
   PaneScene scene{ Pane() };
   scene.Behind[1].ChangeTile(0).clear();
-  for (int row = TileSize; row < Size; ++row)
+  for (const auto& [row, column] : Product(Numbers(TileSize, Size), Size))
   {
-    for (int column = 0; column < Size; ++column)
-    {
-      RefractedRay& ray = scene.Ray(1, column, row);
-      ray = column % 2 == 0 ? RefractedRay() : RefractedRay{ ray.Depth, glm::dvec3(0.0) };
-    }
+    RefractedRay& ray = scene.Ray(1, column, row);
+    ray = column % 2 == 0 ? RefractedRay() : RefractedRay{ ray.Depth, glm::dvec3(0.0) };
   }
   scene.UseLegs();
   EXPECT_EQ(scene.GetLegs().GetNumberOfLegs(0), 2);
@@ -420,32 +396,28 @@ TEST(RayLegs, LinesForShadersAreTheLegs)
   // Offsets are rounded to grid units of about 2^-28 and slopes to a fraction of one; five of these
   // add up. Depths are rounded to 2^-30.
   constexpr double precision = 5.0 / (1 << 28);
-  for (int row = 0; row < Size; ++row)
+  for (const auto& [row, column] : Product(Size, Size))
   {
-    for (int column = 0; column < Size; ++column)
+    glm::dmat3 frameBefore(1.0);
+    for (int number = 1; number < 3; ++number)
     {
-      glm::dmat3 frameBefore(1.0);
-      for (int number = 1; number < 3; ++number)
-      {
-        RayLeg leg;
-        ASSERT_TRUE(
-          legs.Find(PaneScene::TileOf(column, row), PaneScene::PixelOf(column, row), number, leg));
-        const RefractedRayLine& line =
-          lines[static_cast<std::size_t>(((number - 1) * Size + row) * Size + column)];
-        const RefractionFrame& frame = scene.Frames.Get(line.GetFrame());
-        EXPECT_NEAR(
-          FixedPointRays::DepthOf(line.GetGridEndBefore()), (frameBefore * leg.Begin).z, precision);
-        frameBefore = frame.FromView;
-        const double unit = frame.Rays.GetGridUnit();
-        const double slopeUnit =
-          unit * PacketVertex::GridPerDepth * FixedPointRays::ShaderSlopeUnit;
-        const glm::dvec3 along(line.Slope[0] * slopeUnit, line.Slope[1] * slopeUnit, 1.0);
-        const glm::dvec3 place = glm::dvec3(unit * line.Offset[0], unit * line.Offset[1], 0.0) +
-          FixedPointRays::DepthOf(line.GetGridStart()) * along;
-        EXPECT_LE(glm::length(place - frame.FromView * leg.Begin), precision);
-        // PerDepth is a float.
-        EXPECT_LE(glm::length(double{ line.PerDepth } * along - frame.FromView * leg.Step), 2e-7);
-      }
+      RayLeg leg;
+      ASSERT_TRUE(
+        legs.Find(PaneScene::TileOf(column, row), PaneScene::PixelOf(column, row), number, leg));
+      const RefractedRayLine& line =
+        lines[static_cast<std::size_t>(((number - 1) * Size + row) * Size + column)];
+      const RefractionFrame& frame = scene.Frames.Get(line.GetFrame());
+      EXPECT_NEAR(
+        FixedPointRays::DepthOf(line.GetGridEndBefore()), (frameBefore * leg.Begin).z, precision);
+      frameBefore = frame.FromView;
+      const double unit = frame.Rays.GetGridUnit();
+      const double slopeUnit = unit * PacketVertex::GridPerDepth * FixedPointRays::ShaderSlopeUnit;
+      const glm::dvec3 along(line.Slope[0] * slopeUnit, line.Slope[1] * slopeUnit, 1.0);
+      const glm::dvec3 place = glm::dvec3(unit * line.Offset[0], unit * line.Offset[1], 0.0) +
+        FixedPointRays::DepthOf(line.GetGridStart()) * along;
+      EXPECT_LE(glm::length(place - frame.FromView * leg.Begin), precision);
+      // PerDepth is a float.
+      EXPECT_LE(glm::length(double{ line.PerDepth } * along - frame.FromView * leg.Step), 2e-7);
     }
   }
 }

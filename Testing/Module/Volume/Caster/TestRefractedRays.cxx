@@ -5,20 +5,13 @@
 #include "KernelSurfaces.h"
 
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 #include "Volume/Refracted/RefractedRayStack.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -2,27 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Division of curved cells: the pieces fill the cells without cracks, linear interpolation in them
 // is as accurate as wanted, and no more pieces are made than that takes.
+#include "TestBasics.h"
 #include "Volume/Division/CellDivision.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <memory>
-#include <numeric>
-#include <random>
 #include <thread>
-#include <vector>
 
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
@@ -77,28 +64,22 @@ struct Block
     std::uniform_real_distribution<double> move(-jitter / n, jitter / n);
     const auto at = [&](int i, int j, int k)
     { return number[static_cast<std::size_t>((k * side + j) * side + i)]; };
-    for (int k = 0; k < side; ++k)
+    for (const auto& [k, j, i] : Product(side, side, side))
     {
-      for (int j = 0; j < side; ++j)
+      const int index[3] = { i, j, k };
+      for (int axis = 0; axis < 3; ++axis)
       {
-        for (int i = 0; i < side; ++i)
+        const bool inner = index[axis] > 0 && index[axis] < n;
+        this->Points[static_cast<std::size_t>(3 * at(i, j, k) + axis)] =
+          static_cast<double>(index[axis]) / n + (inner ? move(random) : 0.0);
+      }
+      if (i < n && j < n && k < n)
+      {
+        this->Cells.push_back({});
+        for (std::size_t c = 0; c < 8; ++c)
         {
-          const int index[3] = { i, j, k };
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            const bool inner = index[axis] > 0 && index[axis] < n;
-            this->Points[static_cast<std::size_t>(3 * at(i, j, k) + axis)] =
-              static_cast<double>(index[axis]) / n + (inner ? move(random) : 0.0);
-          }
-          if (i < n && j < n && k < n)
-          {
-            this->Cells.push_back({});
-            for (std::size_t c = 0; c < 8; ++c)
-            {
-              this->Cells.back()[c] = at(i + static_cast<int>(Corners[c].x),
-                j + static_cast<int>(Corners[c].y), k + static_cast<int>(Corners[c].z));
-            }
-          }
+          this->Cells.back()[c] = at(i + static_cast<int>(Corners[c].x),
+            j + static_cast<int>(Corners[c].y), k + static_cast<int>(Corners[c].z));
         }
       }
     }
@@ -381,22 +362,19 @@ TEST(CellDivision, IsosurfacesAreWhereTheToleranceSays)
 {
   Block block(1, 0.0, 5);
   block.SetValues([](const glm::dvec3& at) { return at.x * at.y; });
-  for (const double tolerance : { 1e-2, 3e-3, 1e-3 })
+  for (const auto& [tolerance, value] : Product(List(1e-2, 3e-3, 1e-3), List(0.13, 0.3, 0.62)))
   {
-    for (const double value : { 0.13, 0.3, 0.62 })
-    {
-      DivisionLimits limits = LimitsOf(tolerance, 1.0);
-      limits.Measure.OfValues.fill(ErrorScale({ { value, 0.0 }, { value, 0.0 }, { value, 10.0 } }));
-      limits.Measure.ValuesMayMove = true;
-      limits.Measure.HasSurfaces = true;
-      CellDivision division;
-      ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
-      // The error of an edge is largest in its middle, which is measured, and the surface is not
-      // farther away than along the edge. Its slope at the drawn point is that of the value there
-      // to the first order; the rest is less than a tenth.
-      EXPECT_LE(LargestDisplacement(division, block.Fields, value), 1.1 * tolerance) << value;
-      EXPECT_LT(division.GetCounts().Pieces, 50.0 / tolerance) << value;
-    }
+    DivisionLimits limits = LimitsOf(tolerance, 1.0);
+    limits.Measure.OfValues.fill(ErrorScale({ { value, 0.0 }, { value, 0.0 }, { value, 10.0 } }));
+    limits.Measure.ValuesMayMove = true;
+    limits.Measure.HasSurfaces = true;
+    CellDivision division;
+    ASSERT_EQ(block.Divide(division, limits), DivisionStatus::Ok);
+    // The error of an edge is largest in its middle, which is measured, and the surface is not
+    // farther away than along the edge. Its slope at the drawn point is that of the value there
+    // to the first order; the rest is less than a tenth.
+    EXPECT_LE(LargestDisplacement(division, block.Fields, value), 1.1 * tolerance) << value;
+    EXPECT_LT(division.GetCounts().Pieces, 50.0 / tolerance) << value;
   }
 }
 

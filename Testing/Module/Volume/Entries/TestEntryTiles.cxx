@@ -3,6 +3,7 @@
 // Lists of the faces by which rays may enter, for meshes of cells that share no points.
 #include "KernelMeshes.h"
 
+#include "TestBasics.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Entries/BoundaryRaster.h"
 #include "Volume/Entries/EntryTiles.h"
@@ -12,12 +13,6 @@
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -9,14 +9,6 @@
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -3,16 +3,8 @@
 // Directions in which points are seen through a medium: parabolas, images of a rod, shadows.
 #include "GradedScene.h"
 
-#include "RandomNumbers.h"
+#include "TestBasics.h"
 #include "Volume/Graded/ApparentPlaces.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -2,27 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cones and drawn faces shorten searches for entries and change no result.
 #include "GradedScene.h"
-#include "RandomNumbers.h"
 
+#include "TestBasics.h"
 #include "Volume/Graded/BoundaryCones.h"
 #include "Volume/Graded/EntryRaster.h"
 #include "Volume/Graded/GradedRayWalk.h"
-
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <memory>
-#include <utility>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -3,10 +3,7 @@
 // Lenses with closed forms. n^2 is off by the third power of the cells' size h and its gradient by
 // the square, so that rays are of order 2. Quadratic fields are exact in the cells.
 #include "GradedScene.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "TestBasics.h"
 
 using namespace meniscus;
 using namespace meniscus::test;

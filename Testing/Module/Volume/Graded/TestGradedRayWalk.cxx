@@ -4,19 +4,8 @@
 #include "GradedScene.h"
 
 #include "GradedRayIntegrator.h"
-#include "RandomNumbers.h"
+#include "TestBasics.h"
 #include "Volume/Graded/GradedCell.h"
-
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -187,12 +176,12 @@ struct WalkKind
   bool InLanes;
 };
 
-class GradedRayWalkOfKind : public testing::TestWithParam<WalkKind>
+class GradedRayWalkOfKind : public ::testing::TestWithParam<WalkKind>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Walks, GradedRayWalkOfKind,
-  testing::Values(WalkKind{ true, false }, WalkKind{ false, false }, WalkKind{ true, true },
+  ::testing::Values(WalkKind{ true, false }, WalkKind{ false, false }, WalkKind{ true, true },
     WalkKind{ false, true }),
   [](const auto& one)
   {
@@ -365,13 +354,10 @@ TEST(GradedRayWalk, PlanesOfSymmetryDoNotTrap)
   for (const bool inLanes : { false, true })
   {
     lens.InLanes = inLanes;
-    for (int j = 0; j < 40; ++j)
+    for (const auto& [j, i] : Product(40, 40))
     {
-      for (int i = 0; i < 40; ++i)
-      {
-        lens.Trace(
-          glm::dvec3((i + 0.5) / 20.0 - 1.0, (j + 0.5) / 20.0 - 1.0, 3.0), glm::dvec3(0, 0, -1.0));
-      }
+      lens.Trace(
+        glm::dvec3((i + 0.5) / 20.0 - 1.0, (j + 0.5) / 20.0 - 1.0, 3.0), glm::dvec3(0, 0, -1.0));
     }
   }
   ExpectAllThrough(lens.Statistics);

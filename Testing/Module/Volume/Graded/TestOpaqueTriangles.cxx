@@ -3,19 +3,8 @@
 // Bent rays that end at triangles: closed forms, straight rays, closed surfaces, the way back.
 #include "GradedScene.h"
 
-#include "RandomNumbers.h"
+#include "TestBasics.h"
 #include "Volume/Graded/OpaqueTriangles.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

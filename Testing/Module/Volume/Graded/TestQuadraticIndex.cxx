@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Terms of the edges that make n^2 quadratic in the cells.
 #include "GradedScene.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include "TestBasics.h"
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -3,13 +3,8 @@
 // Images of instruments, and the straight rays of small angles.
 #include "GradedScene.h"
 
+#include "TestBasics.h"
 #include "Volume/Graded/SchlierenImages.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numeric>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -22,12 +17,9 @@ template <typename Map>
 std::vector<glm::dvec2> Land(int width, int height, Map&& map)
 {
   std::vector<glm::dvec2> landings;
-  for (int j = 0; j < height; ++j)
+  for (const auto& [j, i] : Product(height, width))
   {
-    for (int i = 0; i < width; ++i)
-    {
-      landings.push_back(map(glm::dvec2(i, j)));
-    }
+    landings.push_back(map(glm::dvec2(i, j)));
   }
   return landings;
 }

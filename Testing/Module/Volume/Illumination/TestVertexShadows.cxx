@@ -8,15 +8,7 @@
 #include "Volume/Illumination/FibonacciSphere.h"
 #include "Volume/Illumination/VertexShadows.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace
 {

@@ -7,14 +7,6 @@
 #include "Volume/Optics/VisibleRanks.h"
 #include "Volume/Optics/VisibleScalars.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <map>
 #include <thread>
 
 using namespace meniscus;

@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges and volumes of cells in lanes, against one cell at a time.
 #include "KernelMeshes.h"
+#include "TestBasics.h"
 #include "Volume/Mesh/CellMeasures.h"
 #include "Volume/Mesh/ComponentVolume.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
 
 using namespace meniscus;
 using namespace meniscus::test;

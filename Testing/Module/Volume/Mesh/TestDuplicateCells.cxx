@@ -4,13 +4,6 @@
 #include "KernelMeshes.h"
 #include "KernelPicture.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -75,22 +68,19 @@ TEST(DuplicateCells, TwoCellsGivenTwiceAreLinkedAsTwo)
 
 TEST(DuplicateCells, MeshGivenInAnyNumberAndOrderIsTheMesh)
 {
-  for (const int n : { 1, 3, 12 })
+  for (const auto& [n, seed] : Product(List(1, 3, 12), Below<unsigned int>(4)))
   {
-    for (unsigned int seed = 0; seed < 4; ++seed)
-    {
-      const MeshArrays arrays = KuhnGrid(n);
-      TetrahedralMesh once;
-      TetrahedralMesh doubled;
-      ASSERT_EQ(once.Build(arrays.View()), MeshStatus::Ok);
-      const MeshArrays given = Doubled(arrays, seed);
-      ASSERT_EQ(doubled.Build(given.View()), MeshStatus::Ok);
-      EXPECT_EQ(doubled.GetNumberOfCells(), once.GetNumberOfCells());
-      EXPECT_EQ(doubled.GetRejectedCells().Duplicate,
-        static_cast<std::int64_t>(given.Cells.size() - arrays.Cells.size()) / 4);
-      EXPECT_EQ(doubled.GetBoundary().size(), once.GetBoundary().size());
-      EXPECT_EQ(doubled.GetNumberOfCutLinks(), 0);
-    }
+    const MeshArrays arrays = KuhnGrid(n);
+    TetrahedralMesh once;
+    TetrahedralMesh doubled;
+    ASSERT_EQ(once.Build(arrays.View()), MeshStatus::Ok);
+    const MeshArrays given = Doubled(arrays, seed);
+    ASSERT_EQ(doubled.Build(given.View()), MeshStatus::Ok);
+    EXPECT_EQ(doubled.GetNumberOfCells(), once.GetNumberOfCells());
+    EXPECT_EQ(doubled.GetRejectedCells().Duplicate,
+      static_cast<std::int64_t>(given.Cells.size() - arrays.Cells.size()) / 4);
+    EXPECT_EQ(doubled.GetBoundary().size(), once.GetBoundary().size());
+    EXPECT_EQ(doubled.GetNumberOfCutLinks(), 0);
   }
 }
 
@@ -154,12 +144,9 @@ TEST(DuplicateCells, CubeGivenRepeatedlyHidesWhatItsLengthSays)
     scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
     const Picture picture = CastPicture(scene, 48, InstructionSet::Portable);
     EXPECT_EQ(picture.Statistics.Lost, 0);
-    for (int row = 5; row < 43; ++row)
+    for (const auto& [row, column] : Product(Numbers(5, 43), Numbers(5, 43)))
     {
-      for (int column = 5; column < 43; ++column)
-      {
-        ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
-      }
+      ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
     }
   }
 }
@@ -204,11 +191,8 @@ TEST(DuplicateCells, CubeFilledTwiceWithDifferentCellsDoesNotVanish)
   scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
   const Picture picture = CastPicture(scene, 48, InstructionSet::Portable);
   EXPECT_EQ(picture.Statistics.Lost, 0);
-  for (int row = 5; row < 43; ++row)
+  for (const auto& [row, column] : Product(Numbers(5, 43), Numbers(5, 43)))
   {
-    for (int column = 5; column < 43; ++column)
-    {
-      ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
-    }
+    ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
   }
 }

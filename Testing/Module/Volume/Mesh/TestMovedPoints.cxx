@@ -3,22 +3,12 @@
 // Meshes whose points move: their tables are those that are built of the moved points, whatever the
 // order of vertices and cells, or MovePoints() says that they are not.
 #include "KernelMeshes.h"
+#include "TestBasics.h"
 #include "Volume/Mesh/BoundaryTree.h"
 
-#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <map>
-#include <set>
 #include <thread>
-#include <utility>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -4,16 +4,8 @@
 #include "KernelMeshes.h"
 
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Mesh/ScalarGradients.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of the input that are found after the mesh has been built.
 #include "KernelMeshes.h"
+#include "TestBasics.h"
 #include "Volume/Mesh/SourceCells.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
 
 using namespace meniscus;
 using namespace meniscus::test;

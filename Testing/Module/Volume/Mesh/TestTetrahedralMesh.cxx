@@ -1,18 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KernelMeshes.h"
+#include "TestBasics.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <set>
 #include <thread>
 
 using namespace meniscus;

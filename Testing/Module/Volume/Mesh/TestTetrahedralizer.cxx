@@ -1,19 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra of other cells: they fill the same volume and match across shared faces.
+#include "TestBasics.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <random>
-
+using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
@@ -58,15 +50,9 @@ public:
       std::swap(this->Number[i], this->Number[this->Random() % (i + 1)]);
     }
     this->Points.assign(3 * total, 0.0);
-    for (int k = 0; k < n; ++k)
+    for (const auto& [k, j, i] : Product(n, n, n))
     {
-      for (int j = 0; j < n; ++j)
-      {
-        for (int i = 0; i < n; ++i)
-        {
-          this->AddCube(i, j, k, (i + 2 * j) % 5);
-        }
-      }
+      this->AddCube(i, j, k, (i + 2 * j) % 5);
     }
   }
 
@@ -236,12 +222,9 @@ TEST(Tetrahedralizer, QuadraticCellsHaveNoFlatTetrahedra)
       std::iota(ids.begin(), ids.end(), 0);
       std::shuffle(ids.begin(), ids.end(), random);
       std::vector<double> points(3 * all.size());
-      for (std::size_t i = 0; i < all.size(); ++i)
+      for (const auto& [i, axis] : Product(Below<std::size_t>(all.size()), 3))
       {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          points[3 * static_cast<std::size_t>(ids[i]) + axis] = all[i][axis];
-        }
+        points[3 * static_cast<std::size_t>(ids[i]) + axis] = all[i][axis];
       }
       Tetrahedralizer cells;
       (cells.*item.Add)(ids.data());

@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of blend modes, and the results of parts of a ray joined as it says.
+#include "TestBasics.h"
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Kernels/KeptValues.h"
-
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
 
 using namespace meniscus;
 

@@ -2,20 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of scalars as a picture shows them: closed forms, and the colours of rays through fields
 // that are off by a given error.
+#include "TestBasics.h"
 #include "Volume/Optics/ErrorScale.h"
-
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <random>
-#include <vector>
 
 using namespace meniscus;
 

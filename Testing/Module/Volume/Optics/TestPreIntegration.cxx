@@ -3,14 +3,10 @@
 // Entries of the pre-integration table compared with the integrals that they represent.
 #include "KernelMeshes.h"
 
+#include "TestBasics.h"
 #include "Volume/Mesh/LongestEdge.h"
 #include "Volume/Optics/PreIntegration.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <thread>
 
 using namespace meniscus;
@@ -185,19 +181,16 @@ TEST(PreIntegration, ExtremeFunctionsGiveFiniteTables)
     { { -4.0, 4.0, { 1, 0, 0 } }, { 1e9, 1e308, { 0, 1, 0 } } } };
   for (const auto& points : functions)
   {
-    for (const int scalars : { 2, 3, 20 })
+    for (const auto& [scalars, lengths] : Product(List(2, 3, 20), List(1, 2, 3, 9)))
     {
-      for (const int lengths : { 1, 2, 3, 9 })
+      PreIntegrationTable table;
+      table.Build(Intervals(points), 1e3, scalars, lengths);
+      EXPECT_LE(table.GetNumberOfLengths(), lengths);
+      EXPECT_EQ(
+        table.GetValues().size(), std::size_t(4) * scalars * scalars * table.GetNumberOfLengths());
+      for (const float value : table.GetValues())
       {
-        PreIntegrationTable table;
-        table.Build(Intervals(points), 1e3, scalars, lengths);
-        EXPECT_LE(table.GetNumberOfLengths(), lengths);
-        EXPECT_EQ(table.GetValues().size(),
-          std::size_t(4) * scalars * scalars * table.GetNumberOfLengths());
-        for (const float value : table.GetValues())
-        {
-          ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
-        }
+        ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
       }
     }
   }
@@ -213,14 +206,11 @@ TEST(PreIntegration, EndlessSegmentsAreOpaque)
   ASSERT_EQ(table.GetNumberOfLengths(), 4);
   // The colour at the front is all that the longest segments show.
   const std::size_t longest = 4 * 9 * 3;
-  for (int front = 0; front < 3; ++front)
+  for (const auto& [front, back] : Product(3, 3))
   {
-    for (int back = 0; back < 3; ++back)
-    {
-      const float* value = &table.GetValues()[longest + 4 * (3 * back + front)];
-      EXPECT_NEAR(value[0], 1.0 - 0.5 * front, 1e-5) << front << " " << back;
-      EXPECT_NEAR(value[1], 0.5 * front, 1e-5) << front << " " << back;
-    }
+    const float* value = &table.GetValues()[longest + 4 * (3 * back + front)];
+    EXPECT_NEAR(value[0], 1.0 - 0.5 * front, 1e-5) << front << " " << back;
+    EXPECT_NEAR(value[1], 0.5 * front, 1e-5) << front << " " << back;
   }
 }
 
@@ -246,15 +236,12 @@ TEST(PreIntegration, FaintRangesKeepTheirColor)
                 { -0.5, 0.01, glm::dvec3(faint) }, { 1.0, 0.01, glm::dvec3(faint) } }),
     1.0, 9, 1);
   ASSERT_EQ(table.GetNumberOfLengths(), 1);
-  for (int back = 3; back < 9; ++back)
+  for (const auto& [back, front] : Product(Numbers(3, 9), Numbers(3, 9)))
   {
-    for (int front = 3; front < 9; ++front)
+    const float* entry = &table.GetValues()[4 * static_cast<std::size_t>(9 * back + front)];
+    for (int channel = 0; channel < 3; ++channel)
     {
-      const float* entry = &table.GetValues()[4 * static_cast<std::size_t>(9 * back + front)];
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        EXPECT_NEAR(entry[channel], faint[channel], 1e-6) << front << " to " << back;
-      }
+      EXPECT_NEAR(entry[channel], faint[channel], 1e-6) << front << " to " << back;
     }
   }
 }

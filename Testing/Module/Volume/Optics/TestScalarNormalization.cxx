@@ -1,15 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Distribution of the precision of normalised scalars.
+#include "TestBasics.h"
 #include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/TransferFunction.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 

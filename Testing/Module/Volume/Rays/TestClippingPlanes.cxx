@@ -3,11 +3,8 @@
 // Clipping planes in the frame of the rays.
 #include "KernelMeshes.h"
 
+#include "TestBasics.h"
 #include "Volume/Rays/ClippingPlanes.h"
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -23,21 +20,15 @@ TEST(ClippingPlanes, DistanceAlongRays)
   // The view looks along -z of the world, and depth 0 is at the mesh's centre.
   const RayClippingPlane plane =
     ComputeClippingPlane(frame, normal, glm::dot(normal, mesh.GetCenter() - origin));
-  for (const double depth : { -0.8, 0.0, 0.5 })
+  for (const auto& [depth, i, j] :
+    Product(List(-0.8, 0.0, 0.5), List(-40.0, 0.0, 13.5), List(-7.25, 31.0)))
   {
-    for (const double i : { -40.0, 0.0, 13.5 })
-    {
-      for (const double j : { -7.25, 31.0 })
-      {
-        const glm::dvec2 across = frame.Origin.At(i, j) + depth * frame.Slope.At(i, j);
-        const glm::dvec3 world = mesh.GetCenter() + frame.ViewToWorld * glm::dvec3(across, depth);
-        const glm::dvec3 place(1.0, i, j);
-        const double height =
-          glm::dot(plane.Constant, place) + depth * glm::dot(plane.PerDepth, place);
-        const double size = glm::length(frame.ViewToWorld[0]) * glm::length(normal);
-        EXPECT_NEAR(height, glm::dot(normal, world - origin) / size, 1e-13);
-      }
-    }
+    const glm::dvec2 across = frame.Origin.At(i, j) + depth * frame.Slope.At(i, j);
+    const glm::dvec3 world = mesh.GetCenter() + frame.ViewToWorld * glm::dvec3(across, depth);
+    const glm::dvec3 place(1.0, i, j);
+    const double height = glm::dot(plane.Constant, place) + depth * glm::dot(plane.PerDepth, place);
+    const double size = glm::length(frame.ViewToWorld[0]) * glm::length(normal);
+    EXPECT_NEAR(height, glm::dot(normal, world - origin) / size, 1e-13);
   }
 }
 

@@ -1,14 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Coordinates of vertices about slanted rays, compared with the same in extended precision.
+#include "TestBasics.h"
 #include "Volume/Rays/ExactEdgeTest.h"
 #include "Volume/Rays/FixedPointRays.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <random>
 
 using namespace meniscus;
 

@@ -6,16 +6,9 @@
 
 #include "KernelSurfaces.h"
 
+#include "TestBasics.h"
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayStack.h"
-
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -5,14 +5,8 @@
 
 #include "Refraction/Tubes/BoxTree.h"
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Refracted/FacetBoxes.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 using namespace meniscus;
 using meniscus::testing::Random;

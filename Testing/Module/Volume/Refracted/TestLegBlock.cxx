@@ -6,24 +6,12 @@
 #include "RefractionTestRandom.h"
 
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Refracted/LegBlock.h"
 #include "Volume/Refracted/LegBox.h"
 #include "Volume/Refracted/RayBundleEntries.h"
 #include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractionFrames.h"
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <utility>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -51,12 +39,9 @@ public:
     for (RefractedRayTiles& tiles : this->Behind)
     {
       tiles.Resize(9);
-      for (int tile = 0; tile < 9; ++tile)
+      for (const auto& [tile, pixel] : Product(9, RefractedRayTiles::RaysOfTile))
       {
-        for (int pixel = 0; pixel < RefractedRayTiles::RaysOfTile; ++pixel)
-        {
-          tiles.ChangeTile(tile).push_back(MakeRay(random));
-        }
+        tiles.ChangeTile(tile).push_back(MakeRay(random));
       }
     }
     this->Frames.Turn(this->GetLegs(), glm::normalize(glm::dvec3(0.2, -0.1, 1.0)), SerialLoop);

@@ -4,14 +4,6 @@
 #include "RefractionTestRandom.h"
 #include "StackedRays.h"
 
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 using meniscus::testing::Random;

@@ -5,20 +5,13 @@
 #include "RefractionTestRandom.h"
 
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Refracted/PatchIntersectionBatch.h"
 #include "Volume/Refracted/PatchIntersector.h"
 #include "Volume/Refracted/RayBlock.h"
 
-#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/mat2x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 
 using namespace meniscus;
 using namespace meniscus::test;

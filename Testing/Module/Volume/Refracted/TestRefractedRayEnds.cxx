@@ -7,14 +7,6 @@
 #include "Volume/Refracted/RefractionFrames.h"
 #include "Volume/Refracted/StackBlock.h"
 
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 using meniscus::testing::Random;
@@ -363,13 +355,11 @@ TEST(RefractedRayStack, TheOrderOfTilesDoesNotMatter)
     });
   EXPECT_EQ(forward.GetMeanDirection(), backward.GetMeanDirection());
   EXPECT_EQ(forward.GetCounts().Missing, backward.GetCounts().Missing);
-  for (int pixel = 0; pixel < Size * Size; ++pixel)
+  for (const auto& [pixel, k] :
+    Product(Size * Size, std::vector<std::size_t>{ std::size_t{ 0 }, std::size_t{ 1 } }))
   {
-    for (const std::size_t k : { std::size_t{ 0 }, std::size_t{ 1 } })
-    {
-      const RefractedRay one = RayOf(forward.GetRays()[k], pixel % Size, pixel / Size);
-      const RefractedRay other = RayOf(backward.GetRays()[k], pixel % Size, pixel / Size);
-      ASSERT_TRUE(one.Depth == other.Depth && one.Step == other.Step);
-    }
+    const RefractedRay one = RayOf(forward.GetRays()[k], pixel % Size, pixel / Size);
+    const RefractedRay other = RayOf(backward.GetRays()[k], pixel % Size, pixel / Size);
+    ASSERT_TRUE(one.Depth == other.Depth && one.Step == other.Step);
   }
 }

@@ -7,14 +7,7 @@
 #include "Simd/InstructionSets.h"
 #include "Volume/Refracted/PatchIntersector.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;

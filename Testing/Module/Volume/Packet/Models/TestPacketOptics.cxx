@@ -15,16 +15,6 @@
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/PacketSegmentTable.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -100,12 +90,10 @@ public:
   void SetComponents(ComponentMixture mixture, const std::vector<std::vector<float>>& others)
   {
     this->Components.assign(this->Picture.Scalars.size(), glm::vec3(0.0f));
-    for (std::size_t c = 0; c < others.size(); ++c)
+    for (const auto& [c, v] :
+      Product(Below<std::size_t>(others.size()), Below<std::size_t>(this->Components.size())))
     {
-      for (std::size_t v = 0; v < this->Components.size(); ++v)
-      {
-        this->Components[v][static_cast<int>(c)] = others[c][v];
-      }
+      this->Components[v][static_cast<int>(c)] = others[c][v];
     }
     this->Picture.Optics.Mixture = mixture;
     this->Picture.Optics.Components = this->Components.data();
@@ -142,12 +130,12 @@ std::vector<TransferFunctionInterval> Bumps(double shift)
     ScalarNormalization());
 }
 
-class PacketOpticsTest : public testing::TestWithParam<InstructionSet>
+class PacketOpticsTest : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  Sets, PacketOpticsTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+  Sets, PacketOpticsTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 
@@ -200,20 +188,17 @@ TEST_P(PacketOpticsTest, LightOnALinearField)
 
 TEST_P(PacketOpticsTest, GradientOpacityIsAFunctionOfTheSlope)
 {
-  for (const double slope : { 0.25, 0.5, 0.75 })
+  for (const auto& [slope, vertices] : Product(List(0.25, 0.5, 0.75), List(false, true)))
   {
-    for (const bool vertices : { false, true })
+    OpticsScene scene({ 0.0, 0.6 * slope, 0.8 * slope });
+    if (vertices)
     {
-      OpticsScene scene({ 0.0, 0.6 * slope, 0.8 * slope });
-      if (vertices)
-      {
-        scene.UseVertexGradients();
-      }
-      scene.Picture.GradientIntervals = BuildIntervals(
-        { { 0.25, 0.5, glm::dvec3(0.0) }, { 0.75, 2.5, glm::dvec3(0.0) } }, ScalarNormalization());
-      const double alpha = 1.0 - std::exp(-(0.5 + 4.0 * (slope - 0.25)));
-      ExpectColor(CastPicture(scene.Picture, Size, GetParam()), glm::dvec4(alpha));
+      scene.UseVertexGradients();
     }
+    scene.Picture.GradientIntervals = BuildIntervals(
+      { { 0.25, 0.5, glm::dvec3(0.0) }, { 0.75, 2.5, glm::dvec3(0.0) } }, ScalarNormalization());
+    const double alpha = 1.0 - std::exp(-(0.5 + 4.0 * (slope - 0.25)));
+    ExpectColor(CastPicture(scene.Picture, Size, GetParam()), glm::dvec4(alpha));
   }
 }
 
@@ -322,48 +307,42 @@ TEST_P(PacketOpticsTest, ColorComesFromAnotherScalar)
 
 TEST_P(PacketOpticsTest, InstructionSetsShowTheSame)
 {
-  for (const bool lit : { false, true })
+  for (const auto& [lit, vertices, mixture] : Product(List(false, true), List(false, true),
+         std::vector<ComponentMixture>{ ComponentMixture::None, ComponentMixture::ColorAndOpacity,
+           ComponentMixture::RedGreenBlueOpacity, ComponentMixture::Independent }))
   {
-    for (const bool vertices : { false, true })
+    OpticsScene scene({ 0.3, 0.5, 0.7 }, 0.05);
+    scene.Picture.Intervals = Bumps(0.0);
+    if (lit && mixture != ComponentMixture::Independent)
     {
-      for (const ComponentMixture mixture :
-        { ComponentMixture::None, ComponentMixture::ColorAndOpacity,
-          ComponentMixture::RedGreenBlueOpacity, ComponentMixture::Independent })
-      {
-        OpticsScene scene({ 0.3, 0.5, 0.7 }, 0.05);
-        scene.Picture.Intervals = Bumps(0.0);
-        if (lit && mixture != ComponentMixture::Independent)
-        {
-          scene.AddHeadlight();
-          scene.Lighting.SpecularPower = 3.5;
-          scene.Lighting.Lights[0].Position = { 0.5, 0.2, -2.0, 1.0 };
-          scene.Picture.GradientIntervals = Bumps(0.3);
-        }
-        if (vertices)
-        {
-          scene.UseVertexGradients();
-        }
-        if (mixture != ComponentMixture::None)
-        {
-          const auto across = scene.Evaluate([](const glm::dvec3& p) { return p.x * p.y - p.z; });
-          const auto round = scene.Evaluate([](const glm::dvec3& p) { return glm::length(p); });
-          scene.SetComponents(mixture, { round, across, across });
-          scene.Picture.OtherIntervals = { Bumps(0.1), Bumps(-0.2), Bumps(0.4) };
-        }
-        const Picture plain = CastPicture(scene.Picture, Size, InstructionSet::Portable);
-        const Picture wide = CastPicture(scene.Picture, Size, GetParam());
-        EXPECT_EQ(plain.Statistics.Steps, wide.Statistics.Steps);
-        EXPECT_GT(*std::max_element(plain.Rgba.begin(), plain.Rgba.end()), 0.2f);
-        double largest = 0.0;
-        for (std::size_t i = 0; i < plain.Rgba.size(); ++i)
-        {
-          const double difference = std::abs(plain.Rgba[i] - wide.Rgba[i]);
-          largest = difference <= largest ? largest : difference;
-        }
-        // Fused and separate operations differ, most of all in gradients of jittered cells.
-        EXPECT_LT(largest, 2e-5) << lit << vertices << static_cast<int>(mixture);
-      }
+      scene.AddHeadlight();
+      scene.Lighting.SpecularPower = 3.5;
+      scene.Lighting.Lights[0].Position = { 0.5, 0.2, -2.0, 1.0 };
+      scene.Picture.GradientIntervals = Bumps(0.3);
     }
+    if (vertices)
+    {
+      scene.UseVertexGradients();
+    }
+    if (mixture != ComponentMixture::None)
+    {
+      const auto across = scene.Evaluate([](const glm::dvec3& p) { return p.x * p.y - p.z; });
+      const auto round = scene.Evaluate([](const glm::dvec3& p) { return glm::length(p); });
+      scene.SetComponents(mixture, { round, across, across });
+      scene.Picture.OtherIntervals = { Bumps(0.1), Bumps(-0.2), Bumps(0.4) };
+    }
+    const Picture plain = CastPicture(scene.Picture, Size, InstructionSet::Portable);
+    const Picture wide = CastPicture(scene.Picture, Size, GetParam());
+    EXPECT_EQ(plain.Statistics.Steps, wide.Statistics.Steps);
+    EXPECT_GT(*std::max_element(plain.Rgba.begin(), plain.Rgba.end()), 0.2f);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < plain.Rgba.size(); ++i)
+    {
+      const double difference = std::abs(plain.Rgba[i] - wide.Rgba[i]);
+      largest = difference <= largest ? largest : difference;
+    }
+    // Fused and separate operations differ, most of all in gradients of jittered cells.
+    EXPECT_LT(largest, 2e-5) << lit << vertices << static_cast<int>(mixture);
   }
 }
 

@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Events of segments: closed forms, splits that must not matter, and degenerate segments.
+#include "TestBasics.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Packet/Models/RayEventSegments.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus;
 

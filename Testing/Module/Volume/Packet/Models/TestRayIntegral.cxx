@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KernelMeshes.h"
 #include "Simd/SimdPortable.h"
+#include "TestBasics.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompositeModel.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 using namespace meniscus;
 using namespace meniscus::test;

@@ -3,15 +3,6 @@
 #include "KernelMeshes.h"
 #include "KernelPicture.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -53,11 +44,12 @@ PictureScene MakeSceneOfSize(double scale)
 }
 
 /** Runs each test with every instruction set that this processor supports. */
-class PacketWalkTest : public testing::TestWithParam<InstructionSet>
+class PacketWalkTest : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+INSTANTIATE_TEST_SUITE_P(
+  Sets, PacketWalkTest, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 
@@ -68,13 +60,10 @@ TEST_P(PacketWalkTest, ConstantFieldGivesTheChord)
   const Picture picture = CastPicture(scene, 150, GetParam());
   EXPECT_EQ(picture.Statistics.Lost, 0);
   EXPECT_EQ(picture.Statistics.Rays, 100 * 100);
-  for (int j = 0; j < 150; ++j)
+  for (const auto& [j, i] : Product(150, 150))
   {
-    for (int i = 0; i < 150; ++i)
-    {
-      const bool inside = std::abs(i - 74.5) < 50.0 && std::abs(j - 74.5) < 50.0;
-      ASSERT_NEAR(picture.Alpha(i, j), inside ? 1.0 - std::exp(-0.7) : 0.0, 1e-6) << i << " " << j;
-    }
+    const bool inside = std::abs(i - 74.5) < 50.0 && std::abs(j - 74.5) < 50.0;
+    ASSERT_NEAR(picture.Alpha(i, j), inside ? 1.0 - std::exp(-0.7) : 0.0, 1e-6) << i << " " << j;
   }
 }
 
@@ -87,14 +76,11 @@ TEST_P(PacketWalkTest, RaysThroughVerticesAndEdgesOfAnAlignedGrid)
   const Picture picture = CastPicture(scene, 25, GetParam());
   EXPECT_EQ(picture.Statistics.Lost, 0);
   const double full = 1.0 - std::exp(-1.0);
-  for (int j = 0; j < 25; ++j)
+  for (const auto& [j, i] : Product(25, 25))
   {
-    for (int i = 0; i < 25; ++i)
-    {
-      const bool border = i == 0 || j == 0 || i == 24 || j == 24;
-      const float alpha = picture.Alpha(i, j);
-      ASSERT_NEAR(alpha, border && alpha < 0.5 * full ? 0.0 : full, 1e-6) << i << " " << j;
-    }
+    const bool border = i == 0 || j == 0 || i == 24 || j == 24;
+    const float alpha = picture.Alpha(i, j);
+    ASSERT_NEAR(alpha, border && alpha < 0.5 * full ? 0.0 : full, 1e-6) << i << " " << j;
   }
 }
 
@@ -174,27 +160,24 @@ TEST_P(PacketWalkTest, NeedlesSeenAslant)
   const glm::dvec3 along = back * glm::dvec3(0.0, 0.0, 1.0);
   double largest = 0.0;
   int seen = 0;
-  for (int j = 0; j < size; ++j)
+  for (const auto& [j, i] : Product(size, size))
   {
-    for (int i = 0; i < size; ++i)
+    const glm::dvec3 place =
+      back * glm::dvec3(2.0 * (i + 0.5) / size - 1.0, 2.0 * (j + 0.5) / size - 1.0, 0.0) * halfSide;
+    double begin = -1e9;
+    double end = 1e9;
+    for (int axis = 0; axis < 3; ++axis)
     {
-      const glm::dvec3 place = back *
-        glm::dvec3(2.0 * (i + 0.5) / size - 1.0, 2.0 * (j + 0.5) / size - 1.0, 0.0) * halfSide;
-      double begin = -1e9;
-      double end = 1e9;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double half = axis == 0 ? 1e4 : 0.5;
-        const double a = (-half - place[axis]) / along[axis];
-        const double b = (half - place[axis]) / along[axis];
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-      }
-      const double mean = 0.6 * (0.5 + place.z + 0.5 * (begin + end) * along.z);
-      const double alpha = -std::expm1(-mean * std::max(0.0, end - begin));
-      seen += alpha > 0.1 ? 1 : 0;
-      largest = std::max(largest, std::abs(picture.Alpha(i, j) - alpha));
+      const double half = axis == 0 ? 1e4 : 0.5;
+      const double a = (-half - place[axis]) / along[axis];
+      const double b = (half - place[axis]) / along[axis];
+      begin = std::max(begin, std::min(a, b));
+      end = std::min(end, std::max(a, b));
     }
+    const double mean = 0.6 * (0.5 + place.z + 0.5 * (begin + end) * along.z);
+    const double alpha = -std::expm1(-mean * std::max(0.0, end - begin));
+    seen += alpha > 0.1 ? 1 : 0;
+    largest = std::max(largest, std::abs(picture.Alpha(i, j) - alpha));
   }
   EXPECT_GT(seen, size * size / 4);
   // Cells have a depth of 1,700. Single precision rounds such depths by 7.5e-5, and their mean by
@@ -266,12 +249,10 @@ TEST_P(PacketWalkTest, LengthOfTheTransferFunctionDoesNotMatter)
     scene.Intervals = BuildIntervals(points, ScalarNormalization());
     pictures.push_back(CastPicture(scene, 48, GetParam()));
   }
-  for (std::size_t i = 0; i < pictures[0].Rgba.size(); ++i)
+  for (const auto& [i, p] :
+    Product(Below<std::size_t>(pictures[0].Rgba.size()), Numbers<std::size_t>(1, pictures.size())))
   {
-    for (std::size_t p = 1; p < pictures.size(); ++p)
-    {
-      ASSERT_NEAR(pictures[0].Rgba[i], pictures[p].Rgba[i], 2e-6);
-    }
+    ASSERT_NEAR(pictures[0].Rgba[i], pictures[p].Rgba[i], 2e-6);
   }
 }
 

@@ -8,11 +8,6 @@
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Rays/PlacedVertices.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -77,11 +72,12 @@ double MeasureLength(const TetrahedralMesh& mesh, InstructionSet set)
   return workspace.Measured.Scalars[static_cast<std::size_t>(pixel)].Length;
 }
 
-class SegmentLengths : public testing::TestWithParam<InstructionSet>
+class SegmentLengths : public ::testing::TestWithParam<InstructionSet>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, SegmentLengths, testing::ValuesIn(GetInstructionSets()), TestNameOf);
+INSTANTIATE_TEST_SUITE_P(
+  Sets, SegmentLengths, ::testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Support_VTKBasics_h
+#define meniscus_Testing_Support_VTKBasics_h
+
+/** @file
+ * Headers of VTK that most programs of the tests use, those of MathBasics.h, and
+ * PointOf() and TupleOf().
+ */
+
+#include "MathBasics.h"
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkCommand.h>
+#include <vtkContourValues.h>
+#include <vtkCubeSource.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkLight.h>
+#include <vtkMath.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphere.h>
+#include <vtkSphereSource.h>
+#include <vtkStringArray.h>
+#include <vtkTransform.h>
+#include <vtkTriangle.h>
+#include <vtkTrivialProducer.h>
+#include <vtkType.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+namespace meniscus::test
+{
+
+/** Coordinates of a point of a data set or of vtkPoints. */
+template <typename Points>
+glm::dvec3 PointOf(const Points& points, vtkIdType i)
+{
+  glm::dvec3 point;
+  points->GetPoint(i, &point.x);
+  return point;
+}
+
+/** A tuple of three components. */
+template <typename Array>
+glm::dvec3 TupleOf(const Array& array, vtkIdType i)
+{
+  glm::dvec3 tuple;
+  array->GetTuple(i, &tuple.x);
+  return tuple;
+}
+
+} // namespace meniscus::test
+
+namespace meniscus::testing
+{
+
+using test::PointOf;
+using test::TupleOf;
+
+} // namespace meniscus::testing
+
+#endif
