@@ -2,18 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkExecutive.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::testing
 {
 
@@ -32,6 +20,13 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
   filter->AddObserver(vtkCommand::WarningEvent, counter);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
   return counter;
+}
+
+void ExpectQuiet(vtkAlgorithm* filter)
+{
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
 }
 
 //------------------------------------------------------------------------------
@@ -55,8 +50,7 @@ double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
   double largest = 0.0;
   for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    floor->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(floor, i);
     const double r = std::hypot(p[0], p[2]);
     if (r < 5.0 || r > 35.0)
     {
@@ -152,22 +146,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   filter->SetImagesToAllImages();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   return filter;
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
-
-//------------------------------------------------------------------------------
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
-{
-  glm::dvec3 tuple;
-  array->GetTuple(i, &tuple.x);
-  return tuple;
 }
 
 //------------------------------------------------------------------------------

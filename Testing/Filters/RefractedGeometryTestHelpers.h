@@ -3,21 +3,10 @@
 #ifndef meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
 #define meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
 
-#include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 
-#include "vtkCommand.h"
-#include "vtkPolyData.h"
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractedLightFilter.h"
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::testing
 {
@@ -38,6 +27,9 @@ public:
 
 /** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
+
+/** Updates a filter, and expects neither errors nor warnings. */
+void ExpectQuiet(vtkAlgorithm* filter);
 
 /** Observes the progress of a filter, and aborts at the second report of any if `Aborts` is set. */
 class ProgressWatch : public vtkCommand
@@ -80,10 +72,6 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
 /** A filter with CURVED, ALL_IMAGES, points in double precision and the eye at (20, 300, 10). */
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   vtkPolyData* geometry, vtkPolyData* membrane);
-
-/** Coordinates of a point, and three components of a tuple. */
-glm::dvec3 PointOf(vtkDataSet* data, vtkIdType i);
-glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i);
 
 /** Adds the true position as a point array `Truth`, so that interpolation can be checked. */
 void AddTruth(vtkPolyData* data);

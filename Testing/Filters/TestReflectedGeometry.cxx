@@ -4,35 +4,17 @@
 #include "BoardScene.h"
 #include "ComparisonSheet.h"
 #include "ExactStack.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkStripper.h"
 #include "vtkTriangleFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <optional>
-#include <vector>
 
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 using Filter = vtkRefractedGeometryFilter;
 
 const double Pi = std::acos(-1.0);
@@ -124,9 +106,7 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const char* name, const Pix
   // A tenth of a pixel.
   const double pixel = 2.0 * std::atan(glm::length(camera.GetUp())) / camera.GetPixels();
   filter->SetAngularTolerance(0.1 * pixel * 180.0 / Pi);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced = TraceRays(camera, rays, MakeMeshTracer(data));
   const PlaceComparison compared = AddComparison(sheet, row, name, camera, drawn, traced,
@@ -243,8 +223,8 @@ TEST(ReflectedGeometryOutput, PlaneMirrorsReverseNormalsAndWinding)
     {
       const glm::dvec3 truth = PointOf(grid, i);
       EXPECT_LT(glm::length(PointOf(output, i) - glm::dvec3(truth.x, -truth.y, truth.z)), 1e-10);
-      const glm::dvec3 n = GetTuple(normals, i);
-      EXPECT_LT(glm::length(GetTuple(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
+      const glm::dvec3 n = TupleOf(normals, i);
+      EXPECT_LT(glm::length(TupleOf(mirrored, i) - glm::dvec3(n.x, -n.y, n.z)), 1e-6);
       EXPECT_GT(n.y, 0.0);
     }
     for (vtkIdType cell = 0; cell < 64; ++cell)
@@ -317,8 +297,8 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
     {
       const auto source =
         static_cast<vtkIdType>(output->GetPointData()->GetArray("SourcePointId")->GetTuple1(i));
-      const glm::dvec3 truth = GetTuple(normals, source);
-      const glm::dvec3 n = GetTuple(made, i);
+      const glm::dvec3 truth = TupleOf(normals, source);
+      const glm::dvec3 n = TupleOf(made, i);
       EXPECT_NEAR(glm::length(n), 1.0, 1e-12);
       const bool isAtEye = light == glm::dvec3(0.0);
       const glm::dvec3 toLamp = isAtEye ? glm::normalize(Eye - PointOf(grid, source)) : light;
@@ -333,9 +313,7 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
 TEST(ReflectedGeometryOutput, PiercingObjectsEndAtTheMirror)
 {
   const auto filter = MakeMirror(MakeScreen(-5.0, -30.0, 50.0), MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   vtkPolyData* output = filter->GetOutput();
   double area = 0.0;
   for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
@@ -368,7 +346,7 @@ TEST(ReflectedGeometryOutput, PiercingObjectsEndAtWaves)
   ASSERT_GT(output->GetNumberOfPoints(), 20);
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 place = GetTuple(places, i);
+    const glm::dvec3 place = TupleOf(places, i);
     const double above = place.y - waves.GetHeight(place.x, place.z);
     EXPECT_GT(above, -0.01); // chords of the cut, within 0.005 degrees at a distance of 300
     onMirror += above < 0.01;
@@ -395,7 +373,7 @@ TEST(ReflectedGeometryOutput, SteepWavesShowNothingBelowThem)
     glm::dvec3 middle(0.0);
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
-      middle += GetTuple(places, ids->GetId(k)) / static_cast<double>(ids->GetNumberOfIds());
+      middle += TupleOf(places, ids->GetId(k)) / static_cast<double>(ids->GetNumberOfIds());
     }
     // The mesh's own error is of third order in facets of 2, some 0.01.
     EXPECT_GT(middle.y - waves.GetHeight(middle.x, middle.z), -0.05);
@@ -412,7 +390,7 @@ TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
   EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 16);
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("None of the 25 points has an image"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "None of the 25 points has an image"));
 }
 
 TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
@@ -421,7 +399,7 @@ TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
   filter->SetEyePosition(10.0, 0.0, 10.0);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_NE(messages->Text.find("lies on the membrane"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "lies on the membrane"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -434,8 +412,8 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(open->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("No facet of the membrane faces the eye"), std::string::npos);
-  EXPECT_NE(messages->Text.find("sees the back of the mirror only"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "No facet of the membrane faces the eye"));
+  EXPECT_TRUE(HasText(messages->Text, "sees the back of the mirror only"));
 
   const auto ball =
     MakeMirror(MakeGrid(5, 0.4, 0.3), MakeMembrane(meniscus::reference::MakeSphere(16, 1.0)));
@@ -444,7 +422,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   ball->Update();
   EXPECT_EQ(ball->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(ball->GetStatistic("IsEyeEnclosed"));
-  EXPECT_NE(told->Text.find("sees the back of the mirror only"), std::string::npos);
+  EXPECT_TRUE(HasText(told->Text, "sees the back of the mirror only"));
 }
 
 TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
@@ -454,7 +432,7 @@ TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
   const auto messages = Observe(flat);
   flat->Update();
   EXPECT_EQ(flat->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_NE(messages->Text.find("REFLECTION needs the membrane model CURVED"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "REFLECTION needs the membrane model CURVED"));
 
   const auto stack = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   stack->AddInputData(1, MakeFlatMembrane());

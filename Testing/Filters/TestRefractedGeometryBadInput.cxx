@@ -2,23 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Input that is missing, empty or invalid: an error or a counted skip, a defined output, no crash.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "VTKTestBasics.h"
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
@@ -70,7 +59,7 @@ TEST(RefractedGeometryBadInput, MembraneWithoutTriangles)
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(messages->Errors, 1) << messages->Text;
-    EXPECT_NE(messages->Text.find("no usable triangle"), std::string::npos);
+    EXPECT_TRUE(HasText(messages->Text, "no usable triangle"));
     EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
   }
 }
@@ -142,8 +131,7 @@ TEST(RefractedGeometryBadInput, PointsThatAreNotFinite)
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 2);
   for (vtkIdType i = 0; i < 7; ++i)
   {
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
   }
 }
@@ -187,23 +175,20 @@ TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)
 //------------------------------------------------------------------------------
 TEST(RefractedGeometryBadInput, IndicesOfRefraction)
 {
-  for (const double index : { 0.0, -1.333, NaN, Infinity })
+  for (const auto& [index, exterior] : Product(List(0.0, -1.333, NaN, Infinity), List(true, false)))
   {
-    for (const bool exterior : { true, false })
-    {
-      const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
-      const auto messages = Observe(filter);
-      filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
-      filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
-      filter->Update();
-      EXPECT_GE(messages->Errors, 1) << index;
-      EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
-      // The filter recovers afterwards.
-      filter->SetExteriorIndexOfRefraction(1.0);
-      filter->SetInteriorIndexOfRefraction(1.333);
-      filter->Update();
-      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9) << index;
-    }
+    const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+    const auto messages = Observe(filter);
+    filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
+    filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
+    filter->Update();
+    EXPECT_GE(messages->Errors, 1) << index;
+    EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
+    // The filter recovers afterwards.
+    filter->SetExteriorIndexOfRefraction(1.0);
+    filter->SetInteriorIndexOfRefraction(1.333);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9) << index;
   }
 }
 
@@ -241,10 +226,8 @@ TEST(RefractedGeometryBadInput, NormalsOfTheWrongSizeAreComputed)
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
-  double a[3];
-  double b[3];
-  filter->GetOutput()->GetPoint(4, a);
-  reference->GetOutput()->GetPoint(4, b);
+  const glm::dvec3 a = PointOf(filter->GetOutput(), 4);
+  const glm::dvec3 b = PointOf(reference->GetOutput(), 4);
   EXPECT_NEAR(a[1], b[1], 1e-12);
 }
 
@@ -258,16 +241,14 @@ TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find("2 of 81"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "2 of 81"));
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
   for (vtkIdType i = 0; i < 9; ++i)
   {
-    double a[3];
-    double b[3];
-    filter->GetOutput()->GetPoint(i, a);
-    reference->GetOutput()->GetPoint(i, b);
+    const glm::dvec3 a = PointOf(filter->GetOutput(), i);
+    const glm::dvec3 b = PointOf(reference->GetOutput(), i);
     EXPECT_NEAR(a[1], b[1], 1e-12);
   }
 }
@@ -279,8 +260,7 @@ TEST(RefractedGeometryBadInput, EyeBehindTheMembrane)
   filter->Update(); // extrapolated by Eq. 3.1; must only be finite
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    filter->GetOutput()->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(filter->GetOutput(), i);
     EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
   }
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 9);
@@ -296,7 +276,7 @@ TEST(RefractedGeometryBadInput, MissingModesWarnOnce)
   filter->SetImagesToAllImages();
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("FIRST_IMAGE"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "FIRST_IMAGE"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
 }
 

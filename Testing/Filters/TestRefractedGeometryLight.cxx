@@ -1,19 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Reflectance by either model, and normals for the lighting of virtual geometry.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -67,9 +56,9 @@ std::vector<Lit> Read(vtkPolyData* grid, vtkPolyData* output)
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     const auto id = static_cast<vtkIdType>(data->GetArray("SourcePointId")->GetTuple1(i));
-    result.push_back({ PointOf(grid, id), GetTuple(data->GetArray("SightPoint"), i),
-      PointOf(output, i), GetTuple(data->GetArray("Bumps"), i), GetTuple(data->GetNormals(), i) });
-    EXPECT_EQ(result.back().Normal, GetTuple(grid->GetPointData()->GetNormals(), id));
+    result.push_back({ PointOf(grid, id), TupleOf(data->GetArray("SightPoint"), i),
+      PointOf(output, i), TupleOf(data->GetArray("Bumps"), i), TupleOf(data->GetNormals(), i) });
+    EXPECT_EQ(result.back().Normal, TupleOf(grid->GetPointData()->GetNormals(), id));
   }
   return result;
 }
@@ -92,7 +81,7 @@ TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
   for (vtkIdType i = 0; i < fresnel->GetNumberOfTuples(); ++i)
   {
     const glm::dvec3 away =
-      glm::dvec3(150.0, 40.0, 10.0) - GetTuple(data->GetArray("SightPoint"), i);
+      glm::dvec3(150.0, 40.0, 10.0) - TupleOf(data->GetArray("SightPoint"), i);
     const double cosine = away.y / glm::length(away);
     const double r = std::pow(0.333 / 2.333, 2);
     const double value = data->GetArray("Reflectance")->GetTuple1(i);
@@ -240,8 +229,8 @@ TEST(RefractedGeometryLight, BadNormalsAndLights)
   filter->VirtualNormalsOn();
   filter->Update();
   vtkDataArray* normals = filter->GetOutput()->GetPointData()->GetNormals();
-  EXPECT_EQ(GetTuple(normals, 3), glm::dvec3(0.0)); // unchanged
-  EXPECT_TRUE(std::isnan(GetTuple(normals, 4).x));
+  EXPECT_EQ(TupleOf(normals, 3), glm::dvec3(0.0)); // unchanged
+  EXPECT_TRUE(std::isnan(TupleOf(normals, 4).x));
   const auto messages = Observe(filter);
   filter->SetLightDirection(0.0, nan, 0.0);
   filter->Update();
@@ -260,7 +249,7 @@ TEST(RefractedGeometryLight, TrueGeometryIsThatOfTheImages)
   vtkDataArray* given = grid->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < given->GetNumberOfTuples(); ++i)
   {
-    const glm::dvec3 longer = 3.0 * GetTuple(given, i);
+    const glm::dvec3 longer = 3.0 * TupleOf(given, i);
     given->SetTuple(i, &longer.x);
   }
   for (const int images :
@@ -282,13 +271,13 @@ TEST(RefractedGeometryLight, TrueGeometryIsThatOfTheImages)
     ASSERT_GT(positions->GetNumberOfTuples(), 0);
     for (vtkIdType i = 0; i < positions->GetNumberOfTuples(); ++i)
     {
-      const glm::dvec3 place = GetTuple(positions, i);
+      const glm::dvec3 place = TupleOf(positions, i);
       // Sums of weighted coordinates below 100: a few roundings of 2^-53.
-      EXPECT_LT(glm::distance(place, GetTuple(data->GetArray("Truth"), i)), 1e-12);
-      EXPECT_NEAR(glm::distance(place, GetTuple(data->GetArray("SightPoint"), i)),
+      EXPECT_LT(glm::distance(place, TupleOf(data->GetArray("Truth"), i)), 1e-12);
+      EXPECT_NEAR(glm::distance(place, TupleOf(data->GetArray("SightPoint"), i)),
         data->GetArray("RefractionDepth")->GetTuple1(i), 1e-9);
-      const glm::dvec3 normal = GetTuple(data->GetArray("Bumps"), i);
-      EXPECT_LT(glm::distance(GetTuple(normals, i), glm::normalize(normal)), 1e-14);
+      const glm::dvec3 normal = TupleOf(data->GetArray("Bumps"), i);
+      EXPECT_LT(glm::distance(TupleOf(normals, i), glm::normalize(normal)), 1e-14);
     }
   }
   grid->GetPointData()->SetNormals(nullptr);

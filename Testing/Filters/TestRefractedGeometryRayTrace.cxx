@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The filter's output, drawn, compared with ray tracing of the analytic membrane, pixel by pixel.
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
+#include "TestBasics.h"
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)
@@ -42,9 +38,7 @@ TEST_P(RefractedGeometryRayTrace, PixelsAgree)
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];
   const PixelCamera camera = scene.GetCamera();
   const auto filter = MakeSceneFilter(scene);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
 
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced =
@@ -84,22 +78,19 @@ TEST_P(RefractedGeometryRayTrace, NoCracksWithACoarseTolerance)
   const int pixels = camera.GetPixels();
   int inside = 0;
   int cracks = 0;
-  for (int y = reach; y < pixels - reach; ++y)
+  for (const auto& [y, x] :
+    Product(Numbers<int>(reach, pixels - reach), Numbers<int>(reach, pixels - reach)))
   {
-    for (int x = reach; x < pixels - reach; ++x)
+    bool isInside = true;
+    for (int dy = -reach; dy <= reach; ++dy)
     {
-      bool isInside = true;
-      for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
       {
-        for (int dx = -reach; dx <= reach; ++dx)
-        {
-          isInside =
-            isInside && traced[static_cast<std::size_t>((y + dy) * pixels + x + dx)].Covered;
-        }
+        isInside = isInside && traced[static_cast<std::size_t>((y + dy) * pixels + x + dx)].Covered;
       }
-      inside += isInside;
-      cracks += isInside && !drawn[static_cast<std::size_t>(y * pixels + x)].Covered;
     }
+    inside += isInside;
+    cracks += isInside && !drawn[static_cast<std::size_t>(y * pixels + x)].Covered;
   }
   std::printf("%s: %d pixels inside, %d not drawn\n", scene.Name.c_str(), inside, cracks);
   EXPECT_GT(inside, pixels * pixels / 30);

@@ -1,26 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Irradiance through a membrane: closed forms for flat water, and photons through exact waves.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
-#include "vtkNew.h"
-#include "vtkPlaneSource.h"
-#include "vtkPointData.h"
-#include "vtkRefractedLightFilter.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -71,26 +54,23 @@ std::vector<double> ShinePhotons(
   std::vector<double> flux(static_cast<std::size_t>(cells) * cells, 0.0);
   const double step = waves.Side / rays;
   total = 0.0;
-  for (int j = 0; j < rays; ++j)
+  for (const auto& [j, i] : Product(rays, rays))
   {
-    for (int i = 0; i < rays; ++i)
+    const double x = (i + 0.5) * step - 0.5 * waves.Side;
+    const double z = (j + 0.5) * step - 0.5 * waves.Side;
+    const glm::dvec3 place(x, waves.GetHeight(x, z), z);
+    const glm::dvec3 normal = waves.GetNormal(x, z);
+    const double cosine = glm::dot(sun, normal);
+    const double power = step * step / normal.y * cosine * MakeTransmittance(cosine);
+    total += power;
+    const auto end = waves.Refract(place + 1e6 * sun, place, 1.0);
+    const glm::dvec3 along = *end - place;
+    const glm::dvec3 hit = place + (y - place.y) / along.y * along;
+    const double column = std::floor((hit.x / size + 0.5) * cells);
+    const double row = std::floor((hit.z / size + 0.5) * cells);
+    if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
     {
-      const double x = (i + 0.5) * step - 0.5 * waves.Side;
-      const double z = (j + 0.5) * step - 0.5 * waves.Side;
-      const glm::dvec3 place(x, waves.GetHeight(x, z), z);
-      const glm::dvec3 normal = waves.GetNormal(x, z);
-      const double cosine = glm::dot(sun, normal);
-      const double power = step * step / normal.y * cosine * MakeTransmittance(cosine);
-      total += power;
-      const auto end = waves.Refract(place + 1e6 * sun, place, 1.0);
-      const glm::dvec3 along = *end - place;
-      const glm::dvec3 hit = place + (y - place.y) / along.y * along;
-      const double column = std::floor((hit.x / size + 0.5) * cells);
-      const double row = std::floor((hit.z / size + 0.5) * cells);
-      if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
-      {
-        flux[static_cast<std::size_t>(row * cells + column)] += power;
-      }
+      flux[static_cast<std::size_t>(row * cells + column)] += power;
     }
   }
   for (double& f : flux)

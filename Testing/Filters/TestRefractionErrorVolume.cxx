@@ -2,37 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error volumes compared with the thesis's tables, measured by other means; exact surfaces of every
 // kind; and invalid input.
-#include "AnalyticMembrane.h"
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 #include "ThesisTables.h"
 
-#include "vtkCellArray.h"
-#include "vtkCommand.h"
-#include "vtkDataArray.h"
-#include "vtkFieldData.h"
-#include "vtkImageData.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitFunction.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <sstream>
 
 namespace
 {
@@ -158,8 +137,7 @@ TEST(RefractionErrorVolume, AnglesAtTheEye)
     vtkDataArray* states = output->GetPointData()->GetArray("SampleState");
     for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
-      glm::dvec3 point;
-      output->GetPoint(i, &point.x);
+      const glm::dvec3 point = PointOf(output, i);
       const auto sights = exact.FindSightPoints(eye, point);
       if (states->GetTuple1(i) != vtkRefractionErrorVolume::MEASURED || sights.size() != 1)
       {
@@ -274,9 +252,7 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
     }
     ++rows;
     const auto volume = MakeThesisVolume(row);
-    const auto messages = Observe(volume);
-    volume->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(volume);
     const ErrorStatistics expected = MeasureThesisRow(row);
     EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.Points));
     EXPECT_NEAR(volume->GetMeanError(), expected.Mean, 1e-9 * expected.Mean);
@@ -398,8 +374,7 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
     ++counts[state];
     EXPECT_EQ(std::isfinite(errors[static_cast<std::size_t>(i)]),
       state == vtkRefractionErrorVolume::MEASURED);
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
     const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
       ? vtkRefractionErrorVolume::NO_IMAGE
@@ -438,8 +413,8 @@ TEST(RefractionErrorVolume, FieldDataHasTheStatistics)
     static_cast<double>(volume->GetNumberOfMeasuredSamples()));
   std::ostringstream text;
   volume->Print(text);
-  EXPECT_NE(text.str().find("FLAT_FACETS"), std::string::npos);
-  EXPECT_NE(text.str().find("SampleDimensions: (10, 11, 12)"), std::string::npos);
+  EXPECT_TRUE(HasText(text.str(), "FLAT_FACETS"));
+  EXPECT_TRUE(HasText(text.str(), "SampleDimensions: (10, 11, 12)"));
 }
 
 TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)
@@ -451,8 +426,7 @@ TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)
   volume->Update();
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 1);
   EXPECT_EQ(volume->GetStandardDeviation(), 0.0);
-  double p[3];
-  volume->GetOutput()->GetPoint(0, p);
+  const glm::dvec3 p = PointOf(volume->GetOutput(), 0);
   EXPECT_EQ(p[1], -50.0);
   EXPECT_EQ(p[2], 3.0);
 }

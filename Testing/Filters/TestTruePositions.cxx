@@ -3,37 +3,14 @@
 // True positions of points that are seen through one interface or several: closed forms for planes
 // and balls, the way there and back through waves, and lists that cannot be used.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkRefractingInterface.h"
-#include "vtkRefractingInterfaceCollection.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
 #include "vtkTruePositionFilter.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 namespace reference = meniscus::reference;
 
@@ -119,9 +96,7 @@ int StateOf(vtkPointSet* data, vtkIdType i)
 double MeasureInverse(
   vtkTruePositionFilter* filter, const std::vector<reference::ExactImage>& images)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   double largest = 0.0;
   for (std::size_t i = 0; i < images.size(); ++i)
   {
@@ -149,7 +124,7 @@ std::vector<Point> MakeDeepPoints(int count)
 }
 
 /** The parameter is the number of interfaces. */
-class TruePositionsThrough : public testing::TestWithParam<int>
+class TruePositionsThrough : public ::testing::TestWithParam<int>
 {
 };
 
@@ -167,8 +142,8 @@ TEST_P(TruePositionsThrough, LayersObeySnellsLaw)
   for (std::size_t i = 0; i < images.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
-    glm::dvec3 sight;
-    filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetTuple(id, &sight.x);
+    const glm::dvec3 sight =
+      TupleOf(filter->GetOutput()->GetPointData()->GetArray("SightPoint"), id);
     const auto path = reference::TraceExactly(layers, Eye, images[i].Virtual - Eye);
     EXPECT_LT(glm::length(sight - path->Points[0]), 1e-11);
     double optical = glm::length(path->Points[0] - Eye);
@@ -267,7 +242,7 @@ TEST_P(TruePositionsThrough, EyesBehindTheSurfacesAreInTheLastMedium)
   EXPECT_EQ(messages->Warnings + messages->Errors, warnings) << messages->Text;
 }
 
-INSTANTIATE_TEST_SUITE_P(TruePositions, TruePositionsThrough, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(TruePositions, TruePositionsThrough, ::testing::Values(1, 2, 3));
 
 //------------------------------------------------------------------------------
 // Rays to points in rows start where the last one met the surface, those to points far apart are
@@ -287,12 +262,9 @@ TEST(TruePositions, DoNotDependOnTheOrderOfPoints)
   {
     const auto membrane = MakeMembrane(mesh);
     std::vector<Point> rows;
-    for (int row = 0; row < 40; ++row)
+    for (const auto& [row, i] : Product(40, 100))
     {
-      for (int i = 0; i < 100; ++i)
-      {
-        rows.push_back({ -150.0 + 3.0 * i, -70.3 + 2.0 * row, -100.0 + 5.0 * row });
-      }
+      rows.push_back({ -150.0 + 3.0 * i, -70.3 + 2.0 * row, -100.0 + 5.0 * row });
     }
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), 0);
@@ -412,8 +384,7 @@ TEST(TruePositions, BadInputIsAnError)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos)
-      << what << ": " << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty")) << what;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << what;
   };
   auto filter = MakeInverse(points, MakeFlatMembrane());
@@ -445,33 +416,29 @@ TEST(TruePositions, DepthsAreApparentOpticalOrGeometric)
   {
     const glm::dvec3 seen = sightPoint + factors[depth] * path * sight;
     // The second point has its own index around the eye: only the ratio counts.
-    for (const double scale : { 1.0, 1.2 })
+    for (const auto& [scale, isStack] : Product(List(1.0, 1.2), List(false, true)))
     {
-      for (const bool isStack : { false, true })
+      const auto filter = MakeInverse(MakePoints({ { seen.x, seen.y, seen.z } }), membrane);
+      filter->SetDepth(depth);
+      filter->SetExteriorIndexOfRefraction(scale);
+      filter->SetInteriorIndexOfRefraction(scale * Water);
+      if (isStack)
       {
-        const auto filter = MakeInverse(MakePoints({ { seen.x, seen.y, seen.z } }), membrane);
-        filter->SetDepth(depth);
-        filter->SetExteriorIndexOfRefraction(scale);
-        filter->SetInteriorIndexOfRefraction(scale * Water);
-        if (isStack)
+        // A second surface far below, which the ray does not reach.
+        auto bottom = vtkSmartPointer<vtkPolyData>::New();
+        bottom->DeepCopy(membrane);
+        for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
         {
-          // A second surface far below, which the ray does not reach.
-          auto bottom = vtkSmartPointer<vtkPolyData>::New();
-          bottom->DeepCopy(membrane);
-          for (vtkIdType i = 0; i < bottom->GetNumberOfPoints(); ++i)
-          {
-            double point[3];
-            bottom->GetPoint(i, point);
-            bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
-          }
-          filter->AddMembraneData(bottom);
-          filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
+          const glm::dvec3 point = PointOf(bottom, i);
+          bottom->GetPoints()->SetPoint(i, point[0], -100.0, point[2]);
         }
-        filter->Update();
-        EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
-        EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - truth), 1e-10)
-          << depth << " " << scale << " " << isStack;
+        filter->AddMembraneData(bottom);
+        filter->GetInterfaces()->AddInterface(scale * Water, 1.5);
       }
+      filter->Update();
+      EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+      EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - truth), 1e-10)
+        << depth << " " << scale << " " << isStack;
     }
   }
 }

@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SchematicEye.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
+#include "MathBasics.h"
 
 namespace meniscus::testing
 {
@@ -31,28 +27,22 @@ glm::dvec3 GetNormal(const CorneaSurface& surface, const glm::dvec3& p)
 reference::MembraneMesh MakeCornea(const CorneaSurface& surface, int cells)
 {
   reference::MembraneMesh mesh;
-  for (int j = 0; j <= cells; ++j)
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
   {
-    for (int i = 0; i <= cells; ++i)
-    {
-      // Squares around the axis become circles.
-      const double x = 2.0 * i / cells - 1.0;
-      const double z = 2.0 * j / cells - 1.0;
-      const double r = CorneaRadius * std::max(std::fabs(x), std::fabs(z));
-      const double part = r > 0.0 ? r / std::hypot(x, z) : 0.0;
-      const glm::dvec3 p(part * x, -surface.Vertex - GetSag(surface, r), part * z);
-      mesh.AddPoint(p, GetNormal(surface, p));
-    }
+    // Squares around the axis become circles.
+    const double x = 2.0 * i / cells - 1.0;
+    const double z = 2.0 * j / cells - 1.0;
+    const double r = CorneaRadius * std::max(std::fabs(x), std::fabs(z));
+    const double part = r > 0.0 ? r / std::hypot(x, z) : 0.0;
+    const glm::dvec3 p(part * x, -surface.Vertex - GetSag(surface, r), part * z);
+    mesh.AddPoint(p, GetNormal(surface, p));
   }
-  for (int j = 0; j < cells; ++j)
+  for (const auto& [j, i] : Product(cells, cells))
   {
-    for (int i = 0; i < cells; ++i)
-    {
-      const std::int64_t a = static_cast<std::int64_t>(j) * (cells + 1) + i;
-      const std::int64_t b = a + cells + 1;
-      mesh.AddTriangle(a, b, a + 1);
-      mesh.AddTriangle(a + 1, b, b + 1);
-    }
+    const std::int64_t a = static_cast<std::int64_t>(j) * (cells + 1) + i;
+    const std::int64_t b = a + cells + 1;
+    mesh.AddTriangle(a, b, a + 1);
+    mesh.AddTriangle(a + 1, b, b + 1);
   }
   return mesh;
 }

@@ -6,16 +6,9 @@
 
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace meniscus::testing
 {
@@ -43,7 +36,7 @@ inline vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
 
 /** Adds an interface and its surface. */
 template <typename Filter>
-void AddInterface(Filter* filter, vtkPolyData* surface, double exterior, double interior)
+void AddInterface(const Filter& filter, vtkPolyData* surface, double exterior, double interior)
 {
   vtkNew<vtkRefractingInterface> interface;
   interface->SetExteriorIndexOfRefraction(exterior);
@@ -63,15 +56,15 @@ void ExpectBadLists(const Make& make, const Measure& measure)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(measure(filter.Get()), 0) << text;
   };
   const auto makePane = [&make](double before, double glass, double again, double behind)
   {
     auto filter = make();
-    AddInterface(filter.Get(), MakePlaneAt(0.0), before, glass);
-    AddInterface(filter.Get(), MakePlaneAt(-10.0), again, behind);
+    AddInterface(filter, MakePlaneAt(0.0), before, glass);
+    AddInterface(filter, MakePlaneAt(-10.0), again, behind);
     return filter;
   };
   {
@@ -95,8 +88,8 @@ void ExpectBadLists(const Make& make, const Measure& measure)
       makePane(bad, 1.5, 1.5, 1.0), "Interface 0: Indices of refraction must be positive");
   }
   filter = make();
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
-  AddInterface(filter.Get(), vtkNew<vtkPolyData>(), 1.5, 1.333);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter, vtkNew<vtkPolyData>(), 1.5, 1.333);
   expectError(filter, "Interface 1: The membrane has no usable triangle");
 }
 

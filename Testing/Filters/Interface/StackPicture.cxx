@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StackPicture.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::testing
 {
 

@@ -9,11 +9,6 @@
 #include "Refraction/Surface/MediaChain.h"
 #include "StackFilterHelpers.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace meniscus::testing
 {
 

@@ -6,34 +6,14 @@
 #include "BoardScene.h"
 #include "StackPicture.h"
 
-#include "vtkCamera.h"
-#include "vtkDataArray.h"
 #include "vtkDepthImagePoints.h"
-#include "vtkDoubleArray.h"
-#include "vtkImageData.h"
-#include "vtkPointData.h"
 #include "vtkTruePositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <optional>
-#include <vector>
 
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactPath;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 
 constexpr int Pixels = 512;
 constexpr int Side = Pixels / 2;

@@ -3,22 +3,9 @@
 // Cells of membranes: their corners on exact rays through planes and spheres, and facets that are
 // left out.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCellData.h"
-#include "vtkIdList.h"
 #include "vtkMembraneCellFilter.h"
-#include "vtkPointData.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
 
 namespace
 {
@@ -139,8 +126,8 @@ TEST(MembraneCells, Pane)
   const auto filter = MakeFilter(front, Eye, 1.0, 1.5);
   filter->RemoveAllMembranes();
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  AddInterface(filter.Get(), front, 1.0, 1.5);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.5, 1.333);
+  AddInterface(filter, front, 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.5, 1.333);
   ExpectExactCells(filter, front,
     { { 1.0, 1.5, glm::dvec3(0.0), 0.0, Up },
       { 1.5, 1.333, glm::dvec3(0.0, -10.0, 0.0), 0.0, Up } },
@@ -248,8 +235,8 @@ TEST(MembraneCells, FacetsThatAreLeftOutAreCounted)
   const auto pane = MakeFilter(plane, Eye, 1.0, 1.5);
   pane->RemoveAllMembranes();
   pane->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  AddInterface(pane.Get(), plane, 1.0, 1.5);
-  AddInterface(pane.Get(), MakeMembrane(reference::MakePlane(-10.0, 60.0, 4)), 1.5, 1.333);
+  AddInterface(pane, plane, 1.0, 1.5);
+  AddInterface(pane, MakeMembrane(reference::MakePlane(-10.0, 60.0, 4)), 1.5, 1.333);
   pane->Update();
   const vtkIdType missed = pane->GetNumberOfMissedFacets();
   EXPECT_GT(missed, 0);
@@ -269,7 +256,7 @@ TEST(MembraneCells, BadInputIsAnError)
     const auto messages = Observe(filter);
     spoil(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();

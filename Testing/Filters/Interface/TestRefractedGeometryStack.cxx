@@ -2,61 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRefractedGeometryFilter with several interfaces: output, caches, and input that cannot be
 // used.
-#include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkRefractingInterface.h"
-#include "vtkRefractingInterfaceCollection.h"
-#include "vtkSphere.h"
-#include "vtkSphereSource.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
+#include "StackFilterHelpers.h"
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 const double Eye[3] = { 20.0, 300.0, 10.0 };
-
-// The flat membrane of side 200, moved to height y.
-vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
-{
-  const auto plane = MakeFlatMembrane();
-  vtkNew<vtkPoints> points;
-  points->DeepCopy(plane->GetPoints());
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    points->SetPoint(i, p[0], p[1] + y, p[2]);
-  }
-  plane->SetPoints(points);
-  return plane;
-}
-
-void AddInterface(
-  vtkRefractedGeometryFilter* filter, vtkPolyData* surface, double exterior, double interior)
-{
-  vtkNew<vtkRefractingInterface> interface;
-  interface->SetExteriorIndexOfRefraction(exterior);
-  interface->SetInteriorIndexOfRefraction(interior);
-  filter->GetInterfaces()->AddItem(interface);
-  filter->AddInputData(1, surface);
-}
 
 // A filter without surfaces, and an empty list.
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeStackFilter(vtkPolyData* geometry)
@@ -90,7 +44,7 @@ void ExpectError(vtkRefractedGeometryFilter* filter, const std::string& text)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, text));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -100,9 +54,7 @@ void ExpectError(vtkRefractedGeometryFilter* filter, const std::string& text)
 TEST(RefractedGeometryStack, PointBelowTheEyeAppearsAtTheSumOfItsLayers)
 {
   const auto filter = MakeAquarium(MakePoints({ { Eye[0], -30.0, Eye[2] } }));
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   vtkPolyData* output = filter->GetOutput();
   ASSERT_EQ(output->GetNumberOfPoints(), 1);
   // Rounding of sums of numbers up to 300.
@@ -246,12 +198,9 @@ TEST(RefractedGeometryStack, AllImagesAreKeptWhileNothingChanges)
   ASSERT_EQ(output->GetNumberOfPoints(), 25);
   EXPECT_EQ(output->GetNumberOfPolys(), 16);
   vtkPolyData* input = vtkPolyData::SafeDownCast(plain->GetInput(0));
-  for (vtkIdType i = 0; i < 25; ++i)
+  for (const auto& [i, k] : Product(Below<vtkIdType>(25), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_EQ(output->GetPoint(i)[k], input->GetPoint(i)[k]);
-    }
+    EXPECT_EQ(output->GetPoint(i)[k], input->GetPoint(i)[k]);
   }
 }
 
@@ -280,8 +229,7 @@ TEST(RefractedGeometryStack, ClosedBodyIsListedTwice)
   const double toEye = std::sqrt(20.0 * 20.0 + 300.0 * 300.0 + 10.0 * 10.0);
   const auto alongAxis = [output, toEye](vtkIdType i)
   {
-    double p[3];
-    output->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(output, i);
     EXPECT_NEAR(p[0] * 300.0 - p[1] * 20.0, 0.0, 1e-6);
     EXPECT_NEAR(p[2] * 300.0 - p[1] * 10.0, 0.0, 1e-6);
     return (p[0] * 20.0 + p[1] * 300.0 + p[2] * 10.0) / toEye;
@@ -323,12 +271,9 @@ TEST(RefractedGeometryStack, EqualIndicesAreTheIdentityWithoutWork)
   plain->Update();
   padded->Update();
   ASSERT_EQ(padded->GetOutput()->GetNumberOfPoints(), 25);
-  for (vtkIdType i = 0; i < 25; ++i)
+  for (const auto& [i, k] : Product(Below<vtkIdType>(25), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_EQ(padded->GetOutput()->GetPoint(i)[k], plain->GetOutput()->GetPoint(i)[k]);
-    }
+    EXPECT_EQ(padded->GetOutput()->GetPoint(i)[k], plain->GetOutput()->GetPoint(i)[k]);
   }
 }
 
@@ -487,7 +432,7 @@ TEST(RefractedGeometryStack, WrongOrderWarnsAndCountsPointsWithoutImage)
   filter->SetEyePosition(0.0, -5.0, 0.0); // in front of the first one, and behind the second one
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_NE(messages->Text.find("No ray from the eye passes"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "No ray from the eye passes"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 9);
 }

@@ -3,15 +3,10 @@
 // The list of refracting interfaces, and filters that share it.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPoints.h"
-#include "vtkRefractedLightFilter.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
@@ -110,9 +105,7 @@ TEST(RefractingInterface, MoreThanItsSurfacesIsAnErrorAndTheOutputIsEmpty)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
-  EXPECT_NE(
-    messages->Text.find("2 refracting interfaces, and port 1 has 1 surfaces"), std::string::npos)
-    << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "2 refracting interfaces, and port 1 has 1 surfaces"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->GetInterfaces()->RemoveItem(second);
   filter->Update();

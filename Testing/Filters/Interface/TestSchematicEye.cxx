@@ -5,11 +5,6 @@
 #include "SchematicEye.h"
 #include "StackFilterHelpers.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 namespace
 {
 
@@ -45,7 +40,7 @@ glm::dvec3 LookAtPoint(const glm::dvec3& eye, const glm::dvec3& point, int cells
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->SetEyePosition(eye.x, eye.y, eye.z);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
-  AddInterface(filter.Get(), MakeMembrane(MakeCornea(Anterior, cells)), 1.0, Anterior.Behind);
+  AddInterface(filter, MakeMembrane(MakeCornea(Anterior, cells)), 1.0, Anterior.Behind);
   AddInterface(
     filter.Get(), MakeMembrane(MakeCornea(Posterior, cells)), Anterior.Behind, Posterior.Behind);
   filter->Update();

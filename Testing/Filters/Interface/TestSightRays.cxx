@@ -3,32 +3,12 @@
 // Sight rays of several eyes through panes and waves: true positions, triangulation and lines.
 // Truth: exact paths through planes and spheres, and the way there and back.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkCellData.h"
 #include "vtkDepthImagePoints.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
-#include "vtkImageData.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkSightRayFilter.h"
 #include "vtkTriangulatedPositionFilter.h"
 #include "vtkTruePositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -84,8 +64,8 @@ vtkSmartPointer<Filter> MakePaneFilter(vtkPointSet* seen)
   filter->SetInputData(seen);
   filter->SetInterfaces(vtkNew<vtkRefractingInterfaceCollection>());
   filter->SetEyeArrayName("Eye");
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), 1.5, 1.333);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.5, 1.333);
   return filter;
 }
 
@@ -143,9 +123,7 @@ TEST(SightRays, PointsHaveTheirOwnEyesBehindAPane)
     truth.push_back(image.Point);
   }
   const auto filter = MakePaneFilter<vtkTruePositionFilter>(seen.Data);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
@@ -227,7 +205,7 @@ TEST(SightRays, EyesThatCannotBeUsedAreMarked)
 //------------------------------------------------------------------------------
 // An aborted run has no output, and the next one is whole.
 template <typename Filter>
-class SightRaySteps : public testing::Test
+class SightRaySteps : public ::testing::Test
 {
 };
 using StepFilters =
@@ -280,8 +258,8 @@ TEST(SightRays, ArraysThatAreMissingAreErrors)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
-    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
+    EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   const auto truth = MakePaneFilter<vtkTruePositionFilter>(seen.Data);
@@ -322,9 +300,7 @@ TEST(SightRays, TriangulatePointsThroughAPane)
     }
   }
   const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 90);
   vtkPointData* arrays = filter->GetOutput()->GetPointData();
   for (vtkIdType i = 0; i < 90; ++i)
@@ -497,7 +473,7 @@ TEST(SightRays, NumbersOfPointsAreWhole)
     ids->SetValue(1, bad);
     ids->Modified();
     filter->Update();
-    EXPECT_NE(messages->Text.find("not whole numbers"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "not whole numbers"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 }
@@ -672,7 +648,7 @@ TEST(DepthImage, BadInputIsAnError)
   {
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   vtkNew<vtkDepthImagePoints> filter;

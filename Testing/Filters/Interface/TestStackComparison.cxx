@@ -6,21 +6,11 @@
 #include "SchematicEye.h"
 #include "StackPicture.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::HeightField;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
+using namespace meniscus::reference;
 
 constexpr int Pixels = 512;
 constexpr double Glass = 1.5;

@@ -3,24 +3,9 @@
 // Error volumes through several interfaces: planes and spheres in closed form, and lists that
 // cannot be used.
 #include "ExactStack.h"
-#include "RefractedGeometryTestHelpers.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
 #include "vtkRefractionErrorVolume.h"
-#include "vtkSMPTools.h"
-#include "vtkSphere.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace
 {
@@ -96,9 +81,7 @@ TEST(StackErrorVolume, PlanesHaveNoError)
     plane->SetNormal(0.0, y < 0.0 ? -2.0 : 1.0, 0.0); // to either side
     volume->GetInterfaces()->GetInterface(y < 0.0 ? 1 : 0)->SetExactSurface(plane);
   }
-  const auto messages = Observe(volume);
-  volume->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(volume);
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 1000);
   EXPECT_LT(volume->GetLargestError(), 1e-10);
   EXPECT_EQ(volume->GetNumberOfPatchBuilds(), 2);
@@ -175,11 +158,11 @@ TEST(StackErrorVolume, AFinerMeshOfEachSurfaceReplacesTheFormula)
   finer->RemoveAllReferences();
   const auto messages = Observe(finer);
   finer->Update();
-  EXPECT_NE(messages->Text.find("compared with themselves"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "compared with themselves"));
   EXPECT_LT(finer->GetLargestError(), 1e-9);
   finer->AddReferenceData(MakePlaneAt(-50.0));
   finer->Update();
-  EXPECT_NE(messages->Text.find("port 1 has 1 surfaces"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "port 1 has 1 surfaces"));
 }
 
 TEST(StackErrorVolume, SamplesInFrontAndBesideAreNotMeasured)
@@ -248,7 +231,7 @@ TEST(StackErrorVolume, FlatFacetsAreAnError)
   volume->SetMembraneModelToFlatFacets();
   const auto messages = Observe(volume);
   volume->Update();
-  EXPECT_NE(messages->Text.find("need the membrane model CURVED"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "need the membrane model CURVED"));
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 0);
 }
 

@@ -5,21 +5,6 @@
 #include "ExactStack.h"
 #include "StackFilterHelpers.h"
 
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkPointData.h"
-#include "vtkRefractedLightFilter.h"
-#include "vtkSMPTools.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 namespace
 {
 
@@ -68,8 +53,8 @@ vtkSmartPointer<vtkRefractedLightFilter> MakePaneLight(
   vtkPolyData* geometry, const glm::dvec3& light)
 {
   auto filter = MakeLight(geometry, light);
-  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, Glass);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), Glass, Water);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, Glass);
+  AddInterface(filter, MakePlaneAt(-10.0), Glass, Water);
   return filter;
 }
 
@@ -96,8 +81,8 @@ vtkSmartPointer<vtkRefractedLightFilter> MakeBallLight(vtkPolyData* floor)
 {
   auto filter = MakeLight(floor, Up);
   const auto ball = MakeMembrane(reference::MakeSphere(glm::dvec3(0.0), 40.0, 4, true));
-  AddInterface(filter.Get(), ball, 1.0, Glass);
-  AddInterface(filter.Get(), ball, 1.0, Glass);
+  AddInterface(filter, ball, 1.0, Glass);
+  AddInterface(filter, ball, 1.0, Glass);
   return filter;
 }
 
@@ -132,9 +117,7 @@ TEST(StackLight, PaneUnderTheSun)
   {
     const auto filter =
       MakePaneLight(MakeGrid(9, 60.0, -20.0), { std::sin(angle), std::cos(angle), 0.0 });
-    const auto messages = Observe(filter);
-    filter->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(filter);
     const double expected = std::cos(angle) * MakeTransmittance(std::sin(angle), 1.0, Water);
     for (vtkIdType i = 0; i < 64; ++i)
     {
@@ -158,8 +141,7 @@ TEST(StackLight, VectorsOfTheLightBehindAPane)
   vtkDataSetAttributes* data = filter->GetOutput()->GetCellData();
   for (vtkIdType i = 0; i < 16; ++i)
   {
-    double vector[3];
-    data->GetArray("RefractionLightVector")->GetTuple(i, vector);
+    const glm::dvec3 vector = TupleOf(data->GetArray("RefractionLightVector"), i);
     EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel);
     EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel);
     EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel);
@@ -254,27 +236,24 @@ TEST(StackLight, ABallConcentratesLightAsExactRaysDo)
     filter->Update();
     std::vector<double> truth(cells * cells, 0.0);
     constexpr int rays = 2000;
-    for (int j = 0; j < rays; ++j)
+    for (const auto& [j, i] : Product(rays, rays))
     {
-      for (int i = 0; i < rays; ++i)
+      const glm::dvec2 place(80.0 * (i + 0.5) / rays - 40.0, 80.0 * (j + 0.5) / rays - 40.0);
+      const double radius = glm::length(place);
+      if (radius >= 40.0)
       {
-        const glm::dvec2 place(80.0 * (i + 0.5) / rays - 40.0, 80.0 * (j + 0.5) / rays - 40.0);
-        const double radius = glm::length(place);
-        if (radius >= 40.0)
-        {
-          continue;
-        }
-        double at = 0.0;
-        const double power = TraceBall(radius, y, at);
-        const glm::dvec2 hit = place * (at / radius);
-        // Infinite for rays that go up.
-        const double column = std::floor((hit.x / size + 0.5) * cells);
-        const double row = std::floor((hit.y / size + 0.5) * cells);
-        if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
-        {
-          truth[static_cast<std::size_t>(row * cells + column)] +=
-            power * std::pow(80.0 / rays * cells / size, 2.0);
-        }
+        continue;
+      }
+      double at = 0.0;
+      const double power = TraceBall(radius, y, at);
+      const glm::dvec2 hit = place * (at / radius);
+      // Infinite for rays that go up.
+      const double column = std::floor((hit.x / size + 0.5) * cells);
+      const double row = std::floor((hit.y / size + 0.5) * cells);
+      if (column >= 0.0 && column < cells && row >= 0.0 && row < cells)
+      {
+        truth[static_cast<std::size_t>(row * cells + column)] +=
+          power * std::pow(80.0 / rays * cells / size, 2.0);
       }
     }
     double squares = 0.0;
@@ -303,15 +282,15 @@ TEST(StackLight, OneSideOfAFloor)
   {
     const auto filter =
       MakeLight(MakeGrid(5, 20.0, fromBelow ? 20.0 : -20.0), fromBelow ? -Up : Up);
-    AddInterface(filter.Get(), MakePlaneAt(fromBelow ? 10.0 : 0.0), 1.0, Glass);
-    AddInterface(filter.Get(), MakePlaneAt(fromBelow ? 0.0 : -10.0), Glass, 1.0);
+    AddInterface(filter, MakePlaneAt(fromBelow ? 10.0 : 0.0), 1.0, Glass);
+    AddInterface(filter, MakePlaneAt(fromBelow ? 0.0 : -10.0), Glass, 1.0);
     if (fromBelow)
     {
       // From below the list is passed from the back, in the other order.
       filter->GetInterfaces()->RemoveAllItems();
       filter->RemoveAllMembranes();
-      AddInterface(filter.Get(), MakePlaneAt(0.0), Glass, 1.0);
-      AddInterface(filter.Get(), MakePlaneAt(10.0), 1.0, Glass);
+      AddInterface(filter, MakePlaneAt(0.0), Glass, 1.0);
+      AddInterface(filter, MakePlaneAt(10.0), 1.0, Glass);
     }
     filter->OneSidedOn();
     filter->Update();
@@ -324,8 +303,8 @@ TEST(StackLight, OneSideOfAFloor)
 TEST(StackLight, EqualIndicesAreLightWithoutRefraction)
 {
   const auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), { 0.6, 0.8, 0.0 });
-  AddInterface(filter.Get(), MakePlaneAt(0.0), Water, Water);
-  AddInterface(filter.Get(), MakePlaneAt(-10.0), Water, Water);
+  AddInterface(filter, MakePlaneAt(0.0), Water, Water);
+  AddInterface(filter, MakePlaneAt(-10.0), Water, Water);
   filter->Update();
   for (vtkIdType i = 0; i < 64; ++i)
   {

@@ -6,27 +6,11 @@
 #include "RandomNumbers.h"
 #include "StackPicture.h"
 
-#include "vtkDataArray.h"
-#include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdio>
-#include <string>
-#include <vector>
-
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MakeCap;
-using meniscus::reference::MakeImage;
-using meniscus::reference::MakePlane;
-using meniscus::reference::MakeSphere;
-using meniscus::reference::TraceExactly;
+using namespace meniscus::reference;
 using meniscus::test::RandomNumbers;
 
 constexpr int Pixels = 512;

@@ -3,25 +3,12 @@
 // ALL_IMAGES through lists: searches that are undecided, and cells that keep their points.
 #include "StackFilterHelpers.h"
 
-#include "vtkNew.h"
-#include "vtkPlaneSource.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkReverseSense.h"
-#include "vtkSphereSource.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <ostream>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeSquare(double half, double z, int cells)
@@ -44,8 +31,7 @@ vtkSmartPointer<vtkPolyData> MakeWavySquare(double half, double z, double amplit
   vtkPoints* points = surface->GetPoints();
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    points->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(points, i);
     points->SetPoint(
       i, p[0], p[1], z + amplitude * std::sin(5.0 * p[0] + 0.3) * std::cos(4.0 * p[1]));
   }
@@ -187,9 +173,7 @@ class RightScenes : public ::testing::TestWithParam<Scene>
 TEST_P(RightScenes, HaveNoUndecidedSearches)
 {
   const auto filter = MakeStack(GetParam());
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 0);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 100);
 }
@@ -227,12 +211,9 @@ TEST(StackSearches, StraightImagesBehindPlanesKeepTheirCells)
   vtkPolyData* expected = first->GetOutput();
   ASSERT_EQ(found->GetNumberOfPoints(), expected->GetNumberOfPoints());
   ASSERT_EQ(found->GetNumberOfPolys(), expected->GetNumberOfPolys());
-  for (vtkIdType i = 0; i < expected->GetNumberOfPoints(); ++i)
+  for (const auto& [i, k] : Product(Below<vtkIdType>(expected->GetNumberOfPoints()), 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      // The remaining error of Newton's method, 1e-12 of a facet.
-      EXPECT_NEAR(found->GetPoint(i)[k], expected->GetPoint(i)[k], 1e-11);
-    }
+    // The remaining error of Newton's method, 1e-12 of a facet.
+    EXPECT_NEAR(found->GetPoint(i)[k], expected->GetPoint(i)[k], 1e-11);
   }
 }

@@ -3,20 +3,11 @@
 // Cameras at different windows of one tank: a surface of a list may have several pieces.
 #include "RefractedGeometryTestHelpers.h"
 
+#include "VTKTestBasics.h"
 #include "vtkAppendPolyData.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
-#include "vtkPlaneSource.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkTriangulatedPositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
 
 namespace
 {
@@ -85,8 +76,7 @@ TEST(TankWindows, CamerasAtSeveralWindowsAreTriangulatedTogether)
   found->AddMembraneData(MakeWindows(2.0));
   found->Update();
   ASSERT_EQ(found->GetOutput()->GetNumberOfPoints(), 1);
-  glm::dvec3 position;
-  found->GetOutput()->GetPoint(0, &position.x);
+  const glm::dvec3 position = PointOf(found->GetOutput(), 0);
   EXPECT_LT(glm::length(position - truth), 1e-9);
 }
 

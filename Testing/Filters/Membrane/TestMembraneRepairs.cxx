@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes whose triangles have corners of their own, and membranes with wild normals.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -73,10 +60,8 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
     double worst = 0.0;
     for (vtkIdType i = 0; i < seen->GetNumberOfPoints(); ++i)
     {
-      glm::dvec3 ours;
-      glm::dvec3 theirs;
-      seen->GetPoint(i, &ours.x);
-      expected->GetOutput()->GetPoint(i, &theirs.x);
+      const glm::dvec3 ours = PointOf(seen, i);
+      const glm::dvec3 theirs = PointOf(expected->GetOutput(), i);
       worst = std::max(worst, glm::length(ours - theirs));
     }
     EXPECT_LT(worst, 1e-9);
@@ -100,16 +85,12 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
   const auto told = Observe(view);
   view->Update();
   EXPECT_EQ(told->Warnings, 1);
-  EXPECT_NE(
-    told->Text.find(std::to_string(wild) + " of 1681 membrane normals deviate"), std::string::npos)
-    << told->Text;
+  EXPECT_TRUE(HasText(told->Text, std::to_string(wild) + " of 1681 membrane normals deviate"));
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), right->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < view->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 ours;
-    glm::dvec3 theirs;
-    view->GetOutput()->GetPoint(i, &ours.x);
-    right->GetOutput()->GetPoint(i, &theirs.x);
+    const glm::dvec3 ours = PointOf(view->GetOutput(), i);
+    const glm::dvec3 theirs = PointOf(right->GetOutput(), i);
     EXPECT_LT(glm::length(ours - theirs), 0.2);
   }
 }

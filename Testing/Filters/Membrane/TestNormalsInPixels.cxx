@@ -5,20 +5,11 @@
 #include "BoardScene.h"
 #include "StackPicture.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <vector>
-
 namespace
 {
 
 using namespace meniscus::testing;
-using meniscus::reference::ExactSurface;
-using meniscus::reference::MembraneMesh;
+using namespace meniscus::reference;
 
 constexpr double Glass = 1.52;
 constexpr int Rings = 47;

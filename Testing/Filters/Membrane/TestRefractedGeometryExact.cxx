@@ -1,22 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Membranes that have a formula.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkDataArray.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitFunction.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
-#include "vtkSphere.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace
 {
@@ -71,12 +60,9 @@ vtkStandardNewMacro(NowhereZero);
 std::vector<Point> MakeDepths()
 {
   std::vector<Point> points;
-  for (int i = 0; i < 5; ++i)
+  for (const auto& [i, k] : Product(5, 5))
   {
-    for (int k = 0; k < 5; ++k)
-    {
-      points.push_back({ -40.0 + 20.0 * i, -30.0 - 5.0 * k, -40.0 + 20.0 * k });
-    }
+    points.push_back({ -40.0 + 20.0 * i, -30.0 - 5.0 * k, -40.0 + 20.0 * k });
   }
   return points;
 }
@@ -95,10 +81,8 @@ double FindLargestDifference(vtkPolyData* a, vtkPolyData* b)
   double largest = 0.0;
   for (vtkIdType i = 0; i < std::min(a->GetNumberOfPoints(), b->GetNumberOfPoints()); ++i)
   {
-    glm::dvec3 p;
-    glm::dvec3 q;
-    a->GetPoint(i, &p.x);
-    b->GetPoint(i, &q.x);
+    const glm::dvec3 p = PointOf(a, i);
+    const glm::dvec3 q = PointOf(b, i);
     largest = std::max(largest, glm::length(p - q));
   }
   return largest;
@@ -127,9 +111,7 @@ TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
   {
     const auto filter = MakeCurved(MakeMembrane(flat.MakeMesh(cells), false));
     filter->SetExactMembrane(waves);
-    const auto messages = Observe(filter);
-    filter->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(filter);
     const double error = FindLargestDifference(filter->GetOutput(), exact->GetOutput());
     const auto own = MakeCurved(MakeMembrane(field.MakeMesh(cells)));
     own->Update();
@@ -152,27 +134,21 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
   for (const int cells : { 2, 40 })
   {
     MembraneMesh& mesh = cells == 2 ? rough : fine;
-    for (int j = 0; j <= cells; ++j)
+    for (const auto& [j, i] : Product(cells + 1, cells + 1))
     {
-      for (int i = 0; i <= cells; ++i)
-      {
-        const double x = 300.0 * i / cells - 150.0;
-        const double z = 300.0 * j / cells - 150.0;
-        const glm::dvec3 p = onSphere(x, z);
-        const glm::dvec3 off = cells == 2 ? glm::dvec3(i - 1.0, 3.0 - j, j - i) : glm::dvec3(0.0);
-        const glm::dvec3 center(0.0, -radius, 0.0);
-        mesh.AddPoint(p + off, glm::normalize(p - center + 20.0 * off));
-      }
+      const double x = 300.0 * i / cells - 150.0;
+      const double z = 300.0 * j / cells - 150.0;
+      const glm::dvec3 p = onSphere(x, z);
+      const glm::dvec3 off = cells == 2 ? glm::dvec3(i - 1.0, 3.0 - j, j - i) : glm::dvec3(0.0);
+      const glm::dvec3 center(0.0, -radius, 0.0);
+      mesh.AddPoint(p + off, glm::normalize(p - center + 20.0 * off));
     }
     const int row = cells + 1;
-    for (int j = 0; j < cells; ++j)
+    for (const auto& [j, i] : Product(cells, cells))
     {
-      for (int i = 0; i < cells; ++i)
-      {
-        const std::int64_t a = j * row + i;
-        mesh.Triangles.insert(
-          mesh.Triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
-      }
+      const std::int64_t a = j * row + i;
+      mesh.Triangles.insert(
+        mesh.Triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
     }
   }
   vtkNew<vtkSphere> sphere;
@@ -192,8 +168,7 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
   vtkDataArray* normals = turned->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
   {
-    double n[3];
-    normals->GetTuple(i, n);
+    const glm::dvec3 n = TupleOf(normals, i);
     normals->SetTuple3(i, -n[0], -n[1], -n[2]);
   }
   const auto below = MakeCurved(turned);
@@ -246,7 +221,7 @@ TEST(RefractedGeometryExact, FunctionsWithoutAZeroLeaveTheMembraneWithAWarning)
     filter->Update();
     EXPECT_EQ(messages->Errors, 0) << messages->Text;
     EXPECT_EQ(messages->Warnings, 1);
-    EXPECT_NE(messages->Text.find("81 of 81"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "81 of 81"));
     EXPECT_LT(FindLargestDifference(filter->GetOutput(), plain->GetOutput()), 1e-9);
   }
 }

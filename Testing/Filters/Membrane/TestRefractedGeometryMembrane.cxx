@@ -4,30 +4,14 @@
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
+#include "VTKTestBasics.h"
 #include "vtkCharArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkShortArray.h"
-#include "vtkStringArray.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 
@@ -47,30 +31,24 @@ MembraneMesh MakeSphere(double radius, int rings, double sign)
     mesh.AddPoint(radius * n, sign * n);
   };
   add(0.0, 0.0);
-  for (int i = 1; i < rings; ++i)
+  for (const auto& [i, k] : Product(Numbers(1, rings), around))
   {
-    for (int k = 0; k < around; ++k)
-    {
-      add(Pi * i / rings, 2.0 * Pi * k / around);
-    }
+    add(Pi * i / rings, 2.0 * Pi * k / around);
   }
   add(Pi, 0.0);
   const auto at = [around, rings](int i, int k) -> std::int64_t
   {
     return i == 0 ? 0 : (i == rings ? 1 + (rings - 1) * around : 1 + (i - 1) * around + k % around);
   };
-  for (int i = 0; i < rings; ++i)
+  for (const auto& [i, k] : Product(rings, around))
   {
-    for (int k = 0; k < around; ++k)
+    if (i > 0)
     {
-      if (i > 0)
-      {
-        mesh.AddTriangle(at(i, k), at(i, k + 1), at(i + 1, k));
-      }
-      if (i + 1 < rings)
-      {
-        mesh.AddTriangle(at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
-      }
+      mesh.AddTriangle(at(i, k), at(i, k + 1), at(i + 1, k));
+    }
+    if (i + 1 < rings)
+    {
+      mesh.AddTriangle(at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
     }
   }
   return mesh;
@@ -97,11 +75,11 @@ double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
   double worst = 0.0;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 s = GetTuple(output->GetPointData()->GetArray("SightPoint"), i);
+    const glm::dvec3 s = TupleOf(output->GetPointData()->GetArray("SightPoint"), i);
     const double depth = output->GetPointData()->GetArray("RefractionDepth")->GetTuple1(i);
     glm::dvec3 v(0.0);
     output->GetPoint(i, &v.x);
-    const glm::dvec3 truth = GetTuple(output->GetPointData()->GetArray("Truth"), i);
+    const glm::dvec3 truth = TupleOf(output->GetPointData()->GetArray("Truth"), i);
     const glm::dvec3 n = sign * glm::normalize(s);
     const glm::dvec3 in = glm::normalize(s - eye);
     const glm::dvec3 out = glm::normalize(truth - s);
@@ -121,9 +99,7 @@ TEST(RefractedGeometryMembrane, ClosedMembranesAreBodies)
     { 150, 0, 0 }, { 0, -150, 0 }, { 0, 150, 0 }, { 0, 0, 200 } });
   AddTruth(geometry);
   const auto filter = MakeAllImages(geometry, MakeMembrane(MakeSphere(100.0, 24, 1.0)));
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   vtkPolyData* output = filter->GetOutput();
   vtkDataArray* source = output->GetPointData()->GetArray("SourcePointId");
   vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
@@ -185,7 +161,7 @@ TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
   EXPECT_FALSE(filter->GetStatistic("IsEyeEnclosed"));
   look(30.0);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find("inside of a closed membrane"), std::string::npos);
+  EXPECT_TRUE(HasText(messages->Text, "inside of a closed membrane"));
   EXPECT_TRUE(filter->GetStatistic("IsEyeEnclosed"));
   look(20.0);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
@@ -257,15 +233,12 @@ TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
   EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   const auto output = run(mixed, &messages);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find(std::to_string(turned) + " of 184"), std::string::npos)
-    << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, std::to_string(turned) + " of 184"));
   ASSERT_EQ(output->GetNumberOfPoints(), expected->GetNumberOfPoints());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    double a[3];
-    double b[3];
-    output->GetPoint(i, a);
-    expected->GetPoint(i, b);
+    const glm::dvec3 a = PointOf(output, i);
+    const glm::dvec3 b = PointOf(expected, i);
     EXPECT_NEAR(a[0], b[0], 1e-9);
     EXPECT_NEAR(a[1], b[1], 1e-9);
     EXPECT_NEAR(a[2], b[2], 1e-9);
@@ -281,7 +254,7 @@ TEST(RefractedGeometryMembrane, NormalsOfAnotherSurfaceAreToldOf)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find("do not fit the triangles"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "do not fit the triangles"));
   bowl->GetPointData()->SetNormals(nullptr);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
@@ -303,7 +276,7 @@ TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("4 of 125"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "4 of 125"));
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
@@ -344,7 +317,7 @@ TEST(RefractedGeometryMembrane, OneSidedMembranesAreAnError)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors, 1);
-  EXPECT_NE(messages->Text.find("one-sided"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "one-sided"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->SetInputData(1, MakeFlatMembrane());
   filter->Update();
@@ -365,7 +338,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-    EXPECT_NE(messages->Text.find("None of the 81 points"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "None of the 81 points"));
     EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 81);
     filter->SetEyePosition(0.0, 250.0, 0.0);
     filter->Update();
@@ -393,7 +366,7 @@ TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
     filter->SetEyePosition(3.0, 0.0, 5.0);
     filter->Update();
     EXPECT_GE(messages->Errors, 1);
-    EXPECT_NE(messages->Text.find("lies on the membrane"), std::string::npos);
+    EXPECT_TRUE(HasText(messages->Text, "lies on the membrane"));
     filter->SetEyePosition(20.0, 300.0, 10.0);
     filter->Update();
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys() > 0, true);
@@ -414,7 +387,7 @@ TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
     filter->Update();
     EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
     EXPECT_EQ(messages->Warnings, 1);
-    EXPECT_NE(messages->Text.find("2 of 9 points"), std::string::npos) << messages->Text;
+    EXPECT_TRUE(HasText(messages->Text, "2 of 9 points"));
     filter->Update();
     filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
     filter->Update(); // nothing is solved again
@@ -495,9 +468,7 @@ TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
   filter->SetEyePosition(20.0, 300.0, 10.0);
   filter->SetInputDataObject(0, blocks);
   filter->SetInputData(1, MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   ASSERT_NE(output, nullptr);
   EXPECT_GT(vtkPolyData::SafeDownCast(output->GetBlock(0))->GetNumberOfPolys(), 0);
@@ -532,9 +503,7 @@ TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
     grid->GetPointData()->SetScalars(colours);
     const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
     filter->SetImages(images);
-    const auto messages = Observe(filter);
-    filter->Update();
-    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+    ExpectQuiet(filter);
     vtkPolyData* output = filter->GetOutput();
     vtkPointData* data = output->GetPointData();
     for (const char* name : { "Names", "Letters", "Colours", "Rank" })

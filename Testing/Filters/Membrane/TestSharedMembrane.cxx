@@ -4,17 +4,9 @@
 // not share it.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "HeightField.h"
-
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
@@ -90,10 +82,8 @@ protected:
     double largest = 0.0;
     for (vtkIdType i = 0; i < found->GetNumberOfPoints(); ++i)
     {
-      double a[3];
-      double b[3];
-      found->GetPoint(i, a);
-      expected->GetPoint(i, b);
+      const glm::dvec3 a = PointOf(found, i);
+      const glm::dvec3 b = PointOf(expected, i);
       for (int k = 0; k < 3; ++k)
       {
         largest = std::max(largest, std::fabs(a[k] - b[k]));
@@ -144,8 +134,7 @@ TEST_F(SharedMembrane, ListsOfInterfacesAreShared)
   ASSERT_EQ(found->GetNumberOfPoints(), 25);
   for (vtkIdType i = 0; i < 25; ++i)
   {
-    double expected[3];
-    alone->GetOutput()->GetPoint(i, expected);
+    const glm::dvec3 expected = PointOf(alone->GetOutput(), i);
     for (int k = 0; k < 3; ++k)
     {
       EXPECT_EQ(found->GetPoint(i)[k], expected[k]);

@@ -4,30 +4,14 @@
 // surfaces that are turned round.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
+#include "VTKTestBasics.h"
 #include "vtkMembraneCellFilter.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkRefractedLightFilter.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionErrorVolume.h"
 #include "vtkSightRayFilter.h"
 #include "vtkTriangulatedPositionFilter.h"
 #include "vtkTruePositionFilter.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <initializer_list>
-#include <iterator>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace
 {

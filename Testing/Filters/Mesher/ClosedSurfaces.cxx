@@ -3,20 +3,10 @@
 #include "Mesher/ClosedSurfaces.h"
 
 #include "vtkAppendPolyData.h"
-#include "vtkCell.h"
-#include "vtkCellArray.h"
-#include "vtkIdList.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkPlatonicSolidSource.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkReverseSense.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
+using namespace meniscus::test;
 
 namespace meniscus::testing
 {
@@ -99,10 +89,8 @@ Surface Divided(vtkPolyData* surface)
     const auto known = middles.emplace(std::minmax(a, b), points->GetNumberOfPoints());
     if (known.second)
     {
-      double x[3];
-      double y[3];
-      points->GetPoint(a, x);
-      points->GetPoint(b, y);
+      const glm::dvec3 x = PointOf(points, a);
+      const glm::dvec3 y = PointOf(points, b);
       points->InsertNextPoint(0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]), 0.5 * (x[2] + y[2]));
     }
     return known.first->second;
@@ -155,15 +143,12 @@ Surface MakeSphere(double radius, int theta, int phi)
   points->InsertNextPoint(0.0, 0.0, radius);
   points->InsertNextPoint(0.0, 0.0, -radius);
   const auto at = [&](int i, int j) { return 2 + (j - 1) * theta + i % theta; };
-  for (int j = 1; j < phi; ++j)
+  for (const auto& [j, i] : Product(Numbers(1, phi), theta))
   {
-    for (int i = 0; i < theta; ++i)
-    {
-      const double u = 2.0 * vtkMath::Pi() * i / theta;
-      const double v = vtkMath::Pi() * j / phi;
-      points->InsertNextPoint(radius * std::sin(v) * std::cos(u),
-        radius * std::sin(v) * std::sin(u), radius * std::cos(v));
-    }
+    const double u = 2.0 * vtkMath::Pi() * i / theta;
+    const double v = vtkMath::Pi() * j / phi;
+    points->InsertNextPoint(
+      radius * std::sin(v) * std::cos(u), radius * std::sin(v) * std::sin(u), radius * std::cos(v));
   }
   vtkNew<vtkCellArray> triangles;
   for (int i = 0; i < theta; ++i)
@@ -256,16 +241,13 @@ Surface MakeTorus(double radius, double tube, int around, int across)
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> triangles;
   const auto at = [&](int i, int j) { return (i % around) * across + j % across; };
-  for (int i = 0; i < around; ++i)
+  for (const auto& [i, j] : Product(around, across))
   {
-    for (int j = 0; j < across; ++j)
-    {
-      const double u = 2.0 * vtkMath::Pi() * i / around;
-      const double v = 2.0 * vtkMath::Pi() * j / across;
-      const double r = radius + tube * std::cos(v);
-      points->InsertNextPoint(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
-      AddQuad(triangles, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    }
+    const double u = 2.0 * vtkMath::Pi() * i / around;
+    const double v = 2.0 * vtkMath::Pi() * j / across;
+    const double r = radius + tube * std::cos(v);
+    points->InsertNextPoint(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
+    AddQuad(triangles, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
   }
   return MakeSurface(points, triangles);
 }
@@ -294,8 +276,7 @@ Surface Moved(vtkPolyData* surface, const std::array<double, 3>& by)
   Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     copy->GetPoints()->SetPoint(p, x[0] + by[0], x[1] + by[1], x[2] + by[2]);
   }
   return copy;
@@ -308,8 +289,7 @@ Surface Flattened(vtkPolyData* surface)
   Surface copy = CopyOf(surface);
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     copy->GetPoints()->SetPoint(p, x[0] + 2.0 * x[2], x[1] + 2.0 * x[2], 0.0);
   }
   return copy;

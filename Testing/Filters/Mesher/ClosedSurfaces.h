@@ -3,13 +3,7 @@
 #ifndef meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
 #define meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
 
-#include "vtkSmartPointer.h"
-
-#include <array>
-#include <string>
-#include <vector>
-
-class vtkPolyData;
+#include "VTKBasics.h"
 
 namespace meniscus::testing
 {

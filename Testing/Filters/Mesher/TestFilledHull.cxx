@@ -2,17 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // TetGen's program fills the inside of a surface, or its convex hull with the surface in it.
 #include "Surface/MeshingFiles.h"
+#include "TestBasics.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <filesystem>
-#include <map>
-#include <set>
-#include <string>
 
 #ifdef MENISCUS_TETGEN_PROGRAM
 

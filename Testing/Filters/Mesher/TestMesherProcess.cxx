@@ -4,20 +4,12 @@
 #include "Mesher/ClosedSurfaces.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkNew.h"
+#include "VTKTestBasics.h"
 #include "vtkTetrahedralizeSurface.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <string>
 #include <thread>
-#include <utility>
 
 #ifdef __linux__
 #include <csignal>
@@ -90,7 +82,7 @@ void AbortAtOnce(vtkObject* caller, unsigned long, void*, void*)
 //------------------------------------------------------------------------------
 TEST_F(MesherScripts, ThatCrash)
 {
-  EXPECT_NE(this->Run("kill -SEGV $$").find("TetGen crashed"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Run("kill -SEGV $$"), "TetGen crashed"));
 }
 
 //------------------------------------------------------------------------------
@@ -102,7 +94,7 @@ TEST_F(MesherScripts, ThatDoNotEnd)
   const std::filesystem::path late = this->Folder / "late";
   const std::string text = this->Run("(sleep 3; touch '" + late.string() + "')");
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  EXPECT_NE(text.find("ended after 0.3 s, the time limit"), std::string::npos) << text;
+  EXPECT_TRUE(HasText(text, "ended after 0.3 s, the time limit"));
   EXPECT_LT(time.count(), 2.5);
   std::this_thread::sleep_for(std::chrono::seconds(4));
   EXPECT_FALSE(std::filesystem::exists(late));
@@ -126,7 +118,7 @@ TEST_F(MesherScripts, ThatDoNotAnswer)
   for (const char* commands : { "exit 3", "exit 0", "echo nonsense > \"$2\"", ": > \"$2\"" })
   {
     const std::string text = this->Run(commands);
-    EXPECT_NE(text.find("ended without an answer"), std::string::npos) << commands << text;
+    EXPECT_TRUE(HasText(text, "ended without an answer")) << commands;
   }
 }
 
@@ -142,7 +134,7 @@ TEST_F(MesherScripts, ThatGiveUp)
   {
     const std::string text = this->Run("printf 'MNS_ANS1" + std::string(end.first) +
       "\\000\\000\\000" + zeros + zeros + zeros + "' > \"$2\"");
-    EXPECT_NE(text.find(end.second), std::string::npos) << text;
+    EXPECT_TRUE(HasText(text, end.second));
   }
 }
 
@@ -150,17 +142,17 @@ TEST_F(MesherScripts, ThatGiveUp)
 TEST_F(MesherScripts, ThatAreNotThere)
 {
   this->Filter->SetMesherProgram("/no/such/program");
-  EXPECT_NE(this->Update().find("could not be started: /no/such/program"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Update(), "could not be started: /no/such/program"));
   std::ofstream(this->Folder / "plain") << "text\n";
   this->Filter->SetMesherProgram((this->Folder / "plain").c_str());
-  EXPECT_NE(this->Update().find("could not be started"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Update(), "could not be started"));
 }
 
 //------------------------------------------------------------------------------
 TEST_F(MesherScripts, WithoutPlaceForFiles)
 {
   setenv("TMPDIR", (this->Folder / "missing").c_str(), 1);
-  EXPECT_NE(this->Run("exit 0").find("could not be written"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Run("exit 0"), "could not be written"));
 }
 
 #if defined(__linux__) && defined(MENISCUS_TETGEN_PROGRAM)

@@ -3,29 +3,10 @@
 #include "Mesher/ClosedSurfaces.h"
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
+#include "VTKTestBasics.h"
 #include "vtkImplicitPolyDataDistance.h"
-#include "vtkIntArray.h"
-#include "vtkMath.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkStringArray.h"
 #include "vtkTetra.h"
 #include "vtkTetrahedralizeSurface.h"
-#include "vtkTriangle.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <set>
 
 using namespace meniscus::testing;
 
@@ -245,8 +226,7 @@ vtkSmartPointer<vtkPolyData> MakeEllipsoid(int levels, double y, double z)
   const auto surface = MakeGeodesicSphere(1.0, levels);
   for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    surface->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(surface, p);
     surface->GetPoints()->SetPoint(p, x[0], y * x[1], z * x[2]);
   }
   return surface;

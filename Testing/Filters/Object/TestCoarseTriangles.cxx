@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles that would need more parts than one may have.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkNew.h"
-#include "vtkPolyData.h"
-
-#include <gtest/gtest.h>
+#include "VTKTestBasics.h"
 
 using namespace meniscus::testing;
 
@@ -36,9 +31,8 @@ TEST(CoarseTriangles, AreToldOnceAndDrawn)
     }
     // Those of the object are points of the output, too.
     EXPECT_EQ(points, 65536 + 3);
-    EXPECT_NE(told->Text.find("images of 1 triangles have the largest number of points, 65536"),
-      std::string::npos)
-      << told->Text;
+    EXPECT_TRUE(
+      HasText(told->Text, "images of 1 triangles have the largest number of points, 65536"));
     view->Modified();
     view->Update();
     EXPECT_EQ(told->Warnings, 1) << told->Text;

@@ -4,26 +4,7 @@
 // ids of cells that are cut.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkIdTypeArray.h"
-#include "vtkImageData.h"
-#include "vtkMath.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkRefractedLightFilter.h"
-#include "vtkUnstructuredGrid.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include "VTKTestBasics.h"
 
 namespace
 {

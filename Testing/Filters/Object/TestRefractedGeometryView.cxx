@@ -2,22 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells and points that a camera cannot show through the membrane are left out, and no others.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkFieldData.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <set>
-#include <tuple>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -56,8 +41,7 @@ using Cell = std::tuple<int, long, long, long>;
 
 Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
 {
-  double p[3];
-  output->GetPoint(point, p);
+  const glm::dvec3 p = PointOf(output, point);
   return { static_cast<int>(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(cell)),
     std::lround(1e6 * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2]) };
 }
@@ -78,8 +62,7 @@ std::multiset<Cell> GetCells(vtkPolyData* output, vtkCamera* camera)
     bool isInView = !camera;
     for (vtkIdType k = 0; camera && k < ids->GetNumberOfIds(); ++k)
     {
-      double p[3];
-      output->GetPoint(ids->GetId(k), p);
+      const glm::dvec3 p = PointOf(output, ids->GetId(k));
       bool inside = true;
       for (int plane = 0; plane < 4; ++plane)
       {

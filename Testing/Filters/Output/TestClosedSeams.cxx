@@ -2,21 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CloseSeams: cells between the images of neighbouring polygons.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCell.h"
-#include "vtkDataArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPolyData.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
+#include "VTKTestBasics.h"
 
 namespace
 {

@@ -4,25 +4,13 @@
 // mappers do not upload them again.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
+#include "VTKTestBasics.h"
 #include "vtkRefractingInterfaceCollection.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace
 {
 
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using Filter = vtkRefractedGeometryFilter;
 
@@ -76,8 +64,7 @@ struct KeptOutputs : public ::testing::TestWithParam<const char*>
       points->DeepCopy(lower->GetPoints());
       for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
       {
-        double p[3];
-        points->GetPoint(i, p);
+        const glm::dvec3 p = PointOf(points, i);
         points->SetPoint(i, p[0], p[1] - 10.0, p[2]);
       }
       lower->SetPoints(points);
@@ -107,8 +94,7 @@ TEST_P(KeptOutputs, NewColorsKeepTheGeometry)
 TEST_P(KeptOutputs, MovedPointsAreNew)
 {
   const std::vector<Part> before = GetGeometry(this->Refraction);
-  double p[3];
-  this->Grid->GetPoint(40, p);
+  const glm::dvec3 p = PointOf(this->Grid, 40);
   this->Grid->GetPoints()->SetPoint(40, p[0], p[1] - 5.0, p[2]);
   this->Grid->GetPoints()->Modified();
   this->Refraction->Update();
@@ -121,13 +107,11 @@ TEST_P(KeptOutputs, ChangesByConsumersAreNotKept)
 {
   // A consumer that writes to the output in place must not change the next one.
   vtkPolyData* output = this->Refraction->GetOutput();
-  double expected[3];
-  output->GetPoint(5, expected);
+  const glm::dvec3 expected = PointOf(output, 5);
   output->GetPoints()->SetPoint(5, 1.0, 2.0, 3.0);
   SetColors(this->Grid, 1000.0);
   this->Refraction->Update();
-  double found[3];
-  output->GetPoint(5, found);
+  const glm::dvec3 found = PointOf(output, 5);
   for (int axis = 0; axis < 3; ++axis)
   {
     EXPECT_EQ(found[axis], expected[axis]);
@@ -160,12 +144,10 @@ void ExpectSameArrays(vtkDataSetAttributes* found, vtkDataSetAttributes* expecte
     ASSERT_STREQ(a->GetName(), b->GetName());
     ASSERT_EQ(a->GetDataType(), b->GetDataType());
     ASSERT_EQ(a->GetNumberOfValues(), b->GetNumberOfValues());
-    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+    for (const auto& [i, c] :
+      Product(Below<vtkIdType>(a->GetNumberOfTuples()), a->GetNumberOfComponents()))
     {
-      for (int c = 0; c < a->GetNumberOfComponents(); ++c)
-      {
-        ASSERT_EQ(a->GetComponent(i, c), b->GetComponent(i, c)) << a->GetName();
-      }
+      ASSERT_EQ(a->GetComponent(i, c), b->GetComponent(i, c)) << a->GetName();
     }
   }
 }

@@ -1,23 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // ALL_IMAGES in a pipeline: points, lines and polygons, objects that cross the membrane, caches.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -56,10 +41,10 @@ double GetTrueArea(vtkPolyData* output, bool inFront)
     glm::dvec3 sum(0.0);
     for (vtkIdType k = 2; k < ids->GetNumberOfIds(); ++k)
     {
-      const glm::dvec3 first = GetTuple(truth, ids->GetId(0));
+      const glm::dvec3 first = TupleOf(truth, ids->GetId(0));
       sum += 0.5 *
         glm::cross(
-          GetTuple(truth, ids->GetId(k - 1)) - first, GetTuple(truth, ids->GetId(k)) - first);
+          TupleOf(truth, ids->GetId(k - 1)) - first, TupleOf(truth, ids->GetId(k)) - first);
     }
     area += (facet->GetTuple1(ids->GetId(0)) < 0.0) == inFront ? glm::length(sum) : 0.0;
   }
@@ -83,9 +68,7 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
   points->SetVerts(verts);
   AddTruth(points);
   const auto filter = MakeAllImages(points, MakeMembrane(Waves.MakeMesh(64)));
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   vtkPolyData* output = filter->GetOutput();
   EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
   std::vector<int> images(200, 0);
@@ -97,8 +80,8 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
     ++images[static_cast<std::size_t>(id)];
     EXPECT_EQ(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(i), id);
     // Eq. 2.4.
-    EXPECT_NEAR(glm::length(PointOf(output, i) - GetTuple(sight, i)) * 1.333,
-      glm::length(PointOf(points, id) - GetTuple(sight, i)), 1e-9);
+    EXPECT_NEAR(glm::length(PointOf(output, i) - TupleOf(sight, i)) * 1.333,
+      glm::length(PointOf(points, id) - TupleOf(sight, i)), 1e-9);
   }
   int several = 0;
   int without = 0;
@@ -141,7 +124,7 @@ TEST(RefractedGeometryImages, TensOfImagesOfOnePoint)
       int found = 0;
       for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
       {
-        const auto own = GetTuple(output->GetPointData()->GetArray("SightPoint"), i);
+        const auto own = TupleOf(output->GetPointData()->GetArray("SightPoint"), i);
         found += glm::distance(own, sight) < nearby;
       }
       EXPECT_EQ(found, 1) << point.y;
@@ -167,10 +150,10 @@ TEST(RefractedGeometryImages, PiecesCoverThePolygonOnce)
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     // The new point is on the polygon, and its sight point sees it.
-    const glm::dvec3 t = GetTuple(truth, i);
-    EXPECT_NEAR(glm::length(t - GetTuple(sight, i)), depth->GetTuple1(i), 1e-9);
-    const glm::dvec3 a = glm::normalize(GetTuple(sight, i) - eye);
-    const glm::dvec3 b = glm::normalize(t - GetTuple(sight, i));
+    const glm::dvec3 t = TupleOf(truth, i);
+    EXPECT_NEAR(glm::length(t - TupleOf(sight, i)), depth->GetTuple1(i), 1e-9);
+    const glm::dvec3 a = glm::normalize(TupleOf(sight, i) - eye);
+    const glm::dvec3 b = glm::normalize(t - TupleOf(sight, i));
     EXPECT_NEAR(a.x, 1.333 * b.x, 1e-7);
     EXPECT_NEAR(a.z, 1.333 * b.z, 1e-7);
   }
@@ -207,7 +190,7 @@ TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossAFlatMembrane)
   int crossing = 0;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 t = GetTuple(truth, i);
+    const glm::dvec3 t = TupleOf(truth, i);
     if (facet->GetTuple1(i) < 0.0)
     {
       EXPECT_GE(t.y, -1e-9);
@@ -240,7 +223,7 @@ TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossWaves)
   int wrong = 0;
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const glm::dvec3 t = GetTuple(truth, i);
+    const glm::dvec3 t = TupleOf(truth, i);
     const double height = t.y - Waves.GetHeight(t.x, t.z);
     if (facet->GetTuple1(i) < 0.0)
     {
@@ -290,7 +273,7 @@ TEST(RefractedGeometryImages, LinesAreDividedAndCut)
     output->GetLines()->GetCellAtId(i, points);
     ASSERT_EQ(points->GetNumberOfIds(), 2);
     const double length =
-      glm::length(GetTuple(truth, points->GetId(1)) - GetTuple(truth, points->GetId(0)));
+      glm::length(TupleOf(truth, points->GetId(1)) - TupleOf(truth, points->GetId(0)));
     (facet->GetTuple1(points->GetId(0)) < 0.0 ? front : behind) += length;
   }
   const double whole = glm::length(glm::dvec3(70.0, 80.0, 3.0));
@@ -350,7 +333,7 @@ TEST(RefractedGeometryImages, CountsSearchesAtAFocus)
   filter->Update();
   EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 1);
   EXPECT_EQ(messages->Warnings, 1);
-  EXPECT_NE(messages->Text.find("undecided"), std::string::npos) << messages->Text;
+  EXPECT_TRUE(HasText(messages->Text, "undecided"));
   filter->SetEyePosition(0.0, 1990.0, 0.0);
   filter->Update();
   EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 2);

@@ -4,25 +4,7 @@
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Membrane/Optics.h"
-
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkFieldData.h"
-#include "vtkFloatArray.h"
-#include "vtkIdList.h"
-#include "vtkIdTypeArray.h"
-#include "vtkMath.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkSMPTools.h"
-#include "vtkStringArray.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -399,8 +381,7 @@ TEST(RefractedGeometryOutput, LargeOffsetsInDoubleAreHarmless)
   const auto moved = MakeGrid(5, 80.0, -50.0);
   for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    moved->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(moved, i);
     moved->GetPoints()->SetPoint(i, p[0] + offset, p[1] + offset, p[2] + offset);
   }
   const auto far = MakeFilter(moved, MakeMembrane(mesh));
@@ -409,10 +390,8 @@ TEST(RefractedGeometryOutput, LargeOffsetsInDoubleAreHarmless)
   ASSERT_EQ(far->GetOutput()->GetNumberOfPoints(), near->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
   {
-    double a[3];
-    double b[3];
-    near->GetOutput()->GetPoint(i, a);
-    far->GetOutput()->GetPoint(i, b);
+    const glm::dvec3 a = PointOf(near->GetOutput(), i);
+    const glm::dvec3 b = PointOf(far->GetOutput(), i);
     for (int k = 0; k < 3; ++k)
     {
       // Coordinates of 1e6 are 1.2e-10 apart; grid, membrane and result are rounded to that.
@@ -428,16 +407,13 @@ TEST(RefractedGeometryOutput, CurvedPatchesAreExactOnAPlane)
   const auto grid = MakeGrid(9, 80.0, -50.0);
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
   filter->SetMembraneModelToCurved();
-  const auto messages = Observe(filter);
-  filter->Update();
-  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  ExpectQuiet(filter);
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
   const meniscus::reference::AnalyticMembrane exact{ 0.0, 1.0, 1.333 };
   for (vtkIdType i = 0; i < 81; ++i)
   {
-    double p[3];
     double s[3];
-    grid->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(grid, i);
     PointArray(filter->GetOutput(), "SightPoint")->GetTuple(i, s);
     const auto truth = exact.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] });
     ASSERT_EQ(truth.size(), 1u);
@@ -467,7 +443,7 @@ TEST(RefractedGeometryOutput, PrintsItsState)
          "OutputPointsPrecision", "NumberOfPatchBuilds: 0", "NumberOfEyeUpdates: 0",
          "NumberOfSolvedVertices: 0", "NumberOfFailedSolves: 0" })
   {
-    EXPECT_NE(text.str().find(word), std::string::npos) << word;
+    EXPECT_TRUE(HasText(text.str(), word)) << word;
   }
 }
 

@@ -1,23 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // ALL_IMAGES in a pipeline: arrays at new points, and images without cracks.
-#include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "RefractionPicture.h"
-
-#include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkSphereSource.h"
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -97,11 +82,9 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
   double farthest = 0.0;
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
-    double truth[3];
-    double sight[3];
     double at[2];
-    output->GetArray("Truth")->GetTuple(i, truth);
-    output->GetArray("SightPoint")->GetTuple(i, sight);
+    const glm::dvec3 truth = TupleOf(output->GetArray("Truth"), i);
+    const glm::dvec3 sight = TupleOf(output->GetArray("SightPoint"), i);
     output->GetTCoords()->GetTuple(i, at);
     const glm::dvec3 place(truth[0], truth[1], truth[2]);
     const glm::dvec3 from(sight[0], sight[1], sight[2]);
@@ -129,22 +112,19 @@ vtkSmartPointer<vtkPolyData> MakeRing(const glm::dvec3& center, double radius, d
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
-  for (int j = 0; j < across; ++j)
+  for (const auto& [j, i] : Product(across, around))
   {
-    for (int i = 0; i < around; ++i)
-    {
-      const double u = 2.0 * Pi * i / around;
-      const double v = 2.0 * Pi * j / across;
-      const double reach = radius + thickness * std::cos(v);
-      points->InsertNextPoint(center.x + reach * std::cos(u), center.y + thickness * std::sin(v),
-        center.z + reach * std::sin(u));
-      const vtkIdType a = j * around + i;
-      const vtkIdType b = j * around + (i + 1) % around;
-      const vtkIdType c = (j + 1) % across * around + (i + 1) % around;
-      const vtkIdType d = (j + 1) % across * around + i;
-      cells->InsertNextCell({ a, b, c });
-      cells->InsertNextCell({ a, c, d });
-    }
+    const double u = 2.0 * Pi * i / around;
+    const double v = 2.0 * Pi * j / across;
+    const double reach = radius + thickness * std::cos(v);
+    points->InsertNextPoint(center.x + reach * std::cos(u), center.y + thickness * std::sin(v),
+      center.z + reach * std::sin(u));
+    const vtkIdType a = j * around + i;
+    const vtkIdType b = j * around + (i + 1) % around;
+    const vtkIdType c = (j + 1) % across * around + (i + 1) % around;
+    const vtkIdType d = (j + 1) % across * around + i;
+    cells->InsertNextCell({ a, b, c });
+    cells->InsertNextCell({ a, c, d });
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
@@ -158,10 +138,8 @@ double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
   double worst = 0.0;
   for (vtkIdType i = 0; i < pieces->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 place;
-    glm::dvec3 from;
-    pieces->GetPointData()->GetArray("Truth")->GetTuple(i, &place.x);
-    pieces->GetPointData()->GetArray("SightPoint")->GetTuple(i, &from.x);
+    const glm::dvec3 place = TupleOf(pieces->GetPointData()->GetArray("Truth"), i);
+    const glm::dvec3 from = TupleOf(pieces->GetPointData()->GetArray("SightPoint"), i);
     const glm::dvec3 law = test.Field.Exterior * glm::normalize(from - test.Eye) -
       test.Field.Interior * glm::normalize(place - from);
     worst = std::max(worst, std::hypot(law.x, law.z));

@@ -3,22 +3,11 @@
 // Recomputation after a change, measured by the counters; eye, camera, composite data, abort.
 #include "RefractedGeometryTestHelpers.h"
 
-#include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkCommand.h"
-#include "vtkFloatArray.h"
+#include "VTKTestBasics.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiBlockDataSet.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTrivialProducer.h"
-
-#include <gtest/gtest.h>
 
 namespace
 {
@@ -90,13 +79,11 @@ TEST_F(RefractedGeometryCache, MovedObjectKeepsTheCells)
 
 TEST_F(RefractedGeometryCache, MovedObjectIsNoticedByTheDataSetsTimeAlone)
 {
-  double before[3];
-  this->Filter->GetOutput()->GetPoint(0, before);
+  const glm::dvec3 before = PointOf(this->Filter->GetOutput(), 0);
   this->Grid->GetPoints()->SetPoint(0, 1.0, -20.0, 3.0);
   this->Grid->Modified();
   this->ExpectAfterUpdate({ 1, 1, 162 });
-  double after[3];
-  this->Filter->GetOutput()->GetPoint(0, after);
+  const glm::dvec3 after = PointOf(this->Filter->GetOutput(), 0);
   EXPECT_NE(before[1], after[1]);
 }
 
@@ -187,10 +174,8 @@ TEST_F(RefractedGeometryCache, EyeFollowsTheCamera)
   const auto other = MakeFilter(this->Grid, this->Membrane);
   other->SetEyePosition(0.0, 250.0, 0.0);
   other->Update();
-  double a[3];
-  double b[3];
-  this->Filter->GetOutput()->GetPoint(5, a);
-  other->GetOutput()->GetPoint(5, b);
+  const glm::dvec3 a = PointOf(this->Filter->GetOutput(), 5);
+  const glm::dvec3 b = PointOf(other->GetOutput(), 5);
   EXPECT_TRUE(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
   // The camera is rotated, not moved: nothing is solved again.
   camera->SetFocalPoint(10.0, 0.0, 0.0);
@@ -245,8 +230,7 @@ TEST(RefractedGeometryPipeline, MultiBlockBuildsTheMembraneOnce)
     ASSERT_NE(leaf, nullptr);
     EXPECT_EQ(leaf->GetNumberOfPoints(), 25);
     EXPECT_EQ(leaf->GetNumberOfPolys(), 16);
-    double p[3];
-    leaf->GetPoint(0, p);
+    const glm::dvec3 p = PointOf(leaf, 0);
     EXPECT_NEAR(p[1], -(20.0 + 10.0 * i) / 1.333, 4.0); // about the apparent depth
   }
 

@@ -2,15 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Objects whose points come in random order are solved along a curve, with the same images.
 #include "RefractedGeometryTestHelpers.h"
-
-#include "vtkPoints.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
+#include "VTKTestBasics.h"
 
 namespace
 {
@@ -69,10 +61,9 @@ protected:
     double largest = 0.0;
     for (int i = 0; i < Count; ++i)
     {
-      double a[3];
-      double b[3];
-      this->Scattered->GetOutput()->GetPoint(i, a);
-      this->Rows->GetOutput()->GetPoint(this->Order[static_cast<std::size_t>(i)], b);
+      const glm::dvec3 a = PointOf(this->Scattered->GetOutput(), i);
+      const glm::dvec3 b =
+        PointOf(this->Rows->GetOutput(), this->Order[static_cast<std::size_t>(i)]);
       for (int k = 0; k < 3; ++k)
       {
         largest = std::max(largest, std::fabs(a[k] - b[k]));
