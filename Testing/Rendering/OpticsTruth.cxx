@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpticsTruth.h"
 
-#include <vtkContourValues.h>
-#include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkMath.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace meniscus::test
 {
@@ -103,7 +92,7 @@ TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const s
   EXPECT_LE(static_cast<double>(comparison.Excused),
     std::max(1.0, excusedShare * static_cast<double>(comparison.Visible)));
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.GetText());
+  ::testing::Test::RecordProperty(what, comparison.GetText());
   return comparison;
 }
 

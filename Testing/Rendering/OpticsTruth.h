@@ -5,7 +5,6 @@
 
 #include "ProjectionModes.h"
 #include "RayCastScene.h"
-#include "ReferenceOptics.h"
 #include "TracedImage.h"
 
 namespace meniscus::test

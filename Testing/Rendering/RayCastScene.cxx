@@ -2,24 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <utility>
-
 namespace meniscus::test
 {
 
@@ -32,6 +14,10 @@ RayCastScene::RayCastScene(
   if (grid)
   {
     this->RayCaster->SetInputDataObject(grid);
+    if (grid->GetNumberOfPoints() > 0)
+    {
+      LookAt(this->GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    }
   }
   this->RayCaster->SetBackend(BackendUnderTest());
   this->SetMapper(this->RayCaster);
@@ -169,6 +155,13 @@ void ErrorObserver::Observe(vtkObject* object)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object)
+{
+  auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  observer->Observe(object);
+  return observer;
+}
+
 std::string ErrorObserver::GetText() const
 {
   std::string all;

@@ -6,26 +6,17 @@
 #include "ReferenceImage.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
-#include "VolumeScene.h"
+#include "VTKTestBasics.h"
 
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkTetrahedraRayCastMapper.h>
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
-
-class vtkRenderer;
-class vtkUnstructuredGrid;
-class vtkVolumeProperty;
 
 namespace meniscus::test
 {
 
-/** A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper. */
+/**
+ * A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper, seen from an azimuth of 30
+ * degrees and an elevation of 20.
+ */
 class RayCastScene : public VolumeScene
 {
 public:
@@ -98,6 +89,9 @@ public:
 
   std::string GetText() const;
 };
+
+/** A new observer of an object. */
+vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object);
 
 } // namespace meniscus::test
 

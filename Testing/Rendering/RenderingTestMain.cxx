@@ -1,12 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestBasics.h"
 #include "VolumeScene.h"
-
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <iostream>
-#include <memory>
 
 // VTK's skip code.
 constexpr int Skipped = 125;
@@ -30,7 +25,7 @@ int main(int argc, char* argv[])
     hold = std::make_unique<meniscus::test::DisplayHold>();
   }
   const int result = RUN_ALL_TESTS();
-  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   const bool nothingRan =
     all.test_to_run_count() > 0 && all.skipped_test_count() == all.test_to_run_count();
   return result == 0 && nothingRan ? Skipped : result;

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StackScene.h"
 
-#include <vtkNew.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkSphereSource.h>
 #include <vtkTetrahedraRayCastMapper.h>
 
 namespace meniscus::test

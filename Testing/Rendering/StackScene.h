@@ -5,9 +5,6 @@
 
 #include "MembraneScene.h"
 
-#include <array>
-#include <vector>
-
 class vtkTetrahedraRayCastMapper;
 
 namespace meniscus::test

@@ -3,10 +3,8 @@
 #ifndef meniscus_Testing_Rendering_WaterParts_h
 #define meniscus_Testing_Rendering_WaterParts_h
 
-#include <vtkPlaneSource.h>
-#include <vtkSmartPointer.h>
+#include "VTKBasics.h"
 
-class vtkActor;
 class vtkAlgorithmOutput;
 
 namespace meniscus::test

@@ -6,23 +6,6 @@
 #include "ProjectionModes.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -38,10 +21,7 @@ vtkSmartPointer<vtkVolumeProperty> LitProperty()
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->ShadeOn();
   property->SetSpecular(0.4);
-  vtkNew<vtkPiecewiseFunction> factor;
-  factor->AddPoint(0.0, 0.2);
-  factor->AddPoint(3.0, 1.0);
-  property->SetGradientOpacity(factor);
+  property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 3.0, 1.0 } }));
   property->GetIsoSurfaceValues()->SetValue(0, 0.2);
   property->GetIsoSurfaceValues()->SetValue(1, -0.2);
   return property;
@@ -140,7 +120,6 @@ TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 {
   const Grid grid = MakeBlock(7, WavyField(3.0), Torus(0.6, 0.35));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   if (!HasCompute(scene.GetWindow()))
   {
@@ -157,7 +136,6 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   // A convex mesh, since rays next to a silhouette may count as inside or outside.
   const Grid grid = MakeBlock(7, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const std::vector<int> backends{ vtkTetrahedraRayCastMapper::NATIVE };
   ExpectAgreement(scene, backends, "plain");
   scene.GetVolume()->SetProperty(LitProperty());
@@ -204,7 +182,6 @@ TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
 {
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, LitProperty(), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
   scene.GetWindow()->Render();
@@ -250,9 +227,7 @@ TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   ExpectMatchesReference(scene, "compute asked for");
   const bool compute = HasCompute(scene.GetWindow());
   EXPECT_EQ(scene.GetRayCaster()->GetActiveBackend(),
@@ -266,7 +241,6 @@ TEST(TetrahedraRayCastBackends, SwitchingKeepsTheTables)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const auto drawWithEach = [&]()
   {
     for (const int backend : { 3, 1, 2 })

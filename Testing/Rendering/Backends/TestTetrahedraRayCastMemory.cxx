@@ -4,20 +4,6 @@
 #include "DeviceTableLimits.h"
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 using namespace meniscus::test;
 
 namespace
@@ -29,7 +15,7 @@ constexpr int Native = vtkTetrahedraRayCastMapper::NATIVE;
 constexpr int OpenGL = vtkTetrahedraRayCastMapper::OPENGL;
 constexpr int Compute = vtkTetrahedraRayCastMapper::COMPUTE;
 
-class TetrahedraRayCastMemory : public testing::Test
+class TetrahedraRayCastMemory : public ::testing::Test
 {
 protected:
   TetrahedraRayCastMemory()
@@ -185,8 +171,8 @@ TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend
   ExpectMatchesReference(this->Scene, "beyond the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(least)), std::string::npos);
-  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(least - 1)), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], std::to_string(least)));
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], std::to_string(least - 1)));
   meniscus::DeviceTableLimits::SetCompact(this->Mapper, true);
   meniscus::DeviceTableLimits::SetLargest(this->Mapper, least);
   ExpectMatchesReference(this->Scene, "compact, with just enough room");

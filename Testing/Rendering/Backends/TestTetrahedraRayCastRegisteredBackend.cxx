@@ -2,27 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A backend registered from outside the library, with installed headers only, against the analytic
 // length of each ray within a box. Documentation/extending.md follows it.
-#include "PixelRays.h"
 #include "RayCastScene.h"
 
 #include <RayCastBackend.h>
 #include <RayCastBackendRegistry.h>
-
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkMatrix4x4.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -148,20 +131,17 @@ public:
     const std::vector<float>& depths = target.ReadDepths();
     std::vector<float> image;
     this->Statistics = meniscus::RayCastStatistics();
-    for (int row = 0; row < rays.Height; ++row)
+    for (const auto& [row, column] : Product(rays.Height, rays.Width))
     {
-      for (int column = 0; column < rays.Width; ++column)
-      {
-        const double i = column + 0.5 - 0.5 * rays.Width;
-        const double j = row + 0.5 - 0.5 * rays.Height;
-        const double w = 2.0 * depths[image.size() / 4] - 1.0;
-        const double end = (w * rays.DepthNumerator[0] + rays.DepthNumerator[1]) /
-          (w * rays.DepthDenominator[0] + rays.DepthDenominator[1]);
-        const auto length = static_cast<float>(
-          this->LengthOf(At(rays.Origin, i, j), At(rays.Direction, i, j), { rays.NearDepth, end }) *
-          GetWorldLength(rays, At(rays.Direction, i, j)));
-        image.insert(image.end(), { length, length, length, length > 0.0f ? 1.0f : 0.0f });
-      }
+      const double i = column + 0.5 - 0.5 * rays.Width;
+      const double j = row + 0.5 - 0.5 * rays.Height;
+      const double w = 2.0 * depths[image.size() / 4] - 1.0;
+      const double end = (w * rays.DepthNumerator[0] + rays.DepthNumerator[1]) /
+        (w * rays.DepthDenominator[0] + rays.DepthDenominator[1]);
+      const auto length = static_cast<float>(
+        this->LengthOf(At(rays.Origin, i, j), At(rays.Direction, i, j), { rays.NearDepth, end }) *
+        GetWorldLength(rays, At(rays.Direction, i, j)));
+      image.insert(image.end(), { length, length, length, length > 0.0f ? 1.0f : 0.0f });
     }
     return target.WriteImage(image);
   }
@@ -238,7 +218,7 @@ double LengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWor
 }
 
 /** A box of 6 * 3^3 tetrahedra, and the backend registered as long as the test runs. */
-class TetrahedraRayCastRegisteredBackend : public testing::Test
+class TetrahedraRayCastRegisteredBackend : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRegisteredBackend()
@@ -302,15 +282,12 @@ TEST_F(TetrahedraRayCastRegisteredBackend, DrawsTheLengthsOfRaysInABox)
   ASSERT_EQ(image.Height, rays.GetHeight());
   double longest = 0.0;
   std::int64_t hits = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
-    {
-      const double expected = LengthInBox(rays.GetRay(x, y), this->Scene.GetVolume()->GetMatrix());
-      ASSERT_NEAR(image.GetPixel(x, y)[0], expected, tolerance) << x << ", " << y;
-      longest = std::max(longest, expected);
-      hits += expected > tolerance ? 1 : 0;
-    }
+    const double expected = LengthInBox(rays.GetRay(x, y), this->Scene.GetVolume()->GetMatrix());
+    ASSERT_NEAR(image.GetPixel(x, y)[0], expected, tolerance) << x << ", " << y;
+    longest = std::max(longest, expected);
+    hits += expected > tolerance ? 1 : 0;
   }
   // A ray through the middle crosses at least the thinnest extent.
   EXPECT_GT(longest, 2.0 * 0.9);
@@ -330,8 +307,8 @@ TEST_F(TetrahedraRayCastRegisteredBackend, AutomaticAsksItFirstAndReportsItsReas
   this->Words.Reason = "it is out of ink";
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find("it is out of ink"), std::string::npos);
-  EXPECT_NE(this->Observer->Warnings[0].find(this->OwnBackend()), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], "it is out of ink"));
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], this->OwnBackend()));
   const FloatImage other = this->Scene.RenderFloat();
   EXPECT_EQ(this->Observer->Warnings.size(), 1u) << "said once";
   this->Words.Reason.clear();
@@ -357,12 +334,12 @@ TEST_F(TetrahedraRayCastRegisteredBackend, NamesTakePrecedenceAndFallBack)
   this->Mapper->SetBackendName("No such");
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find("No such"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[0], "No such"));
   this->Words.Reason = "it is out of ink";
   this->Mapper->SetBackendName("Path length");
   EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 2u);
-  EXPECT_NE(this->Observer->Warnings[1].find("it is out of ink"), std::string::npos);
+  EXPECT_TRUE(HasText(this->Observer->Warnings[1], "it is out of ink"));
   EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->GetText();
 }
 

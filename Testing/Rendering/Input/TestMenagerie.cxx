@@ -4,22 +4,10 @@
 // bounds of what is drawn.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkDataObject.h>
 #include <vtkGenericDataObjectReader.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkXMLGenericDataObjectReader.h>
 
-#include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <fstream>
-#include <ostream>
-#include <sstream>
 
 using namespace meniscus::test;
 
@@ -124,17 +112,14 @@ double LookDown(vtkRenderer* renderer, const double bounds[6])
 double MeasureVolume(const FloatImage& image, double pixelArea)
 {
   double depth = 0.0;
-  for (int y = 0; y < Height; ++y)
+  for (const auto& [y, x] : Product(Height, Width))
   {
-    for (int x = 0; x < Width; ++x)
-    {
-      depth -= std::log1p(-static_cast<double>(image.GetPixel(x, y)[3])) / Attenuation;
-    }
+    depth -= std::log1p(-static_cast<double>(image.GetPixel(x, y)[3])) / Attenuation;
   }
   return depth * pixelArea;
 }
 
-std::string NameOf(const testing::TestParamInfo<MenagerieFile>& info)
+std::string NameOf(const ::testing::TestParamInfo<MenagerieFile>& info)
 {
   std::string name = info.param.Name;
   for (char& letter : name)
@@ -146,7 +131,7 @@ std::string NameOf(const testing::TestParamInfo<MenagerieFile>& info)
 
 }
 
-class Menagerie : public testing::TestWithParam<MenagerieFile>
+class Menagerie : public ::testing::TestWithParam<MenagerieFile>
 {
 };
 
@@ -157,8 +142,7 @@ TEST_P(Menagerie, IsDrawn)
   ASSERT_TRUE(data);
   RayCastScene scene(nullptr, MakeConstantProperty(Attenuation, 1.0, 1.0, 1.0, 1.0), Width, Height);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(mapper);
+  const auto observer = ObserveErrors(mapper);
   mapper->SetInputDataObject(data);
   mapper->SetScalarMode(
     file.OfPoints ? VTK_SCALAR_MODE_USE_POINT_FIELD_DATA : VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
@@ -181,4 +165,4 @@ TEST_P(Menagerie, IsDrawn)
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Menagerie, testing::ValuesIn(ReadTable()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Files, Menagerie, ::testing::ValuesIn(ReadTable()), NameOf);

@@ -4,30 +4,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <set>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -49,12 +25,9 @@ vtkDoubleArray* AddCellScalars(vtkUnstructuredGrid* grid, const Field& field)
   {
     grid->GetCellPoints(c, ids);
     double middle[3] = { 0.0, 0.0, 0.0 };
-    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    for (const auto& [i, axis] : Product(Below<vtkIdType>(ids->GetNumberOfIds()), 3))
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        middle[axis] += grid->GetPoint(ids->GetId(i))[axis] / ids->GetNumberOfIds();
-      }
+      middle[axis] += grid->GetPoint(ids->GetId(i))[axis] / ids->GetNumberOfIds();
     }
     values->SetValue(c, field(middle[0], middle[1], middle[2]));
   }
@@ -266,12 +239,9 @@ TEST(TetrahedraRayCastCellData, TwoSlabs)
   const Grid grid = MakeBlock(4, ConstantField(0.0));
   AddCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
   auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.0);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(-1.0, 0.5);
-  property->GetScalarOpacity()->AddPoint(1.0, 2.0);
-  property->GetRGBTransferFunction()->RemoveAllPoints();
-  property->GetRGBTransferFunction()->AddRGBPoint(-1.0, 1.0, 0.0, 0.0);
-  property->GetRGBTransferFunction()->AddRGBPoint(1.0, 0.0, 0.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { -1.0, 0.5 }, { 1.0, 2.0 } });
+  SetPoints(
+    property->GetRGBTransferFunction(), { { -1.0, 1.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0, 1.0 } });
   CellScene scene(grid, property);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0, 1.3);
   const FloatImage image = scene.RenderFloat();
@@ -432,8 +402,7 @@ TEST(TetrahedraRayCastCellData, CellsWithoutValueAreTransparentAndCounted)
                   : std::numeric_limits<double>::quiet_NaN());
   }
   CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   scene.ExpectComposite("with holes");
   EXPECT_EQ(scene.GetRayCaster()->GetStatistic("NumberOfTransparentCells"), 7);
@@ -450,10 +419,7 @@ TEST(TetrahedraRayCastCellData, OnlyCellsThatCanBeSeenAreVisited)
 {
   const Grid grid = MakeCellBlock(6);
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.1, 0.0);
-  property->GetScalarOpacity()->AddPoint(0.2, 0.9);
-  property->GetScalarOpacity()->AddPoint(0.3, 0.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.1, 0.0 }, { 0.2, 0.9 }, { 0.3, 0.0 } });
   vtkTypeInt64 expected = 0;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
@@ -480,22 +446,16 @@ TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
   const vtkIdType triangle[3] = { 0, 1, 2 };
   hexahedra->InsertNextCell(VTK_TRIANGLE, 3, triangle); // not drawn, and must not shift the cell
                                                         // data
-  for (int k = 0; k < 4; ++k)
+  for (const auto& [k, j, i] : Product(4, 4, 4))
   {
-    for (int j = 0; j < 4; ++j)
+    vtkIdType ids[8];
+    for (int corner = 0; corner < 8; ++corner)
     {
-      for (int i = 0; i < 4; ++i)
-      {
-        vtkIdType ids[8];
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          const double x[3] = { -1.0 + 0.5 * (i + (corner & 1)),
-            -1.0 + 0.5 * (j + (corner >> 1 & 1)), -1.0 + 0.5 * (k + (corner >> 2)) };
-          ids[corner] = hexahedra->FindPoint(const_cast<double*>(x));
-        }
-        hexahedra->InsertNextCell(VTK_VOXEL, 8, ids);
-      }
+      const double x[3] = { -1.0 + 0.5 * (i + (corner & 1)), -1.0 + 0.5 * (j + (corner >> 1 & 1)),
+        -1.0 + 0.5 * (k + (corner >> 2)) };
+      ids[corner] = hexahedra->FindPoint(const_cast<double*>(x));
     }
+    hexahedra->InsertNextCell(VTK_VOXEL, 8, ids);
   }
   AddCellScalars(hexahedra,
     [](double x, double y, double z)
@@ -540,7 +500,6 @@ TEST(TetrahedraRayCastCellData, PointDataAndBack)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   AddCellScalars(grid, WavyField(2.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   // By default point data is used, if there is any.
   const FloatImage points = scene.RenderFloat();
@@ -596,12 +555,11 @@ TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
 {
   const Grid grid = MakeCellBlock(3);
   CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   MakeCellScalars(grid)->SetNumberOfTuples(5);
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 1u);
-  EXPECT_NE(errors->GetText().find(" cells"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->GetText(), " cells"));
 
   vtkNew<vtkDoubleArray> field;
   field->SetName("field");
@@ -611,5 +569,5 @@ TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
   scene.GetRayCaster()->SelectScalarArray("field");
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 2u);
-  EXPECT_NE(errors->Errors[1].find("field data"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->Errors[1], "field data"));
 }

@@ -3,28 +3,9 @@
 // Composite data sets and structured grids: the image of the same cells in one unstructured grid.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkRenderWindow.h>
 #include <vtkStructuredGrid.h>
-#include <vtkTrivialProducer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -141,8 +122,7 @@ void AddScalars(vtkDataSet* grid, const Field& field)
   scalars->SetName(ScalarName);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double x[3];
-    grid->GetPoint(i, x);
+    const glm::dvec3 x = PointOf(grid, i);
     scalars->InsertNextValue(field(x[0], x[1], x[2]));
   }
   grid->GetPointData()->SetScalars(scalars);
@@ -258,7 +238,7 @@ TEST(TetrahedraRayCastComposite, LeavesWithoutTheArrayAreLeftOutWithOneWarning)
   ExpectSamePicture(scene.MakePicture(), expected, "one of three left out");
   ExpectSamePicture(scene.MakePicture(), expected, "once more");
   ASSERT_EQ(scene.Observer->Warnings.size(), 1u);
-  EXPECT_NE(scene.Observer->Warnings[0].find("1 of 3"), std::string::npos);
+  EXPECT_TRUE(HasText(scene.Observer->Warnings[0], "1 of 3"));
   EXPECT_TRUE(scene.Observer->Errors.empty());
 
   parts[0]->GetPointData()->Initialize();
@@ -404,9 +384,8 @@ TEST(TetrahedraRayCastComposite, MeshesBeyond32BitsAreRefusedWithNumbers)
     ASSERT_EQ(value, 0.0f);
   }
   ASSERT_EQ(scene.Observer->Errors.size(), 1u);
-  EXPECT_NE(
-    scene.Observer->GetText().find(std::to_string(6LL * 449 * 449 * 449)), std::string::npos);
-  EXPECT_NE(scene.Observer->GetText().find("536870911"), std::string::npos);
+  EXPECT_TRUE(HasText(scene.Observer->GetText(), std::to_string(6LL * 449 * 449 * 449)));
+  EXPECT_TRUE(HasText(scene.Observer->GetText(), "536870911"));
   // Input that fits is drawn after it.
   scene.GetRayCaster()->SetInputData(MakeImage(4, MakeLinear()));
   ExpectSamePicture(scene.MakePicture(), PictureOf(MakeImage(4, MakeLinear())), "after the error");

@@ -4,15 +4,6 @@
 // with a message if the data folder does not exist.
 #include "RayCastScene.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <iostream>
-
 using namespace meniscus::test;
 
 namespace
@@ -20,7 +11,7 @@ namespace
 
 constexpr int Size = 320;
 
-class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
+class TetrahedraRayCastDataMeshes : public ::testing::TestWithParam<const char*>
 {
 };
 
@@ -85,5 +76,5 @@ TEST_P(TetrahedraRayCastDataMeshes, MatchReference)
 }
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastDataMeshes,
-  testing::Values("blunt_fin", "combustor", "crushed_can"),
-  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
+  ::testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const ::testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });

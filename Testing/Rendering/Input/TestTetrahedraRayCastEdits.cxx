@@ -5,27 +5,6 @@
 // new objects prove both.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -52,7 +31,7 @@ struct Work
   }
 };
 
-class TetrahedraRayCastEdits : public testing::Test
+class TetrahedraRayCastEdits : public ::testing::Test
 {
 protected:
   TetrahedraRayCastEdits()
@@ -160,8 +139,7 @@ TEST_F(TetrahedraRayCastEdits, Points)
       { "point data", this->Mesh->GetPointData() } },
     [points](int i)
     {
-      double x[3];
-      points->GetPoint(62, x);
+      const glm::dvec3 x = PointOf(points, 62);
       points->SetPoint(62, x[0], x[1] + 0.02 * (i + 1), x[2]);
     },
     Part::Points);

@@ -4,24 +4,6 @@
 // must be right, in every mode.
 #include "OpticsTruth.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -100,7 +82,6 @@ void ExpectFills(const std::string& mode, vtkVolumeProperty* property, const Sce
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     prepare(scene);
     scene.GetWindow()->Render();
     const Grid trueGrid = MakeFilled(ForTruth(fill));
@@ -186,10 +167,8 @@ TEST(TetrahedraRayCastFillValues, LightInTheMedium)
 TEST(TetrahedraRayCastFillValues, GradientOpacity)
 {
   const auto property = MakeFunction(false);
-  vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.5, GradientFactor(0.5));
-  function->AddPoint(2.5, GradientFactor(2.5));
-  property->SetGradientOpacity(function);
+  property->SetGradientOpacity(
+    MakeOpacity({ { 0.5, GradientFactor(0.5) }, { 2.5, GradientFactor(2.5) } }));
   ExpectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
@@ -236,14 +215,12 @@ TEST(TetrahedraRayCastFillValues, Projections)
       {
         const auto function = FunctionOf(mode, scene.GetVolume()->GetProperty());
         std::array<double, 2> range{ 0.0, 0.0 };
-        for (std::size_t c = 0; c < integrator.MakeMesh().GetNumberOfCells(); ++c)
+        for (const auto& [c, i] :
+          Product(Below<std::size_t>(integrator.MakeMesh().GetNumberOfCells()), 4))
         {
-          for (int i = 0; i < 4; ++i)
-          {
-            const double scalar =
-              integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
-            range = { std::min(range[0], scalar), std::max(range[1], scalar) };
-          }
+          const double scalar =
+            integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
+          range = { std::min(range[0], scalar), std::max(range[1], scalar) };
         }
         return [=, &mode, &integrator](const Ray& ray)
         {
@@ -276,7 +253,6 @@ TEST(TetrahedraRayCastFillValues, CellData)
       grid->GetCellData()->SetScalars(values);
       RayCastScene scene(grid, property, Size, Size);
       scene.GetRayCaster()->SetBlendMode(mode);
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
       images[i] = scene.RenderFloat();
     }
     ExpectSamePicture(images[0], images[1], "1e10");
@@ -309,7 +285,6 @@ TEST(TetrahedraRayCastFillValues, Components)
     }
     grid->GetPointData()->SetScalars(pairs);
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     images[i] = scene.RenderFloat();
   }
   ASSERT_EQ(images[0].Rgba.size(), images[1].Rgba.size());
@@ -328,7 +303,6 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
   const auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   RayCastScene scene(grid, property, Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
   // A node moved through the data, and out of it.
@@ -344,11 +318,8 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
   }
   // A function at the fill value causes one.
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.0, 0.0);
-  property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);
-  property->GetRGBTransferFunction()->RemoveAllPoints();
-  property->GetRGBTransferFunction()->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.0, 0.0 }, { 1.0e20, 1.0 } });
+  SetPoints(property->GetRGBTransferFunction(), { { 0.0, 1.0, 1.0, 1.0 } });
   scene.GetWindow()->Render();
   scene.GetWindow()->Render();
   EXPECT_LE(mapper->GetNumberOfScalarUpdates(), 2);

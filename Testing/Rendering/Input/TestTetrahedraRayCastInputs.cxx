@@ -4,20 +4,8 @@
 // scalar.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkLinearToQuadraticCellsFilter.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
 #include <vtkSOADataArrayTemplate.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -42,8 +30,7 @@ vtkSmartPointer<vtkVolumeProperty> Smooth()
 FloatImage PictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
 {
   RayCastScene scene(grid, Smooth(), Size, Size);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
   LookAt(scene.GetRenderer(), bounds, 25.0, 15.0);
   const FloatImage image = scene.RenderFloat();
@@ -60,45 +47,33 @@ FloatImage PictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
 Grid MakeCubes(int n, int type, const Field& field)
 {
   std::vector<double> points;
-  for (int k = 0; k <= n; ++k)
+  for (const auto& [k, j, i] : Product(n + 1, n + 1, n + 1))
   {
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        points.insert(points.end(), { 2.0 * i / n - 1.0, 2.0 * j / n - 1.0, 2.0 * k / n - 1.0 });
-      }
-    }
+    points.insert(points.end(), { 2.0 * i / n - 1.0, 2.0 * j / n - 1.0, 2.0 * k / n - 1.0 });
   }
   const Grid result = MakeGrid(points, {}, field);
   const vtkIdType step[3] = { 1, n + 1, vtkIdType(n + 1) * (n + 1) };
-  for (int k = 0; k < n; ++k)
+  for (const auto& [k, j, i] : Product(n, n, n))
   {
-    for (int j = 0; j < n; ++j)
+    const vtkIdType o = i + j * step[1] + k * step[2];
+    const vtkIdType q = o + step[1];
+    vtkIdType ids[8] = { o, o + 1, q + 1, q, o + step[2], o + 1 + step[2], q + 1 + step[2],
+      q + step[2] };
+    if (type == VTK_VOXEL)
     {
-      for (int i = 0; i < n; ++i)
-      {
-        const vtkIdType o = i + j * step[1] + k * step[2];
-        const vtkIdType q = o + step[1];
-        vtkIdType ids[8] = { o, o + 1, q + 1, q, o + step[2], o + 1 + step[2], q + 1 + step[2],
-          q + step[2] };
-        if (type == VTK_VOXEL)
-        {
-          std::swap(ids[2], ids[3]);
-          std::swap(ids[6], ids[7]);
-        }
-        if (type == VTK_POLYHEDRON)
-        {
-          const vtkIdType faces[30] = { 4, ids[0], ids[4], ids[7], ids[3], 4, ids[1], ids[2],
-            ids[6], ids[5], 4, ids[0], ids[1], ids[5], ids[4], 4, ids[3], ids[7], ids[6], ids[2], 4,
-            ids[0], ids[3], ids[2], ids[1], 4, ids[4], ids[5], ids[6], ids[7] };
-          result->InsertNextCell(VTK_POLYHEDRON, 8, ids, 6, faces);
-        }
-        else
-        {
-          result->InsertNextCell(type, 8, ids);
-        }
-      }
+      std::swap(ids[2], ids[3]);
+      std::swap(ids[6], ids[7]);
+    }
+    if (type == VTK_POLYHEDRON)
+    {
+      const vtkIdType faces[30] = { 4, ids[0], ids[4], ids[7], ids[3], 4, ids[1], ids[2], ids[6],
+        ids[5], 4, ids[0], ids[1], ids[5], ids[4], 4, ids[3], ids[7], ids[6], ids[2], 4, ids[0],
+        ids[3], ids[2], ids[1], 4, ids[4], ids[5], ids[6], ids[7] };
+      result->InsertNextCell(VTK_POLYHEDRON, 8, ids, 6, faces);
+    }
+    else
+    {
+      result->InsertNextCell(type, 8, ids);
     }
   }
   return result;
@@ -214,8 +189,7 @@ TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
   ExpectSamePicture(scene.RenderFloat(), expected, "a single component with its sign");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(mapper);
+  const auto observer = ObserveErrors(mapper);
   mapper->SelectScalarArray("Vectors");
   mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
   mapper->SetVectorComponent(3);
@@ -247,12 +221,9 @@ TEST(TetrahedraRayCastInputs, QuadraticCellsGiveThePictureOfTetrahedra)
       wedges->InsertNextCell(VTK_WEDGE, 6, half);
     }
     double middle[3] = { 0.0, 0.0, 0.0 };
-    for (int i = 0; i < 8; ++i)
+    for (const auto& [i, axis] : Product(8, 3))
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        middle[axis] += 0.125 * cubes->GetPoint(p[i])[axis];
-      }
+      middle[axis] += 0.125 * cubes->GetPoint(p[i])[axis];
     }
     const vtkIdType apex = points->InsertNextPoint(middle);
     scalars->InsertNextValue(MakeLinear()(middle[0], middle[1], middle[2]));

@@ -3,26 +3,6 @@
 // A colour and an opacity per cell: one point per corner of each cell, with the cell's values at
 // all of its points. Frames compared with the closed form of two homogeneous cells.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
-
-#include <vtkCamera.h>
-#include <vtkCellType.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 
@@ -63,10 +43,7 @@ Grid MakeTwoCells()
 vtkSmartPointer<vtkVolumeProperty> MakeDirectProperty()
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, UnitDistance);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(255.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 255.0, 1.0 } }));
   property->IndependentComponentsOff();
   return property;
 }
@@ -98,22 +75,19 @@ TEST(TetrahedraRayCastJumps, ColorsPerCell)
   camera->SetClippingRange(0.1, 100.0);
   const FloatImage image = scene.RenderFloat();
   int compared = 0;
-  for (int row = 0; row < Size; ++row)
+  for (const auto& [row, column] : Product(Size, Size))
   {
-    for (int column = 0; column < Size; ++column)
+    // The way through either cell.
+    const double way = 1.0 - (row + column + 1.0) / Size;
+    // Rays of the diagonal pass along the cells' sides.
+    if (way > 1e-6)
     {
-      // The way through either cell.
-      const double way = 1.0 - (row + column + 1.0) / Size;
-      // Rays of the diagonal pass along the cells' sides.
-      if (way > 1e-6)
+      const glm::dvec4 truth = Blend(way);
+      for (int i = 0; i < 4; ++i)
       {
-        const glm::dvec4 truth = Blend(way);
-        for (int i = 0; i < 4; ++i)
-        {
-          ASSERT_NEAR(image.GetPixel(column, row)[i], truth[i], 2e-5) << column << " " << row;
-        }
-        ++compared;
+        ASSERT_NEAR(image.GetPixel(column, row)[i], truth[i], 2e-5) << column << " " << row;
       }
+      ++compared;
     }
   }
   EXPECT_GT(compared, Size * (Size - 1) / 2 - 1);

@@ -5,27 +5,7 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 
 using namespace meniscus::test;
 
@@ -134,9 +114,8 @@ bool IsEmpty(const FloatImage& image)
 void ExpectError(const Outcome& outcome, const std::string& part)
 {
   ASSERT_FALSE(outcome.Told->Errors.empty()) << part;
-  EXPECT_NE(outcome.Told->Errors.front().find(part), std::string::npos)
-    << outcome.Told->Errors.front();
-  EXPECT_NE(outcome.Told->Errors.front().find("nothing is rendered"), std::string::npos);
+  EXPECT_TRUE(HasText(outcome.Told->Errors.front(), part));
+  EXPECT_TRUE(HasText(outcome.Told->Errors.front(), "nothing is rendered"));
   EXPECT_TRUE(IsEmpty(outcome.Picture)) << part;
 }
 
@@ -189,10 +168,8 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
     scene, "other active cells",
     [&]
     {
-      vtkNew<vtkPiecewiseFunction> opacity;
-      opacity->AddPoint(0.2, 0.0);
-      opacity->AddPoint(0.8, 2.0);
-      scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
+      scene.GetVolume()->GetProperty()->SetScalarOpacity(
+        MakeOpacity({ { 0.2, 0.0 }, { 0.8, 2.0 } }));
     },
     { 0, 0, 1, 1, 0, 0 }, true, true);
 }
@@ -411,9 +388,7 @@ TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
   const Outcome skipped = RenderWith(bad);
   EXPECT_TRUE(skipped.Told->Errors.empty()) << skipped.Told->GetText();
   ASSERT_EQ(skipped.Told->Warnings.size(), 1u) << skipped.Told->GetText();
-  EXPECT_NE(
-    skipped.Told->Warnings.front().find("4 of 12 membrane triangles skipped"), std::string::npos)
-    << skipped.Told->Warnings.front();
+  EXPECT_TRUE(HasText(skipped.Told->Warnings.front(), "4 of 12 membrane triangles skipped"));
   EXPECT_EQ(skipped.Picture.Rgba, whole.Picture.Rgba);
 }
 
@@ -452,8 +427,7 @@ TEST(TetrahedraRayCastMembraneInput, EyeBehindIsTold)
       camera->SetViewUp(0.0, 1.0, 0.0);
       camera->SetPosition(0.0, 0.5, height);
       scene.GetRenderer()->ResetCameraClippingRange();
-      vtkNew<ErrorObserver> observer;
-      observer->Observe(mapper);
+      const auto observer = ObserveErrors(mapper);
       scene.GetWindow()->Render();
       scene.GetWindow()->Render();
       mapper->RemoveObserver(observer);
@@ -467,8 +441,7 @@ TEST(TetrahedraRayCastMembraneInput, EyeBehindIsTold)
       ASSERT_EQ(warnings.size(), isBehind ? 1u : 0u) << isUpsideDown << ", from " << height;
       if (isBehind)
       {
-        EXPECT_NE(warnings[0].find("No facet of the membrane faces the eye"), std::string::npos)
-          << warnings[0];
+        EXPECT_TRUE(HasText(warnings[0], "No facet of the membrane faces the eye"));
       }
     }
     EXPECT_TRUE(listen(-9.0).size() == (isUpsideDown ? 0u : 1u));

@@ -3,15 +3,6 @@
 // Generated meshes compared with the double-precision reference.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
 using namespace meniscus::test;
 
 namespace
@@ -154,16 +145,14 @@ TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
   constexpr int odd = 65;
   constexpr double pitch = 0.0625;
   const Grid grid = MakeBlock(8, WavyField(3.0));
-  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  for (const auto& [kind, axis] :
+    Product(std::vector<FunctionKind>{ FunctionKind::Smooth, FunctionKind::Peaked }, 3))
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      RayCastScene scene(grid, PropertyFor(grid, kind), odd, odd);
-      LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
-      scene.GetRenderer()->GetActiveCamera()->SetParallelScale(0.5 * odd * pitch);
-      ExpectMatchesReference(
-        scene, "along axis " + std::to_string(axis), SilhouetteAllowance{ 0.0, 4 * 33 });
-    }
+    RayCastScene scene(grid, PropertyFor(grid, kind), odd, odd);
+    LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
+    scene.GetRenderer()->GetActiveCamera()->SetParallelScale(0.5 * odd * pitch);
+    ExpectMatchesReference(
+      scene, "along axis " + std::to_string(axis), SilhouetteAllowance{ 0.0, 4 * 33 });
   }
 }
 

@@ -5,29 +5,6 @@
 // points inside a face or a cell have their own values.
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -180,15 +157,9 @@ LinearMesh MakeBox(
   const int (&n)[3], const std::function<std::pair<Shape, int>(int i, int j, int k)>& typeOf)
 {
   LinearMesh mesh;
-  for (int k = 0; k <= n[2]; ++k)
+  for (const auto& [k, j, i] : Product(n[2] + 1, n[1] + 1, n[0] + 1))
   {
-    for (int j = 0; j <= n[1]; ++j)
-    {
-      for (int i = 0; i <= n[0]; ++i)
-      {
-        mesh.Points.push_back({ 2.0 * i / n[0] - 1.0, 2.0 * j / n[1] - 1.0, 2.0 * k / n[2] - 1.0 });
-      }
-    }
+    mesh.Points.push_back({ 2.0 * i / n[0] - 1.0, 2.0 * j / n[1] - 1.0, 2.0 * k / n[2] - 1.0 });
   }
   for (int cube = 0; cube < n[0] * n[1] * n[2]; ++cube)
   {
@@ -246,8 +217,7 @@ void ExpectLinearTwin(const LinearMesh& mesh, const std::string& what)
     const Grid quadratic = MakeMesh(mesh, true, seed + 10);
     const auto expected = MakeScene(linear, property);
     const auto scene = MakeScene(quadratic, property);
-    const auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    told->Observe(scene->GetRayCaster());
+    const auto told = ObserveErrors(scene->GetRayCaster());
     ExpectSamePicture(scene->RenderFloat(), expected->RenderFloat(), what);
     EXPECT_TRUE(told->Warnings.empty()) << what << ": " << told->Warnings.front();
     EXPECT_TRUE(told->Errors.empty()) << what << ": " << told->GetText();
@@ -268,10 +238,7 @@ void ExpectLinearTwin(const LinearMesh& mesh, const std::string& what)
 double AlphaAlong(vtkUnstructuredGrid* grid, int axis)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   RayCastScene scene(grid, property, 33, 33);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
   return scene.RenderFloat().GetPixel(16, 16)[3];

@@ -6,22 +6,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -155,7 +139,7 @@ void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
   EXPECT_EQ(comparison.Wrong, 0u);
   EXPECT_LE(comparison.Excused, 1u);
   EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.GetText());
+  ::testing::Test::RecordProperty(what, comparison.GetText());
 }
 
 void ExpectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,

@@ -4,31 +4,8 @@
 // the positions. Counters prove the work, images of new mappers the result.
 #include "RayCastScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTrivialProducer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -61,7 +38,7 @@ struct Work
   }
 };
 
-class TetrahedraRayCastTimeSteps : public testing::Test
+class TetrahedraRayCastTimeSteps : public ::testing::Test
 {
 protected:
   TetrahedraRayCastTimeSteps()
@@ -144,8 +121,7 @@ Grid WithWave(vtkUnstructuredGrid* grid, double time)
   vtkDataArray* scalars = copy->GetPointData()->GetScalars();
   for (vtkIdType p = 0; p < copy->GetNumberOfPoints(); ++p)
   {
-    double x[3];
-    copy->GetPoint(p, x);
+    const glm::dvec3 x = PointOf(copy, p);
     scalars->SetComponent(p, 0, std::sin(3.0 * x[0] + time) * std::cos(2.0 * x[1] - x[2]));
   }
   return copy;
@@ -418,8 +394,7 @@ TEST_F(TetrahedraRayCastTimeSteps, PositionsThatAreNotFinite)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
   const auto scene = this->MakeScene(grid);
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(scene->GetRayCaster());
+  const auto observer = ObserveErrors(scene->GetRayCaster());
   scene->RenderFloat();
   const Grid broken = Copy(grid);
   const double nan[3] = { 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0 };
@@ -427,7 +402,7 @@ TEST_F(TetrahedraRayCastTimeSteps, PositionsThatAreNotFinite)
   this->ExpectBuilt(*scene, broken);
   EXPECT_GT(scene->GetRayCaster()->GetNumberOfRejectedCells(), 0);
   ASSERT_EQ(observer->Warnings.size(), 1u);
-  EXPECT_NE(observer->Warnings[0].find("not finite"), std::string::npos) << observer->Warnings[0];
+  EXPECT_TRUE(HasText(observer->Warnings[0], "not finite"));
   this->ExpectBuilt(*scene, grid);
   EXPECT_EQ(scene->GetRayCaster()->GetNumberOfRejectedCells(), 0);
 }
@@ -436,8 +411,7 @@ TEST_F(TetrahedraRayCastTimeSteps, AnArrayOfTheWrongLengthIsAnErrorOfItsStep)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
   const auto scene = this->MakeScene(grid);
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(scene->GetRayCaster());
+  const auto observer = ObserveErrors(scene->GetRayCaster());
   scene->RenderFloat();
   const Grid broken = Copy(grid);
   broken->GetPointData()->GetScalars()->SetNumberOfTuples(grid->GetNumberOfPoints() - 1);
@@ -446,7 +420,7 @@ TEST_F(TetrahedraRayCastTimeSteps, AnArrayOfTheWrongLengthIsAnErrorOfItsStep)
     ASSERT_EQ(value, 0.0f);
   }
   EXPECT_EQ(observer->Errors.size(), 1u);
-  EXPECT_NE(observer->GetText().find("values for"), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->GetText(), "values for"));
   // The next step finds the mesh again.
   const Grid next = WithWave(grid, 1.0);
   EXPECT_EQ(this->Draw(*scene, next).Rgba, this->DrawAnew(next).Rgba);

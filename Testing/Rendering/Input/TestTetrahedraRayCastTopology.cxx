@@ -3,26 +3,7 @@
 // Repeated cells, and cells that share no points: the image of the same cells as a mesh.
 #include "RayCastScene.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkProjectedTetrahedraMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
 
 using namespace meniscus::test;
 
@@ -55,8 +36,7 @@ Drawn Draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = null
   int blendMode = vtkVolumeMapper::COMPOSITE_BLEND)
 {
   RayCastScene scene(nullptr, property ? property : Smooth().Get(), Size, Size);
-  const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   scene.GetRayCaster()->SetBackend(backend);
   scene.GetRayCaster()->SetBlendMode(blendMode);
   scene.GetRayCaster()->SetInputDataObject(input);
@@ -119,32 +99,19 @@ Grid Hexahedra(int n)
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName(ScalarName);
   const auto at = [n](int i, int j, int k) { return vtkIdType{ (k * (n + 1) + j) * (n + 1) + i }; };
-  for (int k = 0; k <= n; ++k)
+  for (const auto& [k, j, i] : Product(n + 1, n + 1, n + 1))
   {
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        const double x[3] = { 2.0 * i / n - 1.0, 2.0 * j / n - 1.0, 2.0 * k / n - 1.0 };
-        points->InsertNextPoint(x);
-        scalars->InsertNextValue(0.5 * x[0] - 0.3 * x[1] + 0.2 * x[2]);
-      }
-    }
+    const double x[3] = { 2.0 * i / n - 1.0, 2.0 * j / n - 1.0, 2.0 * k / n - 1.0 };
+    points->InsertNextPoint(x);
+    scalars->InsertNextValue(0.5 * x[0] - 0.3 * x[1] + 0.2 * x[2]);
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
-  for (int k = 0; k < n; ++k)
+  for (const auto& [k, j, i] : Product(n, n, n))
   {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k),
-          at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
-          at(i, j + 1, k + 1) };
-        grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-      }
-    }
+    const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+      at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1) };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   return grid;
 }

@@ -3,29 +3,8 @@
 // Adaptive division of cells in frames and picks: opacities and picked values compared with closed
 // forms of a trilinear field, and the counters of a mapper whose cells are divided.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
-#include <vtkCamera.h>
-#include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <random>
 
 using namespace meniscus::test;
 
@@ -57,16 +36,10 @@ Grid MakeVoxels(unsigned int seed)
   points->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName("s");
-  for (int z = 0; z <= Cells; ++z)
+  for (const auto& [z, y, x] : Product(Cells + 1, Cells + 1, Cells + 1))
   {
-    for (int y = 0; y <= Cells; ++y)
-    {
-      for (int x = 0; x <= Cells; ++x)
-      {
-        points->InsertNextPoint(CellSize * x - 1.0, CellSize * y - 1.0, CellSize * z - 1.0);
-        scalars->InsertNextValue(value(random));
-      }
-    }
+    points->InsertNextPoint(CellSize * x - 1.0, CellSize * y - 1.0, CellSize * z - 1.0);
+    scalars->InsertNextValue(value(random));
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
@@ -122,10 +95,7 @@ double OpticalDepthAt(vtkUnstructuredGrid* grid, double x, double y)
 vtkSmartPointer<vtkVolumeProperty> MakeLinearProperty()
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / Attenuation);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 
@@ -152,18 +122,15 @@ struct VoxelScene
   {
     const FloatImage image = this->Scene.RenderFloat();
     double worst = 0.0;
-    for (int row = 0; row < Size; ++row)
+    for (const auto& [row, column] : Product(Size, Size))
     {
-      for (int column = 0; column < Size; ++column)
+      const double x = PlaceOf(column);
+      const double y = PlaceOf(row);
+      if (std::max(std::abs(x), std::abs(y)) < 1.0)
       {
-        const double x = PlaceOf(column);
-        const double y = PlaceOf(row);
-        if (std::max(std::abs(x), std::abs(y)) < 1.0)
-        {
-          const double found = image.GetPixel(column, row)[3];
-          const double truth = -std::expm1(-OpticalDepthAt(this->Mesh, x, y));
-          worst = std::max(worst, std::abs(found - truth));
-        }
+        const double found = image.GetPixel(column, row)[3];
+        const double truth = -std::expm1(-OpticalDepthAt(this->Mesh, x, y));
+        worst = std::max(worst, std::abs(found - truth));
       }
     }
     return worst;
@@ -264,19 +231,13 @@ Grid MakeRoom()
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName("s");
   const auto placeOf = [](int i, int count) { return -std::cos(3.14159265 * i / count); };
-  for (int k = 0; k <= n[2]; ++k)
+  for (const auto& [k, j, i] : Product(n[2] + 1, n[1] + 1, n[0] + 1))
   {
-    for (int j = 0; j <= n[1]; ++j)
-    {
-      for (int i = 0; i <= n[0]; ++i)
-      {
-        const glm::dvec3 at(placeOf(i, n[0]), 0.8 * placeOf(j, n[1]), 0.6 * placeOf(k, n[2]));
-        points->InsertNextPoint(&at.x);
-        const double width = 0.15 + 0.2 * (at.z + 0.6);
-        const double away = std::hypot(at.x - 0.2 * at.z, at.y) / width;
-        scalars->InsertNextValue(std::exp(-away * away) + 0.5 * std::max(at.z, 0.0));
-      }
-    }
+    const glm::dvec3 at(placeOf(i, n[0]), 0.8 * placeOf(j, n[1]), 0.6 * placeOf(k, n[2]));
+    points->InsertNextPoint(&at.x);
+    const double width = 0.15 + 0.2 * (at.z + 0.6);
+    const double away = std::hypot(at.x - 0.2 * at.z, at.y) / width;
+    scalars->InsertNextValue(std::exp(-away * away) + 0.5 * std::max(at.z, 0.0));
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
@@ -295,17 +256,11 @@ Grid MakeRoom()
 double LargestDifference(const FloatImage& a, const FloatImage& b)
 {
   double worst = 0.0;
-  for (int row = 0; row < Size; ++row)
+  for (const auto& [row, column, channel] : Product(Size, Size, Below<std::size_t>(4)))
   {
-    for (int column = 0; column < Size; ++column)
-    {
-      for (std::size_t channel = 0; channel < 4; ++channel)
-      {
-        worst = std::max(worst,
-          static_cast<double>(
-            std::abs(a.GetPixel(column, row)[channel] - b.GetPixel(column, row)[channel])));
-      }
-    }
+    worst = std::max(worst,
+      static_cast<double>(
+        std::abs(a.GetPixel(column, row)[channel] - b.GetPixel(column, row)[channel])));
   }
   return worst;
 }

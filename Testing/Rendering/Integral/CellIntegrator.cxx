@@ -3,24 +3,6 @@
 #include "CellIntegrator.h"
 
 #include <vtkBoundingBox.h>
-#include <vtkCellType.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 namespace meniscus::test
 {
@@ -88,8 +70,7 @@ glm::dvec3 CellIntegrator::Position(const glm::dvec3& place)
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < this->Weights.size(); ++i)
   {
-    double at[3];
-    this->Cell->GetPoints()->GetPoint(static_cast<vtkIdType>(i), at);
+    const glm::dvec3 at = PointOf(this->Cell->GetPoints(), static_cast<vtkIdType>(i));
     sum += this->Weights[i] * glm::dvec3(at[0], at[1], at[2]);
   }
   return sum;
@@ -185,20 +166,17 @@ glm::dvec2 CellIntegrator::Sum(const WorldRay& ray, double begin, double end)
   constexpr double weights[3] = { 5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0 };
   const double width = (end - begin) / panels;
   double sum = 0.0;
-  for (int panel = 0; panel < panels; ++panel)
+  for (const auto& [panel, i] : Product(panels, 3))
   {
-    for (int i = 0; i < 3; ++i)
+    EXPECT_TRUE(this->Invert(ray, begin + width * (panel + 0.5 + 0.5 * nodes[i])));
+    this->Weigh(this->Place);
+    double value = 0.0;
+    for (std::size_t k = 0; k < this->Weights.size(); ++k)
     {
-      EXPECT_TRUE(this->Invert(ray, begin + width * (panel + 0.5 + 0.5 * nodes[i])));
-      this->Weigh(this->Place);
-      double value = 0.0;
-      for (std::size_t k = 0; k < this->Weights.size(); ++k)
-      {
-        value +=
-          this->Weights[k] * this->Scalars->GetTuple1(this->Cell->GetPointId(static_cast<int>(k)));
-      }
-      sum += weights[i] * width * value;
+      value +=
+        this->Weights[k] * this->Scalars->GetTuple1(this->Cell->GetPointId(static_cast<int>(k)));
     }
+    sum += weights[i] * width * value;
   }
   return { sum, end - begin };
 }

@@ -6,16 +6,6 @@
 #include "IntegralScene.h"
 
 #include <vtkGenericCell.h>
-#include <vtkNew.h>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <vector>
-
-class vtkDataArray;
-class vtkImageData;
-class vtkUnstructuredGrid;
 
 namespace meniscus::test
 {

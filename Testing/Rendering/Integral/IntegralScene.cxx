@@ -2,20 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IntegralScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCell.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::test
 {
 namespace
@@ -81,15 +67,12 @@ SolidMesh MakeBall(const Field& field)
   constexpr int rings = 12;
   constexpr int sectors = 17;
   std::vector<double> points{ 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0 };
-  for (int ring = 1; ring < rings; ++ring)
+  for (const auto& [ring, sector] : Product(Numbers(1, rings), sectors))
   {
-    for (int sector = 0; sector < sectors; ++sector)
-    {
-      const double theta = vtkMath::Pi() * ring / rings;
-      const double phi = 2.0 * vtkMath::Pi() * sector / sectors;
-      points.insert(points.end(),
-        { std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta) });
-    }
+    const double theta = vtkMath::Pi() * ring / rings;
+    const double phi = 2.0 * vtkMath::Pi() * sector / sectors;
+    points.insert(points.end(),
+      { std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta) });
   }
   std::vector<vtkIdType> cells;
   SolidMesh ball{ "ball", nullptr, ConvexSolid() };
@@ -151,12 +134,23 @@ std::vector<SolidMesh> MakeSolids(const Field& field)
 }
 
 //------------------------------------------------------------------------------
-Filter MakeFilter(vtkDataObject* input, int width, int height)
+void Enable(vtkTetrahedraRayIntegral* filter, const std::vector<const char*>& arrays)
+{
+  for (const char* name : arrays)
+  {
+    filter->GetArraySelection()->EnableArray(name);
+  }
+}
+
+//------------------------------------------------------------------------------
+Filter MakeFilter(
+  vtkDataObject* input, int width, int height, const std::vector<const char*>& arrays)
 {
   auto filter = Filter::New();
   filter->SetInputData(input);
   filter->SetImageSize(width, height);
   filter->GetArraySelection()->DisableArray("Integral");
+  Enable(filter, arrays);
   return filter;
 }
 

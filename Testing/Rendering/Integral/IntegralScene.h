@@ -4,16 +4,8 @@
 #define meniscus_Testing_Rendering_Integral_IntegralScene_h
 
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
-#include <vtkSmartPointer.h>
 #include <vtkTetrahedraRayIntegral.h>
-
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {
@@ -61,8 +53,10 @@ struct SolidMesh
 /** Corner tetrahedron, block with displaced inner points, and a ball of flat facets. */
 std::vector<SolidMesh> MakeSolids(const Field& field);
 
-/** Filter with all arrays off. */
-Filter MakeFilter(vtkDataObject* input, int width, int height);
+/** Filter with only the named arrays on. */
+Filter MakeFilter(
+  vtkDataObject* input, int width, int height, const std::vector<const char*>& arrays = {});
+void Enable(vtkTetrahedraRayIntegral* filter, const std::vector<const char*>& arrays);
 /** Sets a rectangle, seen along a direction, around the cube [-half, half]^3. */
 void SetRectangle(vtkTetrahedraRayIntegral* filter, const glm::dvec3& direction, double half);
 

@@ -4,25 +4,6 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace
@@ -37,8 +18,7 @@ Grid MakeMesh()
 
 Filter MakeGood()
 {
-  Filter rays = MakeFilter(MakeMesh(), 16, 16);
-  rays->GetArraySelection()->EnableArray("Integral");
+  Filter rays = MakeFilter(MakeMesh(), 16, 16, { "Integral" });
   return rays;
 }
 
@@ -63,7 +43,7 @@ void ExpectError(vtkTetrahedraRayIntegral* rays, const std::string& text)
   rays->Update();
   rays->RemoveObserver(observer);
   ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Errors[0], text));
   EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0) << text;
   EXPECT_EQ(rays->GetOutput()->GetPointData()->GetNumberOfArrays(), 0) << text;
 }
@@ -140,12 +120,8 @@ TEST(RayIntegralBadInput, LengthsWithoutArrays)
   for (vtkDataObject* input :
     { static_cast<vtkDataObject*>(grid), static_cast<vtkDataObject*>(blocks.Get()) })
   {
-    Filter rays = MakeFilter(input, 8, 8);
-    rays->GetArraySelection()->EnableArray("PathLength");
-    rays->GetArraySelection()->EnableArray("FirstDepth");
-    rays->GetArraySelection()->EnableArray("LastDepth");
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(rays);
+    Filter rays = MakeFilter(input, 8, 8, { "PathLength", "FirstDepth", "LastDepth" });
+    const auto observer = ObserveErrors(rays);
     rays->Update();
     EXPECT_TRUE(observer->GetText().empty()) << observer->GetText();
     const std::vector<double> lengths = ValuesOf(rays, "PathLength");
@@ -284,10 +260,8 @@ TEST(RayIntegralBadInput, Interfaces)
   ExpectError(rays, "one for each is needed");
   vtkNew<vtkPolyData> nothing;
   rays->SetMembraneData(nothing);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
-  vtkNew<ErrorObserver> executive;
-  executive->Observe(rays->GetExecutive());
+  const auto observer = ObserveErrors(rays);
+  const auto executive = ObserveErrors(rays->GetExecutive());
   rays->Update();
   EXPECT_EQ(observer->Errors.size(), 1u);
   EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0);

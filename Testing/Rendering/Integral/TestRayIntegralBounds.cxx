@@ -3,27 +3,7 @@
 // Bounds are those of the cells that are drawn: of the mapper, for cameras, and of fitted rays.
 #include "IntegralScene.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSphereSource.h>
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkUniformGrid.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -40,8 +20,7 @@ Grid MakeCube()
   const Grid grid = MakeCubeOfFive(ConstantField(1.0));
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    grid->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(grid, i);
     grid->GetPoints()->SetPoint(
       i, Place[0] + 10.0 * at[0], Place[1] + 10.0 * at[1], Place[2] + 10.0 * at[2]);
   }
@@ -194,10 +173,8 @@ TEST(DrawnBounds, OfFittedRays)
 {
   for (const BoundsCase& bounds : MakeCases())
   {
-    const Filter rays = MakeFilter(bounds.Input, 8, 8);
-    rays->GetArraySelection()->EnableArray("PathLength");
-    vtkNew<ErrorObserver> quiet;
-    quiet->Observe(rays);
+    const Filter rays = MakeFilter(bounds.Input, 8, 8, { "PathLength" });
+    const auto quiet = ObserveErrors(rays);
     rays->Update();
     EXPECT_TRUE(quiet->Errors.empty()) << bounds.Name << ": " << quiet->GetText();
     const std::vector<double> lengths = ValuesOf(rays, "PathLength");

@@ -4,26 +4,8 @@
 // type, and the other cells are measured.
 #include "IntegralScene.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRectilinearGrid.h>
 #include <vtkStructuredGrid.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkVersionMacros.h>
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -101,14 +83,12 @@ std::vector<vtkIdType> FirstPoints(vtkIdType count)
 void ExpectCube(
   vtkDataObject* input, const std::string& text, vtkTypeInt64 rejected, bool isAdaptive = false)
 {
-  const Filter rays = MakeFilter(input, 8, 8);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(input, 8, 8, { "PathLength" });
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.0, 0.0, 2.0);
   rays->SetCellDivision(isAdaptive);
   rays->SetDivisionTolerance(0.01);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
+  const auto observer = ObserveErrors(rays);
   rays->Update();
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   ASSERT_EQ(lengths.size(), 64u) << text << ": " << observer->GetText();
@@ -118,49 +98,47 @@ void ExpectCube(
   }
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
   ASSERT_EQ(observer->Warnings.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_NE(observer->Warnings[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Warnings[0], text));
   EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), rejected) << observer->GetText();
 }
 
 }
 
-class BrokenCells : public testing::TestWithParam<CellType>
+class BrokenCells : public ::testing::TestWithParam<CellType>
 {
 };
 
 TEST_P(BrokenCells, TooFewPoints)
 {
   const CellType& type = GetParam();
-  for (const vtkIdType size : { vtkIdType{ 0 }, vtkIdType{ 1 }, vtkIdType{ 3 }, type.Points - 1 })
+  for (const auto& [size, isAdaptive] : Product(
+         std::vector<vtkIdType>{ vtkIdType{ 0 }, vtkIdType{ 1 }, vtkIdType{ 3 }, type.Points - 1 },
+         List(false, true)))
   {
-    for (const bool isAdaptive : { false, true })
-    {
-      const Grid grid = MakeCube();
-      const std::vector<vtkIdType> ids = FirstPoints(size);
-      grid->InsertNextCell(type.Type, size, ids.data());
-      ExpectCube(grid, "1 with a number of points that their type does not have", 1, isAdaptive);
-    }
+    const Grid grid = MakeCube();
+    const std::vector<vtkIdType> ids = FirstPoints(size);
+    grid->InsertNextCell(type.Type, size, ids.data());
+    ExpectCube(grid, "1 with a number of points that their type does not have", 1, isAdaptive);
   }
 }
 
 TEST_P(BrokenCells, PointsOutOfRange)
 {
   const CellType& type = GetParam();
-  for (const vtkIdType bad : { vtkIdType{ -1 }, vtkIdType{ 108 }, vtkIdType{ 1 } << 40 })
+  for (const auto& [bad, isAdaptive] :
+    Product(std::vector<vtkIdType>{ vtkIdType{ -1 }, vtkIdType{ 108 }, vtkIdType{ 1 } << 40 },
+      List(false, true)))
   {
-    for (const bool isAdaptive : { false, true })
-    {
-      const Grid grid = MakeCube();
-      std::vector<vtkIdType> ids = FirstPoints(type.Points);
-      ids[2] = bad;
-      grid->InsertNextCell(type.Type, type.Points, ids.data());
-      ExpectCube(grid, "1 with a point index out of range", 1, isAdaptive);
-    }
+    const Grid grid = MakeCube();
+    std::vector<vtkIdType> ids = FirstPoints(type.Points);
+    ids[2] = bad;
+    grid->InsertNextCell(type.Type, type.Points, ids.data());
+    ExpectCube(grid, "1 with a point index out of range", 1, isAdaptive);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllTypes, BrokenCells, testing::ValuesIn(CellTypes),
-  [](const testing::TestParamInfo<CellType>& of) { return std::string(of.param.Name); });
+INSTANTIATE_TEST_SUITE_P(AllTypes, BrokenCells, ::testing::ValuesIn(CellTypes),
+  [](const ::testing::TestParamInfo<CellType>& of) { return std::string(of.param.Name); });
 
 TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
 {
@@ -170,8 +148,7 @@ TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
   const Grid second = MakeCube();
   for (vtkIdType i = 0; i < second->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    second->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(second, i);
     second->GetPoints()->SetPoint(i, at[0] + 5.0, at[1], at[2]);
   }
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -182,27 +159,25 @@ TEST(BrokenCellArrays, PointsOfTheNextDataSetAreOutOfRange)
 
 TEST(BrokenCellArrays, OffsetsOutsideOfTheirArray)
 {
-  for (const int type : { VTK_TETRA, VTK_HEXAHEDRON })
+  for (const auto& [type, end] : Product(List(VTK_TETRA, VTK_HEXAHEDRON),
+         std::vector<vtkIdType>{ vtkIdType{ 1000 }, vtkIdType{ -4 }, vtkIdType{ 3 } }))
   {
-    for (const vtkIdType end : { vtkIdType{ 1000 }, vtkIdType{ -4 }, vtkIdType{ 3 } })
+    const Grid grid = MakeCube();
+    vtkNew<vtkIdTypeArray> offsets;
+    vtkNew<vtkIdTypeArray> ids;
+    for (const vtkIdType offset : { vtkIdType{ 0 }, vtkIdType{ 8 }, end })
     {
-      const Grid grid = MakeCube();
-      vtkNew<vtkIdTypeArray> offsets;
-      vtkNew<vtkIdTypeArray> ids;
-      for (const vtkIdType offset : { vtkIdType{ 0 }, vtkIdType{ 8 }, end })
-      {
-        offsets->InsertNextValue(offset);
-      }
-      for (vtkIdType i = 0; i < 12; ++i)
-      {
-        ids->InsertNextValue(i);
-      }
-      vtkNew<vtkCellArray> cells;
-      cells->SetData(offsets, ids);
-      int types[2] = { VTK_HEXAHEDRON, type };
-      grid->SetCells(types, cells);
-      ExpectCube(grid, "1 with points or faces outside of their array", 1);
+      offsets->InsertNextValue(offset);
     }
+    for (vtkIdType i = 0; i < 12; ++i)
+    {
+      ids->InsertNextValue(i);
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets, ids);
+    int types[2] = { VTK_HEXAHEDRON, type };
+    grid->SetCells(types, cells);
+    ExpectCube(grid, "1 with points or faces outside of their array", 1);
   }
 }
 
@@ -215,8 +190,7 @@ TEST(BrokenCellArrays, TetrahedraWithUnequalNumbersOfPoints)
   cells->InsertNextCell(3, ids[0]);
   cells->InsertNextCell(5, ids[1]);
   grid->SetCells(VTK_TETRA, cells);
-  const Filter rays = MakeFilter(grid, 4, 4);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfRejectedCells"), 1);
   EXPECT_EQ(rays->GetStatistic("NumberOfTetrahedra"), 1);
@@ -266,13 +240,10 @@ TEST(BrokenCellArrays, ArraysThatContradictEachOther)
 {
   const auto expectError = [](vtkDataObject* input, const std::string& text)
   {
-    const Filter rays = MakeFilter(input, 4, 4);
-    rays->GetArraySelection()->EnableArray("PathLength");
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(rays);
+    const Filter rays = MakeFilter(input, 4, 4, { "PathLength" });
+    const auto observer = ObserveErrors(rays);
     rays->Update();
-    EXPECT_NE(observer->GetText().find(text), std::string::npos)
-      << text << ": " << observer->GetText();
+    EXPECT_TRUE(HasText(observer->GetText(), text)) << text;
   };
   const vtkIdType tetrahedron[4] = { 0, 1, 2, 5 };
   {

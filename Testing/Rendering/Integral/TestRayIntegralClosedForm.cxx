@@ -3,25 +3,6 @@
 // Integrals along rays compared with closed forms, without a window.
 #include "IntegralScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace
@@ -94,14 +75,9 @@ double MeanOf(const glm::dvec3& from, const glm::dvec3& to)
 void ExpectScalars(const Measured& measured)
 {
   vtkTetrahedraRayIntegral* rays = measured.Rays;
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("FirstDepth");
-  rays->GetArraySelection()->EnableArray("LastDepth");
-  rays->GetArraySelection()->EnableArray("Minimum");
-  rays->GetArraySelection()->EnableArray("MinimumDepth");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays,
+    { "Integral", "PathLength", "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum",
+      "MaximumDepth" });
   using Point = glm::dvec3;
   const auto worst = [&measured](const char* name, double missed, const Measured::OnStretch& truth)
   { EXPECT_LT(measured.Worst(name, missed, truth), Tolerance) << name; };
@@ -401,9 +377,7 @@ TEST(RayIntegralClosedForm, LayersOfCellDataInAStructuredGrid)
   Filter rays = MakeFilter(layers, 97, 83);
   SetRectangle(rays, Directions[0], 1.75);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "density");
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays, { "Integral", "Maximum", "MaximumDepth" });
   EXPECT_LT(WorstError(rays, "Integral",
               [](const WorldRay& ray)
               {
@@ -456,14 +430,8 @@ double TentIntegral(double scalar)
 vtkSmartPointer<vtkVolumeProperty> MakeTent()
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(1.0, 0.0);
-  opacity->AddPoint(2.0, 0.4);
-  opacity->AddPoint(4.0, 0.0);
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(0.0, 0.2, 0.5, 0.9);
-  property->SetScalarOpacity(opacity);
-  property->SetColor(color);
+  property->SetScalarOpacity(MakeOpacity({ { 1.0, 0.0 }, { 2.0, 0.4 }, { 4.0, 0.0 } }));
+  property->SetColor(MakeColors({ { 0.0, 0.2, 0.5, 0.9 } }));
   property->SetScalarOpacityUnitDistance(0.5);
   return property;
 }

@@ -5,22 +5,7 @@
 // function, not with the number of its samples.
 #include "IntegralScene.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArraySelection.h>
 #include <vtkDiscretizableColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -55,8 +40,7 @@ vtkSmartPointer<vtkImageData> MakeRow()
 /** Colours and opacities of the cells, four numbers each. */
 std::vector<double> Render(vtkVolumeProperty* property, bool perUnitDistance = false)
 {
-  const Filter rays = MakeFilter(MakeRow(), NumberOfCells, 1);
-  rays->GetArraySelection()->EnableArray("RGBA");
+  const Filter rays = MakeFilter(MakeRow(), NumberOfCells, 1, { "RGBA" });
   rays->SetVolumeProperty(property);
   rays->SetOpacityModel(perUnitDistance);
   rays->SetFrameModeToParallel();
@@ -69,12 +53,9 @@ std::vector<double> Render(vtkVolumeProperty* property, bool perUnitDistance = f
 /** A property that is opaque in a cell. */
 vtkSmartPointer<vtkVolumeProperty> MakeOpaque(vtkColorTransferFunction* color)
 {
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 1.0);
-  opacity->AddPoint(2.0, 1.0);
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(color);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 1.0 }, { 2.0, 1.0 } }));
   property->SetScalarOpacityUnitDistance(1.0e-3);
   return property;
 }
@@ -128,7 +109,7 @@ std::vector<ColorCase> ColorCases()
 
 }
 
-class FunctionColors : public testing::TestWithParam<ColorCase>
+class FunctionColors : public ::testing::TestWithParam<ColorCase>
 {
 };
 
@@ -150,8 +131,8 @@ TEST_P(FunctionColors, AgreeWithVTK)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllKinds, FunctionColors, testing::ValuesIn(ColorCases()),
-  [](const testing::TestParamInfo<ColorCase>& of) { return std::string(of.param.Name); });
+INSTANTIATE_TEST_SUITE_P(AllKinds, FunctionColors, ::testing::ValuesIn(ColorCases()),
+  [](const ::testing::TestParamInfo<ColorCase>& of) { return std::string(of.param.Name); });
 
 TEST(FunctionSampling, DiscreteColors)
 {
@@ -201,40 +182,32 @@ TEST(FunctionSampling, ColorsOfCiede2000TakeFewTables)
   EXPECT_LE(std::clock() - before, 10 * reference);
   std::vector<double> expected(3 * NumberOfCells);
   color->GetTable(ScalarOf(0), ScalarOf(NumberOfCells - 1), NumberOfCells, expected.data());
-  for (int cell = 0; cell < NumberOfCells; ++cell)
+  for (const auto& [cell, k] : Product(NumberOfCells, 3))
   {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_NEAR(image[4 * cell + k], expected[3 * cell + k], 1.0 / 255.0 + Bound)
-        << ScalarOf(cell);
-    }
+    EXPECT_NEAR(image[4 * cell + k], expected[3 * cell + k], 1.0 / 255.0 + Bound) << ScalarOf(cell);
   }
 }
 
 TEST(FunctionSampling, OpacitiesAgreeWithVTK)
 {
-  for (const bool perUnitDistance : { false, true })
+  for (const auto& [perUnitDistance, isLogarithmic] : Product(List(false, true), List(false, true)))
   {
-    for (const bool isLogarithmic : { false, true })
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->SetUseLogScale(isLogarithmic);
+    opacity->AddPoint(0.1, 0.9, 0.3, 0.0);
+    opacity->AddPoint(0.4, 0.2, 0.5, 0.6);
+    opacity->AddPoint(0.9, 0.8, 0.7, 1.0);
+    opacity->AddPoint(1.9, 0.1);
+    const auto color = MakeColors({ { 0.0, 1.0, 1.0, 1.0 } });
+    const auto property = MakeOpaque(color);
+    property->SetScalarOpacity(opacity);
+    property->SetScalarOpacityUnitDistance(1.0);
+    const std::vector<double> image = Render(property, perUnitDistance);
+    for (int cell = 0; cell < NumberOfCells; ++cell)
     {
-      vtkNew<vtkPiecewiseFunction> opacity;
-      opacity->SetUseLogScale(isLogarithmic);
-      opacity->AddPoint(0.1, 0.9, 0.3, 0.0);
-      opacity->AddPoint(0.4, 0.2, 0.5, 0.6);
-      opacity->AddPoint(0.9, 0.8, 0.7, 1.0);
-      opacity->AddPoint(1.9, 0.1);
-      vtkNew<vtkColorTransferFunction> color;
-      color->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
-      const auto property = MakeOpaque(color);
-      property->SetScalarOpacity(opacity);
-      property->SetScalarOpacityUnitDistance(1.0);
-      const std::vector<double> image = Render(property, perUnitDistance);
-      for (int cell = 0; cell < NumberOfCells; ++cell)
-      {
-        const double value = opacity->GetValue(ScalarOf(cell));
-        const double alpha = perUnitDistance ? value : 1.0 - std::exp(-value);
-        EXPECT_NEAR(image[4 * cell + 3], alpha, Bound) << "at " << ScalarOf(cell);
-      }
+      const double value = opacity->GetValue(ScalarOf(cell));
+      const double alpha = perUnitDistance ? value : 1.0 - std::exp(-value);
+      EXPECT_NEAR(image[4 * cell + 3], alpha, Bound) << "at " << ScalarOf(cell);
     }
   }
 }
@@ -243,9 +216,7 @@ TEST(FunctionSampling, OpacitiesAgreeWithVTK)
  */
 TEST(FunctionSampling, NodesAtTheEndsOfTheRange)
 {
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.7e308, 0.0, 0.2, 0.4);
-  color->AddRGBPoint(1.7e308, 1.0, 0.2, 0.6);
+  const auto color = MakeColors({ { -1.7e308, 0.0, 0.2, 0.4 }, { 1.7e308, 1.0, 0.2, 0.6 } });
   const std::vector<double> image = Render(MakeOpaque(color));
   for (int cell = 0; cell < NumberOfCells; ++cell)
   {

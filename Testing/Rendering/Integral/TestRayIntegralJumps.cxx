@@ -4,25 +4,6 @@
 // Integrals compared with closed forms.
 #include "IntegralScene.h"
 
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <random>
-
 using namespace meniscus::test;
 
 namespace
@@ -83,8 +64,7 @@ Grid MakeGrid(const std::vector<CornerValues>& cells)
 
 void ExpectIntegrals(const std::vector<CornerValues>& cells, const glm::dvec3& direction)
 {
-  const Filter rays = MakeFilter(MakeGrid(cells), 48, 48);
-  rays->GetArraySelection()->EnableArray("Integral");
+  const Filter rays = MakeFilter(MakeGrid(cells), 48, 48, { "Integral" });
   SetRectangle(rays, direction, 1.1);
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfLostRays"), 0);

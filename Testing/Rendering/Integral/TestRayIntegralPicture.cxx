@@ -4,16 +4,7 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraRayIntegral.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
 
 using namespace meniscus::test;
 

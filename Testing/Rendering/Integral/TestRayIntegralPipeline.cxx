@@ -4,28 +4,7 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkSMPTools.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-#include <limits>
 
 using namespace meniscus::test;
 
@@ -38,14 +17,8 @@ const char* const Names[] = { "Integral", "PathLength", "OpticalDepth", "FirstDe
 vtkSmartPointer<vtkVolumeProperty> MakeRamp()
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-1.0, 0.0);
-  opacity->AddPoint(1.0, 0.6);
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.0, 0.1, 0.3, 0.9);
-  color->AddRGBPoint(1.0, 0.9, 0.6, 0.2);
-  property->SetScalarOpacity(opacity);
-  property->SetColor(color);
+  property->SetScalarOpacity(MakeOpacity({ { -1.0, 0.0 }, { 1.0, 0.6 } }));
+  property->SetColor(MakeColors({ { -1.0, 0.1, 0.3, 0.9 }, { 1.0, 0.9, 0.6, 0.2 } }));
   return property;
 }
 
@@ -53,17 +26,9 @@ Filter MakeWithEverything(vtkUnstructuredGrid* grid)
 {
   Filter rays = MakeFilter(grid, 130, 110);
   rays->SetDirection(0.3, -0.4, -1.0);
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("OpticalDepth");
-  rays->GetArraySelection()->EnableArray("FirstDepth");
-  rays->GetArraySelection()->EnableArray("LastDepth");
-  rays->GetArraySelection()->EnableArray("Minimum");
-  rays->GetArraySelection()->EnableArray("MinimumDepth");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
-  rays->GetArraySelection()->EnableArray("RGBA");
-  rays->GetArraySelection()->EnableArray("EnergyBins");
+  Enable(rays,
+    { "Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
+      "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins" });
   rays->SetNumberOfEnergyBins(2);
   rays->SetVolumeProperty(MakeRamp());
   return rays;
@@ -87,8 +52,7 @@ bool HaveSameBits(const std::vector<double>& a, const std::vector<double>& b)
 //------------------------------------------------------------------------------
 TEST(RayIntegralPipeline, OnlyWhatIsAskedFor)
 {
-  Filter rays = MakeFilter(MakeMesh(), 20, 10);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  Filter rays = MakeFilter(MakeMesh(), 20, 10, { "PathLength" });
   rays->Update();
   vtkPointData* points = rays->GetOutput()->GetPointData();
   EXPECT_EQ(points->GetNumberOfArrays(), 1);
@@ -147,8 +111,7 @@ TEST(RayIntegralPipeline, AnotherFrameKeepsTheMesh)
   grid->Modified();
   rays->Update();
   expect(1, 2, 2, 2, 11);
-  double p[3];
-  grid->GetPoint(0, p);
+  const glm::dvec3 p = PointOf(grid, 0);
   grid->GetPoints()->SetPoint(0, p[0] + 0.01, p[1], p[2]);
   grid->GetPoints()->Modified();
   grid->Modified();
@@ -204,8 +167,7 @@ TEST(RayIntegralPipeline, ProgressAndAbort)
         vtkTetrahedraRayIntegral::SafeDownCast(caller)->AbortExecuteOn();
       }
     });
-  Filter rays = MakeFilter(MakeMesh(), 900, 900);
-  rays->GetArraySelection()->EnableArray("Integral");
+  Filter rays = MakeFilter(MakeMesh(), 900, 900, { "Integral" });
   rays->AddObserver(vtkCommand::ProgressEvent, command);
   // While the mesh is built, and while rays are cast.
   for (const double abortAt : { 0.1, 0.6 })
@@ -253,8 +215,7 @@ TEST(RayIntegralPipeline, FittedRectangle)
   Filter rays = MakeFilter(grid, 100, 50);
   rays->SetDirection(0.0, 0.0, -2.0);
   rays->SetViewUp(0.0, 3.0, 1.0);
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("FirstDepth");
+  Enable(rays, { "PathLength", "FirstDepth" });
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   const std::vector<double> depths = ValuesOf(rays, "FirstDepth");
   const double* spacing = rays->GetOutput()->GetSpacing();
@@ -277,8 +238,7 @@ TEST(RayIntegralPipeline, ValuesThatAreNotFinite)
   grid->GetPointData()->GetScalars()->SetTuple1(1, std::numeric_limits<double>::quiet_NaN());
   Filter rays = MakeFilter(grid, 40, 40);
   rays->SetDirection(0.3, 0.2, -1.0);
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("Integral");
+  Enable(rays, { "PathLength", "Integral" });
   const std::vector<double> lengths = ValuesOf(rays, "PathLength");
   const std::vector<double> integrals = ValuesOf(rays, "Integral");
   EXPECT_GT(rays->GetStatistic("NumberOfTransparentCells"), 0);
@@ -353,8 +313,7 @@ TEST(RayIntegralPipeline, Components)
   grid->GetPointData()->AddArray(vectors);
   Filter rays = MakeFilter(grid, 8, 8);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "velocity");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays, { "Maximum", "MaximumDepth" });
   for (const auto& expected : { std::pair<int, double>{ 0, 3.0 }, { 1, -4.0 }, { -1, 5.0 } })
   {
     rays->SetArrayComponent(expected.first);

@@ -5,24 +5,8 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCell.h>
-#include <vtkDataArraySelection.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <iostream>
 
 using namespace meniscus::test;
 
@@ -50,8 +34,7 @@ void ExpectVolume(vtkUnstructuredGrid* grid, double tolerance)
   Filter rays = MakeFilter(grid, 1024, 1024);
   rays->SetDirection(0.31, -0.47, -0.83);
   rays->SetViewUp(0.2, 1.0, 0.1);
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
+  Enable(rays, { "Integral", "PathLength" });
   const double volume = IntegrateCells(grid, false);
   const double integral = IntegrateCells(grid, true);
   const double volumeError = SumTimesArea(rays, "PathLength") / volume - 1.0;
@@ -110,8 +93,7 @@ ConvexSolid MakeSolid(vtkUnstructuredGrid* grid, vtkIdType cell)
   glm::dvec3 corners[4];
   for (int k = 0; k < 4; ++k)
   {
-    double p[3];
-    grid->GetPoint(ids->GetId(k), p);
+    const glm::dvec3 p = PointOf(grid, ids->GetId(k));
     corners[k] = { p[0], p[1], p[2] };
   }
   ConvexSolid solid;
@@ -208,14 +190,9 @@ TEST(RayIntegralRelations, OppositeViews)
   back->SetFrameAxis2(axis2[0], axis2[1], axis2[2]);
   for (vtkTetrahedraRayIntegral* filter : { there.Get(), back.Get() })
   {
-    filter->GetArraySelection()->EnableArray("Integral");
-    filter->GetArraySelection()->EnableArray("PathLength");
-    filter->GetArraySelection()->EnableArray("FirstDepth");
-    filter->GetArraySelection()->EnableArray("LastDepth");
-    filter->GetArraySelection()->EnableArray("Minimum");
-    filter->GetArraySelection()->EnableArray("MinimumDepth");
-    filter->GetArraySelection()->EnableArray("Maximum");
-    filter->GetArraySelection()->EnableArray("MaximumDepth");
+    Enable(filter,
+      { "Integral", "PathLength", "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum",
+        "MaximumDepth" });
   }
   const std::pair<const char*, const char*> same[] = { { "Integral", "Integral" },
     { "PathLength", "PathLength" }, { "Minimum", "Minimum" }, { "Maximum", "Maximum" } };
@@ -324,9 +301,7 @@ PathTruth TracePlanes(WorldRay ray, const std::vector<PlaneInterface>& planes)
 
 void ExpectPlanes(vtkTetrahedraRayIntegral* rays, const std::vector<PlaneInterface>& planes)
 {
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
-  rays->GetArraySelection()->EnableArray("LastDepth");
+  Enable(rays, { "Integral", "PathLength", "LastDepth" });
   EXPECT_LT(WorstError(rays, "PathLength",
               [&](const WorldRay& ray) { return TracePlanes(ray, planes).Length; }),
     Tolerance);

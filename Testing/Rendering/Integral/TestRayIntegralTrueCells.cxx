@@ -5,32 +5,6 @@
 #include "CellIntegrator.h"
 #include "TrueCellMeshes.h"
 
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/common.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <iterator>
-#include <limits>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -41,9 +15,7 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 /** Adaptive division for measurements, with as many pieces as that takes. */
 Filter MakeAdaptive(vtkDataObject* input, int size)
 {
-  Filter rays = MakeFilter(input, size, size);
-  rays->GetArraySelection()->EnableArray("Integral");
-  rays->GetArraySelection()->EnableArray("PathLength");
+  Filter rays = MakeFilter(input, size, size, { "Integral", "PathLength" });
   rays->SetCellDivisionToAdaptive();
   rays->SetDivisionTolerance(5e-5);
   rays->SetMaximumNumberOfPieces(1 << 25);
@@ -66,12 +38,9 @@ std::vector<glm::dvec2> TruthOf(vtkTetrahedraRayIntegral* rays, vtkUnstructuredG
   CellIntegrator integrator(grid, 0);
   int size[2];
   rays->GetImageSize(size);
-  for (int row = 0; row < size[1]; ++row)
+  for (const auto& [row, column] : Product(size[1], size[0]))
   {
-    for (int column = 0; column < size[0]; ++column)
-    {
-      truth.push_back(integrator.Integrate(RayOf(rays, column, row)));
-    }
+    truth.push_back(integrator.Integrate(RayOf(rays, column, row)));
   }
   return truth;
 }
@@ -112,7 +81,7 @@ void ExpectOneError(vtkTetrahedraRayIntegral* rays, const std::string& text)
   rays->Modified();
   rays->Update();
   ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Errors[0], text));
   EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -131,8 +100,7 @@ vtkSmartPointer<vtkImageData> MakeImage(int n)
   scalars->SetName("s");
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 at;
-    image->GetPoint(i, &at.x);
+    const glm::dvec3 at = PointOf(image, i);
     scalars->InsertNextValue(SmoothField(at));
   }
   image->GetPointData()->SetScalars(scalars);
@@ -145,8 +113,7 @@ void SetScalars(vtkDataSet* grid, const std::function<double(const glm::dvec3&)>
   scalars->SetName("s");
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 at;
-    grid->GetPoint(i, &at.x);
+    const glm::dvec3 at = PointOf(grid, i);
     scalars->InsertNextValue(field(at));
   }
   grid->GetPointData()->SetScalars(scalars);
@@ -154,7 +121,7 @@ void SetScalars(vtkDataSet* grid, const std::function<double(const glm::dvec3&)>
 
 }
 
-class TrueCellTypes : public testing::TestWithParam<std::size_t>
+class TrueCellTypes : public ::testing::TestWithParam<std::size_t>
 {
 };
 
@@ -185,7 +152,7 @@ TEST_P(TrueCellTypes, IntegralsFollowTheShapeFunctions)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  AllTypes, TrueCellTypes, testing::Range(std::size_t{ 0 }, std::size(CellCases)));
+  AllTypes, TrueCellTypes, ::testing::Range(std::size_t{ 0 }, std::size(CellCases)));
 
 TEST(TrueCells, TheErrorConvergesWithTheTolerances)
 {
@@ -299,8 +266,7 @@ TEST(TrueCells, ScalarsAndPointsKeepTheDivision)
   // Stretched points keep the division: the positions of all points are interpolated.
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    double at[3];
-    grid->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(grid, i);
     grid->GetPoints()->SetPoint(i, 0.9 * at[0], 0.9 * at[1], 0.9 * at[2]);
   }
   grid->GetPoints()->Modified();
@@ -344,10 +310,7 @@ TEST(TrueCells, CellsOfTheInputAreKnown)
   grid->GetCellData()->AddArray(numbers);
   const Filter rays = MakeCoarse(grid, 24);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "number");
-  rays->GetArraySelection()->EnableArray("Minimum");
-  rays->GetArraySelection()->EnableArray("MinimumDepth");
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
+  Enable(rays, { "Minimum", "MinimumDepth", "Maximum", "MaximumDepth" });
   rays->Update();
   EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6 * 8);
   const double mostNumber = static_cast<double>(grid->GetNumberOfCells());
@@ -381,29 +344,26 @@ TEST(TrueCells, BadSettingsAreErrors)
 TEST(TrueCells, DifferencesOfRoundingAreNotDivided)
 {
   // Sums of weights times a constant differ from it in the last digits, as do constants in arrays.
-  for (const double constant : { 0.0, 0.1, 1.0 / 3.0, 293.15, -1e300 })
+  for (const auto& [constant, step] :
+    Product(List(0.0, 0.1, 1.0 / 3.0, 293.15, -1e300), List(0.0, 1e-16)))
   {
-    for (const double step : { 0.0, 1e-16 })
+    SCOPED_TRACE(constant);
+    const Grid grid = MakeCell(CellCases[0], 0.0, 2);
+    vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+    for (vtkIdType i = 0; i < 8; ++i)
     {
-      SCOPED_TRACE(constant);
-      const Grid grid = MakeCell(CellCases[0], 0.0, 2);
-      vtkDataArray* scalars = grid->GetPointData()->GetScalars();
-      for (vtkIdType i = 0; i < 8; ++i)
-      {
-        scalars->SetTuple1(i, constant * (1.0 + step * static_cast<double>(i)));
-      }
-      const Filter rays = MakeAdaptive(grid, 4);
-      rays->Update();
-      EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
-      EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
+      scalars->SetTuple1(i, constant * (1.0 + step * static_cast<double>(i)));
     }
+    const Filter rays = MakeAdaptive(grid, 4);
+    rays->Update();
+    EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
+    EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 4);
   }
   // The same for places far from the origin: a cube, whose edges are straight.
   Grid cube = MakeCell(CellCases[0], 0.0, 2);
   for (vtkIdType i = 0; i < 8; ++i)
   {
-    double at[3];
-    cube->GetPoint(i, at);
+    const glm::dvec3 at = PointOf(cube, i);
     cube->GetPoints()->SetPoint(i, at[0] + 1e6, at[1] - 2e6, at[2] + 3e6);
     cube->GetPointData()->GetScalars()->SetTuple1(i, 1.0);
   }
@@ -430,17 +390,14 @@ TEST(TrueCells, TheBudgetEndsADivisionWithItsError)
   double last = 1.0;
   for (const vtkTypeInt64 budget : { 100, 1000, 5000 })
   {
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(rays);
+    const auto observer = ObserveErrors(rays);
     rays->SetMaximumNumberOfPieces(budget);
     rays->Update();
     EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), budget);
     EXPECT_GE(rays->GetStatistic("NumberOfTetrahedra"), 0.6 * static_cast<double>(budget));
     ASSERT_EQ(observer->Warnings.size(), 1u);
-    EXPECT_NE(observer->Warnings[0].find(
-                "budget of " + std::to_string(budget) + " tetrahedra at an error of "),
-      std::string::npos)
-      << observer->Warnings[0];
+    EXPECT_TRUE(HasText(observer->Warnings[0],
+      "budget of " + std::to_string(budget) + " tetrahedra at an error of "));
     rays->RemoveObserver(observer);
     // The scalar is off by 1.5 times the error at most where it is quadratic, along a way of 1.4.
     const double error = rays->GetStatistic("DivisionError");
@@ -481,8 +438,7 @@ TEST(TrueCells, SettingsThatChangeNothingCostNothing)
   EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 1);
   EXPECT_EQ(rays->GetStatistic("NumberOfMeshBuilds"), 1);
   rays->SetMaximumNumberOfPieces(rays->GetStatistic("NumberOfTetrahedra") / 2);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
+  const auto observer = ObserveErrors(rays);
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 2);
   EXPECT_EQ(observer->Warnings.size(), 1u);
@@ -499,13 +455,11 @@ TEST(TrueCells, OddCellsAreCounted)
   };
   movePoint(0, 0.7, 0.7, 0.7);
   Filter rays = MakeCoarse(grid, 16);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
+  const auto observer = ObserveErrors(rays);
   rays->Update();
   EXPECT_EQ(rays->GetStatistic("NumberOfFoldedCells"), 1);
   ASSERT_EQ(observer->Warnings.size(), 1u);
-  EXPECT_NE(observer->Warnings[0].find("1 cells are folded inside out"), std::string::npos)
-    << observer->Warnings[0];
+  EXPECT_TRUE(HasText(observer->Warnings[0], "1 cells are folded inside out"));
   // A point that is not finite, and a repeated one: linear, without the parts that cannot be drawn.
   for (const bool repeated : { false, true })
   {
@@ -521,8 +475,7 @@ TEST(TrueCells, OddCellsAreCounted)
       movePoint(5, NaN, 0.0, 0.0);
     }
     rays = MakeCoarse(grid, 16);
-    vtkNew<ErrorObserver> quiet;
-    quiet->Observe(rays);
+    const auto quiet = ObserveErrors(rays);
     rays->Update();
     EXPECT_LE(rays->GetStatistic("NumberOfTetrahedra"), 6);
     EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 0);
@@ -535,8 +488,7 @@ TEST(TrueCells, OddCellsAreCounted)
   grid->GetCells()->ReplaceCellAtId(0, 8, bad);
   grid->InsertNextCell(VTK_HEXAHEDRON, 8, good);
   rays = MakeCoarse(grid, 16);
-  vtkNew<ErrorObserver> third;
-  third->Observe(rays);
+  const auto third = ObserveErrors(rays);
   rays->Update();
   EXPECT_GT(rays->GetStatistic("NumberOfRejectedCells"), 0);
   EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6);
@@ -544,11 +496,10 @@ TEST(TrueCells, OddCellsAreCounted)
   grid = MakeCell(CellCases[0], 0.05, 2);
   grid->InsertNextCell(VTK_QUAD, 4, good);
   rays = MakeCoarse(grid, 16);
-  vtkNew<ErrorObserver> fourth;
-  fourth->Observe(rays);
+  const auto fourth = ObserveErrors(rays);
   rays->Update();
   ASSERT_EQ(fourth->Warnings.size(), 1u);
-  EXPECT_NE(fourth->Warnings[0].find("1 vtkQuad"), std::string::npos) << fourth->Warnings[0];
+  EXPECT_TRUE(HasText(fourth->Warnings[0], "1 vtkQuad"));
   EXPECT_GT(rays->GetStatistic("NumberOfTetrahedra"), 6);
 }
 
@@ -624,8 +575,7 @@ TEST(TrueCells, BlocksMayDifferInComponents)
     vectors->FillComponent(0, 0.0);
     for (vtkIdType i = 0; i < 8; ++i)
     {
-      double at[3];
-      grid->GetPoint(i, at);
+      const glm::dvec3 at = PointOf(grid, i);
       grid->GetPoints()->SetPoint(i, at[0] + 3.0 * block, at[1], at[2]);
       std::vector<double> tuple(static_cast<std::size_t>(block) + 1, 0.0);
       tuple.back() = 1.0 + static_cast<double>(i % 2);
@@ -638,10 +588,7 @@ TEST(TrueCells, BlocksMayDifferInComponents)
   SetRectangle(rays, { 0.0, 0.0, -1.0 }, 7.0);
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "v");
   rays->SetArrayComponent(-1);
-  rays->GetArraySelection()->EnableArray("Maximum");
-  rays->GetArraySelection()->EnableArray("MaximumDepth");
-  rays->GetArraySelection()->EnableArray("Minimum");
-  rays->GetArraySelection()->EnableArray("MinimumDepth");
+  Enable(rays, { "Maximum", "MaximumDepth", "Minimum", "MinimumDepth" });
   rays->Update();
   int seen = 0;
   for (const double value : ValuesOf(rays, "Maximum"))

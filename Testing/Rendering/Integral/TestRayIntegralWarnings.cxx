@@ -4,22 +4,6 @@
 #include "HardMeshes.h"
 #include "IntegralScene.h"
 
-#include <vtkCellType.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -34,33 +18,20 @@ Grid MakeLayers(int n, double thickness)
   points->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName(ScalarName);
-  for (int k = 0; k < 3; ++k)
+  for (const auto& [k, j, i] : Product(3, n + 1, n + 1))
   {
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= n; ++i)
-      {
-        points->InsertNextPoint(static_cast<double>(i) / n, static_cast<double>(j) / n, heights[k]);
-        scalars->InsertNextValue(1.0);
-      }
-    }
+    points->InsertNextPoint(static_cast<double>(i) / n, static_cast<double>(j) / n, heights[k]);
+    scalars->InsertNextValue(1.0);
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
   const auto at = [n](int i, int j, int k)
   { return static_cast<vtkIdType>(i + (n + 1) * (j + (n + 1) * k)); };
-  for (int k = 0; k < 2; ++k)
+  for (const auto& [k, j, i] : Product(2, n, n))
   {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k),
-          at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1),
-          at(i, j + 1, k + 1) };
-        grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-      }
-    }
+    const vtkIdType ids[8] = { at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+      at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1) };
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
   return grid;
 }
@@ -68,8 +39,7 @@ Grid MakeLayers(int n, double thickness)
 /** Warnings of a filter's update. */
 std::vector<std::string> UpdateAndListen(vtkTetrahedraRayIntegral* rays)
 {
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(rays);
+  const auto observer = ObserveErrors(rays);
   rays->Update();
   rays->RemoveObserver(observer);
   EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
@@ -85,8 +55,7 @@ double ErrorOfLayer(int n, double thickness)
   {
     grid->GetPointData()->GetScalars()->SetComponent(i, 0, std::nan(""));
   }
-  const Filter rays = MakeFilter(grid, 64, 64);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(grid, 64, 64, { "PathLength" });
   rays->SetFrameModeToParallel();
   rays->SetFrameOrigin(0.25, 0.25, 3.0);
   rays->SetFrameAxis1(0.5, 0.0, 0.0);
@@ -105,32 +74,28 @@ double ErrorOfLayer(int n, double thickness)
 /** Layers below the precision of coordinates are counted; others are measured to 1 %. */
 TEST(MeshWarnings, ThinLayers)
 {
-  for (const int n : { 1, 4, 16 })
+  for (const auto& [n, thickness] :
+    Product(List(1, 4, 16), List(1.0e-2, 1.0e-4, 1.0e-5, 1.0e-6, 1.0e-8, 1.0e-12)))
   {
-    for (const double thickness : { 1.0e-2, 1.0e-4, 1.0e-5, 1.0e-6, 1.0e-8, 1.0e-12 })
+    const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
+    const Grid grid = MakeLayers(n, thickness);
+    const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    const double error = ErrorOfLayer(n, thickness);
+    std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
+    if (warnings.empty())
     {
-      const std::string what = std::to_string(n) + ", " + std::to_string(std::log10(thickness));
-      const Grid grid = MakeLayers(n, thickness);
-      const Filter rays = MakeFilter(grid, 4, 4);
-      rays->GetArraySelection()->EnableArray("PathLength");
-      const std::vector<std::string> warnings = UpdateAndListen(rays);
-      const double error = ErrorOfLayer(n, thickness);
-      std::printf("%s: error %.2g, %zu warnings\n", what.c_str(), error, warnings.size());
-      if (warnings.empty())
-      {
-        EXPECT_LE(error, 0.01) << what;
-        EXPECT_GE(thickness, 1.0e-6) << what;
-        continue;
-      }
-      EXPECT_LE(thickness, 1.0e-5) << what;
-      ASSERT_EQ(warnings.size(), 1u) << what;
-      const std::string count = std::to_string(6 * n * n) + " of " + std::to_string(12 * n * n);
-      EXPECT_NE(warnings[0].find(count + " cells have an edge shorter than"), std::string::npos)
-        << warnings[0];
-      // The warning is about the mesh, and is not repeated for other rays.
-      rays->SetImageSize(5, 5);
-      EXPECT_TRUE(UpdateAndListen(rays).empty());
+      EXPECT_LE(error, 0.01) << what;
+      EXPECT_GE(thickness, 1.0e-6) << what;
+      continue;
     }
+    EXPECT_LE(thickness, 1.0e-5) << what;
+    ASSERT_EQ(warnings.size(), 1u) << what;
+    const std::string count = std::to_string(6 * n * n) + " of " + std::to_string(12 * n * n);
+    EXPECT_TRUE(HasText(warnings[0], count + " cells have an edge shorter than"));
+    // The warning is about the mesh, and is not repeated for other rays.
+    rays->SetImageSize(5, 5);
+    EXPECT_TRUE(UpdateAndListen(rays).empty());
   }
 }
 
@@ -143,8 +108,7 @@ TEST(MeshWarnings, NoThinLayers)
   const vtkIdType ids[2][4] = { { 0, twice, 1, 9 }, { 0, 1, 2, 3 } };
   grid->InsertNextCell(VTK_TETRA, 4, ids[0]);
   grid->InsertNextCell(VTK_TETRA, 4, ids[1]);
-  const Filter rays = MakeFilter(grid, 4, 4);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
   EXPECT_TRUE(UpdateAndListen(rays).empty());
 }
 
@@ -161,8 +125,7 @@ TEST(MeshWarnings, OverlappingBodies)
     vtkNew<vtkMultiBlockDataSet> blocks;
     blocks->SetBlock(0, outer);
     blocks->SetBlock(1, overlaps ? inner : beside);
-    const Filter rays = MakeFilter(blocks, 64, 64);
-    rays->GetArraySelection()->EnableArray("Integral");
+    const Filter rays = MakeFilter(blocks, 64, 64, { "Integral" });
     rays->SetDirection(0.11, 0.07, -1.0);
     const std::vector<std::string> warnings = UpdateAndListen(rays);
     if (!overlaps)
@@ -171,8 +134,8 @@ TEST(MeshWarnings, OverlappingBodies)
       continue;
     }
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("parts of the mesh overlap"), std::string::npos) << warnings[0];
-    EXPECT_NE(warnings[0].find("ray integral of its own"), std::string::npos) << warnings[0];
+    EXPECT_TRUE(HasText(warnings[0], "parts of the mesh overlap"));
+    EXPECT_TRUE(HasText(warnings[0], "ray integral of its own"));
     // The inner body covers a quarter of the outer one's front, seen nearly along an axis.
     const double share = std::stod(warnings[0].substr(warnings[0].find("): ") + 3)) / (64.0 * 64.0);
     EXPECT_GT(share, 0.15);
@@ -188,15 +151,14 @@ TEST(MeshWarnings, InvertedCells)
   const Grid grid = MakeTangledBlock(5, 0.15, 11);
   const double cells = static_cast<double>(grid->GetNumberOfCells());
   const auto inverted = static_cast<long>(std::lround(InvertedShare(grid) * cells));
-  const Filter rays = MakeFilter(grid, 64, 64);
-  rays->GetArraySelection()->EnableArray("PathLength");
+  const Filter rays = MakeFilter(grid, 64, 64, { "PathLength" });
   rays->SetDirection(0.11, 0.07, -1.0);
   const std::vector<std::string> warnings = UpdateAndListen(rays);
   ASSERT_EQ(warnings.size(), 1u);
   const std::string expected = std::to_string(inverted) + " of " +
     std::to_string(grid->GetNumberOfCells()) + " tetrahedra are inside out";
-  EXPECT_NE(warnings[0].find(expected), std::string::npos) << warnings[0];
-  EXPECT_EQ(warnings[0].find("ray integral of its own"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(HasText(warnings[0], expected));
+  EXPECT_FALSE(HasText(warnings[0], "ray integral of its own"));
 }
 
 /** Bodies with filters of their own, over the same rays: their integrals are those of the sum. */
@@ -239,15 +201,13 @@ TEST(MeshWarnings, SurfacesThatTurnTheirBackToTheRays)
     water->SetOrigin(-9.0, -9.0, 2.0);
     water->SetPoint1(isUpsideDown ? -9.0 : 9.0, isUpsideDown ? 9.0 : -9.0, 2.0);
     water->SetPoint2(isUpsideDown ? 9.0 : -9.0, isUpsideDown ? -9.0 : 9.0, 2.0);
-    const Filter rays = MakeFilter(MakeLayers(2, 0.5), 4, 4);
-    rays->GetArraySelection()->EnableArray("PathLength");
+    const Filter rays = MakeFilter(MakeLayers(2, 0.5), 4, 4, { "PathLength" });
     rays->SetMembraneConnection(water->GetOutputPort());
     const std::vector<std::string> warnings = UpdateAndListen(rays);
     ASSERT_EQ(warnings.size(), isUpsideDown ? 1u : 0u);
     if (isUpsideDown)
     {
-      EXPECT_NE(warnings[0].find("No facet of the membrane faces the eye"), std::string::npos)
-        << warnings[0];
+      EXPECT_TRUE(HasText(warnings[0], "No facet of the membrane faces the eye"));
     }
     // Once, until rays have come from the other side.
     rays->SetImageSize(5, 5);
@@ -286,13 +246,12 @@ TEST(MeshWarnings, ScalarsThatFloatsDoNotHold)
     {
       values->SetComponent(i, 0, scalars.Offset + scalars.Width * grid->GetPoint(i)[2]);
     }
-    const Filter rays = MakeFilter(grid, 4, 4);
-    rays->GetArraySelection()->EnableArray("Integral");
+    const Filter rays = MakeFilter(grid, 4, 4, { "Integral" });
     const std::vector<std::string> warnings = UpdateAndListen(rays);
     ASSERT_EQ(warnings.size(), scalars.Fault ? 1u : 0u) << what;
     if (scalars.Fault)
     {
-      EXPECT_NE(warnings[0].find(scalars.Fault), std::string::npos) << what << ": " << warnings[0];
+      EXPECT_TRUE(HasText(warnings[0], scalars.Fault)) << what;
     }
     else
     {

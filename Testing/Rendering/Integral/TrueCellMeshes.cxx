@@ -2,25 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrueCellMeshes.h"
 
-#include <vtkCell.h>
-#include <vtkDoubleArray.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/vec3.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
 namespace meniscus::test
 {
 
@@ -89,8 +70,7 @@ private:
 
   glm::dvec3 PointAt(vtkIdType id) const
   {
-    glm::dvec3 at;
-    this->Points->GetPoint(id, &at.x);
+    const glm::dvec3 at = PointOf(this->Points, id);
     return at;
   }
 

@@ -5,8 +5,6 @@
 
 #include "TestMeshes.h"
 
-#include <vtkCellType.h>
-
 namespace meniscus::test
 {
 

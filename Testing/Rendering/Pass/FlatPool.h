@@ -5,24 +5,11 @@
 #define meniscus_Testing_Rendering_Pass_FlatPool_h
 
 #include "RayCastScene.h"
-#include "VolumeScene.h"
 #include "WaterParts.h"
 
-#include <vtkActor.h>
 #include <vtkAlgorithmOutput.h>
-#include <vtkCamera.h>
-#include <vtkNew.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace meniscus::test
 {
@@ -162,28 +149,26 @@ void ExpectColors(
   const ByteImage image = pool.Render();
   int seen = 0;
   // A filter of that radius wraps around at the border of the image.
-  for (int y = blur; y < Size - blur; ++y)
+  for (const auto& [y, x] :
+    Product(Numbers<int>(blur, Size - blur), Numbers<int>(blur, Size - blur)))
   {
-    for (int x = blur; x < Size - blur; ++x)
+    const Sight sight = SightOf(pool.GetCamera(), x, y);
+    bool border = false;
+    for (int k = 0; k < (2 * blur + 1) * (2 * blur + 1); ++k)
     {
-      const Sight sight = SightOf(pool.GetCamera(), x, y);
-      bool border = false;
-      for (int k = 0; k < (2 * blur + 1) * (2 * blur + 1); ++k)
-      {
-        const int dx = k % (2 * blur + 1) - blur;
-        const int dy = k / (2 * blur + 1) - blur;
-        border = border || IsBorder(SightOf(pool.GetCamera(), x + dx, y + dy));
-      }
-      if (border)
-      {
-        continue;
-      }
-      seen += sight.OnMembrane ? 1 : 0;
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        const double expected = sight.OnMembrane ? colorOf(sight, channel) : Background[channel];
-        ASSERT_NEAR(image.GetPixel(x, y)[channel] / 255.0, expected, slack) << x << " " << y;
-      }
+      const int dx = k % (2 * blur + 1) - blur;
+      const int dy = k / (2 * blur + 1) - blur;
+      border = border || IsBorder(SightOf(pool.GetCamera(), x + dx, y + dy));
+    }
+    if (border)
+    {
+      continue;
+    }
+    seen += sight.OnMembrane ? 1 : 0;
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      const double expected = sight.OnMembrane ? colorOf(sight, channel) : Background[channel];
+      ASSERT_NEAR(image.GetPixel(x, y)[channel] / 255.0, expected, slack) << x << " " << y;
     }
   }
   EXPECT_GT(seen, Size * Size / 4);

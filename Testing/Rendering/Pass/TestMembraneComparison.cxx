@@ -4,25 +4,7 @@
 // precision and the differences: figures in the documentation.
 #include "ComparisonSheet.h"
 #include "RayCastScene.h"
-#include "ReferenceImage.h"
 #include "StackScene.h"
-
-#include <vtkColorTransferFunction.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
@@ -126,22 +108,12 @@ double RingField(double x, double y, double z)
 /** A core, and a shell around it. */
 vtkSmartPointer<vtkVolumeProperty> MakeShells()
 {
-  vtkNew<vtkColorTransferFunction> color;
-  vtkNew<vtkPiecewiseFunction> opacity;
-  color->AddRGBPoint(0.0, 1.0, 0.95, 0.3);
-  color->AddRGBPoint(0.15, 1.0, 0.35, 0.1);
-  color->AddRGBPoint(0.35, 0.1, 0.5, 0.8);
-  color->AddRGBPoint(1.2, 0.2, 0.2, 0.6);
-  opacity->AddPoint(0.0, 6.0);
-  opacity->AddPoint(0.14, 9.0);
-  opacity->AddPoint(0.2, 0.0);
-  opacity->AddPoint(0.3, 0.0);
-  opacity->AddPoint(0.35, 1.6);
-  opacity->AddPoint(0.42, 0.0);
-  opacity->AddPoint(1.2, 0.25);
+  const auto color = MakeColors({ { 0.0, 1.0, 0.95, 0.3 }, { 0.15, 1.0, 0.35, 0.1 },
+    { 0.35, 0.1, 0.5, 0.8 }, { 1.2, 0.2, 0.2, 0.6 } });
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(color);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 6.0 }, { 0.14, 9.0 }, { 0.2, 0.0 }, { 0.3, 0.0 },
+    { 0.35, 1.6 }, { 0.42, 0.0 }, { 1.2, 0.25 } }));
   property->SetInterpolationTypeToLinear();
   return property;
 }

@@ -1,21 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Uploads of virtual geometry by VTK's mapper: new colours leave the points on the device.
-#include <vtkActor.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
+#include "VTKTestBasics.h"
+
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkOpenGLVertexBufferObjectGroup.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkRefractedGeometryFilter.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-
-#include <gtest/gtest.h>
 
 namespace
 {

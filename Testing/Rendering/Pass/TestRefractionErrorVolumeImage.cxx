@@ -3,31 +3,12 @@
 // An error volume drawn as the thesis's figure 4.2 draws it: a cube of 400 flush with the top of a
 // hemisphere (yellow), one block per sample, green below one unit, blue below 10, red below 100,
 // white above, darker for smaller errors within each colour; cut open in the middle.
-#include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 #include "StrictImage.h"
+#include "VTKTestBasics.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCubeSource.h>
-#include <vtkDataArray.h>
 #include <vtkGlyph3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractionErrorVolume.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphere.h>
-#include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 
@@ -105,8 +86,7 @@ void ExpectErrorsOfTheThesis(vtkImageData* volume)
     {
       continue;
     }
-    double p[3];
-    volume->GetPoint(i, p);
+    const glm::dvec3 p = PointOf(volume, i);
     const int part = std::hypot(p[0], p[2]) > 0.5 * Radius ? 1 : 0;
     sum[part] += error;
     ++count[part];

@@ -2,36 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkRefractionPass compared with closed forms: a plane of water, seen from above.
 #include "FlatPool.h"
-#include "RayCastScene.h"
-#include "VolumeScene.h"
-#include "WaterParts.h"
 
-#include <vtkActor.h>
-#include <vtkAlgorithmOutput.h>
-#include <vtkCamera.h>
-#include <vtkCubeSource.h>
-#include <vtkImageData.h>
-#include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
 #include <vtkOpenGLFXAAPass.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRefractedGeometryFilter.h>
-#include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSSAAPass.h>
-#include <vtkSmartPointer.h>
 #include <vtkTexture.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
@@ -138,20 +113,17 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
     vtkNew<vtkImageData> image;
     image->SetDimensions(faceSize, faceSize, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    for (int j = 0; j < faceSize; ++j)
+    for (const auto& [j, i] : Product(faceSize, faceSize))
     {
-      for (int i = 0; i < faceSize; ++i)
+      const double u = (2.0 * i + 1.0) / faceSize - 1.0;
+      const double v = (2.0 * j + 1.0) / faceSize - 1.0;
+      const double table[6][3] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v }, { u, -1, -v },
+        { u, -v, 1 }, { -u, -v, -1 } };
+      auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
+      for (int channel = 0; channel < 3; ++channel)
       {
-        const double u = (2.0 * i + 1.0) / faceSize - 1.0;
-        const double v = (2.0 * j + 1.0) / faceSize - 1.0;
-        const double table[6][3] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v }, { u, -1, -v },
-          { u, -v, 1 }, { -u, -v, -1 } };
-        auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
-        for (int channel = 0; channel < 3; ++channel)
-        {
-          pixel[channel] =
-            static_cast<unsigned char>(std::lround(255.0 * colorOf(table[face], channel)));
-        }
+        pixel[channel] =
+          static_cast<unsigned char>(std::lround(255.0 * colorOf(table[face], channel)));
       }
     }
     sky->SetInputDataObject(face, image);
@@ -261,14 +233,11 @@ TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
   const ByteImage image = pool.Render();
   int red = 0;
   int green = 0;
-  for (int y = 0; y < Size; ++y)
+  for (const auto& [y, x] : Product(Size, Size))
   {
-    for (int x = 0; x < Size; ++x)
-    {
-      const unsigned char* pixel = image.GetPixel(x, y);
-      red += pixel[0] > 250 && pixel[1] < 5 ? 1 : 0;
-      green += pixel[0] < 5 && pixel[1] > 250 ? 1 : 0;
-    }
+    const unsigned char* pixel = image.GetPixel(x, y);
+    red += pixel[0] > 250 && pixel[1] < 5 ? 1 : 0;
+    green += pixel[0] < 5 && pixel[1] > 250 ? 1 : 0;
   }
   EXPECT_GT(red, 50);
   EXPECT_GT(green, 20);
@@ -294,16 +263,13 @@ TEST(RefractionPass, OtherActorsAreNotChanged)
   pool.GetRenderer()->SetPass(nullptr);
   EXPECT_EQ(pool.Render().Rgb, plain.Rgb);
   int changed = 0;
-  for (int y = 0; y < Size; ++y)
+  for (const auto& [y, x] : Product(Size, Size))
   {
-    for (int x = 0; x < Size; ++x)
-    {
-      const Sight sight = SightOf(pool.GetCamera(), x, y);
-      const bool same =
-        std::equal(with.GetPixel(x, y), with.GetPixel(x, y) + 3, plain.GetPixel(x, y));
-      ASSERT_TRUE(same || sight.OnMembrane || IsBorder(sight)) << x << " " << y;
-      changed += same ? 0 : 1;
-    }
+    const Sight sight = SightOf(pool.GetCamera(), x, y);
+    const bool same =
+      std::equal(with.GetPixel(x, y), with.GetPixel(x, y) + 3, plain.GetPixel(x, y));
+    ASSERT_TRUE(same || sight.OnMembrane || IsBorder(sight)) << x << " " << y;
+    changed += same ? 0 : 1;
   }
   EXPECT_GT(changed, Size * Size / 8);
 }
@@ -403,22 +369,18 @@ TEST(RefractionPass, TwoMembranes)
 
 TEST(RefractionPass, WindowsOfAllKinds)
 {
-  for (const int samples : { 0, 4 })
+  for (const auto& [samples, stencil] : Product(List(0, 4), List(0, 1)))
   {
-    for (const int stencil : { 0, 1 })
-    {
-      Pool pool(samples);
-      pool.Scene.GetWindow()->SetStencilCapable(stencil);
-      pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-      ExpectColors(
-        pool, "samples " + std::to_string(samples), [](const Sight&, int) { return 1.0; });
-      pool.Scene.GetWindow()->SetSize(Size + 37, Size - 20);
-      pool.Render();
-      pool.Scene.GetWindow()->SetSize(Size, Size);
-      ExpectColors(pool, "resized", [](const Sight&, int) { return 1.0; });
-      pool.Pass->ReleaseGraphicsResources(pool.Scene.GetWindow());
-      ExpectColors(pool, "released", [](const Sight&, int) { return 1.0; });
-    }
+    Pool pool(samples);
+    pool.Scene.GetWindow()->SetStencilCapable(stencil);
+    pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+    ExpectColors(pool, "samples " + std::to_string(samples), [](const Sight&, int) { return 1.0; });
+    pool.Scene.GetWindow()->SetSize(Size + 37, Size - 20);
+    pool.Render();
+    pool.Scene.GetWindow()->SetSize(Size, Size);
+    ExpectColors(pool, "resized", [](const Sight&, int) { return 1.0; });
+    pool.Pass->ReleaseGraphicsResources(pool.Scene.GetWindow());
+    ExpectColors(pool, "released", [](const Sight&, int) { return 1.0; });
   }
 }
 
@@ -485,8 +447,7 @@ TEST(RefractionPass, NothingToDraw)
 TEST(RefractionPass, NullPartsAreAnError)
 {
   Pool pool;
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(pool.Pass);
+  const auto errors = ObserveErrors(pool.Pass);
   pool.Pass->AddRefraction(nullptr, pool.Floor, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, nullptr, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, pool.Floor, nullptr);

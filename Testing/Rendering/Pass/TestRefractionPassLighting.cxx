@@ -2,34 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting in true space, compared with closed forms: the floor of a pool under flat water.
 #include "FlatPool.h"
-#include "RayCastScene.h"
 #include "Refraction/Membrane/Optics.h"
 
-#include <vtkActor.h>
-#include <vtkLight.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRefractionPass.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
@@ -416,8 +392,7 @@ TEST(RefractionPassLighting, BothSidesOfASurfaceAreLit)
 TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
 {
   LitPool pool;
-  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  messages->Observe(pool.Pass);
+  const auto messages = ObserveErrors(pool.Pass);
   const Lamp good = Near(0.7, -0.4, -0.6);
   pool.SetLamps({ Near(0.3, 0.1, 0.0), good, Distant(1.0, 0.5, 0.0) });
   ExpectColors(pool, "two of three left out",
@@ -443,8 +418,7 @@ TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
 TEST(RefractionPassLighting, WithoutTruePositionsThereIsAnError)
 {
   LitPool pool;
-  const auto messages = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  messages->Observe(pool.Pass);
+  const auto messages = ObserveErrors(pool.Pass);
   pool.SetLamps({ Near(0.7, -0.4, -0.6) });
   pool.Filter->TrueGeometryOff();
   const ByteImage without = pool.Render();

@@ -2,30 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The medium behind a membrane, compared with closed forms: a plane of water, seen from above.
 #include "FlatPool.h"
-#include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
 
-#include <vtkActor.h>
-#include <vtkContourValues.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkRefractionPass.h>
-#include <vtkSmartPointer.h>
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTexture.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <string>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
@@ -194,8 +172,7 @@ TEST(RefractionPassMedium, AMediumWithoutMeaningIsAnError)
 {
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(pool.Pass);
+  const auto errors = ObserveErrors(pool.Pass);
   const auto expectClear = [&](const char* what)
   {
     errors->Errors.clear();

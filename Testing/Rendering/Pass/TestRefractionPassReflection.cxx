@@ -3,10 +3,6 @@
 // vtkRefractionPass with the scene in front of the water, compared with closed forms.
 #include "FlatPool.h"
 
-#include <vtkCommand.h>
-#include <vtkNew.h>
-#include <vtkUnstructuredGrid.h>
-
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
 
@@ -64,25 +60,22 @@ void ExpectMirrored(MirroringPool& pool, const char* what, const ReflectanceOf& 
   const ByteImage image = pool.Render();
   int mirrored = 0;
   int empty = 0;
-  for (int y = 0; y < Size; ++y)
+  for (const auto& [y, x] : Product(Size, Size))
   {
-    for (int x = 0; x < Size; ++x)
+    const Sight sight = SightOf(pool.GetCamera(), x, y);
+    const double reach = GetReach(pool.GetCamera(), sight);
+    if (IsBorder(sight) || !sight.OnMembrane || std::fabs(reach) < border)
     {
-      const Sight sight = SightOf(pool.GetCamera(), x, y);
-      const double reach = GetReach(pool.GetCamera(), sight);
-      if (IsBorder(sight) || !sight.OnMembrane || std::fabs(reach) < border)
-      {
-        continue;
-      }
-      ++(reach < 0.0 ? mirrored : empty);
-      const double f = reflectanceOf(sight);
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        const double seen = reach < 0.0 ? CeilingColor[channel] : Background[channel];
-        ASSERT_NEAR(
-          image.GetPixel(x, y)[channel] / 255.0, (1.0 - f) * floor[channel] + f * seen, Rounding)
-          << x << " " << y;
-      }
+      continue;
+    }
+    ++(reach < 0.0 ? mirrored : empty);
+    const double f = reflectanceOf(sight);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      const double seen = reach < 0.0 ? CeilingColor[channel] : Background[channel];
+      ASSERT_NEAR(
+        image.GetPixel(x, y)[channel] / 255.0, (1.0 - f) * floor[channel] + f * seen, Rounding)
+        << x << " " << y;
     }
   }
   EXPECT_GT(mirrored, 800);

@@ -3,19 +3,8 @@
 // Fresnel's equations at every interface of a pane of glass above water, in closed form.
 #include "FlatPool.h"
 
-#include <vtkPlaneSource.h>
-#include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;

@@ -3,33 +3,13 @@
 // Volumes behind the membranes of vtkRefractionPass: the image equals that of the mapper alone,
 // apart from Fresnel's transmittance.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
-#include "TestTransferFunctions.h"
-#include "VolumeScene.h"
 #include "WaterParts.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkNew.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSSAAPass.h>
-#include <vtkTetrahedraRayCastMapper.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 
 using namespace meniscus::test;
 
@@ -282,8 +262,7 @@ TEST(RefractionPassVolume, WithinSSAA)
 TEST(RefractionPassVolume, BadInputIsAnError)
 {
   Basin basin(0.2);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(basin.Pass);
+  const auto errors = ObserveErrors(basin.Pass);
   vtkNew<vtkVolume> empty;
   basin.Pass->AddVolume(nullptr, basin.Volume);
   basin.Pass->AddVolume(basin.Membrane, nullptr);

@@ -2,48 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting in true space behind waves: pictures of a floor compared with photons through exact
 // waves, and waves without height compared with flat water.
-#include "HeightField.h"
 #include "RefractionPicture.h"
+#include "VTKTestBasics.h"
 #include "VolumeScene.h"
 
-#include <vtkActor.h>
 #include <vtkAppendFilter.h>
-#include <vtkCamera.h>
-#include <vtkFloatArray.h>
-#include <vtkLight.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkStripper.h>
 #include <vtkTriangleFilter.h>
-#include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
+using namespace meniscus::test;
 using namespace meniscus::testing;
 using meniscus::reference::HeightField;
-using meniscus::test::ByteImage;
 
 namespace
 {
@@ -281,7 +255,7 @@ struct SunOverWaves
 };
 
 /** Photons are summed, and the picture's pixels averaged, on 120 x 120 cells. */
-class RefractionPassWaves : public testing::TestWithParam<SunOverWaves>
+class RefractionPassWaves : public ::testing::TestWithParam<SunOverWaves>
 {
 };
 TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
@@ -295,12 +269,9 @@ TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
   const ByteImage image = pool.Render();
   EXPECT_EQ(pool.Pass->GetNumberOfLightUpdates(), 1);
   Bins drawn(pool.Middle);
-  for (int y = 0; y < pool.Pixels; ++y)
+  for (const auto& [y, x] : Product(pool.Pixels, pool.Pixels))
   {
-    for (int x = 0; x < pool.Pixels; ++x)
-    {
-      drawn.Add(pool.PlaceOf(x, y), image.GetPixel(x, y)[0] / 255.0 / intensity);
-    }
+    drawn.Add(pool.PlaceOf(x, y), image.GetPixel(x, y)[0] / 255.0 / intensity);
   }
   const Bins truth = ShinePhotons(pool, sun, AboveOf(sun), rays);
   double sum = 0.0;
@@ -331,7 +302,7 @@ TEST_P(RefractionPassWaves, TheFloorHasTheLightOfPhotons)
   EXPECT_LT(rms, 0.03);
 }
 INSTANTIATE_TEST_SUITE_P(Sun, RefractionPassWaves,
-  testing::Values(SunOverWaves{ 0.0, 0.04, 0.3 }, SunOverWaves{ 45.0, 0.04, 0.3 },
+  ::testing::Values(SunOverWaves{ 0.0, 0.04, 0.3 }, SunOverWaves{ 45.0, 0.04, 0.3 },
     SunOverWaves{ 75.0, 0.02, 0.38 }));
 
 /** Ripples without visible height give the picture of the closed form, for lights of all kinds. */
@@ -423,8 +394,7 @@ TEST(RefractionPassWavesLimit, BehindAPaneTheLightOfBothSidesArrives)
   lower->DeepCopy(pool.Surface);
   for (vtkIdType i = 0; i < lower->GetNumberOfPoints(); ++i)
   {
-    double place[3];
-    lower->GetPoint(i, place);
+    const glm::dvec3 place = PointOf(lower, i);
     lower->GetPoints()->SetPoint(i, place[0], -2.0, place[2]);
   }
   pool.Filter->AddMembraneData(lower);

@@ -4,13 +4,7 @@
 // objects.
 #include "ComparisonSheet.h"
 #include "PoolScene.h"
-
-#include <glm/common.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include "TestBasics.h"
 
 using namespace meniscus::testing;
 
@@ -35,17 +29,14 @@ void Save(const std::string& name, const meniscus::test::ByteImage& drawn, const
 {
   constexpr int size = PoolScene::Pixels;
   ComparisonSheet sheet(1, 3, size);
-  for (int y = 0; y < size; ++y)
+  for (const auto& [y, x] : Product(size, size))
   {
-    for (int x = 0; x < size; ++x)
-    {
-      const glm::dvec3& exact = truth.Colors[static_cast<std::size_t>(y) * size + x];
-      const unsigned char* pixel = drawn.GetPixel(x, y);
-      const glm::dvec3 ours = glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0;
-      sheet.SetPixel(0, 0, x, y, ours);
-      sheet.SetPixel(0, 1, x, y, exact);
-      sheet.SetPixel(0, 2, x, y, 1.0 - 8.0 * glm::abs(ours - exact));
-    }
+    const glm::dvec3& exact = truth.Colors[static_cast<std::size_t>(y) * size + x];
+    const unsigned char* pixel = drawn.GetPixel(x, y);
+    const glm::dvec3 ours = glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0;
+    sheet.SetPixel(0, 0, x, y, ours);
+    sheet.SetPixel(0, 1, x, y, exact);
+    sheet.SetPixel(0, 2, x, y, 1.0 - 8.0 * glm::abs(ours - exact));
   }
   sheet.Write(std::string(MENISCUS_TEMPORARY_DIR) + "/pool-" + name + ".png");
 }

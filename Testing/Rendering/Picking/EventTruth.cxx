@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EventTruth.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace meniscus::test
 {
 namespace

@@ -8,14 +8,8 @@
 #ifndef meniscus_Testing_Rendering_Picking_EventTruth_h
 #define meniscus_Testing_Rendering_Picking_EventTruth_h
 
+#include "MathBasics.h"
 #include "ReferenceOptics.h"
-#include "ReferenceRayIntegrator.h"
-#include "ReferenceTransferFunction.h"
-
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -1,25 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Depths that frames write, and picks that end at opaque geometry: these need a window.
-#include "PixelRays.h"
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
-#include <vtkCamera.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace meniscus::test;
 using Mapper = vtkTetrahedraRayCastMapper;
@@ -38,10 +25,8 @@ struct DepthScene
     : Scene(MakeBlock(3, [](double, double, double z) { return 0.5 - 0.5 * z; }),
         MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 0.5), Size, Size)
   {
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(0.0, 0.0);
-    opacity->AddPoint(1.0, 1.0);
-    this->Scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
+    this->Scene.GetVolume()->GetProperty()->SetScalarOpacity(
+      MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
     this->Scene.GetRayCaster()->SetBackend(BackendUnderTest());
     vtkCamera* camera = this->Scene.GetRenderer()->GetActiveCamera();
     camera->SetParallelProjection(parallel);

@@ -3,45 +3,15 @@
 // Closed forms of picks, VTK's convention for pickers, and input that cannot be used. No frame is
 // drawn and no display is needed.
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
-#include <vtkActor.h>
 #include <vtkAssembly.h>
 #include <vtkAssemblyNode.h>
 #include <vtkAssemblyPath.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDataArraySelection.h>
-#include <vtkDoubleArray.h>
 #include <vtkFixedPointVolumeRayCastMapper.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
 #include <vtkTetrahedraRayIntegral.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 using namespace meniscus::test;
 using Picker = vtkTetrahedraVolumePicker;
@@ -83,10 +53,7 @@ double PlaceOf(int pixel)
 vtkSmartPointer<vtkVolumeProperty> MakeRamp(double perScalar)
 {
   auto property = MakeConstantProperty(1.0, 1.0, 1.0, 1.0, 1.0 / perScalar);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 
@@ -225,8 +192,7 @@ TEST(VolumePicker, ThroughAPane)
   EXPECT_NEAR(
     scene.Chooser->GetDepth(), 3.0 * std::hypot(1.0, tangent) + std::hypot(1.0, inside), bound);
   // A list that does not fit the surfaces is an error, and nothing is picked.
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.Mapper());
+  const auto observer = ObserveErrors(scene.Mapper());
   scene.Mapper()->RemoveAllMembranes();
   EXPECT_EQ(scene.Pick(), 0);
   EXPECT_EQ(observer->Errors.size(), 1u);
@@ -258,14 +224,13 @@ TEST(VolumePicker, ViewportAndRenderer)
   EXPECT_EQ(scene.Chooser->Pick(Size / 2 - 1, Row, 0.0, renderer), 0);
   EXPECT_EQ(scene.Chooser->Pick(3 * Size / 4, Row, 0.0, renderer), 1);
 
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.Chooser);
+  const auto observer = ObserveErrors(scene.Chooser);
   EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, nullptr), 0);
   vtkNew<vtkRenderer> windowless;
   EXPECT_EQ(scene.Chooser->Pick(1.0, 1.0, 0.0, windowless), 0);
   ASSERT_EQ(observer->Errors.size(), 2u);
-  EXPECT_NE(observer->Errors[0].find("no renderer"), std::string::npos);
-  EXPECT_NE(observer->Errors[1].find("no render window"), std::string::npos);
+  EXPECT_TRUE(HasText(observer->Errors[0], "no renderer"));
+  EXPECT_TRUE(HasText(observer->Errors[1], "no render window"));
   EXPECT_EQ(scene.Chooser->GetCellId(), -1);
   EXPECT_TRUE(std::isnan(scene.Chooser->GetDepth()));
 }
@@ -458,10 +423,7 @@ TEST(VolumePicker, GradientOpacityAndComponents)
 {
   const auto field = [](double, double, double z) { return z > 0.0 ? 0.1 * z : 4.0 * z; };
   auto property = MakeConstantProperty(0.5, 1.0, 1.0, 1.0, 1.0);
-  vtkNew<vtkPiecewiseFunction> steep;
-  steep->AddPoint(1.0, 0.0);
-  steep->AddPoint(1.001, 1.0);
-  property->SetGradientOpacity(steep);
+  property->SetGradientOpacity(MakeOpacity({ { 1.0, 0.0 }, { 1.001, 1.0 } }));
   PickScene scene(MakeBlock(4, field), property);
   scene.Mapper()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.Chooser->SetPlaceToFirstVisible();
@@ -479,10 +441,7 @@ TEST(VolumePicker, GradientOpacityAndComponents)
   grid->GetPointData()->SetScalars(pair);
   auto both = MakeRamp(2.0);
   both->SetIndependentComponents(1);
-  vtkNew<vtkPiecewiseFunction> second;
-  second->AddPoint(0.0, 0.0);
-  second->AddPoint(1.0, 0.6);
-  both->SetScalarOpacity(1, second);
+  both->SetScalarOpacity(1, MakeOpacity({ { 0.0, 0.0 }, { 1.0, 0.6 } }));
   PickScene mixed(grid, both);
   mixed.Chooser->SetPlaceToOpacityReached();
   ASSERT_EQ(mixed.Pick(), 1);
@@ -603,14 +562,13 @@ TEST(VolumePicker, ImageBadInput)
   filter->SetImageSize(4, 4);
   filter->GetArraySelection()->DisableArray("Integral");
   filter->GetArraySelection()->EnableArray("FirstVisible");
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   const auto expectError = [&](const char* text)
   {
     observer->Errors.clear();
     filter->Update();
     ASSERT_EQ(observer->Errors.size(), 1u) << text;
-    EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->Errors[0];
+    EXPECT_TRUE(HasText(observer->Errors[0], text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   expectError("Events need a volume property");

@@ -4,36 +4,10 @@
 // is drawn and no display is needed.
 #include "EventTruth.h"
 #include "MembraneScene.h"
-#include "PixelRays.h"
 #include "RayCastScene.h"
-#include "ReferenceImage.h"
-#include "TestMeshes.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraRayIntegral.h>
 #include <vtkTetrahedraVolumePicker.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 using namespace meniscus::test;
 namespace reference = meniscus::reference;

@@ -5,27 +5,6 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkLight.h>
-#include <vtkPlane.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <utility>
-#include <vector>
-
 using namespace meniscus::test;
 using Mapper = vtkTetrahedraRayCastMapper;
 
@@ -121,16 +100,10 @@ FloatImage DrawReference(Look look, int across, int size = Size)
   EdgeScene large(look, BackendUnderTest(), across * size);
   const FloatImage rays = large.Draw(1.0);
   FloatImage mean{ size, size, std::vector<float>(std::size_t{ 4 } * size * size, 0.0f) };
-  for (int y = 0; y < across * size; ++y)
+  for (const auto& [y, x, i] : Product(across * size, across * size, 4))
   {
-    for (int x = 0; x < across * size; ++x)
-    {
-      for (int i = 0; i < 4; ++i)
-      {
-        mean.Rgba[static_cast<std::size_t>(4 * (y / across * size + x / across) + i)] +=
-          rays.GetPixel(x, y)[i] / static_cast<float>(across * across);
-      }
-    }
+    mean.Rgba[static_cast<std::size_t>(4 * (y / across * size + x / across) + i)] +=
+      rays.GetPixel(x, y)[i] / static_cast<float>(across * across);
   }
   return mean;
 }
@@ -173,7 +146,7 @@ Difference Compare(const FloatImage& image, const FloatImage& truth, const Float
   return difference;
 }
 
-class TetrahedraRayCastEdges : public testing::TestWithParam<Look>
+class TetrahedraRayCastEdges : public ::testing::TestWithParam<Look>
 {
 };
 
@@ -206,7 +179,7 @@ TEST_P(TetrahedraRayCastEdges, AreThoseOfSixteenRays)
 }
 
 INSTANTIATE_TEST_SUITE_P(Looks, TetrahedraRayCastEdges,
-  testing::Values(Look::Silhouette, Look::Isosurfaces, Look::Clipped, Look::Peaks, Look::Shadows,
+  ::testing::Values(Look::Silhouette, Look::Isosurfaces, Look::Clipped, Look::Peaks, Look::Shadows,
     Look::PreIntegrated, Look::Membrane));
 
 // Pictures that consist of edges take a bounded number of steps, with the error of others.

@@ -4,24 +4,8 @@
 // without the cells that were left out). Never a crash.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCellType.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkCubeSource.h>
-#include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkLongLongArray.h>
 #include <vtkOutputWindow.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <limits>
 
 using namespace meniscus::test;
 
@@ -75,8 +59,7 @@ void ExpectError(RayCastScene& scene, const std::vector<std::string>& words)
   EXPECT_FALSE(outcome.Errors->Errors.empty());
   for (const std::string& word : words)
   {
-    EXPECT_NE(outcome.Errors->GetText().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << outcome.Errors->GetText();
+    EXPECT_TRUE(HasText(outcome.Errors->GetText(), word)) << "no \"" << word << "\" in: ";
   }
 }
 
@@ -203,7 +186,7 @@ TEST(TetrahedraRayCastBadInput, WholeNumbersThatAreRounded)
     for (const char* words :
       { "whole numbers from 1152921504606846976 to 11529215046068", "256 apart" })
     {
-      EXPECT_NE(told->Warnings.front().find(words), std::string::npos) << told->Warnings.front();
+      EXPECT_TRUE(HasText(told->Warnings.front(), words));
     }
   }
 }
@@ -303,8 +286,7 @@ TEST(TetrahedraRayCastBadInput, RecoversFromAnError)
   scene.GetRayCaster()->SetScalarModeToUsePointFieldData();
   scene.GetRayCaster()->SelectScalarArray("NoSuchArray");
   LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
-  vtkNew<ErrorObserver> errors;
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   scene.GetWindow()->Render();
   EXPECT_FALSE(errors->Errors.empty());
   scene.GetRayCaster()->SelectScalarArray(ScalarName);

@@ -3,21 +3,8 @@
 // Images with a closed form: the length of a ray in a box, and a constant or a linear medium in it.
 #include "RayCastScene.h"
 
-#include <vtkMath.h>
-#include <vtkMatrix4x4.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
-using meniscus::reference::Ray;
-using meniscus::reference::Vector3;
+using namespace meniscus::reference;
 
 namespace
 {
@@ -65,16 +52,13 @@ void ExpectClosedForm(
   const PixelRays rays(scene.GetRenderer());
   double largest = 0.0;
   std::size_t covered = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const double alpha = alphaOf(HitBox(rays.GetRay(x, y), toData));
+    covered += alpha > 0.0;
+    for (int c = 0; c < 4; ++c)
     {
-      const double alpha = alphaOf(HitBox(rays.GetRay(x, y), toData));
-      covered += alpha > 0.0;
-      for (int c = 0; c < 4; ++c)
-      {
-        largest = std::max(largest, std::fabs(image.GetPixel(x, y)[c] - alpha));
-      }
+      largest = std::max(largest, std::fabs(image.GetPixel(x, y)[c] - alpha));
     }
   }
   EXPECT_GT(covered, 1000u) << what;
@@ -153,10 +137,7 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
   // length.
   const Grid grid = MakeBlock(5, LinearField(0.5, 1.0, -0.5));
   auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.5);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-2.0, 0.0);
-  opacity->AddPoint(2.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { -2.0, 0.0 }, { 2.0, 1.0 } }));
   for (const Placement& placement : Placements)
   {
     RayCastScene scene(grid, property, Size, Size);

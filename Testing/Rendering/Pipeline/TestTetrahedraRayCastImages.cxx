@@ -6,18 +6,6 @@
 #include "RayCastScene.h"
 #include "StrictImage.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
 using namespace meniscus::test;
 
 namespace
@@ -46,7 +34,6 @@ TEST(TetrahedraRayCastImages, SmoothBlock)
 {
   const Grid grid = MakeBlock(12, WavyField(3.0));
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.5), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   ExpectBaseline(scene, "TetrahedraRayCastSmoothBlock");
 }
 

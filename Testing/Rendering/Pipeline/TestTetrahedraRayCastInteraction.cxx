@@ -3,26 +3,12 @@
 // Picking, level of detail during interaction, translucent neighbours.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCubeSource.h>
 #include <vtkHardwareSelector.h>
 #include <vtkInformation.h>
 #include <vtkLODProp3D.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProp.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 
@@ -80,18 +66,15 @@ PickCounts ExpectPicks(RayCastScene& scene, vtkProp* behind, int association)
   selector->SetFieldAssociation(association);
   EXPECT_TRUE(selector->CaptureBuffers());
   PickCounts counts;
-  for (int y = 0; y < Size; ++y)
+  for (const auto& [y, x] : Product(Size, Size))
   {
-    for (int x = 0; x < Size; ++x)
+    vtkProp* found = PropAt(selector, x, y);
+    const bool isVolume = found == scene.GetVolume();
+    counts.Volume += isVolume;
+    counts.Other += found == behind;
+    if (!behind)
     {
-      vtkProp* found = PropAt(selector, x, y);
-      const bool isVolume = found == scene.GetVolume();
-      counts.Volume += isVolume;
-      counts.Other += found == behind;
-      if (!behind)
-      {
-        EXPECT_EQ(isVolume, image.GetPixel(x, y)[3] > 0.0f) << x << ", " << y;
-      }
+      EXPECT_EQ(isVolume, image.GetPixel(x, y)[3] > 0.0f) << x << ", " << y;
     }
   }
   return counts;
@@ -102,19 +85,17 @@ PickCounts ExpectPicks(RayCastScene& scene, vtkProp* behind, int association)
 TEST(TetrahedraRayCastPicking, TheVolumeIsFoundWhereItIsVisible)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
-  for (const int association :
-    { int(vtkDataObject::FIELD_ASSOCIATION_CELLS), int(vtkDataObject::FIELD_ASSOCIATION_POINTS) })
+  for (const auto& [association, backend] :
+    Product(List(int(vtkDataObject::FIELD_ASSOCIATION_CELLS),
+              int(vtkDataObject::FIELD_ASSOCIATION_POINTS)),
+      List(int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE))))
   {
-    for (const int backend :
-      { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
-    {
-      RayCastScene scene(grid, Smooth(), Size, Size);
-      scene.GetRayCaster()->SetBackend(backend);
-      LookAt(scene.GetRenderer(), Bounds, 30.0, 40.0);
-      const PickCounts counts = ExpectPicks(scene, nullptr, association);
-      EXPECT_GT(counts.Volume, 1000u);
-      EXPECT_GT(counts.Other, 1000u);
-    }
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    scene.GetRayCaster()->SetBackend(backend);
+    LookAt(scene.GetRenderer(), Bounds, 30.0, 40.0);
+    const PickCounts counts = ExpectPicks(scene, nullptr, association);
+    EXPECT_GT(counts.Volume, 1000u);
+    EXPECT_GT(counts.Other, 1000u);
   }
 }
 
@@ -204,19 +185,15 @@ TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
     small.GetRayCaster()->GetNumberOfTraversalSteps());
   const FloatImage large = coarse.RenderFloat();
   const FloatImage truth = small.RenderFloat();
-  for (int y = 1; y < Size - 1; ++y)
+  for (const auto& [y, x] : Product(Numbers<int>(1, Size - 1), Numbers<int>(1, Size - 1)))
   {
-    for (int x = 1; x < Size - 1; ++x)
-    {
-      // Interpolation weights of a pixel at a quarter of the distance between rays: 9, 3, 3, 1 of
-      // 16.
-      const float expected =
-        (9.0f * truth.GetPixel(x, y)[3] + 3.0f * truth.GetPixel(x + 1, y)[3] +
-          3.0f * truth.GetPixel(x, y + 1)[3] + truth.GetPixel(x + 1, y + 1)[3]) /
-        16.0f;
-      // Texture filters have positions of 8 bits.
-      ASSERT_NEAR(large.GetPixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
-    }
+    // Interpolation weights of a pixel at a quarter of the distance between rays: 9, 3, 3, 1 of
+    // 16.
+    const float expected = (9.0f * truth.GetPixel(x, y)[3] + 3.0f * truth.GetPixel(x + 1, y)[3] +
+                             3.0f * truth.GetPixel(x, y + 1)[3] + truth.GetPixel(x + 1, y + 1)[3]) /
+      16.0f;
+    // Texture filters have positions of 8 bits.
+    ASSERT_NEAR(large.GetPixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
   }
 }
 
@@ -238,32 +215,26 @@ TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
 {
   // The volume is blended over translucent geometry, behind it or in front, as VTK's volumes are.
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (const bool peeling : { false, true })
+  for (const auto& [peeling, z] : Product(List(false, true), List(-1.5, 1.5)))
   {
-    for (const double z : { -1.5, 1.5 })
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
+    const ByteImage alone = scene.RenderBytes();
+    const FloatImage volume = scene.RenderFloat();
+    const auto plane = AddPlane(scene.GetRenderer(), z, 0.5);
+    scene.GetRenderer()->SetUseDepthPeeling(peeling);
+    scene.GetRenderer()->SetMaximumNumberOfPeels(4);
+    scene.GetRenderer()->SetOcclusionRatio(0.0);
+    const ByteImage image = scene.RenderBytes();
+    const double color[3] = { 0.2, 0.8, 0.4 };
+    for (const auto& [y, x] : Product(Size, Size))
     {
-      RayCastScene scene(grid, Smooth(), Size, Size);
-      LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
-      const ByteImage alone = scene.RenderBytes();
-      const FloatImage volume = scene.RenderFloat();
-      const auto plane = AddPlane(scene.GetRenderer(), z, 0.5);
-      scene.GetRenderer()->SetUseDepthPeeling(peeling);
-      scene.GetRenderer()->SetMaximumNumberOfPeels(4);
-      scene.GetRenderer()->SetOcclusionRatio(0.0);
-      const ByteImage image = scene.RenderBytes();
-      const double color[3] = { 0.2, 0.8, 0.4 };
-      for (int y = 0; y < Size; ++y)
+      const float* rgba = volume.GetPixel(x, y);
+      for (int c = 0; c < 3; ++c)
       {
-        for (int x = 0; x < Size; ++x)
-        {
-          const float* rgba = volume.GetPixel(x, y);
-          for (int c = 0; c < 3; ++c)
-          {
-            const double expected = rgba[c] + (1.0 - rgba[3]) * 0.5 * color[c];
-            ASSERT_NEAR(image.GetPixel(x, y)[c], 255.0 * expected, 1.51)
-              << x << ", " << y << (peeling ? ", peeling" : "") << " z " << z;
-          }
-        }
+        const double expected = rgba[c] + (1.0 - rgba[3]) * 0.5 * color[c];
+        ASSERT_NEAR(image.GetPixel(x, y)[c], 255.0 * expected, 1.51)
+          << x << ", " << y << (peeling ? ", peeling" : "") << " z " << z;
       }
     }
   }
@@ -282,11 +253,10 @@ TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
   const ByteImage translucent = scene.RenderBytes();
   EXPECT_NE(translucent.Rgb, alone.Rgb);
   scene.GetVolume()->VisibilityOn();
-  vtkNew<ErrorObserver> told;
-  told->Observe(scene.GetRayCaster());
+  const auto told = ObserveErrors(scene.GetRayCaster());
   EXPECT_EQ(scene.RenderBytes().Rgb, translucent.Rgb);
   ASSERT_EQ(told->Warnings.size(), 1u);
-  EXPECT_NE(told->Warnings.front().find("UseDepthPeelingForVolumes"), std::string::npos);
+  EXPECT_TRUE(HasText(told->Warnings.front(), "UseDepthPeelingForVolumes"));
   plane->VisibilityOff();
   EXPECT_EQ(scene.RenderBytes().Rgb, alone.Rgb);
 }

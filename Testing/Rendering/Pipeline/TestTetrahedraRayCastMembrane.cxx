@@ -4,25 +4,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -121,29 +102,27 @@ vtkSmartPointer<vtkVolumeProperty> SurfaceProperty(bool shade)
 TEST(TetrahedraRayCastMembrane, ThroughAPlane)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  for (const auto& [kind, elevation] :
+    Product(std::vector<FunctionKind>{ FunctionKind::Smooth, FunctionKind::Peaked },
+      List(25.0, 60.0, 90.0)))
   {
-    for (const double elevation : { 25.0, 60.0, 90.0 })
-    {
-      MembraneTest test(MakePlaneCase(1.3, 3.0, 3), grid, kind);
-      test.LookAtBlock(30.0, elevation);
-      test.ExpectComposite("plane from " + std::to_string(elevation));
-      EXPECT_EQ(test.Scene.GetRayCaster()->GetActiveBackend(), BackendUnderTest());
-    }
+    MembraneTest test(MakePlaneCase(1.3, 3.0, 3), grid, kind);
+    test.LookAtBlock(30.0, elevation);
+    test.ExpectComposite("plane from " + std::to_string(elevation));
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetActiveBackend(), BackendUnderTest());
   }
 }
 
 TEST(TetrahedraRayCastMembrane, ThroughADome)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  for (const auto& [kind, parallel] :
+    Product(
+      std::vector<FunctionKind>{ FunctionKind::Smooth, FunctionKind::Peaked }, List(false, true)))
   {
-    for (const bool parallel : { false, true })
-    {
-      MembraneTest test(MakeDomeCase(1.4, 4.0, 2.8, 16), grid, kind);
-      test.LookAtBlock(30.0, 55.0, 1.0, parallel);
-      test.ExpectComposite(parallel ? "dome, parallel" : "dome, perspective");
-    }
+    MembraneTest test(MakeDomeCase(1.4, 4.0, 2.8, 16), grid, kind);
+    test.LookAtBlock(30.0, 55.0, 1.0, parallel);
+    test.ExpectComposite(parallel ? "dome, parallel" : "dome, perspective");
   }
 }
 
@@ -427,29 +406,26 @@ TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
   // A rectangle across the view. Behind the sight point its depth corresponds to a true length
   // n2/n1 times as large (Eq. 2.4), in front of it to itself.
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (const double level : { 0.1, 1.2 })
+  for (const auto& [level, offset] : Product(List(0.1, 1.2), List(-0.7, -0.1, 0.5)))
   {
-    for (const double offset : { -0.7, -0.1, 0.5 })
-    {
-      MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
-      test.LookAtBlock(30.0, 50.0);
-      test.Scene.GetWindow()->Render();
-      const double depth = AddBlackSquare(test.Scene.GetRenderer(), offset);
-      const auto integrator = MakeReference(grid);
-      const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
-      ExpectTrace(
-        test.Scene,
-        [&](const Ray& ray)
-        {
-          Ray ended = ray;
-          ended.End = depth;
-          std::array<double, 4> color = Compose(Refract(test.Membrane.Surface, ended, 0.0, true),
-            [&](const Ray& part) { return integrator->Trace(part, function); });
-          color[3] = 1.0;
-          return color;
-        },
-        "rectangle at " + std::to_string(offset) + ", plane at " + std::to_string(level));
-    }
+    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+    test.LookAtBlock(30.0, 50.0);
+    test.Scene.GetWindow()->Render();
+    const double depth = AddBlackSquare(test.Scene.GetRenderer(), offset);
+    const auto integrator = MakeReference(grid);
+    const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
+    ExpectTrace(
+      test.Scene,
+      [&](const Ray& ray)
+      {
+        Ray ended = ray;
+        ended.End = depth;
+        std::array<double, 4> color = Compose(Refract(test.Membrane.Surface, ended, 0.0, true),
+          [&](const Ray& part) { return integrator->Trace(part, function); });
+        color[3] = 1.0;
+        return color;
+      },
+      "rectangle at " + std::to_string(offset) + ", plane at " + std::to_string(level));
   }
 }
 
@@ -485,10 +461,7 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
     vtkVolumeProperty* property = test.Scene.GetVolume()->GetProperty();
     property->ShadeOn();
     property->SetSpecular(0.0);
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(0.0, 0.2);
-    opacity->AddPoint(4.0, 1.0);
-    property->SetGradientOpacity(opacity);
+    property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 4.0, 1.0 } }));
     test.Scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> sun;
     sun->SetPosition(-1.0, 2.0, 0.5);

@@ -5,28 +5,8 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkMath.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
@@ -530,8 +510,7 @@ TEST(TetrahedraRayCastMembraneMedium, NumbersWithoutMeaningAreAnError)
   RayCastScene scene(MakeBlock(2, ConstantField(0.5)), Plain(), Size, Size);
   SetLevels(scene.GetRayCaster(), Water);
   LookAt(scene.GetRenderer(), Block, 20.0, 40.0);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   const Medium clear{ "clear", false, { 0.0, 0.0, 0.0 }, { 0.0, 1.0 }, { 0.0, 0.0, 0.0 } };
   std::vector<Medium> bad(4, clear);
   bad[0].Coefficients[1] = -1.0;

@@ -5,23 +5,6 @@
 #include "OpticsTruth.h"
 #include "StackScene.h"
 
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPolyData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -126,13 +109,8 @@ double AlphaOfLayers(const Ray& ray, const std::vector<Layer>& layers, double a,
 vtkSmartPointer<vtkVolumeProperty> MakeLinearProperty(double atLowest, double atHighest)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.0, 1.0, 1.0, 1.0);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-1.0, atLowest);
-  opacity->AddPoint(1.0, atHighest);
-  property->SetColor(color);
-  property->SetScalarOpacity(opacity);
+  property->SetColor(MakeColors({ { -1.0, 1.0, 1.0, 1.0 } }));
+  property->SetScalarOpacity(MakeOpacity({ { -1.0, atLowest }, { 1.0, atHighest } }));
   property->SetInterpolationTypeToLinear();
   return property;
 }

@@ -23,26 +23,10 @@
 // step and more for hundreds of terms: a fiftieth of a step is allowed for that.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
 #include <vtkPointDataToCellData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridHomogeneousRayIntegrator.h>
 #include <vtkUnstructuredGridLinearRayIntegrator.h>
 #include <vtkUnstructuredGridVolumeRayCastMapper.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -64,14 +48,11 @@ public:
     FloatImage image;
     image.Width = image.Height = Size;
     image.Rgba.resize(std::size_t{ 4 } * Size * Size);
-    for (int y = 0; y < this->ImageInUseSize[1]; ++y)
+    for (const auto& [y, x] : Product(this->ImageInUseSize[1], this->ImageInUseSize[0]))
     {
-      for (int x = 0; x < this->ImageInUseSize[0]; ++x)
-      {
-        const unsigned char* rgba = this->Image + 4 * (y * this->ImageMemorySize[0] + x);
-        float* to = &image.Rgba[4 * ((y + this->ImageOrigin[1]) * Size + x + this->ImageOrigin[0])];
-        std::copy(rgba, rgba + 4, to);
-      }
+      const unsigned char* rgba = this->Image + 4 * (y * this->ImageMemorySize[0] + x);
+      float* to = &image.Rgba[4 * ((y + this->ImageOrigin[1]) * Size + x + this->ImageOrigin[0])];
+      std::copy(rgba, rgba + 4, to);
     }
     return image;
   }
@@ -162,23 +143,16 @@ void ExpectPicturesMatch(const PeerScene& scene, const std::string& what)
 
 vtkSmartPointer<vtkColorTransferFunction> Rainbow()
 {
-  auto colors = vtkSmartPointer<vtkColorTransferFunction>::New();
-  colors->AddRGBPoint(-2.0, 0.0, 0.0, 0.0);
-  colors->AddRGBPoint(-0.2, 0.0, 0.0, 1.0);
-  colors->AddRGBPoint(0.1, 1.0, 0.0, 0.0);
-  colors->AddRGBPoint(0.5, 0.0, 1.0, 0.0);
-  colors->AddRGBPoint(2.0, 0.0, 1.0, 1.0);
+  const auto colors = MakeColors({ { -2.0, 0.0, 0.0, 0.0 }, { -0.2, 0.0, 0.0, 1.0 },
+    { 0.1, 1.0, 0.0, 0.0 }, { 0.5, 0.0, 1.0, 0.0 }, { 2.0, 0.0, 1.0, 1.0 } });
   return colors;
 }
 
 // Nodes at the places of the colours' nodes: the peer ignores others.
 vtkSmartPointer<vtkPiecewiseFunction> Ramp(double factor)
 {
-  auto opacities = vtkSmartPointer<vtkPiecewiseFunction>::New();
-  opacities->AddPoint(-2.0, 0.0);
-  opacities->AddPoint(-0.2, 0.1 * factor);
-  opacities->AddPoint(0.5, 0.5 * factor);
-  opacities->AddPoint(2.0, 0.2 * factor);
+  const auto opacities = MakeOpacity(
+    { { -2.0, 0.0 }, { -0.2, 0.1 * factor }, { 0.5, 0.5 * factor }, { 2.0, 0.2 * factor } });
   return opacities;
 }
 
@@ -255,11 +229,7 @@ TEST(TetrahedraRayCastPeers, MovedVolume)
 TEST(TetrahedraRayCastPeers, GreyLevels)
 {
   PeerScene scene = MakeScene(MakeWavyBlock());
-  vtkNew<vtkPiecewiseFunction> grey;
-  grey->AddPoint(-2.0, 0.0);
-  grey->AddPoint(-0.2, 0.7);
-  grey->AddPoint(0.5, 0.2);
-  grey->AddPoint(2.0, 1.0);
+  const auto grey = MakeOpacity({ { -2.0, 0.0 }, { -0.2, 0.7 }, { 0.5, 0.2 }, { 2.0, 1.0 } });
   scene.Property->SetColor(grey);
   ExpectPicturesMatch(scene, "grey");
 }
@@ -276,10 +246,7 @@ TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
     { return std::clamp(0.5 + 0.5 * wavy(x + shift, y, z), 0.0, 1.0); };
   };
   SetComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
-  vtkNew<vtkPiecewiseFunction> identity;
-  identity->AddPoint(0.0, 0.0);
-  identity->AddPoint(1.0, 1.0);
-  scene.Property->SetScalarOpacity(identity);
+  scene.Property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   scene.Property->IndependentComponentsOff();
   ExpectPicturesMatch(scene, "colours");
 }

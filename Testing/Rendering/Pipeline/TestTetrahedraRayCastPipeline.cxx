@@ -3,20 +3,6 @@
 // Work after each kind of change, measured by the mapper's counters.
 #include "RayCastScene.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkCommand.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
 using namespace meniscus::test;
 
 namespace
@@ -60,7 +46,7 @@ void ExpectChange(RayCastScene& scene, const Expected& expected, const std::stri
   EXPECT_EQ(after.Bytes != before.Bytes, expected.Uploads) << what;
 }
 
-class TetrahedraRayCastPipeline : public testing::Test
+class TetrahedraRayCastPipeline : public ::testing::Test
 {
 protected:
   TetrahedraRayCastPipeline()
@@ -288,10 +274,8 @@ TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWi
   vtkNew<vtkCallbackCommand> edit;
   edit->SetClientData(this->Property.Get());
   edit->SetCallback(
-    [](vtkObject*, unsigned long, void* property, void*)
-    {
-      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->RemoveAllPoints();
-      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->AddPoint(0.0, 0.0);
+    [](vtkObject*, unsigned long, void* property, void*) {
+      SetPoints(static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity(), { { 0.0, 0.0 } });
     });
   const unsigned long tag = other.GetRenderer()->AddObserver(vtkCommand::EndEvent, edit);
   other.GetWindow()->Render();

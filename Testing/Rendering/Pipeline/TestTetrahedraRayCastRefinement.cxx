@@ -4,16 +4,6 @@
 // the next frames cast the tiles that are missing.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCommand.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
 using namespace meniscus::test;
 
 namespace
@@ -38,7 +28,7 @@ public:
   bool Wanted = false;
 };
 
-class TetrahedraRayCastRefinement : public testing::Test
+class TetrahedraRayCastRefinement : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRefinement()

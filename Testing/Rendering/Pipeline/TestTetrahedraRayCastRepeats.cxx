@@ -5,31 +5,8 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
 #include <vtkHardwareSelector.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSelection.h>
-#include <vtkSphereSource.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -50,7 +27,7 @@ vtkSmartPointer<vtkActor> MakeBall(double radius)
   return actor;
 }
 
-class TetrahedraRayCastRepeats : public testing::Test
+class TetrahedraRayCastRepeats : public ::testing::Test
 {
 protected:
   TetrahedraRayCastRepeats()

@@ -4,26 +4,8 @@
 // multisampled windows.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkMath.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
-using meniscus::reference::Ray;
-using meniscus::reference::Vector3;
+using namespace meniscus::reference;
 
 namespace
 {
@@ -150,27 +132,24 @@ void ExpectMatchesWithRectangle(RayCastScene& scene, double depth, const std::st
     { ToReference(scene.GetVolume()->GetProperty()) })[0];
   FloatImage image = scene.RenderFloat();
   std::size_t uncertain = 0;
-  for (int y = 0; y < truth.Height; ++y)
+  for (const auto& [y, x] : Product(truth.Height, truth.Width))
   {
-    for (int x = 0; x < truth.Width; ++x)
+    const std::size_t at = static_cast<std::size_t>(y) * truth.Width + x;
+    std::array<double, 4>& rgba = truth.Rgba[at];
+    Ray ray = rays.GetRay(x, y);
+    if (rectangle.Shorten(ray))
     {
-      const std::size_t at = static_cast<std::size_t>(y) * truth.Width + x;
-      std::array<double, 4>& rgba = truth.Rgba[at];
-      Ray ray = rays.GetRay(x, y);
-      if (rectangle.Shorten(ray))
+      for (int c = 0; c < 3; ++c)
       {
-        for (int c = 0; c < 3; ++c)
-        {
-          rgba[c] += (1.0 - rgba[3]) * OpaqueRectangle::Color[c];
-        }
-        rgba[3] = 1.0;
-        truth.Covered[at] = 1;
+        rgba[c] += (1.0 - rgba[3]) * OpaqueRectangle::Color[c];
       }
-      if (NearEdge(rectangle, rays, x, y))
-      {
-        ++uncertain;
-        std::copy(rgba.begin(), rgba.end(), image.Rgba.begin() + 4 * static_cast<long>(at));
-      }
+      rgba[3] = 1.0;
+      truth.Covered[at] = 1;
+    }
+    if (NearEdge(rectangle, rays, x, y))
+    {
+      ++uncertain;
+      std::copy(rgba.begin(), rgba.end(), image.Rgba.begin() + 4 * static_cast<long>(at));
     }
   }
   EXPECT_LT(uncertain, 200u) << what;
@@ -199,7 +178,6 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   scene.GetRenderer()->SetBackground(0.2, 0.4, 0.8);
   const SceneTruth truth = [&]
   {
@@ -288,7 +266,6 @@ TEST(TetrahedraRayCastScenes, ClippingRangesOfAnyRatio)
   for (const bool inside : { false, true })
   {
     RayCastScene scene(block.Mesh, block.Property, Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
     if (inside)
     {
@@ -320,16 +297,14 @@ TEST(TetrahedraRayCastScenes, ClippingRangesOfAnyRatio)
 TEST(TetrahedraRayCastScenes, OpaqueGeometryInFrontInsideAndBehind)
 {
   const Block block;
-  for (const bool parallel : { false, true })
+  for (const auto& [parallel, offset] :
+    Product(List(false, true), List(-1.75, -0.6, 0.1, 0.7, 1.75)))
   {
-    for (const double offset : { -1.75, -0.6, 0.1, 0.7, 1.75 })
-    {
-      RayCastScene scene(block.Mesh, block.Property, Size, Size);
-      LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
-      const double depth = scene.GetRenderer()->GetActiveCamera()->GetDistance() + offset;
-      ExpectMatchesWithRectangle(scene, depth,
-        "rectangle at " + std::to_string(offset) + (parallel ? ", parallel" : ", perspective"));
-    }
+    RayCastScene scene(block.Mesh, block.Property, Size, Size);
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
+    const double depth = scene.GetRenderer()->GetActiveCamera()->GetDistance() + offset;
+    ExpectMatchesWithRectangle(scene, depth,
+      "rectangle at " + std::to_string(offset) + (parallel ? ", parallel" : ", perspective"));
   }
 }
 
@@ -342,16 +317,13 @@ TEST(TetrahedraRayCastScenes, ViewportInPartOfTheWindow)
   const ByteImage window = scene.RenderBytes();
   ExpectViewportMatches(scene, scene.GetRenderer(), window, "offset viewport");
   const PixelRays rays(scene.GetRenderer());
-  for (int y = 0; y < window.Height; ++y)
+  for (const auto& [y, x] : Product(window.Height, window.Width))
   {
-    for (int x = 0; x < window.Width; ++x)
-    {
-      const bool inside = x >= rays.GetLeft() && x < rays.GetLeft() + rays.GetWidth() &&
-        y >= rays.GetBottom() && y < rays.GetBottom() + rays.GetHeight();
-      ASSERT_TRUE(inside ||
-        (window.GetPixel(x, y)[0] | window.GetPixel(x, y)[1] | window.GetPixel(x, y)[2]) == 0)
-        << "drawn outside the viewport at " << x << ", " << y;
-    }
+    const bool inside = x >= rays.GetLeft() && x < rays.GetLeft() + rays.GetWidth() &&
+      y >= rays.GetBottom() && y < rays.GetBottom() + rays.GetHeight();
+    ASSERT_TRUE(inside ||
+      (window.GetPixel(x, y)[0] | window.GetPixel(x, y)[1] | window.GetPixel(x, y)[2]) == 0)
+      << "drawn outside the viewport at " << x << ", " << y;
   }
 }
 
@@ -377,7 +349,6 @@ TEST(TetrahedraRayCastScenes, ResizedWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   const int sizes[4][2] = { { 160, 160 }, { 160, 230 }, { 240, 100 }, { 33, 57 } };
   for (const auto& size : sizes)
   {
@@ -392,6 +363,5 @@ TEST(TetrahedraRayCastScenes, MultisampledWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size, 4);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   ExpectMatchesReference(scene, "four samples");
 }

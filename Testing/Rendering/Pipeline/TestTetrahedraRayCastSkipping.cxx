@@ -3,19 +3,6 @@
 // Invisible cells: they are not visited, not rebuilt without need, and do not change the image.
 #include "RayCastScene.h"
 
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-
-#include <cmath>
-#include <limits>
-
 using namespace meniscus::test;
 
 namespace
@@ -24,7 +11,7 @@ namespace
 constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-class TetrahedraRayCastSkipping : public testing::TestWithParam<int>
+class TetrahedraRayCastSkipping : public ::testing::TestWithParam<int>
 {
 protected:
   TetrahedraRayCastSkipping()
@@ -41,10 +28,7 @@ protected:
   void SetWindow(double lower, double upper)
   {
     vtkPiecewiseFunction* opacity = this->Property->GetScalarOpacity();
-    opacity->RemoveAllPoints();
-    opacity->AddPoint(lower, 0.0);
-    opacity->AddPoint(0.5 * (lower + upper), 1.0);
-    opacity->AddPoint(upper, 0.0);
+    SetPoints(opacity, { { lower, 0.0 }, { 0.5 * (lower + upper), 1.0 }, { upper, 0.0 } });
   }
 
   vtkTypeInt64 Builds() { return this->Scene.GetRayCaster()->GetNumberOfActiveSetBuilds(); }
@@ -55,7 +39,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, TetrahedraRayCastSkipping,
-  testing::Values(
+  ::testing::Values(
     int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE)));
 
 } // anonymous namespace

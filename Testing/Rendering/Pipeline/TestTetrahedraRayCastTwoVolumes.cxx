@@ -6,15 +6,6 @@
 
 #include <vtkCullerCollection.h>
 #include <vtkFrustumCoverageCuller.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace meniscus::test;
 

@@ -4,28 +4,6 @@
 // ParaView: no colour exceeds its opacity, and the result is the image of the whole mesh.
 #include "RayCastScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <random>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -92,12 +70,9 @@ Picture RenderPixels(RayCastScene& scene)
   vtkNew<vtkUnsignedCharArray> values;
   scene.GetWindow()->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, values);
   Picture picture(static_cast<std::size_t>(size[0]) * size[1]);
-  for (std::size_t i = 0; i < picture.size(); ++i)
+  for (const auto& [i, c] : Product(Below<std::size_t>(picture.size()), 4))
   {
-    for (int c = 0; c < 4; ++c)
-    {
-      picture[i][c] = values->GetValue(static_cast<vtkIdType>(4 * i + c));
-    }
+    picture[i][c] = values->GetValue(static_cast<vtkIdType>(4 * i + c));
   }
   return picture;
 }

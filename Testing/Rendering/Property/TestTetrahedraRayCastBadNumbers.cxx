@@ -4,25 +4,6 @@
 // without them.
 #include "RayCastScene.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace
@@ -51,20 +32,12 @@ Drawn Draw(int blendMode, const Edit& edit)
   const Grid grid = MakeBlock(4, WavyField(2.0));
   vtkNew<vtkVolumeProperty> property;
   property->SetScalarOpacityUnitDistance(1.0);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(-1.0, 0.1);
-  opacity->AddPoint(0.2, 0.9);
-  opacity->AddPoint(1.0, 0.4);
-  property->SetScalarOpacity(opacity);
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(-1.0, 1.0, 0.2, 0.1);
-  color->AddRGBPoint(1.0, 0.1, 0.5, 1.0);
-  property->SetColor(color);
+  property->SetScalarOpacity(MakeOpacity({ { -1.0, 0.1 }, { 0.2, 0.9 }, { 1.0, 0.4 } }));
+  property->SetColor(MakeColors({ { -1.0, 1.0, 0.2, 0.1 }, { 1.0, 0.1, 0.5, 1.0 } }));
   property->GetIsoSurfaceValues()->SetValue(0, 0.1);
   edit(property);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetBlendMode(blendMode);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   Drawn drawn;
   drawn.Told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
   drawn.Told->Observe(scene.GetRayCaster());
@@ -85,8 +58,7 @@ void ExpectWarning(
   ASSERT_EQ(drawn.Told->Warnings.size(), 1u) << words.front();
   for (const std::string& word : words)
   {
-    EXPECT_NE(drawn.Told->Warnings.front().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << drawn.Told->Warnings.front();
+    EXPECT_TRUE(HasText(drawn.Told->Warnings.front(), word)) << "no \"" << word << "\" in: ";
   }
 }
 
@@ -100,8 +72,7 @@ void ExpectError(const Edit& edit, const std::vector<std::string>& words)
   EXPECT_FALSE(drawn.Told->Errors.empty());
   for (const std::string& word : words)
   {
-    EXPECT_NE(drawn.Told->GetText().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << drawn.Told->GetText();
+    EXPECT_TRUE(HasText(drawn.Told->GetText(), word)) << "no \"" << word << "\" in: ";
   }
 }
 
@@ -147,9 +118,7 @@ TEST(TetrahedraRayCastBadNumbers, NodesOfTheColor)
   }
   const auto setGray = [](vtkVolumeProperty* property, bool bad)
   {
-    vtkNew<vtkPiecewiseFunction> gray;
-    gray->AddPoint(-1.0, 0.2);
-    gray->AddPoint(1.0, 0.9);
+    const auto gray = MakeOpacity({ { -1.0, 0.2 }, { 1.0, 0.9 } });
     if (bad)
     {
       gray->AddPoint(0.0, NaN);
@@ -166,9 +135,7 @@ TEST(TetrahedraRayCastBadNumbers, NodesOfTheGradientOpacity)
 {
   const auto setGradient = [](vtkVolumeProperty* property, bool bad)
   {
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(0.0, 0.1);
-    opacity->AddPoint(4.0, 1.0);
+    const auto opacity = MakeOpacity({ { 0.0, 0.1 }, { 4.0, 1.0 } });
     if (bad)
     {
       opacity->AddPoint(2.0, NaN);
@@ -192,11 +159,8 @@ TEST(TetrahedraRayCastBadNumbers, Isovalues)
 TEST(TetrahedraRayCastBadNumbers, NothingIsLeft)
 {
   ExpectError(
-    [](vtkVolumeProperty* property)
-    {
-      OpacityOf(property)->RemoveAllPoints();
-      OpacityOf(property)->AddPoint(0.0, NaN);
-      OpacityOf(property)->AddPoint(1.0, NaN);
+    [](vtkVolumeProperty* property) {
+      SetPoints(OpacityOf(property), { { 0.0, NaN }, { 1.0, NaN } });
     },
     { "2 of the 2 nodes of the scalar opacity are not finite", "(0, nan)", "no other node",
       "nothing is rendered" });
@@ -220,17 +184,10 @@ TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
     }
     grid->GetPointData()->SetScalars(scalars);
     vtkNew<vtkVolumeProperty> property;
-    vtkNew<vtkPiecewiseFunction> opacity;
-    vtkNew<vtkColorTransferFunction> color;
-    opacity->AddPoint(at(0.0), 0.1);
-    opacity->AddPoint(at(4.0), 0.9);
-    opacity->AddPoint(at(steps), 0.3);
-    color->AddRGBPoint(at(0.0), 1.0, 0.2, 0.1);
-    color->AddRGBPoint(at(steps), 0.1, 0.5, 1.0);
-    property->SetScalarOpacity(opacity);
-    property->SetColor(color);
+    property->SetScalarOpacity(
+      MakeOpacity({ { at(0.0), 0.1 }, { at(4.0), 0.9 }, { at(steps), 0.3 } }));
+    property->SetColor(MakeColors({ { at(0.0), 1.0, 0.2, 0.1 }, { at(steps), 0.1, 0.5, 1.0 } }));
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     return scene.RenderBytes();
   };
   const double smallest = std::numeric_limits<double>::denorm_min();

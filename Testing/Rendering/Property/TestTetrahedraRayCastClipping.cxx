@@ -3,23 +3,10 @@
 // Clipping planes: cells are cut, not left out.
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkMath.h>
-#include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace meniscus::test;
-using meniscus::reference::ClipRay;
-using meniscus::reference::HalfSpace;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
+using namespace meniscus::reference;
 
 namespace
 {
@@ -106,7 +93,6 @@ TEST(TetrahedraRayCastClipping, CellsAreCutExactly)
   {
     RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
     Clip(scene, Planes);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectReference(scene, Planes, "torus");
   }
 }
@@ -152,22 +138,19 @@ TEST(TetrahedraRayCastClipping, RaysInThePlanes)
   const FloatImage image = scene.RenderFloat();
   const PixelRays rays(scene.GetRenderer());
   const double inside = -std::expm1(-2.0 * 0.7 / 0.8);
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const bool met = std::fabs(ray.Origin[0]) < 0.999 && std::fabs(ray.Origin[1]) < 0.999;
+    if (met && std::fabs(ray.Origin[0]) > 1e-6)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const bool met = std::fabs(ray.Origin[0]) < 0.999 && std::fabs(ray.Origin[1]) < 0.999;
-      if (met && std::fabs(ray.Origin[0]) > 1e-6)
-      {
-        ASSERT_NEAR(image.GetPixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
-      }
-      else if (met)
-      {
-        // In the plane: either one side or the other.
-        const double alpha = image.GetPixel(x, y)[3];
-        ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
-      }
+      ASSERT_NEAR(image.GetPixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
+    }
+    else if (met)
+    {
+      // In the plane: either one side or the other.
+      const double alpha = image.GetPixel(x, y)[3];
+      ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
     }
   }
 }
@@ -193,9 +176,8 @@ TEST(TetrahedraRayCastClipping, TooManyPlanesAreAnError)
   RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
   Clip(scene, std::vector<HalfSpace>(33, Planes[0]));
   LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   const ByteImage image = scene.RenderBytes();
-  EXPECT_NE(errors->GetText().find("33 clipping planes"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->GetText(), "33 clipping planes"));
   EXPECT_EQ(*std::max_element(image.Rgb.begin(), image.Rgb.end()), 0);
 }

@@ -5,34 +5,8 @@
 #include "OpticsTruth.h"
 #include "ReferenceComponents.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkIdList.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-
 using namespace meniscus::test;
-using meniscus::reference::IntegrateComponents;
-using meniscus::reference::Mixture;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
-using meniscus::reference::ReferenceRayIntegrator;
-using meniscus::reference::ReferenceTransferFunction;
+using namespace meniscus::reference;
 
 namespace
 {
@@ -170,26 +144,22 @@ double LargestDifference(const FloatImage& a, const FloatImage& b)
 
 TEST(TetrahedraRayCastComponents, IndependentComponents)
 {
-  for (const FunctionKind kind :
-    { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Opaque })
+  for (const auto& [kind, number] : Product(std::vector<FunctionKind>{ FunctionKind::Smooth,
+                                              FunctionKind::Peaked, FunctionKind::Opaque },
+         List(2, 3, 4)))
   {
-    for (const int number : { 2, 3, 4 })
+    const std::vector<int> ofFields{ 0, 1, 2, 3 };
+    const Grid grid = MakeComponents<vtkDoubleArray>(
+      std::vector<int>(ofFields.begin(), ofFields.begin() + number), 1.0);
+    const auto parts = MakeParts(number, kind);
+    std::vector<ReferenceTransferFunction> functions;
+    for (int c = 0; c < number; ++c)
     {
-      const std::vector<int> ofFields{ 0, 1, 2, 3 };
-      const Grid grid = MakeComponents<vtkDoubleArray>(
-        std::vector<int>(ofFields.begin(), ofFields.begin() + number), 1.0);
-      const auto parts = MakeParts(number, kind);
-      std::vector<ReferenceTransferFunction> functions;
-      for (int c = 0; c < number; ++c)
-      {
-        functions.push_back(Weighted(ToReference(parts[c]), Weights[c]));
-      }
-      RayCastScene scene(grid, Combine(parts, Weights), Size, Size);
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-      ExpectMixture(scene, Mixture::Independent, functions, 1.0,
-        std::to_string(number) + " independent, function " +
-          std::to_string(static_cast<int>(kind)));
+      functions.push_back(Weighted(ToReference(parts[c]), Weights[c]));
     }
+    RayCastScene scene(grid, Combine(parts, Weights), Size, Size);
+    ExpectMixture(scene, Mixture::Independent, functions, 1.0,
+      std::to_string(number) + " independent, function " + std::to_string(static_cast<int>(kind)));
   }
 }
 
@@ -203,7 +173,6 @@ TEST(TetrahedraRayCastComponents, ColorByTheFirstOpacityByTheSecond)
     auto property = Combine({ part }, Weights);
     property->IndependentComponentsOff();
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const ReferenceTransferFunction function = ToReference(part);
     ExpectMixture(scene, Mixture::ColorAndOpacity, { function, function }, 1.0,
       "colour and opacity, function " + std::to_string(static_cast<int>(kind)));
@@ -222,7 +191,6 @@ TEST(TetrahedraRayCastComponents, ColorsAsTheyAre)
     auto property = Combine({ part }, Weights);
     property->IndependentComponentsOff();
     RayCastScene scene(grid, property, Size, Size);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const ReferenceTransferFunction opacity = ToReference(part);
     const ReferenceTransferFunction none;
     ExpectMixture(scene, Mixture::RedGreenBlueOpacity, { none, none, none, opacity }, 1.0 / factor,
@@ -271,7 +239,6 @@ TEST(TetrahedraRayCastComponents, ComputeShadersDrawTheSame)
 {
   const Grid grid = MakeComponents<vtkDoubleArray>({ 0, 1, 2 }, 1.0);
   RayCastScene scene(grid, Combine(MakeParts(3, FunctionKind::Smooth), Weights), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage fragments = scene.RenderFloat();
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
@@ -287,7 +254,6 @@ TEST(TetrahedraRayCastComponents, PartsOfOneMediumMakeTheWhole)
   const Grid four = MakeComponents<vtkDoubleArray>({ 0, 0, 0, 0 }, 1.0);
   RayCastScene single(one, part, Size, Size);
   RayCastScene mixed(four, Combine({ part, part, part, part }, shares), Size, Size);
-  LookAt(single.GetRenderer(), one->GetBounds(), 30.0, 20.0);
   LookAt(mixed.GetRenderer(), one->GetBounds(), 30.0, 20.0);
   EXPECT_LT(LargestDifference(mixed.RenderFloat(), single.RenderFloat()), 2e-5);
 }
@@ -304,13 +270,10 @@ TEST(TetrahedraRayCastComponents, LightOnDependentComponents)
     if (gradients == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS)
     {
       // Varying light times varying colour along a piece is integrated in another way.
-      part->GetRGBTransferFunction()->RemoveAllPoints();
-      part->GetRGBTransferFunction()->AddRGBPoint(0.0, 0.8, 0.6, 0.4);
+      SetPoints(part->GetRGBTransferFunction(), { { 0.0, 0.8, 0.6, 0.4 } });
     }
     part->ShadeOn();
-    part->GetGradientOpacity()->RemoveAllPoints();
-    part->GetGradientOpacity()->AddPoint(0.0, 0.2);
-    part->GetGradientOpacity()->AddPoint(2.0, 1.0);
+    SetPoints(part->GetGradientOpacity(), { { 0.0, 0.2 }, { 2.0, 1.0 } });
     RayCastScene single(one, part, Size, Size);
     vtkNew<vtkVolumeProperty> property;
     property->DeepCopy(part);
@@ -330,11 +293,9 @@ TEST(TetrahedraRayCastComponents, LightOnIndependentOnesWarnsAndIsLeftOut)
   const Grid grid = MakeComponents<vtkDoubleArray>({ 0, 1 }, 1.0);
   const auto property = Combine(MakeParts(2, FunctionKind::Smooth), Weights);
   RayCastScene scene(grid, property, Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage plain = scene.RenderFloat();
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   property->ShadeOn();
   EXPECT_EQ(scene.RenderFloat().Rgba, plain.Rgba);
   EXPECT_EQ(scene.RenderFloat().Rgba, plain.Rgba);
@@ -357,15 +318,11 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   for (int c = 0; c < 3; ++c)
   {
     parts.push_back(MakeConstantProperty(0.0, c == 0, c == 1, 1, 1.0));
-    vtkNew<vtkPiecewiseFunction> opacity;
-    opacity->AddPoint(-1.0, 0.0);
-    opacity->AddPoint(0.5, 0.0);
-    opacity->AddPoint(1.0, c < 2 ? 1.0 : 0.0);
-    parts.back()->SetScalarOpacity(opacity);
+    parts.back()->SetScalarOpacity(
+      MakeOpacity({ { -1.0, 0.0 }, { 0.5, 0.0 }, { 1.0, c < 2 ? 1.0 : 0.0 } }));
   }
   const std::vector<double> ones(3, 1.0);
   RayCastScene scene(grid, Combine(parts, ones), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   // Two of the 8 layers along x reach above 0.5, and two along y: 1 - (3/4)^2 of the cubes are
   // visible.
@@ -377,8 +334,7 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   array->SetComponent(0, 2, std::numeric_limits<double>::quiet_NaN());
   array->SetComponent(grid->GetNumberOfPoints() - 1, 1, std::numeric_limits<double>::infinity());
   array->Modified();
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   scene.GetWindow()->Render();
   EXPECT_EQ(std::count_if(warnings->Warnings.begin(), warnings->Warnings.end(),
               [](const std::string& text) { return text.find("2 of 729 vert") != text.npos; }),
@@ -397,7 +353,6 @@ TEST(TetrahedraRayCastComponents, OnlyWhatChangedIsSent)
   const auto property = Combine(MakeParts(2, FunctionKind::Smooth), Weights);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   const vtkTypeInt64 bytes = scene.GetRayCaster()->GetUploadedBytes();
   LookAt(scene.GetRenderer(), grid->GetBounds(), 80.0, 20.0);
@@ -430,9 +385,7 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
     property->SetIndependentComponents(item.Independent);
     RayCastScene scene(grid, property, Size, Size);
     scene.GetRayCaster()->SetBlendMode(item.BlendMode);
-    const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    errors->Observe(scene.GetRayCaster());
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    const auto errors = ObserveErrors(scene.GetRayCaster());
     const FloatImage image = scene.RenderFloat();
     EXPECT_EQ(errors->Errors.size(), 1u) << item.Components;
     EXPECT_EQ(std::count(image.Rgba.begin(), image.Rgba.end(), 0.0f),
@@ -477,9 +430,7 @@ FloatImage Draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blen
   {
     prepare(scene.GetRayCaster());
   }
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   const FloatImage image = scene.RenderFloat();
   EXPECT_TRUE(errors->Errors.empty()) << errors->GetText();
   return image;
@@ -515,35 +466,32 @@ TEST(TetrahedraRayCastComponents, ColorFunctionChoosesTheComponent)
     for (const bool isOfCells : { false, true })
     {
       const Grid& grid = isOfCells ? cells : points;
-      for (const int blendMode : { 0, 1, 5 })
+      for (const auto& [blendMode, chosen] : Product(List(0, 1, 5), List(0, 1, 2, -1)))
       {
-        for (const int chosen : { 0, 1, 2, -1 })
+        const std::string what = std::to_string(ofFields.size()) + " components, of cells " +
+          std::to_string(isOfCells) + ", mode " + std::to_string(blendMode) + ", component " +
+          std::to_string(chosen);
+        colors->SetVectorModeToComponent();
+        colors->SetVectorComponent(0);
+        const FloatImage expected = Draw(Extract(grid, chosen, isOfCells), property, blendMode);
+        colors->SetVectorComponent(std::max(chosen, 0));
+        if (chosen < 0)
         {
-          const std::string what = std::to_string(ofFields.size()) + " components, of cells " +
-            std::to_string(isOfCells) + ", mode " + std::to_string(blendMode) + ", component " +
-            std::to_string(chosen);
-          colors->SetVectorModeToComponent();
-          colors->SetVectorComponent(0);
-          const FloatImage expected = Draw(Extract(grid, chosen, isOfCells), property, blendMode);
-          colors->SetVectorComponent(std::max(chosen, 0));
-          if (chosen < 0)
-          {
-            colors->SetVectorModeToMagnitude();
-          }
-          ExpectSamePicture(Draw(grid, property, blendMode), expected, what);
-          if (blendMode != 0)
-          {
-            continue;
-          }
-          // The mapper's own choice takes precedence.
-          const FloatImage other = Draw(grid, property, blendMode,
-            [](vtkTetrahedraRayCastMapper* mapper)
-            {
-              mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
-              mapper->SetVectorComponent(2);
-            });
-          EXPECT_EQ(LargestDifference(other, expected) == 0.0, chosen == 2) << what;
+          colors->SetVectorModeToMagnitude();
         }
+        ExpectSamePicture(Draw(grid, property, blendMode), expected, what);
+        if (blendMode != 0)
+        {
+          continue;
+        }
+        // The mapper's own choice takes precedence.
+        const FloatImage other = Draw(grid, property, blendMode,
+          [](vtkTetrahedraRayCastMapper* mapper)
+          {
+            mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+            mapper->SetVectorComponent(2);
+          });
+        EXPECT_EQ(LargestDifference(other, expected) == 0.0, chosen == 2) << what;
       }
     }
   }
@@ -590,11 +538,10 @@ TEST(TetrahedraRayCastComponents, ChosenComponentOutOfRangeIsAnError)
   const auto property = MakeParts(1, FunctionKind::Smooth)[0];
   property->GetRGBTransferFunction()->SetVectorComponent(2);
   RayCastScene scene(grid, property, Size, Size);
-  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->Observe(scene.GetRayCaster());
+  const auto errors = ObserveErrors(scene.GetRayCaster());
   scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 1u);
-  EXPECT_NE(errors->Errors[0].find("none of number 2"), std::string::npos) << errors->GetText();
+  EXPECT_TRUE(HasText(errors->Errors[0], "none of number 2"));
 }
 
 TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
@@ -602,8 +549,7 @@ TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
   const auto drawBoth = [](RayCastScene& scene, const std::string& what)
   {
     LookAt(scene.GetRenderer(), scene.MakeGrid()->GetBounds(), 30.0, 20.0);
-    const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    warnings->Observe(scene.GetRayCaster());
+    const auto warnings = ObserveErrors(scene.GetRayCaster());
     scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
     const FloatImage fragments = scene.RenderFloat();
     scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
@@ -654,7 +600,6 @@ TEST(TetrahedraRayCastComponents, DenseBeyondMeasureEnds)
   const std::vector<double> ones(2, 1.0);
   RayCastScene scene(grid, Combine({ part, part }, ones), Size, Size);
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage image = scene.RenderFloat();
   const float* middle = image.GetPixel(Size / 2, Size / 2);
   EXPECT_NEAR(middle[0], 1.0f, 2e-6);

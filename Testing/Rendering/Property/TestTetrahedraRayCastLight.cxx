@@ -4,20 +4,6 @@
 // nearly equal scalars and very different sizes.
 #include "OpticsTruth.h"
 
-#include <vtkDataArray.h>
-#include <vtkLight.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
-#include <iostream>
-#include <sstream>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -105,24 +91,21 @@ constexpr double LargestError = 2e-5;
 
 void ExpectLit(vtkUnstructuredGrid* grid, const std::string& name)
 {
-  for (const double density : { 1.0, 8.0 })
+  for (const auto& [density, view] : Product(List(1.0, 8.0), List(0, 1)))
   {
-    for (const int view : { 0, 1 })
-    {
-      const TracedComparison comparison = CompareLit(grid, view, density);
-      std::ostringstream text;
-      text << name << ", density " << density << ", view " << view << ": " << comparison.GetText();
-      std::cout << text.str() << std::endl;
-      EXPECT_GT(comparison.Visible, 1000u) << text.str();
-      EXPECT_LE(comparison.Largest, LargestError) << text.str();
-      EXPECT_LE(static_cast<double>(comparison.Excused),
-        LargestSilhouetteShare * static_cast<double>(comparison.Visible))
-        << text.str();
-    }
+    const TracedComparison comparison = CompareLit(grid, view, density);
+    std::ostringstream text;
+    text << name << ", density " << density << ", view " << view << ": " << comparison.GetText();
+    std::cout << text.str() << std::endl;
+    EXPECT_GT(comparison.Visible, 1000u) << text.str();
+    EXPECT_LE(comparison.Largest, LargestError) << text.str();
+    EXPECT_LE(static_cast<double>(comparison.Excused),
+      LargestSilhouetteShare * static_cast<double>(comparison.Visible))
+      << text.str();
   }
 }
 
-class TetrahedraRayCastLightOnData : public testing::TestWithParam<const char*>
+class TetrahedraRayCastLightOnData : public ::testing::TestWithParam<const char*>
 {
 };
 
@@ -139,8 +122,8 @@ TEST_P(TetrahedraRayCastLightOnData, MatchesReference)
 }
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastLightOnData,
-  testing::Values("blunt_fin", "combustor", "crushed_can"),
-  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
+  ::testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const ::testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
 
 TEST(TetrahedraRayCastLight, CellsOfAllSizes)
 {

@@ -3,20 +3,6 @@
 // Integration by the pre-integration table: its error, and when the table is built.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
-#include "RayCastScene.h"
-
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <cmath>
 
 using namespace meniscus::test;
 
@@ -67,7 +53,6 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Opaque })
   {
     RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = TruthOf(scene);
     double coarse = 0.0;
     double fine = 0.0;
@@ -96,7 +81,6 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
     { FunctionKind::Smooth, FunctionKind::Opaque, FunctionKind::Sparse, FunctionKind::Peaked })
   {
     RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
-    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = TruthOf(scene);
     scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     const Comparison result = Compare(scene, truth);
@@ -149,7 +133,6 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   int builds = 0;
   vtkTypeInt64 bytes = mapper->GetUploadedBytes();
@@ -199,10 +182,8 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   const auto expectSame = [&](const char* what, std::size_t expectedWarnings)
   {
     scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
@@ -224,9 +205,7 @@ TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Opaque), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->Observe(scene.GetRayCaster());
+  const auto warnings = ObserveErrors(scene.GetRayCaster());
   // Two and three dimensions, and a coarse table, whose errors the other backend must have, too.
   const int sizes[3][2] = { { 64, 1 }, { 64, 16 }, { 8, 4 } };
   for (const auto& size : sizes)
@@ -246,7 +225,6 @@ TEST(TetrahedraRayCastPreIntegration, ComputeShadersDrawTheSame)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
-  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   UsePreIntegration(scene, 64, 16);
   scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage fragments = scene.RenderFloat();

@@ -3,25 +3,8 @@
 // Maximum, minimum, average and additive blending.
 #include "OpticsTruth.h"
 
-#include <vtkContourValues.h>
-#include <vtkDataArray.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
-using meniscus::reference::Projection;
-using meniscus::reference::Ray;
-using meniscus::reference::RaySegment;
+using namespace meniscus::reference;
 
 namespace
 {
@@ -51,10 +34,7 @@ void ExpectReference(RayCastScene& scene, const ProjectionMode& mode, const std:
 vtkSmartPointer<vtkVolumeProperty> IdentityProperty(double unit)
 {
   auto property = MakeConstantProperty(0.0, 1, 1, 1, unit);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(1.0, 1.0);
-  property->SetScalarOpacity(opacity);
+  property->SetScalarOpacity(MakeOpacity({ { 0.0, 0.0 }, { 1.0, 1.0 } }));
   return property;
 }
 
@@ -155,9 +135,7 @@ TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
   {
     RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
     scene.GetRayCaster()->SetBlendMode(mode);
-    const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    warnings->Observe(scene.GetRayCaster());
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    const auto warnings = ObserveErrors(scene.GetRayCaster());
     ExpectMatchesReference(scene, "mode " + std::to_string(mode));
     EXPECT_EQ(warnings->Warnings.size(), 1u);
   }
@@ -170,7 +148,6 @@ TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const FloatImage first = scene.RenderFloat();
   for (const ProjectionMode& mode : ProjectionModes)
   {
@@ -189,7 +166,6 @@ TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
   const double range[2] = { -1.0, 1.0 };
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   const vtkTypeInt64 steps = scene.GetRayCaster()->GetNumberOfTraversalSteps();
   EXPECT_GT(steps, 0);
@@ -211,7 +187,6 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   auto property = MakeProperty(FunctionKind::Sparse, range, 3.4);
   property->GetIsoSurfaceValues()->SetValue(0, 0.1);
   RayCastScene scene(grid, property, Size, Size);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
   for (const ProjectionMode& mode : ProjectionModes)

@@ -5,22 +5,6 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkContourValues.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTransform.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -163,10 +147,8 @@ vtkSmartPointer<vtkVolumeProperty> MediumProperty(bool shade, bool factor)
   auto property = SurfaceProperty(shade);
   if (factor)
   {
-    vtkNew<vtkPiecewiseFunction> function;
-    function->AddPoint(0.5, GradientFactor(0.5));
-    function->AddPoint(2.5, GradientFactor(2.5));
-    property->SetGradientOpacity(function);
+    property->SetGradientOpacity(
+      MakeOpacity({ { 0.5, GradientFactor(0.5) }, { 2.5, GradientFactor(2.5) } }));
   }
   return property;
 }
@@ -211,19 +193,15 @@ TEST(TetrahedraRayCastIsosurfaces, PlanesOfALinearField)
 
 TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
 {
-  for (const bool shade : { false, true })
+  for (const auto& [shade, gradients] : Product(List(false, true), List(0, 1)))
   {
-    for (const int gradients : { 0, 1 })
-    {
-      const Grid grid = MakeBlock(8, WavyField(3.0), gradients ? Region() : Torus(0.6, 0.35));
-      RayCastScene scene(grid, SurfaceProperty(shade), Size, Size);
-      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-      scene.GetRayCaster()->SetGradients(gradients);
-      AddLights(scene.GetRenderer());
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-      ExpectSurfaces(scene,
-        std::string(shade ? "lit, " : "unlit, ") + (gradients ? "vertex" : "cell") + " gradients");
-    }
+    const Grid grid = MakeBlock(8, WavyField(3.0), gradients ? Region() : Torus(0.6, 0.35));
+    RayCastScene scene(grid, SurfaceProperty(shade), Size, Size);
+    scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    scene.GetRayCaster()->SetGradients(gradients);
+    AddLights(scene.GetRenderer());
+    ExpectSurfaces(scene,
+      std::string(shade ? "lit, " : "unlit, ") + (gradients ? "vertex" : "cell") + " gradients");
   }
 }
 
@@ -262,21 +240,18 @@ void ExpectMetOnce(const Grid& grid, vtkTransform* turn, const std::string& word
       scene.GetRenderer()->GetActiveCamera()->ApplyTransform(turn);
     }
     const FloatImage image = scene.RenderFloat();
-    for (int y = 0; y < image.Height; ++y)
+    for (const auto& [y, x] : Product(image.Height, image.Width))
     {
-      for (int x = 0; x < image.Width; ++x)
+      const Ray ray = rays.GetRay(x, y);
+      const bool met =
+        axis == 0 && std::fabs(ray.Origin[1]) < 0.999 && std::fabs(ray.Origin[2]) < 0.999;
+      if (met)
       {
-        const Ray ray = rays.GetRay(x, y);
-        const bool met =
-          axis == 0 && std::fabs(ray.Origin[1]) < 0.999 && std::fabs(ray.Origin[2]) < 0.999;
-        if (met)
-        {
-          EXPECT_FLOAT_EQ(image.GetPixel(x, y)[3], 0.25f) << words << ": " << x << ", " << y;
-        }
-        else if (axis == 1)
-        {
-          EXPECT_EQ(image.GetPixel(x, y)[3], 0.0f) << words << ": " << x << ", " << y;
-        }
+        EXPECT_FLOAT_EQ(image.GetPixel(x, y)[3], 0.25f) << words << ": " << x << ", " << y;
+      }
+      else if (axis == 1)
+      {
+        EXPECT_EQ(image.GetPixel(x, y)[3], 0.0f) << words << ": " << x << ", " << y;
       }
     }
   }
@@ -307,7 +282,6 @@ TEST(TetrahedraRayCastIsosurfaces, NoValues)
   RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.GetVolume()->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
   scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
@@ -326,7 +300,6 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
     light->SetPosition(4.0, 2.0, 1.0);
     light->SetDiffuseColor(1.0, 0.6, 0.2);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     ExpectShadedMedium(scene, factor, FloatTolerance, factor ? "with factor" : "shading");
   }
 }
@@ -345,27 +318,21 @@ TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
 {
   // A function without points evaluates to 0, for gradient opacity as for scalar opacity.
   const Grid grid = MakeBlock(4, WavyField(3.0));
-  for (const int gradients : { 0, 1 })
+  for (const auto& [gradients, shade] : Product(List(0, 1), List(false, true)))
   {
-    for (const bool shade : { false, true })
-    {
-      RayCastScene scene(grid, MediumProperty(shade, false), 64, 64);
-      scene.GetRayCaster()->SetGradients(gradients);
-      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
-      const FloatImage without = scene.RenderFloat();
-      vtkNew<vtkPiecewiseFunction> empty;
-      scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
-      const FloatImage hidden = scene.RenderFloat();
-      EXPECT_EQ(std::count(hidden.Rgba.begin(), hidden.Rgba.end(), 0.0f),
-        static_cast<std::ptrdiff_t>(hidden.Rgba.size()));
-      vtkNew<vtkPiecewiseFunction> one;
-      one->AddPoint(0.0, 1.0);
-      scene.GetVolume()->GetProperty()->SetGradientOpacity(one);
-      ExpectSamePicture(scene.RenderFloat(), without, "a factor of 1");
-      scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
-      scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(1);
-      ExpectSamePicture(scene.RenderFloat(), without, "switched off");
-    }
+    RayCastScene scene(grid, MediumProperty(shade, false), 64, 64);
+    scene.GetRayCaster()->SetGradients(gradients);
+    const FloatImage without = scene.RenderFloat();
+    vtkNew<vtkPiecewiseFunction> empty;
+    scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
+    const FloatImage hidden = scene.RenderFloat();
+    EXPECT_EQ(std::count(hidden.Rgba.begin(), hidden.Rgba.end(), 0.0f),
+      static_cast<std::ptrdiff_t>(hidden.Rgba.size()));
+    scene.GetVolume()->GetProperty()->SetGradientOpacity(MakeOpacity({ { 0.0, 1.0 } }));
+    ExpectSamePicture(scene.RenderFloat(), without, "a factor of 1");
+    scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
+    scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(1);
+    ExpectSamePicture(scene.RenderFloat(), without, "switched off");
   }
 }
 
@@ -382,7 +349,6 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
     scene.GetRenderer()->AddLight(light);
-    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     const TracedComparison comparison = CompareShadedMedium(scene, MembraneCase());
     RecordProperty("cubes" + std::to_string(cubes), comparison.GetText());
     EXPECT_TRUE(last == 0.0 || comparison.Rms < 0.75 * last) << comparison.Rms << " after " << last;
@@ -416,7 +382,6 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   const Grid grid = MakeBlock(4, WavyField(3.0));
   RayCastScene scene(grid, MediumProperty(false, false), 64, 64);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   for (const int mode : AllBlendModes())
   {
     mapper->SetBlendMode(mode);

@@ -4,30 +4,7 @@
 #include "ComparisonSheet.h"
 #include "OpticsTruth.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <memory>
-#include <sstream>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
@@ -91,21 +68,18 @@ double ErrorOfCube(int n, double attenuation)
   const PixelRays rays(scene.GetRenderer());
   double largest = 0.0;
   int visible = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const Vector3 place{ 0.0, ray.Origin[1], ray.Origin[2] };
+    if (std::max(std::fabs(place[1]), std::fabs(place[2])) > 0.999)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const Vector3 place{ 0.0, ray.Origin[1], ray.Origin[2] };
-      if (std::max(std::fabs(place[1]), std::fabs(place[2])) > 0.999)
-      {
-        continue;
-      }
-      const double truth = std::exp(-attenuation * LengthInCube(place, { 0.0, 0.0, 1.0 })) *
-        (1.0 - std::exp(-2.0 * attenuation));
-      largest = std::max(largest, std::fabs(image.GetPixel(x, y)[0] - truth));
-      ++visible;
+      continue;
     }
+    const double truth = std::exp(-attenuation * LengthInCube(place, { 0.0, 0.0, 1.0 })) *
+      (1.0 - std::exp(-2.0 * attenuation));
+    largest = std::max(largest, std::fabs(image.GetPixel(x, y)[0] - truth));
+    ++visible;
   }
   EXPECT_GT(visible, 100);
   return largest;
@@ -246,9 +220,7 @@ TEST(TetrahedraRayCastShadows, ScalarsOfCellsHaveClosedForm)
   grid->GetCellData()->SetScalars(values);
   constexpr double dense = 0.4;
   const auto property = MakeScatteringProperty(dense);
-  property->GetScalarOpacity()->RemoveAllPoints();
-  property->GetScalarOpacity()->AddPoint(0.0, 0.5);
-  property->GetScalarOpacity()->AddPoint(1.0, 1.0);
+  SetPoints(property->GetScalarOpacity(), { { 0.0, 0.5 }, { 1.0, 1.0 } });
   RayCastScene scene(grid, property, 33, 33);
   scene.GetRayCaster()->SetScalarModeToUseCellData();
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
@@ -258,24 +230,21 @@ TEST(TetrahedraRayCastShadows, ScalarsOfCellsHaveClosedForm)
   const FloatImage image = scene.RenderFloat();
   const PixelRays rays(scene.GetRenderer());
   int visible = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const double z = ray.Origin[2];
+    if (std::max(std::fabs(ray.Origin[1]), std::fabs(z)) > 0.999 || std::fabs(z) < 1e-3)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const double z = ray.Origin[2];
-      if (std::max(std::fabs(ray.Origin[1]), std::fabs(z)) > 0.999 || std::fabs(z) < 1e-3)
-      {
-        continue;
-      }
-      const double above = z > 0.0 ? dense * (1.0 - z) : dense * (1.0 - 0.5 * z);
-      const double depth = z > 0.0 ? 2.0 * dense : dense;
-      // At most depth^2 / 8 along an edge, and 2^-11 of the cell for the start of lines.
-      ASSERT_NEAR(image.GetPixel(x, y)[0], std::exp(-above) * (1.0 - std::exp(-depth)),
-        0.1 * 0.1 / 8.0 + 0.1 / 2048.0)
-        << z;
-      ++visible;
+      continue;
     }
+    const double above = z > 0.0 ? dense * (1.0 - z) : dense * (1.0 - 0.5 * z);
+    const double depth = z > 0.0 ? 2.0 * dense : dense;
+    // At most depth^2 / 8 along an edge, and 2^-11 of the cell for the start of lines.
+    ASSERT_NEAR(image.GetPixel(x, y)[0], std::exp(-above) * (1.0 - std::exp(-depth)),
+      0.1 * 0.1 / 8.0 + 0.1 / 2048.0)
+      << z;
+    ++visible;
   }
   EXPECT_GT(visible, 100);
 
@@ -355,10 +324,9 @@ TEST(TetrahedraRayCastShadows, LightsAnywhere)
     LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     if (number > 16)
     {
-      vtkNew<ErrorObserver> observer;
-      observer->Observe(scene.GetRayCaster());
+      const auto observer = ObserveErrors(scene.GetRayCaster());
       scene.GetWindow()->Render();
-      EXPECT_NE(observer->GetText().find("30 lights exceed the limit of 16"), std::string::npos);
+      EXPECT_TRUE(HasText(observer->GetText(), "30 lights exceed the limit of 16"));
       continue;
     }
     const FloatImage image = scene.RenderFloat();
@@ -418,7 +386,6 @@ TEST(TetrahedraRayCastShadows, AbortedCastGoesOn)
   RayCastScene scene(grid, property, 24, 24);
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   AddParallelLight(scene.GetRenderer(), 1.0, 1.0, 1.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   scene.GetWindow()->Render();
   mapper->SetGlobalIlluminationReach(1.0f);
   vtkNew<vtkCallbackCommand> abort;
@@ -604,7 +571,7 @@ void PrintTo(const ShadowCase& tested, std::ostream* os)
   *os << tested.Mesh;
 }
 
-class TetrahedraRayCastShadowRays : public testing::TestWithParam<ShadowCase>
+class TetrahedraRayCastShadowRays : public ::testing::TestWithParam<ShadowCase>
 {
 };
 
@@ -632,7 +599,6 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   RayCastScene scene(grid, property, GetParam().Size, GetParam().Size);
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
   AddParallelLight(scene.GetRenderer(), 1.0, 2.0, 3.0);
-  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const char* const wanted = std::getenv("MENISCUS_TEST_SHADOW_STEP");
   const int step = wanted ? std::max(std::atoi(wanted), 1) : GetParam().Step;
   std::unique_ptr<meniscus::testing::ComparisonSheet> sheet;
@@ -656,6 +622,6 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, TetrahedraRayCastShadowRays,
-  testing::Values(ShadowCase{ "block", 64, 7 }, ShadowCase{ "blunt_fin", 64, 9 },
+  ::testing::Values(ShadowCase{ "block", 64, 7 }, ShadowCase{ "blunt_fin", 64, 9 },
     ShadowCase{ "combustor", 64, 9 }),
   [](const auto& tested) { return std::string(tested.param.Mesh); });

@@ -3,21 +3,6 @@
 // Shadows and occlusion of isosurfaces, and of independent components, against closed forms.
 #include "OpticsTruth.h"
 
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
-
 using namespace meniscus::test;
 using namespace meniscus::reference;
 
@@ -94,34 +79,31 @@ ShadowOnFloor CastOnFloor(int n)
   const double cell = 2.0 / n;
   ShadowOnFloor result;
   int floor = 0;
-  for (int y = 0; y < image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Height, image.Width))
   {
-    for (int x = 0; x < image.Width; ++x)
+    const Ray ray = rays.GetRay(x, y);
+    const double place[2] = { ray.Origin[0], ray.Origin[1] };
+    // Near the ball the floor is hidden.
+    if (std::max(std::fabs(place[0]), std::fabs(place[1])) > 0.999 - cell ||
+      std::hypot(place[0], place[1]) < Radius + cell)
     {
-      const Ray ray = rays.GetRay(x, y);
-      const double place[2] = { ray.Origin[0], ray.Origin[1] };
-      // Near the ball the floor is hidden.
-      if (std::max(std::fabs(place[0]), std::fabs(place[1])) > 0.999 - cell ||
-        std::hypot(place[0], place[1]) < Radius + cell)
-      {
-        continue;
-      }
-      // Distance of the ball's centre from the line to the light.
-      const double to[3] = { -place[0], -place[1], 0.2 - Height };
-      const double along = (0.8 * to[0] + 0.3 * to[1] + to[2]) / size;
-      const double distance =
-        std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2] - along * along);
-      const bool lit = distance > Radius;
-      const double error = std::fabs(image.GetPixel(x, y)[0] - (lit ? 1.0 / size : 0.0));
-      result.Mean += error;
-      ++floor;
-      // Vertices on the side of the light are within a cell's diagonal of the surface, and the
-      // polygons are inside of the ball by up to cell^2 / (2 Radius).
-      if (std::fabs(distance - Radius) > 2.0 * cell)
-      {
-        ++(lit ? result.Lit : result.Dark);
-        result.Wrong += error > 1.0 / 255.0 ? 1 : 0;
-      }
+      continue;
+    }
+    // Distance of the ball's centre from the line to the light.
+    const double to[3] = { -place[0], -place[1], 0.2 - Height };
+    const double along = (0.8 * to[0] + 0.3 * to[1] + to[2]) / size;
+    const double distance =
+      std::sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2] - along * along);
+    const bool lit = distance > Radius;
+    const double error = std::fabs(image.GetPixel(x, y)[0] - (lit ? 1.0 / size : 0.0));
+    result.Mean += error;
+    ++floor;
+    // Vertices on the side of the light are within a cell's diagonal of the surface, and the
+    // polygons are inside of the ball by up to cell^2 / (2 Radius).
+    if (std::fabs(distance - Radius) > 2.0 * cell)
+    {
+      ++(lit ? result.Lit : result.Dark);
+      result.Wrong += error > 1.0 / 255.0 ? 1 : 0;
     }
   }
   result.Mean /= std::max(floor, 1);
@@ -221,12 +203,8 @@ TEST(TetrahedraRayCastSurfaceShadows, IndependentComponentsHaveClosedForm)
   constexpr double attenuation = 0.2; // of each component
   const auto property = MakeConstantProperty(1.0, 1.0, 0.5, 0.25, 1.0 / attenuation);
   property->IndependentComponentsOn();
-  vtkNew<vtkColorTransferFunction> color;
-  color->AddRGBPoint(0.0, 1.0, 0.5, 0.25);
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 1.0);
-  property->SetColor(1, color);
-  property->SetScalarOpacity(1, opacity);
+  property->SetColor(1, MakeColors({ { 0.0, 1.0, 0.5, 0.25 } }));
+  property->SetScalarOpacity(1, MakeOpacity({ { 0.0, 1.0 } }));
   property->SetScalarOpacityUnitDistance(1, 1.0 / attenuation);
   property->ShadeOn();
   property->SetAmbient(0.0);
@@ -237,8 +215,7 @@ TEST(TetrahedraRayCastSurfaceShadows, IndependentComponentsHaveClosedForm)
   scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
   AddSun(scene.GetRenderer(), 0.0, 0.0, 1.0);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(scene.GetRayCaster());
+  const auto observer = ObserveErrors(scene.GetRayCaster());
   const FloatImage image = scene.RenderFloat();
   EXPECT_EQ(observer->GetText(), "");
   const PixelRays rays(scene.GetRenderer());

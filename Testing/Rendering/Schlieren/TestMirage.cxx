@@ -3,38 +3,11 @@
 // Pictures of objects through a medium that bends light, and objects where they are seen.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
 #include <vtkApparentGeometryFilter.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
-#include <vtkSphereSource.h>
 #include <vtkTetrahedraMirage.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vec3.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -174,27 +147,24 @@ TEST(Mirage, WallsAreSeenAlongParabolas)
     filter->SetCamera(MakeCamera({ 0, 0, Eye }, { 0, 0, 0 }, tangent));
     filter->Update();
     int compared = 0;
-    for (int row = 0; row < Size; ++row)
+    for (const auto& [row, column] : Product(Size, Size))
     {
-      for (int column = 0; column < Size; ++column)
+      const double step = 2.0 * tangent / Size;
+      const glm::dvec3 direction(
+        step * (column + 0.5 - 0.5 * Size), step * (row + 0.5 - 0.5 * Size), -1.0);
+      const glm::dvec3 place = FollowParabola(direction, z);
+      const glm::dvec3 last = FollowParabola(direction, -Half);
+      if (std::max(std::abs(last.x), std::abs(last.y)) > 0.95)
       {
-        const double step = 2.0 * tangent / Size;
-        const glm::dvec3 direction(
-          step * (column + 0.5 - 0.5 * Size), step * (row + 0.5 - 0.5 * Size), -1.0);
-        const glm::dvec3 place = FollowParabola(direction, z);
-        const glm::dvec3 last = FollowParabola(direction, -Half);
-        if (std::max(std::abs(last.x), std::abs(last.y)) > 0.95)
-        {
-          continue;
-        }
-        const vtkIdType pixel = row * Size + column;
-        ASSERT_EQ(ValueAt(filter, "Seen", pixel), vtkTetrahedraMirage::OBJECT);
-        // Positions of the mesh are rounded to 2^-31 of its radius of 50, and bend by as much.
-        EXPECT_NEAR(glm::distance(VectorAt(filter, "Position", pixel), place), 0.0, 2.0e-7);
-        EXPECT_NEAR(
-          ValueAt(filter, "Depth", pixel), glm::distance(place, glm::dvec3(0.0, 0.0, Eye)), 1.0e-5);
-        ++compared;
+        continue;
       }
+      const vtkIdType pixel = row * Size + column;
+      ASSERT_EQ(ValueAt(filter, "Seen", pixel), vtkTetrahedraMirage::OBJECT);
+      // Positions of the mesh are rounded to 2^-31 of its radius of 50, and bend by as much.
+      EXPECT_NEAR(glm::distance(VectorAt(filter, "Position", pixel), place), 0.0, 2.0e-7);
+      EXPECT_NEAR(
+        ValueAt(filter, "Depth", pixel), glm::distance(place, glm::dvec3(0.0, 0.0, Eye)), 1.0e-5);
+      ++compared;
     }
     EXPECT_GT(compared, Size * Size / 4) << z;
     EXPECT_EQ(filter->GetStatistic("NumberOfLostRays"), 0);
@@ -360,12 +330,11 @@ TEST(Mirage, OddObjectsAreWarnings)
   for (const auto& one : cases)
   {
     Filter filter = MakeFilter(air, one.first);
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(filter);
+    const auto observer = ObserveErrors(filter);
     filter->Update();
     EXPECT_EQ(observer->Errors.size(), 0u);
     ASSERT_EQ(observer->Warnings.size(), 1u) << one.second;
-    EXPECT_NE(observer->Warnings[0].find(one.second), std::string::npos);
+    EXPECT_TRUE(HasText(observer->Warnings[0], one.second));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
     // Four of 35 rectangles have the point.
     EXPECT_EQ(filter->GetStatistic("NumberOfBrokenCells"), one.first == nothing ? 0 : 4);
@@ -379,11 +348,10 @@ TEST(Mirage, RaysThatStayAreStoppedWithAWarning)
   filter->SetCamera(MakeCamera({ 0.1, 0.15, 0.3 }, { 1.1, 1.25, -0.9 }, 0.02));
   filter->SetImageSize(2, 2);
   filter->SetOutsideIndex(1.0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   filter->Update();
   ASSERT_EQ(observer->Warnings.size(), 1u);
-  EXPECT_NE(observer->Warnings[0].find("4 rays were stopped"), std::string::npos);
+  EXPECT_TRUE(HasText(observer->Warnings[0], "4 rays were stopped"));
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
   EXPECT_EQ(ValueAt(filter, "Seen", 2), vtkTetrahedraMirage::STOPPED);
 }
@@ -420,8 +388,7 @@ TEST(ApparentGeometry, PointsAreWhereThePictureShowsThem)
   apparent->SetEyePosition(0.0, 0.0, Eye);
   apparent->SetSearchAngle(0.5);
   apparent->SetSearchResolution(16);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(apparent);
+  const auto observer = ObserveErrors(apparent);
   apparent->Update();
   EXPECT_EQ(observer->Warnings.size() + observer->Errors.size(), 0u) << observer->GetText();
   EXPECT_EQ(apparent->GetStatistic("NumberOfPointsWithOneImage"), wall->GetNumberOfPoints());
@@ -465,13 +432,11 @@ TEST(ApparentGeometry, PointsWithoutOneImageAreMarkedAndTold)
   auto apparent = MakeApparent(air, object);
   apparent->SetEyePosition(0.0, 0.0, 0.95);
   apparent->SetSearchAngle(35.0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(apparent);
+  const auto observer = ObserveErrors(apparent);
   apparent->Update();
   // One warning tells of an index below 1, in the lower half.
   ASSERT_EQ(observer->Warnings.size(), 2u);
-  EXPECT_NE(observer->Warnings[1].find("2 points have no image"), std::string::npos)
-    << observer->Warnings[1];
+  EXPECT_TRUE(HasText(observer->Warnings[1], "2 points have no image"));
   EXPECT_EQ(apparent->GetStatistic("NumberOfPointsWithoutImage"), 2);
   vtkDataSet* seen = vtkDataSet::SafeDownCast(apparent->GetOutput());
   EXPECT_EQ(seen->GetPoint(0)[1], -0.95);

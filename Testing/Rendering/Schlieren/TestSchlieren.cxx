@@ -3,27 +3,8 @@
 // Images of a medium that bends light: closed forms, pipeline, input that cannot be used.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
-#include "TestMeshes.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
 #include <vtkTetrahedraSchlieren.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 
@@ -84,7 +65,7 @@ void ExpectError(vtkTetrahedraSchlieren* filter, const std::string& text)
   filter->Update();
   filter->RemoveObserver(observer);
   ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Errors[0], text));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << text;
 }
 
@@ -93,12 +74,9 @@ vtkSmartPointer<vtkImageData> MakeRamp(int width, int height)
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(width, height, 1);
   image->AllocateScalars(VTK_FLOAT, 1);
-  for (int j = 0; j < height; ++j)
+  for (const auto& [j, i] : Product(height, width))
   {
-    for (int i = 0; i < width; ++i)
-    {
-      image->SetScalarComponentFromDouble(i, j, 0, 0, i);
-    }
+    image->SetScalarComponentFromDouble(i, j, 0, 0, i);
   }
   return image;
 }
@@ -282,8 +260,7 @@ TEST(Schlieren, ShortEdgesAreNoMatter)
   const Grid layers = MakeLayeredBlock(4, 1.0e-6);
   layers->GetPointData()->GetScalars()->Fill(1.3);
   Filter filter = MakeFilter(layers);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   filter->Update();
   EXPECT_EQ(observer->Warnings.size(), 0u);
   EXPECT_GT(filter->GetStatistic("NumberOfRays"), 0);
@@ -413,8 +390,7 @@ TEST(Schlieren, UnusableValuesAreHolesWithAWarning)
   {
     Filter filter = MakeFilter(
       MakeBlock(4, [bad](double x, double y, double z) { return x + y + z > 2.5 ? bad : 1.3; }));
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(filter);
+    const auto observer = ObserveErrors(filter);
     filter->Update();
     EXPECT_EQ(observer->Errors.size(), 0u);
     EXPECT_EQ(observer->Warnings.size(), 1u) << bad;
@@ -431,13 +407,12 @@ TEST(Schlieren, OddSettingsAreWarnings)
   {
     Filter filter = MakeFilter(MakeBlock(3, ConstantField(cutOff < 1.0 ? 0.9 : 1.3)));
     filter->SetKnifeCutOff(cutOff);
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(filter);
+    const auto observer = ObserveErrors(filter);
     filter->Update();
     EXPECT_EQ(observer->Errors.size(), 0u);
     ASSERT_EQ(observer->Warnings.size(), 1u) << cutOff;
     const char* const text = cutOff < 1.0 ? "below 1" : "cuts off all light";
-    EXPECT_NE(observer->Warnings[0].find(text), std::string::npos) << observer->Warnings[0];
+    EXPECT_TRUE(HasText(observer->Warnings[0], text));
     EXPECT_EQ(ValueAt(filter, "Schlieren", 3, 4), static_cast<float>(1.0 - cutOff));
   }
 }
@@ -453,11 +428,10 @@ TEST(Schlieren, RaysThatStayAreStoppedWithAWarning)
   filter->SetCamera(camera);
   filter->SetImageSize(2, 2);
   filter->SetOutsideIndex(1.0);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
+  const auto observer = ObserveErrors(filter);
   filter->Update();
   ASSERT_EQ(observer->Warnings.size(), 1u);
-  EXPECT_NE(observer->Warnings[0].find("4 rays were stopped"), std::string::npos);
+  EXPECT_TRUE(HasText(observer->Warnings[0], "4 rays were stopped"));
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
 }
 
@@ -487,10 +461,8 @@ TEST(Schlieren, BadInputIsAnError)
   ExpectError(filter, "no pixels");
   vtkNew<vtkUnstructuredGrid> nothing;
   filter = MakeFilter(nothing);
-  vtkNew<ErrorObserver> observer;
-  observer->Observe(filter);
-  vtkNew<ErrorObserver> executive;
-  executive->Observe(filter->GetExecutive());
+  const auto observer = ObserveErrors(filter);
+  const auto executive = ObserveErrors(filter->GetExecutive());
   filter->Update();
   EXPECT_EQ(observer->Errors.size(), 1u);
 }
