@@ -6,17 +6,9 @@
 // that of its name in the folder.
 #include "StrictImage.h"
 
-#include <vtkNew.h>
 #include <vtkParametricFunctionSource.h>
 #include <vtkParametricTorus.h>
-#include <vtkPlaneSource.h>
 #include <vtkXMLPolyDataWriter.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <set>
-#include <string>
 
 namespace
 {

@@ -7,10 +7,7 @@
 #ifndef meniscus_Testing_Metamorphic_Relation_h
 #define meniscus_Testing_Metamorphic_Relation_h
 
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
+#include "MathBasics.h"
 
 namespace meniscus::test
 {

@@ -5,16 +5,7 @@
 #include "CaseProcess.h"
 #include "RandomNumbers.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <iomanip>
-#include <limits>
-#include <map>
-#include <memory>
-#include <sstream>
-#include <utility>
 
 namespace meniscus::test
 {

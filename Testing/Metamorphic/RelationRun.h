@@ -6,9 +6,6 @@
 #include "ProgrammeOptions.h"
 #include "Relation.h"
 
-#include <functional>
-#include <vector>
-
 namespace meniscus::test
 {
 

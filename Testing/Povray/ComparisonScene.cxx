@@ -4,21 +4,7 @@
 
 #include "PovrayWriter.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkCleanPolyData.h>
-#include <vtkDoubleArray.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
-
-#include <glm/geometric.hpp>
-
-#include <array>
-#include <cmath>
-#include <functional>
 
 namespace meniscus::test
 {

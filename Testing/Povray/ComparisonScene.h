@@ -8,15 +8,7 @@
 #ifndef meniscus_Testing_Povray_ComparisonScene_h
 #define meniscus_Testing_Povray_ComparisonScene_h
 
-#include <glm/vec3.hpp>
-
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <set>
-#include <string>
-#include <vector>
+#include "VTKBasics.h"
 
 namespace meniscus::test
 {

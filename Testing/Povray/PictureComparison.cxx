@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PictureComparison.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
 namespace meniscus::test
 {
 

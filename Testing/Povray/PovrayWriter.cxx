@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PovrayWriter.h"
 
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-
-#include <glm/geometric.hpp>
-
-#include <array>
-#include <cmath>
-#include <limits>
 #include <locale>
-#include <map>
-#include <sstream>
 
 namespace meniscus::test
 {

@@ -2,15 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractedScene.h"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkNew.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractionPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 
 namespace meniscus::test
 {

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts of pixels in pictures made by hand.
 #include "PictureComparison.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <functional>
+#include "TestBasics.h"
 
 using namespace meniscus::test;
 

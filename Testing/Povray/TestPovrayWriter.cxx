@@ -2,23 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // POV-Ray's scenes as text; POV-Ray itself is not needed.
 #include "PovrayWriter.h"
+#include "VTKTestBasics.h"
 
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
 
 using namespace meniscus::test;
 
@@ -230,7 +216,7 @@ TEST(PovrayWriter, MembranesLieOnThePrimitives)
   const RefractingSurface bowl = SceneOf("bowl").Surface;
   const std::vector<double> q = NumbersIn(bowl.Primitive);
   ASSERT_EQ(q.size(), 10u);
-  EXPECT_NE(bowl.Primitive.find("inverse"), std::string::npos);
+  EXPECT_TRUE(HasText(bowl.Primitive, "inverse"));
   ExpectMembrane(
     bowl, -1.0,
     [&q](const glm::dvec3& p)
@@ -264,7 +250,7 @@ TEST(PovrayWriter, SceneHasAllParts)
   const ComparisonScene scene = SceneOf("window");
   const std::string text = PovrayScene(scene);
   EXPECT_EQ(NumbersIn(BlockOf(text, "ior", "}")).at(0), 1.0 / 1.333);
-  EXPECT_NE(text.find("assumed_gamma 1 "), std::string::npos);
+  EXPECT_TRUE(HasText(text, "assumed_gamma 1 "));
   EXPECT_EQ(VectorAfter(text, "background { rgb"), scene.Background);
   std::size_t meshes = 0;
   for (std::size_t at = text.find("mesh2"); at != std::string::npos;
@@ -275,8 +261,8 @@ TEST(PovrayWriter, SceneHasAllParts)
   EXPECT_EQ(meshes, scene.Objects.size());
   EXPECT_EQ(PovraySurface(SceneOf("straight").Surface), "");
   const std::string options = PovrayOptions("window", 77);
-  EXPECT_NE(options.find("Width=77\nHeight=77\nAntialias=off"), std::string::npos);
-  EXPECT_NE(options.find("File_Gamma=1.0"), std::string::npos);
+  EXPECT_TRUE(HasText(options, "Width=77\nHeight=77\nAntialias=off"));
+  EXPECT_TRUE(HasText(options, "File_Gamma=1.0"));
 }
 
 /** A colour says which object a pixel shows. */

@@ -3,26 +3,14 @@
 /**
  * Pictures of refracted scenes against POV-Ray's pictures of the same scenes.
  */
-#include "ComparisonScene.h"
 #include "PictureComparison.h"
 #include "PovrayProcess.h"
 #include "RefractedScene.h"
 #include "StrictImage.h"
-#include "VolumeScene.h"
 
 #include <vtksys/SystemTools.hxx>
 
-#include <glm/geometric.hpp>
-
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 

@@ -4,15 +4,6 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "StackCheck.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <sstream>
-
 namespace meniscus::test
 {
 

@@ -3,11 +3,8 @@
 #ifndef meniscus_Testing_Stress_PatchSearch_h
 #define meniscus_Testing_Stress_PatchSearch_h
 
+#include "MathBasics.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
-
-#include <glm/vec3.hpp>
-
-#include <vector>
 
 namespace meniscus::test
 {

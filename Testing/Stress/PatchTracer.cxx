@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PatchTracer.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::test
 {
 

@@ -3,12 +3,8 @@
 #ifndef meniscus_Testing_Stress_PatchTracer_h
 #define meniscus_Testing_Stress_PatchTracer_h
 
+#include "MathBasics.h"
 #include "Refraction/Membrane/CurvedPatches.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstdint>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -3,18 +3,8 @@
 #ifndef meniscus_Testing_Stress_RefractionCase_h
 #define meniscus_Testing_Stress_RefractionCase_h
 
-#include "MembraneMeshes.h"
 #include "SmoothSurface.h"
 #include "StressRandom.h"
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

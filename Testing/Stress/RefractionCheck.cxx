@@ -6,14 +6,6 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTriangles.h"
-#include "SightOracle.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace meniscus::test
 {

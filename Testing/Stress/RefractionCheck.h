@@ -5,9 +5,6 @@
 
 #include "RefractionCase.h"
 
-#include <cstdint>
-#include <string>
-
 namespace meniscus::test
 {
 

@@ -4,13 +4,6 @@
 
 #include "Refraction/Images/ObjectImages.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-
 namespace meniscus::test
 {
 

@@ -7,13 +7,6 @@
 #include "Refraction/Surface/MediaChain.h"
 #include "StressRandom.h"
 
-#include <glm/vec3.hpp>
-
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

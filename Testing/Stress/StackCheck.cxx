@@ -4,12 +4,6 @@
 
 #include "StackChecker.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <thread>
 
 namespace meniscus::test

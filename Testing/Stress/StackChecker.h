@@ -8,13 +8,6 @@
 #include "RefractionCheck.h"
 #include "StackCase.h"
 
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <optional>
-#include <sstream>
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -5,12 +5,6 @@
 #include "ExactStack.h"
 #include "SmoothSurface.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace meniscus::test
 {
 

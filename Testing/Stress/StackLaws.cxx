@@ -4,13 +4,6 @@
 
 #include "Refraction/Stack/StackInverse.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
-
 namespace meniscus::test
 {
 

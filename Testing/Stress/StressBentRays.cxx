@@ -3,19 +3,9 @@
 #include "StressBentRays.h"
 
 #include "GradedPathCheck.h"
-#include "RandomNumbers.h"
-#include "StressCasters.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
-
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <sstream>
 
 namespace meniscus::test
 {

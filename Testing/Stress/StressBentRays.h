@@ -3,7 +3,6 @@
 #ifndef meniscus_Testing_Stress_StressBentRays_h
 #define meniscus_Testing_Stress_StressBentRays_h
 
-#include "StressCase.h"
 #include "StressCheck.h"
 
 namespace meniscus::test

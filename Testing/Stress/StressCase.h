@@ -3,15 +3,9 @@
 #ifndef meniscus_Testing_Stress_StressCase_h
 #define meniscus_Testing_Stress_StressCase_h
 
-#include "RandomNumbers.h"
 #include "TestMeshes.h"
 #include "VolumeFunctions.h"
 #include "VolumeView.h"
-
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -12,19 +12,8 @@
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Rays/RayPivot.h"
 
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
 #include <vtkLogger.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <algorithm>
 
 namespace meniscus::test
 {

@@ -7,10 +7,6 @@
 #include "StressCase.h"
 #include "VolumeScene.h"
 
-#include <cstdint>
-#include <memory>
-#include <string>
-
 class vtkUnstructuredGrid;
 
 namespace meniscus

@@ -3,13 +3,6 @@
 #include "StressCheck.h"
 
 #include "ReferenceImage.h"
-#include "VolumeFunctions.h"
-
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
 
 namespace meniscus::test
 {
@@ -81,19 +74,16 @@ void CheckBounds(const StressImage& image, const View& view, StressTally& tally)
   }
   const double attenuation = LargestAttenuation(view.Stress.Function);
   const double brightest = BrightestColor(view.Stress.Function);
-  for (int y = 0; y < image.Image.Height; ++y)
+  for (const auto& [y, x] : Product(image.Image.Height, image.Image.Width))
   {
-    for (int x = 0; x < image.Image.Width; ++x)
+    const double depth = attenuation * LengthInBox(view.RayOf(x, y), bounds);
+    const float* rgba = image.Image.GetPixel(x, y);
+    if (!IsWithinBounds(rgba, depth, brightest) && ++tally.Wrong == 1)
     {
-      const double depth = attenuation * LengthInBox(view.RayOf(x, y), bounds);
-      const float* rgba = image.Image.GetPixel(x, y);
-      if (!IsWithinBounds(rgba, depth, brightest) && ++tally.Wrong == 1)
-      {
-        std::ostringstream text;
-        text << "pixel (" << x << ", " << y << ") is " << rgba[0] << ' ' << rgba[1] << ' '
-             << rgba[2] << ' ' << rgba[3] << ", at most opaque " << -std::expm1(-depth);
-        tally.FirstWrong = text.str();
-      }
+      std::ostringstream text;
+      text << "pixel (" << x << ", " << y << ") is " << rgba[0] << ' ' << rgba[1] << ' ' << rgba[2]
+           << ' ' << rgba[3] << ", at most opaque " << -std::expm1(-depth);
+      tally.FirstWrong = text.str();
     }
   }
 }

@@ -3,11 +3,7 @@
 #ifndef meniscus_Testing_Stress_StressCheck_h
 #define meniscus_Testing_Stress_StressCheck_h
 
-#include "StressCase.h"
 #include "StressCasters.h"
-
-#include <cstdint>
-#include <string>
 
 namespace meniscus::test
 {

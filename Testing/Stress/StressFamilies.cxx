@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HardMeshes.h"
 #include "StressCase.h"
-#include "TestMeshes.h"
-#include "VolumeFunctions.h"
 #include "VolumeScene.h"
-
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 
 namespace meniscus::test
 {

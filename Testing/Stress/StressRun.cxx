@@ -4,12 +4,6 @@
 
 #include "StressBentRays.h"
 
-#include <vtkUnstructuredGrid.h>
-
-#include <limits>
-#include <memory>
-#include <sstream>
-
 namespace meniscus::test
 {
 

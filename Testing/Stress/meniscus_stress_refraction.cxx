@@ -10,12 +10,6 @@
 #include "ProgrammeOptions.h"
 #include "RefractionCheck.h"
 
-#include <iomanip>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace

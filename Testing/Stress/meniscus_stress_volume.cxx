@@ -8,13 +8,6 @@
 #include "ProgrammeOptions.h"
 #include "StressRun.h"
 
-#include <cstdlib>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 using namespace meniscus::test;
 
 namespace

@@ -2,21 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterRelations.h"
 
-#include "FilterScene.h"
 #include "FilterTrial.h"
 
-#include "vtkCamera.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractedGeometryFilter.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace meniscus::test
 {

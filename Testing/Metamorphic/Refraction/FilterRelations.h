@@ -6,10 +6,6 @@
 #include "RandomNumbers.h"
 #include "Relation.h"
 
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

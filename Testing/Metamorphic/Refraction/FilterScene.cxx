@@ -2,17 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterScene.h"
 
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractedGeometryFilter.h"
-
-#include <glm/geometric.hpp>
-
-#include <cmath>
 
 namespace meniscus::test
 {
@@ -25,14 +15,11 @@ const double Pi = std::acos(-1.0);
 void AddRows(FilterScene& scene, int rows, int columns, bool isClosed)
 {
   const int across = isClosed ? columns : columns + 1;
-  for (int row = 0; row < rows; ++row)
+  for (const auto& [row, i] : Product(rows, columns))
   {
-    for (int i = 0; i < columns; ++i)
-    {
-      const vtkIdType a = row * across + i;
-      const vtkIdType b = row * across + (i + 1) % across;
-      scene.Quads.push_back({ a, b, b + across, a + across });
-    }
+    const vtkIdType a = row * across + i;
+    const vtkIdType b = row * across + (i + 1) % across;
+    scene.Quads.push_back({ a, b, b + across, a + across });
   }
   scene.QuadsPerRow = columns;
 }
@@ -42,13 +29,10 @@ void AddSheet(FilterScene& scene, const glm::dvec3& center, double size, RandomN
   const glm::dvec3 x = random.GetDirection();
   const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
   const int count = 3 + random.Below(6);
-  for (int j = 0; j <= count; ++j)
+  for (const auto& [j, i] : Product(count + 1, count + 1))
   {
-    for (int i = 0; i <= count; ++i)
-    {
-      scene.Points.push_back(
-        center + size * ((2.0 * i / count - 1.0) * x + (2.0 * j / count - 1.0) * y));
-    }
+    scene.Points.push_back(
+      center + size * ((2.0 * i / count - 1.0) * x + (2.0 * j / count - 1.0) * y));
   }
   AddRows(scene, count, count, false);
 }
@@ -78,15 +62,12 @@ void AddBall(FilterScene& scene, const glm::dvec3& center, double radius, Random
 // Two triangles with a common side as the corners of a strip: the side's ends are second and third.
 bool JoinTriangles(const std::int64_t* a, const std::int64_t* b, std::array<vtkIdType, 4>& strip)
 {
-  for (int i = 0; i < 3; ++i)
+  for (const auto& [i, j] : Product(3, 3))
   {
-    for (int j = 0; j < 3; ++j)
+    if (a[(i + 1) % 3] == b[(j + 2) % 3] && a[(i + 2) % 3] == b[(j + 1) % 3])
     {
-      if (a[(i + 1) % 3] == b[(j + 2) % 3] && a[(i + 2) % 3] == b[(j + 1) % 3])
-      {
-        strip = { a[i], a[(i + 1) % 3], a[(i + 2) % 3], b[j] };
-        return true;
-      }
+      strip = { a[i], a[(i + 1) % 3], a[(i + 2) % 3], b[j] };
+      return true;
     }
   }
   return false;
@@ -270,8 +251,7 @@ vtkSmartPointer<vtkPolyData> GetResult(vtkRefractedGeometryFilter* filter)
 //------------------------------------------------------------------------------
 glm::dvec3 GetTuple(vtkPolyData* data, const char* name, vtkIdType point)
 {
-  glm::dvec3 value;
-  data->GetPointData()->GetArray(name)->GetTuple(point, &value.x);
+  const glm::dvec3 value = TupleOf(data->GetPointData()->GetArray(name), point);
   return value;
 }
 

@@ -4,18 +4,8 @@
 #ifndef meniscus_FilterScene_h
 #define meniscus_FilterScene_h
 
-#include "RandomNumbers.h"
 #include "RefractionTrial.h"
-
-#include "vtkCellArray.h"
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstdint>
-#include <vector>
+#include "VTKBasics.h"
 
 class vtkRefractedGeometryFilter;
 

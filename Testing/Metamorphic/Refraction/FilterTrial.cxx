@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTrial.h"
 
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkRefractedGeometryFilter.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {
@@ -49,16 +38,14 @@ bool AreEqual(vtkDataArray* a, vtkDataArray* b)
   {
     return a == b;
   }
-  for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+  for (const auto& [i, k] :
+    Product(Below<vtkIdType>(a->GetNumberOfTuples()), a->GetNumberOfComponents()))
   {
-    for (int k = 0; k < a->GetNumberOfComponents(); ++k)
+    const double x = a->GetComponent(i, k);
+    const double y = b->GetComponent(i, k);
+    if (!(x == y || (std::isnan(x) && std::isnan(y))))
     {
-      const double x = a->GetComponent(i, k);
-      const double y = b->GetComponent(i, k);
-      if (!(x == y || (std::isnan(x) && std::isnan(y))))
-      {
-        return false;
-      }
+      return false;
     }
   }
   return true;
@@ -129,8 +116,7 @@ struct FilterTrial::Sheet
   {
     const auto seen = [data, &motion, &eye](vtkIdType id)
     {
-      glm::dvec3 p;
-      data->GetPoint(id, &p.x);
+      const glm::dvec3 p = PointOf(data, id);
       return motion.Undo(p) - eye;
     };
     vtkNew<vtkIdList> ids;
@@ -392,8 +378,7 @@ std::vector<glm::dvec3> FilterTrial::FindFirst(vtkPolyData* output, const Motion
   vtkDataArray* index = output->GetPointData()->GetArray("Index");
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    glm::dvec3 p;
-    output->GetPoint(i, &p.x);
+    const glm::dvec3 p = PointOf(output, i);
     result[static_cast<std::size_t>(index->GetTuple1(i))] = motion.Undo(p);
   }
   return result;
@@ -491,8 +476,7 @@ void FilterTrial::CheckArrays()
     const glm::dvec3 sight = GetTuple(output, "SightPoint", i);
     const double depth = arrays->GetArray("RefractionDepth")->GetTuple1(i);
     const double error = this->GetError(magnitude, depth, this->Worst);
-    glm::dvec3 drawn;
-    output->GetPoint(i, &drawn.x);
+    const glm::dvec3 drawn = PointOf(output, i);
     if (arrays->GetArray("SightFacet")->GetTuple1(i) < 0.0)
     {
       // A corner next to the membrane may be drawn where its image is.

@@ -4,17 +4,6 @@
 #define meniscus_FilterTrial_h
 
 #include "FilterScene.h"
-#include "RandomNumbers.h"
-#include "RefractionTrial.h"
-#include "Relation.h"
-
-#include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 class vtkDataSetAttributes;
 

@@ -2,26 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterRelations.h"
 
-#include "FilterScene.h"
 #include "FilterTrial.h"
 
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkImageData.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractedLightFilter.h"
 #include "vtkRefractionErrorVolume.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {

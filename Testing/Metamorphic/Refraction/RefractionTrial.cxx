@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionTrial.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace meniscus::test
 {
 

@@ -8,15 +8,6 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Relation.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

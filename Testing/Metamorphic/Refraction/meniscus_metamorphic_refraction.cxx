@@ -7,13 +7,6 @@
 #include "RefractionTrial.h"
 #include "RelationRun.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
-
 using namespace meniscus;
 using namespace meniscus::test;
 using meniscus::reference::MembraneMesh;

@@ -4,16 +4,8 @@
 
 #include "ProjectionModes.h"
 #include "ReferenceComponents.h"
-#include "ReferenceOptics.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkVolumeMapper.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {

@@ -3,13 +3,7 @@
 #ifndef meniscus_Testing_Metamorphic_Volume_Conditioning_h
 #define meniscus_Testing_Metamorphic_Volume_Conditioning_h
 
-#include "TracedImage.h"
 #include "VolumeCase.h"
-
-#include <array>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -2,14 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MapScene.h"
 
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 namespace meniscus::test
 {
 
@@ -34,8 +26,7 @@ vtkSmartPointer<vtkPolyData> Mapped(vtkPolyData* membrane, const glm::dmat4& map
     const double* x = result->GetPoint(i);
     const glm::dvec3 moved = PointBy(map, glm::dvec3(x[0], x[1], x[2]));
     result->GetPoints()->SetPoint(i, &moved[0]);
-    double n[3];
-    normals->GetTuple(i, n);
+    const glm::dvec3 n = TupleOf(normals, i);
     const glm::dvec3 turned = VectorBy(map, glm::dvec3(n[0], n[1], n[2])) / length;
     normals->SetTuple(i, &turned[0]);
   }

@@ -5,9 +5,6 @@
 
 #include "VolumeCase.h"
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
 namespace meniscus::test
 {
 

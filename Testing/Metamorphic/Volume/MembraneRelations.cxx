@@ -3,19 +3,6 @@
 #include "MeshChanges.h"
 #include "VolumeRelation.h"
 
-#include <vtkCellArray.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 namespace meniscus::test
 {
 

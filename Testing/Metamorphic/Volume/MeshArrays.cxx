@@ -2,21 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshArrays.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkSOADataArrayTemplate.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 
 namespace meniscus::test
 {
@@ -205,12 +191,9 @@ MeshArrays ToArrays(vtkUnstructuredGrid* grid, bool onCells)
   vtkDataArray* values =
     onCells ? grid->GetCellData()->GetScalars() : grid->GetPointData()->GetScalars();
   mesh.Components = values->GetNumberOfComponents();
-  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  for (const auto& [i, c] : Product(Below<vtkIdType>(values->GetNumberOfTuples()), mesh.Components))
   {
-    for (int c = 0; c < mesh.Components; ++c)
-    {
-      mesh.Values.push_back(values->GetComponent(i, c));
-    }
+    mesh.Values.push_back(values->GetComponent(i, c));
   }
   return mesh;
 }

@@ -5,16 +5,6 @@
 
 #include "TestMeshes.h"
 
-#include <vtkCellType.h>
-#include <vtkType.h>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstdint>
-#include <vector>
-
 namespace meniscus::test
 {
 

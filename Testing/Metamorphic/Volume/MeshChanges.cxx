@@ -4,18 +4,6 @@
 
 #include "MeshFamilies.h"
 
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <algorithm>
-#include <map>
-#include <numeric>
-
 namespace meniscus::test
 {
 

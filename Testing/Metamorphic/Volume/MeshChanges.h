@@ -9,10 +9,6 @@
 #include "MeshArrays.h"
 #include "RandomNumbers.h"
 
-#include <vtkSmartPointer.h>
-
-#include <vector>
-
 class vtkRectilinearGrid;
 
 namespace meniscus::test

@@ -5,18 +5,6 @@
 #include "HardMeshes.h"
 
 #include <vtkDelaunay3D.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
 
 namespace meniscus::test
 {
@@ -101,15 +89,9 @@ public:
   CubeBlock(int n)
     : N(n)
   {
-    for (int k = 0; k <= n; ++k)
+    for (const auto& [k, j, i] : Product(n + 1, n + 1, n + 1))
     {
-      for (int j = 0; j <= n; ++j)
-      {
-        for (int i = 0; i <= n; ++i)
-        {
-          this->Mesh.Points.push_back(2.0 / n * glm::dvec3(i, j, k) - 1.0);
-        }
-      }
+      this->Mesh.Points.push_back(2.0 / n * glm::dvec3(i, j, k) - 1.0);
     }
   }
 

@@ -3,19 +3,7 @@
 #include "MeshChanges.h"
 #include "VolumeRelation.h"
 
-#include <vtkCellData.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDataSetTriangleFilter.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace meniscus::test
 {

@@ -3,15 +3,6 @@
 #include "MapScene.h"
 #include "VolumeRelation.h"
 
-#include <vtkCamera.h>
-#include <vtkMath.h>
-#include <vtkRenderer.h>
-
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 namespace meniscus::test
 {
 
@@ -135,14 +126,11 @@ void CheckTiles(VolumeTrial& trial)
     camera->SetWindowCenter(2.0 * column - 1.0, 2.0 * row - 1.0);
     const FloatImage part = trial.GetStage().Render();
     camera->SetWindowCenter(0.0, 0.0);
-    for (int y = 0; y < tile.Size; ++y)
+    for (const auto& [y, x] : Product(tile.Size, tile.Size))
     {
-      for (int x = 0; x < tile.Size; ++x)
-      {
-        const auto at =
-          std::size_t(row * tile.Size + y) * whole.Width + std::size_t(column * tile.Size + x);
-        std::copy_n(part.GetPixel(x, y), 4, &whole.Rgba[4 * at]);
-      }
+      const auto at =
+        std::size_t(row * tile.Size + y) * whole.Width + std::size_t(column * tile.Size + x);
+      std::copy_n(part.GetPixel(x, y), 4, &whole.Rgba[4 * at]);
     }
   }
   trial.ExpectSame(whole, "tiles");

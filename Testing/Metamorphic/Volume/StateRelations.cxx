@@ -3,27 +3,7 @@
 #include "DeviceTableLimits.h"
 #include "VolumeRelation.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkMatrix4x4.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSMPTools.h>
-#include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 
 namespace meniscus::test
 {
@@ -274,13 +254,10 @@ void CheckThreads(VolumeTrial& trial)
 void CheckExact(VolumeTrial& trial)
 {
   FloatImage exact = trial.MakePicture();
-  for (int y = 0; y < exact.Height; ++y)
+  for (const auto& [y, x] : Product(exact.Height, exact.Width))
   {
-    for (int x = 0; x < exact.Width; ++x)
-    {
-      const std::array<double, 4> color = trial.GetExact(x, y);
-      std::copy(color.begin(), color.end(), &exact.Rgba[4 * (std::size_t(y) * exact.Width + x)]);
-    }
+    const std::array<double, 4> color = trial.GetExact(x, y);
+    std::copy(color.begin(), color.end(), &exact.Rgba[4 * (std::size_t(y) * exact.Width + x)]);
   }
   trial.ExpectSame(exact, "the exact picture");
 }

@@ -2,15 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeRelation.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkPiecewiseFunction.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkVolume.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace meniscus::test
 {
@@ -157,13 +149,10 @@ void CheckComponent(VolumeTrial& trial)
   mesh.Components = 3;
   mesh.Values.clear();
   const int chosen = trial.MakeRandom().Below(3);
-  for (std::size_t i = 0; i < before.Tuples(); ++i)
+  for (const auto& [i, c] : Product(Below<std::size_t>(before.Tuples()), 3))
   {
-    for (int c = 0; c < 3; ++c)
-    {
-      const double other = trial.MakeRandom().Uniform(-1e3, 1e3);
-      mesh.Values.push_back(c == chosen ? before.GetValue(i, 0) : other);
-    }
+    const double other = trial.MakeRandom().Uniform(-1e3, 1e3);
+    mesh.Values.push_back(c == chosen ? before.GetValue(i, 0) : other);
   }
   trial.MakePicture();
   trial.GetStage().GetPlace(changed);
@@ -234,12 +223,9 @@ void PermuteComponents(VolumeCase& test, RandomNumbers& random)
   MeshArrays& mesh = test.MakeMesh();
   const int first = random.Below(before.Components);
   mesh.Values.clear();
-  for (std::size_t i = 0; i < before.Tuples(); ++i)
+  for (const auto& [i, c] : Product(Below<std::size_t>(before.Tuples()), before.Components))
   {
-    for (int c = 0; c < before.Components; ++c)
-    {
-      mesh.Values.push_back(before.GetValue(i, (c + first) % before.Components));
-    }
+    mesh.Values.push_back(before.GetValue(i, (c + first) % before.Components));
   }
   auto& functions = test.Look.Functions;
   std::rotate(functions.begin(), functions.begin() + first, functions.end());
@@ -252,12 +238,9 @@ void MakeIndependent(VolumeCase& test, RandomNumbers& random)
   mesh.Components = 2 + random.Below(3);
   mesh.Values.clear();
   const double width = before.MakeRange(0)[1] - before.MakeRange(0)[0];
-  for (std::size_t i = 0; i < before.Tuples(); ++i)
+  for (const auto& [i, c] : Product(Below<std::size_t>(before.Tuples()), mesh.Components))
   {
-    for (int c = 0; c < mesh.Components; ++c)
-    {
-      mesh.Values.push_back(before.GetValue(i, 0) + 0.2 * c * width * random.Uniform());
-    }
+    mesh.Values.push_back(before.GetValue(i, 0) + 0.2 * c * width * random.Uniform());
   }
   test.Look.Independent = true;
   while (int(test.Look.Functions.size()) < mesh.Components)
@@ -278,10 +261,8 @@ void CheckPlainGradientOpacity(VolumeTrial& trial)
 {
   trial.MakePicture();
   trial.GetStage().GetPlace(trial.MakeScene());
-  vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.0, 1.0);
-  function->AddPoint(3.0, 1.0);
-  trial.GetStage().MakeScene().GetVolume()->GetProperty()->SetGradientOpacity(function);
+  trial.GetStage().MakeScene().GetVolume()->GetProperty()->SetGradientOpacity(
+    MakeOpacity({ { 0.0, 1.0 }, { 3.0, 1.0 } }));
   trial.ExpectSame(trial.GetStage().Render(), "gradient opacity of 1");
 }
 

@@ -5,22 +5,8 @@
 #include "MapScene.h"
 #include "MeshFamilies.h"
 #include "ProjectionModes.h"
-#include "ReferenceMesh.h"
-#include "VolumeScene.h"
 
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkNew.h>
-#include <vtkPiecewiseFunction.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkVolumeMapper.h>
-
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <string>
 
 namespace meniscus::test
 {

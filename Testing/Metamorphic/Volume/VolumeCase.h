@@ -8,14 +8,6 @@
 #include "RandomNumbers.h"
 #include "VolumeView.h"
 
-#include <vtkVolumeProperty.h>
-
-#include <glm/mat4x4.hpp>
-
-#include <array>
-#include <string>
-#include <vector>
-
 namespace meniscus::test
 {
 

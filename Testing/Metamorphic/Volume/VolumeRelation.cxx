@@ -4,9 +4,6 @@
 
 #include <vtkTetrahedraRayCastMapper.h>
 
-#include <cmath>
-#include <sstream>
-
 namespace meniscus::test
 {
 
@@ -124,19 +121,16 @@ void VolumeTrial::ExpectSame(
     this->Fail(words + ": " + complaint);
   }
   std::vector<Conditioning::PixelRange> sensitive;
-  for (int y = 0; y < before.Height; ++y)
+  for (const auto& [y, x] : Product(before.Height, before.Width))
   {
-    for (int x = 0; x < before.Width; ++x)
+    const std::array<int, 2> at = map(x, y);
+    const double d = Difference(before.GetPixel(x, y), changed.GetPixel(at[0], at[1]));
+    if (d <= tolerance)
     {
-      const std::array<int, 2> at = map(x, y);
-      const double d = Difference(before.GetPixel(x, y), changed.GetPixel(at[0], at[1]));
-      if (d <= tolerance)
-      {
-        this->Tally.Compare(d, tolerance);
-        continue;
-      }
-      sensitive.push_back(this->Condition.FindRange(x, y, d - tolerance));
+      this->Tally.Compare(d, tolerance);
+      continue;
     }
+    sensitive.push_back(this->Condition.FindRange(x, y, d - tolerance));
   }
   this->Condition.Extend(sensitive);
   WorstPixel worst;

@@ -5,13 +5,7 @@
 
 #include "Conditioning.h"
 #include "Relation.h"
-#include "VolumeCase.h"
 #include "VolumeStage.h"
-
-#include <array>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace meniscus::test
 {

@@ -2,16 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeStage.h"
 
-#include <vtkCommand.h>
 #include <vtkLogger.h>
-#include <vtkMatrix4x4.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPlane.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolume.h>
 
 namespace meniscus::test
 {
@@ -103,12 +95,9 @@ void VolumeStage::GetPlace(const VolumeCase& test)
   this->Scene.SetMapper(this->Mapper);
   this->Scene.SetProperty(ToProperty(test.Look));
   vtkNew<vtkMatrix4x4> matrix;
-  for (int row = 0; row < 4; ++row)
+  for (const auto& [row, column] : Product(4, 4))
   {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix->SetElement(row, column, test.Matrix[column][row]);
-    }
+    matrix->SetElement(row, column, test.Matrix[column][row]);
   }
   this->Scene.GetVolume()->SetUserMatrix(matrix);
   this->Scene.GetWindow()->SetSize(test.Size, test.Size);

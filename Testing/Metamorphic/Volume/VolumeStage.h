@@ -4,14 +4,6 @@
 #define meniscus_Testing_Metamorphic_Volume_VolumeStage_h
 
 #include "VolumeCase.h"
-#include "VolumeScene.h"
-
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-
-#include <memory>
-#include <string>
-#include <vector>
 
 class vtkDataObject;
 class vtkTetrahedraRayCastMapper;

@@ -9,9 +9,6 @@
 
 #include <vtkTetrahedraRayCastMapper.h>
 
-#include <iostream>
-#include <map>
-
 using namespace meniscus::test;
 
 namespace
