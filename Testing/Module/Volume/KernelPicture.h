@@ -5,6 +5,7 @@
 
 #include "MathBasics.h"
 #include "Simd/InstructionSets.h"
+#include "TestBasics.h"
 #include "Volume/Caster/TileCaster.h"
 
 namespace meniscus::test
