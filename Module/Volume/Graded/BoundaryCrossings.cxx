@@ -93,8 +93,11 @@ bool BoundaryCrossings::Cross(
 
 //------------------------------------------------------------------------------
 BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dvec3& direction,
-  bool leavingToo, const std::vector<std::int32_t>& excluded) const
+  bool leavingToo, const std::vector<std::int32_t>& excluded,
+  const std::vector<std::int32_t>& passed) const
 {
+  const auto isAmong = [](const std::vector<std::int32_t>& faces, std::int32_t face)
+  { return std::find(faces.begin(), faces.end(), face) != faces.end(); };
   const Line line(origin, direction);
   const glm::dvec3 inverse = 1.0 / direction;
   const auto& nodes = this->Tree.GetNodes();
@@ -119,7 +122,7 @@ BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dv
       continue;
     }
     const bool isNear = crossing.Distance <= DistanceError;
-    if (isNear && std::find(excluded.begin(), excluded.end(), node.Face) != excluded.end())
+    if ((isNear && isAmong(excluded, node.Face)) || isAmong(passed, node.Face))
     {
       continue;
     }

@@ -64,9 +64,11 @@ public:
    * @param direction unit vector.
    * @param leavingToo true if faces by which the ray leaves the mesh count, too.
    * @param excluded numbers of faces that do not count within DistanceError of the origin.
+   * @param passed numbers of faces that do not count at any distance.
    */
   BoundaryCrossing Find(const glm::dvec3& origin, const glm::dvec3& direction, bool leavingToo,
-    const std::vector<std::int32_t>& excluded) const;
+    const std::vector<std::int32_t>& excluded,
+    const std::vector<std::int32_t>& passed = std::vector<std::int32_t>()) const;
 
   /** Finds the nearest entry among some of the faces, which have all that are the first. */
   BoundaryCrossing FindAmong(const glm::dvec3& origin, const glm::dvec3& direction,

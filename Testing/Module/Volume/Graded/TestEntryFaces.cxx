@@ -5,6 +5,7 @@
 #include "RandomNumbers.h"
 
 #include "Volume/Graded/BoundaryCones.h"
+#include "Volume/Graded/BoundaryCrossings.h"
 #include "Volume/Graded/EntryRaster.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
@@ -64,7 +65,7 @@ struct Camera
   RayImage GetImage() const
   {
     return { Pixels, Pixels, [this](const glm::dvec3& place) { return this->Project(place); },
-      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); } };
+      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); }, this->Axes[2] };
   }
 
 private:
@@ -173,6 +174,75 @@ TEST(EntryFaces, ResultsAreThoseOfTheTree)
       }
     }
   }
+}
+
+// Rays that a gas has bent leave a cube behind all faces that they could enter by; where they pass
+// a hole or come close to an edge, the tree must be asked.
+TEST(EntryFaces, MostRaysDoNotEnterAgain)
+{
+  for (const bool hasHole : { false, true })
+  {
+    GradedScene scene(CenteredGrid(6, 1.0),
+      [hasHole](const glm::dvec3& p)
+      {
+        const bool isHole = hasHole && glm::length(p) < 0.5;
+        return isHole ? NaN : 1.0005 + 2.0e-4 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y + p.z);
+      });
+    const Camera camera({ 0.1, 0.05, -1.0 }, 3.0, true);
+    const EntryRaster raster(scene.Mesh, scene.Tree, camera.GetImage());
+    const BoundaryCrossings crossings(scene.Mesh, scene.Tree);
+    int ruledOut = 0;
+    int entered = 0;
+    for (int i = 0; i < Pixels * Pixels; ++i)
+    {
+      const GradedRay ray = camera.GetRay(glm::dvec2(i % Pixels, i / Pixels));
+      const BoundaryCrossing first =
+        crossings.Find(ray.Origin, glm::normalize(ray.Direction), false, {});
+      const GradedRayResult result = scene.Walk(ray.Origin, ray.Direction);
+      const bool mayEnter = raster.MayEnterAfter(result.Exit, result.Direction);
+      ruledOut += result.State == GradedRayState::Left && !mayEnter ? 1 : 0;
+      // From before the mesh, and from its middle, where the hole is left.
+      EXPECT_TRUE(
+        first.Face < 0 || raster.MayEnterAfter(ray.Origin, glm::normalize(ray.Direction)));
+      const glm::dvec3 middle = result.Entry + 0.5 * (result.Exit - result.Entry);
+      if (crossings.Find(middle, result.Direction, false, {}).Face >= 0)
+      {
+        EXPECT_TRUE(raster.MayEnterAfter(middle, result.Direction)) << i;
+        ++entered;
+      }
+      EXPECT_TRUE(raster.MayEnterAfter(result.Exit, -result.Direction));
+    }
+    EXPECT_GT(ruledOut, Pixels * Pixels / 8) << hasHole;
+    EXPECT_GT(entered, hasHole ? 4 : -1);
+  }
+}
+
+TEST(EntryFaces, RaysWithoutFacesAreLeftOut)
+{
+  const auto scene = std::move(MakeScenes().front());
+  const Camera camera({ 0.3, -0.4, 0.8 }, 3.0, true);
+  const EntryRaster raster(scene->Mesh, scene->Tree, camera.GetImage());
+  const auto collect = [&raster]()
+  {
+    return raster.Collect({ 0, 0 }, { Pixels, Pixels },
+      [](int column, int row) { return static_cast<std::size_t>(row * Pixels + column); });
+  };
+  const EntryFaces all = collect();
+  EntryFaces few = collect();
+  const std::vector<std::size_t> kept = few.KeepRaysWithFaces();
+  EXPECT_GT(kept.size(), 10u);
+  std::size_t next = 0;
+  for (std::size_t ray = 0; ray < Pixels * Pixels; ++ray)
+  {
+    if (all.GetFirst(ray) >= 0)
+    {
+      ASSERT_LT(next, kept.size());
+      EXPECT_EQ(kept[next], ray);
+      EXPECT_EQ(few.GetFirst(next), all.GetFirst(ray));
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, kept.size());
 }
 
 TEST(EntryFaces, NothingIsCollectedIfAPlaceHasNoPixel)
