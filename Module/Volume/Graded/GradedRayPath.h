@@ -56,6 +56,8 @@ struct GradedRayWalk::Path
   double IndexBefore = 1.0;
   /** Faces by which the ray has entered without moving on since. */
   std::vector<std::int32_t> Touched;
+  /** Largest error of the distances at which it has done so. */
+  double TouchError = 0.0;
   /**
    * Faces by which the ray has entered since it last left a fold, and those before. Light goes
    * backwards in inverted cells: a ray that leaves after one may be in front of the faces that it

@@ -253,10 +253,12 @@ bool GradedRayWalk::EnterMesh(Path& path) const
       result.State = path.IsEnded ? GradedRayState::Ended : result.State;
       return false;
     }
-    if (crossing.Distance > BoundaryCrossings::DistanceError)
+    if (crossing.Distance > std::max(path.TouchError, crossing.Error))
     {
       path.Touched.clear();
+      path.TouchError = 0.0;
     }
+    path.TouchError = std::max(path.TouchError, crossing.Error);
     path.Touched.push_back(crossing.Face);
     path.Entered.push_back(crossing.Face);
     this->PutIn(crossing, path);
@@ -409,9 +411,11 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
   }
   path.Origin = result.Exit = this->PlaceOf(path);
   path.Direction = result.Direction = glm::normalize(path.Momentum);
-  if (glm::length(path.Origin - path.PassageBegin) > BoundaryCrossings::DistanceError)
+  if (glm::length(path.Origin - path.PassageBegin) >
+    std::max(path.TouchError, BoundaryCrossings::DistanceError))
   {
     path.Touched.clear();
+    path.TouchError = 0.0;
   }
   return true;
 }

@@ -245,6 +245,59 @@ TEST(EntryFaces, RaysWithoutFacesAreLeftOut)
   EXPECT_EQ(next, kept.size());
 }
 
+// Distances of crossings against those of extended precision, from faces seen from the front to
+// faces that are grazed: their errors are bounded, and those of the latter exceed the bound of the
+// former.
+TEST(BoundaryCrossings, ErrorsOfDistancesAreBounded)
+{
+  RandomNumbers random(21);
+  int crossed = 0;
+  int beyond = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    MeshArrays arrays = KuhnGrid(1);
+    Jitter(arrays, 0.2, static_cast<unsigned int>(i));
+    const GradedScene scene(arrays, [](const glm::dvec3&) { return 2.0; });
+    const BoundaryCrossings crossings(scene.Mesh, scene.Tree);
+    const auto& faces = scene.Tree.GetFaces();
+    for (std::size_t number = 0; number < faces.size(); ++number)
+    {
+      const auto& vertices = faces[number].Vertices;
+      const glm::dvec3 corners[3] = { scene.Mesh.GetPosition(vertices[0]),
+        scene.Mesh.GetPosition(vertices[1]), scene.Mesh.GetPosition(vertices[2]) };
+      const glm::dvec3 normal =
+        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      const double angle = std::pow(10.0, random.Uniform(-5.0, 0.0));
+      const glm::dvec3 direction =
+        glm::normalize(glm::normalize(corners[1] - corners[0] +
+                         random.Uniform(0.1, 1.0) * (corners[2] - corners[0])) -
+          angle * normal);
+      const glm::dvec3 origin = (corners[0] + corners[1] + corners[2]) / 3.0 - 0.3 * direction;
+      const BoundaryCrossing found = crossings.Find(origin, direction, false, {});
+      if (found.Face != static_cast<std::int32_t>(number))
+      {
+        continue;
+      }
+      using Exact = glm::vec<3, long double, glm::defaultp>;
+      const Exact first(corners[0]);
+      const Exact exactNormal = glm::cross(Exact(corners[1]) - first, Exact(corners[2]) - first);
+      const long double distance =
+        glm::dot(exactNormal, first - Exact(origin)) / glm::dot(exactNormal, Exact(direction));
+      const double error = std::abs(static_cast<double>(found.Distance - distance));
+      if (found.Error == TetrahedralMesh::PositionUnit)
+      {
+        continue;
+      }
+      EXPECT_LE(error, found.Error) << i << ' ' << number << ' ' << angle;
+      EXPECT_GE(found.Error, BoundaryCrossings::DistanceError);
+      ++crossed;
+      beyond += error > BoundaryCrossings::DistanceError ? 1 : 0;
+    }
+  }
+  EXPECT_GT(crossed, 1000);
+  EXPECT_GT(beyond, 10);
+}
+
 TEST(EntryFaces, NothingIsCollectedIfAPlaceHasNoPixel)
 {
   const auto scene = std::move(MakeScenes().front());
