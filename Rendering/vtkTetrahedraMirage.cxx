@@ -87,6 +87,9 @@ vtkTetrahedraMirage::vtkInternals::List()
       } },
     { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
       [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
+    { "NumberOfRaysStoppedInFolds",
+      "stopped rays of the last image that have passed inverted cells, where light goes back",
+      [](Self& self) { return double(self.Internals->Statistics.TrappedInFolds); } },
     { "NumberOfLostRays",
       "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
       "doubles",

@@ -22,6 +22,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,9 @@ vtkTetrahedraSchlieren::vtkInternals::List()
       [](Self& self) { return double(self.Internals->Statistics.Steps); } },
     { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
       [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
+    { "NumberOfRaysStoppedInFolds",
+      "stopped rays of the last image that have passed inverted cells, where light goes back",
+      [](Self& self) { return double(self.Internals->Statistics.TrappedInFolds); } },
     { "NumberOfLostRays",
       "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
       "doubles",
@@ -162,28 +166,36 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   // The rays of a block of pixels, which are in the same cells, go on at the same time.
   const auto castBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
-    std::vector<meniscus::GradedRay> ofBlock;
-    std::vector<std::size_t> pixels;
-    for (std::size_t column = 0; column < width; ++column)
-    {
-      for (std::size_t row = firstRow; row < endRow; ++row)
-      {
-        const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
-        ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
-        pixels.push_back(row * width + column);
-      }
-    }
     const std::size_t rows = endRow - firstRow;
-    const meniscus::EntryFaces faces = raster.Collect({ 0, firstRow }, { width, endRow },
-      [&](int column, int row) {
-        return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - firstRow;
-      });
+    const auto numberOf = [rows, firstRow](int column, int row)
+    { return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - firstRow; };
+    meniscus::EntryFaces faces;
+    std::vector<std::size_t> numbers;
+    if (raster.IsUsable())
+    {
+      // The other rays miss the mesh, as those of internals.Rays at first.
+      faces = raster.Collect({ 0, firstRow }, { width, endRow }, numberOf);
+      numbers = faces.KeepRaysWithFaces();
+    }
+    else
+    {
+      numbers.resize(rows * width);
+      std::iota(numbers.begin(), numbers.end(), std::size_t{ 0 });
+    }
+    std::vector<meniscus::GradedRay> ofBlock;
+    ofBlock.reserve(numbers.size());
+    for (const std::size_t number : numbers)
+    {
+      const glm::dvec2 pixel(
+        static_cast<double>(number / rows), static_cast<double>(firstRow + number % rows));
+      ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
+    }
     std::vector<meniscus::GradedRayResult> results(ofBlock.size());
     walk.WalkAll(ofBlock, ofRows[firstRow], results.data(), meniscus::BestInstructionSet(),
       raster.IsUsable() ? &faces : nullptr);
     for (std::size_t i = 0; i < results.size(); ++i)
     {
-      internals.Rays[pixels[i]] = results[i];
+      internals.Rays[(firstRow + numbers[i] % rows) * width + numbers[i] / rows] = results[i];
     }
   };
   if (!this->RunRows(castBlock, meniscus::ShareOfMedium, meniscus::ShareOfRays))

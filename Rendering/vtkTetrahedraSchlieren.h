@@ -29,7 +29,8 @@
  * far side of its bounding box along the middle ray.
  *
  * **Bad input.** Rays that stay in the mesh are stopped; a warning reports them, and
- * GetStatistics() counts them. A background without pixels is an error, with an empty output.
+ * GetStatistics() counts them, and those that have passed inverted cells, where light goes back. A
+ * background without pixels is an error, with an empty output.
  *
  * Rays are cast in parallel by vtkSMPTools; results do not depend on the number of threads. They
  * are kept: if only instruments change, such as the knife edge, a distance, the wavelength or the

@@ -55,11 +55,11 @@ Picture ReadPicture(vtkImageData* image)
   return picture;
 }
 
-/** Planes behind the medium, as depths in the frame of the rays, and units of paths. */
+/** Planes behind the medium, and units of paths. */
 struct Screens
 {
-  double Shadow = 0.0;
-  double Background = 0.0;
+  RayPlane Shadow;
+  RayPlane Background;
   double ReferenceIndex = 1.0;
   /** World length of the mesh's unit. */
   double Radius = 1.0;
@@ -252,7 +252,19 @@ glm::dvec2 SchlierenRays::Deflect(const glm::dvec2& pixel, const glm::dvec3& dir
 }
 
 //------------------------------------------------------------------------------
-glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, double depth) const
+RayPlane SchlierenRays::GetPlane(double depth) const
+{
+  const auto& origin = this->View.Rays.Origin;
+  const auto& slope = this->View.Rays.Slope;
+  RayPlane plane;
+  plane.Depth = depth;
+  plane.PerPlace = glm::inverse(this->GetSteps(depth));
+  plane.Pixel = this->Middle - plane.PerPlace * (origin.Base + depth * slope.Base);
+  return plane;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, const RayPlane& plane) const
 {
   const glm::dvec3 place = this->ToFrame * ray.Exit;
   const glm::dvec3 d = this->ToFrame * ray.Direction;
@@ -260,11 +272,8 @@ glm::dvec2 SchlierenRays::Land(const GradedRayResult& ray, double depth) const
   {
     return glm::dvec2(NaN);
   }
-  const glm::dvec2 there = glm::dvec2(place) + (depth - place.z) / d.z * glm::dvec2(d);
-  const auto& origin = this->View.Rays.Origin;
-  const auto& slope = this->View.Rays.Slope;
-  return this->Middle +
-    glm::inverse(this->GetSteps(depth)) * (there - origin.Base - depth * slope.Base);
+  const glm::dvec2 there = glm::dvec2(place) + (plane.Depth - place.z) / d.z * glm::dvec2(d);
+  return plane.Pixel + plane.PerPlace * there;
 }
 
 //------------------------------------------------------------------------------
@@ -305,7 +314,8 @@ RayImage SchlierenRays::GetImage() const
 {
   return { this->Size.x, this->Size.y,
     [this](const glm::dvec3& place) { return this->Project(place); },
-    [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); } };
+    [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); },
+    this->View.Rays.RowDepth };
 }
 
 //------------------------------------------------------------------------------
@@ -314,8 +324,8 @@ bool WriteImages(const SchlierenRays& rays, const std::vector<GradedRayResult>& 
 {
   const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();
   Screens screens;
-  screens.Shadow = rays.GetDepthBehind(half, instruments.ScreenDistance);
-  screens.Background = rays.GetDepthBehind(half, instruments.BackgroundDistance);
+  screens.Shadow = rays.GetPlane(rays.GetDepthBehind(half, instruments.ScreenDistance));
+  screens.Background = rays.GetPlane(rays.GetDepthBehind(half, instruments.BackgroundDistance));
   screens.ReferenceIndex = instruments.ReferenceIndex;
   screens.Radius = mesh.GetRadius();
   const auto width = static_cast<std::size_t>(output->GetDimensions()[0]);

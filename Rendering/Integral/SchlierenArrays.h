@@ -21,6 +21,15 @@ namespace meniscus
 {
 
 /** Rays of an image's pixels in the mesh's units, and places in the image that they reach. */
+/** Plane across the axis of a frame of rays, with the pixels of the rays in it. */
+struct RayPlane
+{
+  double Depth = 0.0;
+  /** Pixel of a place: Pixel + PerPlace * place. */
+  glm::dvec2 Pixel{ 0.0 };
+  glm::dmat2 PerPlace{ 1.0 };
+};
+
 class SchlierenRays
 {
 public:
@@ -35,11 +44,12 @@ public:
   double GetDepthBehind(const glm::dvec3& half, double distance) const;
   /** Change of a direction's slope from the pixel's ray; NaN for a ray that returns. */
   glm::dvec2 Deflect(const glm::dvec2& pixel, const glm::dvec3& direction) const;
+  RayPlane GetPlane(double depth) const;
   /**
-   * Pixel whose undisturbed ray reaches the place at a depth that this ray reaches; NaN for a ray
+   * Pixel whose undisturbed ray reaches the place in a plane that this ray reaches; NaN for a ray
    * that returns.
    */
-  glm::dvec2 Land(const GradedRayResult& ray, double depth) const;
+  glm::dvec2 Land(const GradedRayResult& ray, const RayPlane& plane) const;
 
 private:
   glm::dmat2 GetSteps(double depth) const;

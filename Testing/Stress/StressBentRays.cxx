@@ -74,7 +74,7 @@ public:
     tally.Views = 1;
     const std::vector<GradedRayResult> ends = this->Trace();
     tally.Stopped = this->Sums.Trapped;
-    tally.StoppedInFolds = this->CountFolds(ends);
+    tally.StoppedInFolds = this->Sums.TrappedInFolds;
     tally.Lost = this->Sums.Lost;
     tally.Steps = this->Sums.Steps;
     tally.Rays = this->Sums.Rays;
@@ -141,23 +141,6 @@ private:
     }
   }
 
-  /** Counts the stopped rays that have passed inverted cells. */
-  std::int64_t CountFolds(const std::vector<GradedRayResult>& ends) const
-  {
-    std::int64_t count = 0;
-    for (std::size_t ray = 0; ray < ends.size(); ++ray)
-    {
-      if (ends[ray].State == GradedRayState::Trapped)
-      {
-        GradedRayStatistics statistics;
-        GradedRayResult result;
-        GradedRayWalk(this->Medium).WalkAll({ this->Rays[ray] }, statistics, &result);
-        count += statistics.InvertedSteps > 0 ? 1 : 0;
-      }
-    }
-    return count;
-  }
-
   std::vector<GradedRayResult> Trace()
   {
     this->Medium.MaximumNumberOfSteps = MostSteps;
@@ -199,6 +182,10 @@ private:
       GradedRayWalk(this->Medium).WalkAll({ ray }, statistics, &next);
       const bool glides = statistics.Glides > glidesBefore;
       glidesBefore = statistics.Glides;
+      if (statistics.InvertedSteps > 0)
+      {
+        check.PassFold();
+      }
       if (next.State == GradedRayState::Left && statistics.Steps < steps)
       {
         return check.MeetsMesh() ? "has left too early" : "";

@@ -40,6 +40,25 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
  */
 constexpr double BoxGrowth = 0x1p-23;
 
+/**
+ * Largest error of the distance of a crossing. Each of the three triple products of the direction
+ * and two corners, which are at most 2 from the line's point, is off by at most DistanceError, and
+ * their sum, twice the triangle's area along the line, by three times as much. So each weight is
+ * off by at most four times DistanceError over the sum, and the place by that of two weights times
+ * an edge. A face whose error exceeds the rounding of the mesh's positions is seen edge-on within
+ * it.
+ */
+double ErrorOf(const std::array<glm::dvec3, 3>& corners, double twiceArea)
+{
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
+  }
+  constexpr double most = TetrahedralMesh::PositionUnit;
+  return std::min(BoundaryCrossings::DistanceError * (1.0 + 8.0 * longest / twiceArea), most);
+}
+
 /** True if the line is in a box somewhere from `begin` to `end`. */
 bool MeetsBox(const BoundaryTree::Node& node, const glm::dvec3& point, const glm::dvec3& direction,
   const glm::dvec3& inverse, double begin, double end)
@@ -86,6 +105,7 @@ bool BoundaryCrossings::Cross(
   }
   crossing.Weights = found.Weights;
   crossing.Face = number;
+  crossing.Error = ErrorOf(corners, found.TwiceArea);
   crossing.Enters = found.IsFront;
   crossing.Distance = glm::dot(found.Way, line.Direction) - line.Begin;
   return true;
@@ -93,8 +113,11 @@ bool BoundaryCrossings::Cross(
 
 //------------------------------------------------------------------------------
 BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dvec3& direction,
-  bool leavingToo, const std::vector<std::int32_t>& excluded) const
+  bool leavingToo, const std::vector<std::int32_t>& excluded,
+  const std::vector<std::int32_t>& passed) const
 {
+  const auto isAmong = [](const std::vector<std::int32_t>& faces, std::int32_t face)
+  { return std::find(faces.begin(), faces.end(), face) != faces.end(); };
   const Line line(origin, direction);
   const glm::dvec3 inverse = 1.0 / direction;
   const auto& nodes = this->Tree.GetNodes();
@@ -114,12 +137,12 @@ BoundaryCrossing BoundaryCrossings::Find(const glm::dvec3& origin, const glm::dv
     ++n;
     BoundaryCrossing crossing;
     if (node.Face < 0 || !this->Cross(line, node.Face, crossing) ||
-      crossing.Distance < -DistanceError || !(crossing.Enters || leavingToo))
+      crossing.Distance < -crossing.Error || !(crossing.Enters || leavingToo))
     {
       continue;
     }
-    const bool isNear = crossing.Distance <= DistanceError;
-    if (isNear && std::find(excluded.begin(), excluded.end(), node.Face) != excluded.end())
+    const bool isNear = crossing.Distance <= crossing.Error;
+    if ((isNear && isAmong(excluded, node.Face)) || isAmong(passed, node.Face))
     {
       continue;
     }
@@ -143,7 +166,7 @@ BoundaryCrossing BoundaryCrossings::FindAmong(const glm::dvec3& origin, const gl
   {
     BoundaryCrossing crossing;
     if (!this->Cross(line, faces.GetFace(i), crossing) || !crossing.Enters ||
-      crossing.Distance < -DistanceError)
+      crossing.Distance < -crossing.Error)
     {
       continue;
     }

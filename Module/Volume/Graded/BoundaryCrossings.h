@@ -24,6 +24,12 @@ struct BoundaryCrossing
   std::int32_t Face = -1;
   /** Distance from the ray's origin in units of its direction's length, >= 0. */
   double Distance = 0.0;
+  /**
+   * Largest error of the distance: DistanceError, and more for a face that the ray grazes. If it is
+   * TetrahedralMesh::PositionUnit, the error may be larger; the ray is in the plane of the face
+   * then by the rounding of the mesh's positions.
+   */
+  double Error = 0.0;
   /** Barycentric weights of the face's vertices, in their order; >= 0, with the sum 1. */
   std::array<double, 3> Weights{};
   /** True if the ray enters the mesh by the face. */
@@ -40,8 +46,9 @@ class BoundaryCrossings
 {
 public:
   /**
-   * Largest error of a distance, in units of the mesh's radius: positions of at most 1 in size, 32
-   * roundings of 2^-53 each in weights, position and projection.
+   * Largest error of a distance to a face that is not seen at a small angle, in units of the mesh's
+   * radius: positions of at most 1 in size, 32 roundings of 2^-53 each in weights, position and
+   * projection.
    */
   static constexpr double DistanceError = 0x1p-48;
 
@@ -62,10 +69,12 @@ public:
    * @param origin relative to the mesh's centre, in units of its radius.
    * @param direction unit vector.
    * @param leavingToo true if faces by which the ray leaves the mesh count, too.
-   * @param excluded numbers of faces that do not count within DistanceError of the origin.
+   * @param excluded numbers of faces that do not count within their error of the origin.
+   * @param passed numbers of faces that do not count at any distance.
    */
   BoundaryCrossing Find(const glm::dvec3& origin, const glm::dvec3& direction, bool leavingToo,
-    const std::vector<std::int32_t>& excluded) const;
+    const std::vector<std::int32_t>& excluded,
+    const std::vector<std::int32_t>& passed = std::vector<std::int32_t>()) const;
 
   /** Finds the nearest entry among some of the faces, which have all that are the first. */
   BoundaryCrossing FindAmong(const glm::dvec3& origin, const glm::dvec3& direction,

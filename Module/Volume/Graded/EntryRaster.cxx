@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -16,6 +17,17 @@ namespace
 
 /** Growth of the triangles in pixels: four times the largest error of a corner. */
 constexpr double Growth = 0x1p-20;
+
+/**
+ * Largest length of the difference of the unit vectors of a ray that has been bent and of a ray of
+ * the image that it is close to. Any number is right; larger ones let more faces count, and smaller
+ * ones fewer rays.
+ */
+constexpr double LargestTurn = 1.0 / 64.0;
+
+/** Pixels of a tile in rows and columns, and largest number of tiles that one ray looks at. */
+constexpr double TileSize = 8.0;
+constexpr int MostTiles = 16;
 
 /** Twice the area of a triangle, positive if its corners turn to the left. */
 double TwiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
@@ -55,9 +67,26 @@ private:
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::size_t> EntryFaces::KeepRaysWithFaces()
+{
+  std::vector<std::size_t> kept;
+  for (std::size_t ray = 0; ray < this->Heads.size(); ++ray)
+  {
+    if (this->Heads[ray] >= 0)
+    {
+      this->Heads[kept.size()] = this->Heads[ray];
+      kept.push_back(ray);
+    }
+  }
+  this->Heads.resize(kept.size());
+  return kept;
+}
+
+//------------------------------------------------------------------------------
 EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
   const RayImage& image, const RangeLoop& loop)
-  : Faces(tree.GetFaces().size())
+  : Image(image)
+  , Faces(tree.GetFaces().size())
 {
   loop(this->Faces.size(),
     [&](std::size_t begin, std::size_t end)
@@ -69,6 +98,10 @@ EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
     });
   this->Usable = std::none_of(this->Faces.begin(), this->Faces.end(),
     [](const Drawn& face) { return std::isnan(face.Least.x); });
+  if (this->Usable)
+  {
+    this->FillTiles();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -94,13 +127,101 @@ EntryRaster::Drawn EntryRaster::Draw(
   const glm::dvec3 normal = glm::cross(places[1] - places[0], places[2] - places[0]);
   // Far more than the rounding of the product, and than its change over Growth.
   constexpr double least = 0x1p-16;
-  for (const glm::dvec2& corner : corners)
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const glm::dvec3 direction = image.GetDirection(corner);
-    drawn.IsEntry |= !(glm::dot(normal, direction) >
-      least * std::sqrt(glm::dot(normal, normal) * glm::dot(direction, direction)));
+    const glm::dvec3 direction = image.GetDirection(corners[i]);
+    const double across = glm::dot(normal, direction);
+    const double size = std::sqrt(glm::dot(normal, normal) * glm::dot(direction, direction));
+    drawn.IsEntry |= !(across > least * size);
+    drawn.IsNearlyEntry |= !(across > (LargestTurn + least) * size);
+    const double depth = glm::dot(image.Axis, places[i]);
+    drawn.Depth = i == 0 ? depth : std::max(drawn.Depth, depth);
   }
   return drawn;
+}
+
+//------------------------------------------------------------------------------
+void EntryRaster::FillTiles()
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const glm::ivec2 tiles(glm::ceil(glm::dvec2(this->Image.Width, this->Image.Height) / TileSize));
+  this->TilesPerRow = tiles.x;
+  this->DepthsOfTiles.assign(
+    static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), -infinity);
+  this->LargestDepth = -infinity;
+  for (const Drawn& face : this->Faces)
+  {
+    this->LargestDepth = std::max(this->LargestDepth, face.Depth);
+    if (!face.IsNearlyEntry)
+    {
+      continue;
+    }
+    const glm::dvec2 last(tiles - 1);
+    const glm::ivec2 begin(glm::clamp(glm::floor(face.Least / TileSize), glm::dvec2(0.0), last));
+    const glm::ivec2 end(glm::clamp(glm::floor(face.Most / TileSize), glm::dvec2(0.0), last));
+    for (int row = begin.y; row <= end.y; ++row)
+    {
+      for (int column = begin.x; column <= end.x; ++column)
+      {
+        double& depth = this->DepthsOfTiles[static_cast<std::size_t>(row * tiles.x + column)];
+        depth = std::max(depth, face.Depth);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool EntryRaster::IsNearRay(const glm::dvec2& pixel, const glm::dvec3& direction) const
+{
+  const glm::dvec3 turn = glm::normalize(this->Image.GetDirection(pixel)) - direction;
+  return glm::dot(turn, turn) < LargestTurn * LargestTurn;
+}
+
+//------------------------------------------------------------------------------
+// Directions of the image's rays are affine: a ray that is close to them at two pixels is so at all
+// pixels between them, and goes out by every face by which all rays go out that are as close.
+bool EntryRaster::MayEnterAfter(const glm::dvec3& place, const glm::dvec3& direction) const
+{
+  // Far more than the rounding of a depth, and than the distance at which a face still counts that
+  // is behind the place.
+  constexpr double depthError = 0x1p-40;
+  const double depth = glm::dot(this->Image.Axis, place);
+  const double rate = glm::dot(this->Image.Axis, direction);
+  if (!(rate > 0.0))
+  {
+    return true;
+  }
+  const glm::dvec2 first = this->Image.Project(place);
+  const double way = std::max(this->LargestDepth - depth, 0.0) / rate;
+  const glm::dvec2 last = this->Image.Project(place + way * direction);
+  const glm::dvec2 least = (glm::min(first, last) - 1.0) / TileSize;
+  const glm::dvec2 most = (glm::max(first, last) + 1.0) / TileSize;
+  const int rows =
+    this->TilesPerRow > 0 ? static_cast<int>(this->DepthsOfTiles.size()) / this->TilesPerRow : 0;
+  const bool isInImage =
+    least.x >= 0.0 && least.y >= 0.0 && most.x < this->TilesPerRow && most.y < rows;
+  if (!isInImage || !this->IsNearRay(first, direction) || !this->IsNearRay(last, direction))
+  {
+    return true;
+  }
+  const glm::ivec2 begin(glm::floor(least));
+  const glm::ivec2 end = glm::ivec2(glm::floor(most)) + 1;
+  if ((end.x - begin.x) * (end.y - begin.y) > MostTiles)
+  {
+    return true;
+  }
+  for (int row = begin.y; row < end.y; ++row)
+  {
+    for (int column = begin.x; column < end.x; ++column)
+    {
+      if (this->DepthsOfTiles[static_cast<std::size_t>(row * this->TilesPerRow + column)] >=
+        depth - depthError)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------
@@ -108,6 +229,7 @@ EntryFaces EntryRaster::Collect(const glm::ivec2& first, const glm::ivec2& end,
   const std::function<std::size_t(int, int)>& numberOf) const
 {
   EntryFaces found;
+  found.Raster = this;
   const glm::ivec2 size = end - first;
   found.Heads.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), -1);
   const glm::dvec2 least(first);

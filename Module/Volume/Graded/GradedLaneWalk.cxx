@@ -113,9 +113,8 @@ private:
         continue;
       }
       Path& path = this->Paths[lane];
-      path = Path();
-      path.Faces = this->Faces;
-      path.Number = number;
+      path.Restart();
+      path.SetFaces(this->Faces, number);
       path.Visitor = this->Watch ? this->Watch->Visitors[number] : nullptr;
       if (!this->Walk.Begin(ray, result, this->Statistics, path))
       {
@@ -264,8 +263,7 @@ void GradedRayWalk::WalkAll(const std::vector<GradedRay>& rays, GradedRayStatist
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
     Path path;
-    path.Faces = faces;
-    path.Number = i;
+    path.SetFaces(faces, i);
     path.Visitor = watch ? watch->Visitors[i] : nullptr;
     results[i] = this->WalkToEnd(rays[i], statistics, path);
   }

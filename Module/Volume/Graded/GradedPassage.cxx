@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/GradedPassage.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -69,6 +70,31 @@ struct Inverses
 };
 constexpr Inverses Inverse;
 
+/** binomial(j, k) / binomial(degree, k) for k <= j <= degree. */
+struct BernsteinRatios
+{
+  static constexpr int Size = GradedPassage::HighestOrder + 1;
+  using Rows = std::array<std::array<double, Size>, Size>;
+
+  BernsteinRatios()
+  {
+    for (int degree = 1; degree < Size; ++degree)
+    {
+      for (int j = 0; j <= degree; ++j)
+      {
+        double ratio = 1.0;
+        for (int k = 0; k <= j; ++k)
+        {
+          this->Values[degree][j][k] = ratio;
+          ratio *= static_cast<double>(j - k) / (degree - k);
+        }
+      }
+    }
+  }
+
+  std::array<Rows, Size> Values{};
+};
+
 /** Coefficients in Bernstein's basis of a polynomial on [begin, begin + length], and its degree. */
 struct BernsteinPart
 {
@@ -101,6 +127,16 @@ BernsteinPart Split(BernsteinPart& part, int degree)
  */
 double FirstFall(const double* coefficients, int degree)
 {
+  // No polynomial falls below the sum of its negative terms at 1 and of its first one.
+  double least = coefficients[0];
+  for (int k = 1; k <= degree; ++k)
+  {
+    least += std::min(coefficients[k], 0.0);
+  }
+  if (least > 0.0)
+  {
+    return 1.0;
+  }
   // Halves of the interval down to the rounding of its end.
   constexpr int depth = 52;
   std::array<BernsteinPart, depth + 1> parts;
@@ -108,14 +144,13 @@ double FirstFall(const double* coefficients, int degree)
   whole.Begin = 0.0;
   whole.Length = 1.0;
   whole.Values.fill(0.0);
+  static const BernsteinRatios ratios;
+  const BernsteinRatios::Rows& ofDegree = ratios.Values[static_cast<std::size_t>(degree)];
   for (int j = 0; j <= degree; ++j)
   {
-    // binomial(j, k) / binomial(degree, k)
-    double ratio = 1.0;
     for (int k = 0; k <= j; ++k)
     {
-      whole.Values[j] += ratio * coefficients[k];
-      ratio *= static_cast<double>(j - k) / (degree - k);
+      whole.Values[j] += ofDegree[j][k] * coefficients[k];
     }
   }
   for (int last = 0; last >= 0; --last)
@@ -383,28 +418,36 @@ double GradedPassage::WeightOfWay(int i) const
  *
  * Without its terms from the third order on, a weight is above the smaller of its tangent and its
  * chord, which both begin at 0 or above; its rate is between that at the beginning and that at the
- * end. Those terms change a weight by at most E / 6 (1 + E / 20 + ...) times gradient and way,
- * where E is the exponent of the series, at most 0.7, and a rate by at most E / 2 (1 + E / 12 +
- * ...).
+ * end. The sum of the sizes of those terms at the end, and of their rates, bounds what they change
+ * on the way, and at the end itself, once more.
  */
 bool GradedPassage::IsFirst(int face, double time) const
 {
-  const double way = (SizeOf(this->Momentum) + time * SizeOf(this->Force)) * time;
-  const double exponent = this->Norm * time * time;
+  const glm::dvec3 way = time * (glm::abs(this->Momentum) + time * glm::abs(this->Force));
   for (int i = 0; i < 4; ++i)
   {
-    const double size = SizeOf(this->Cell.Gradients[i]) * way;
-    const double begin = this->Begin.Weights[i];
+    const glm::dvec3& gradient = this->Cell.Gradients[i];
+    double higher = 0.0;
+    double higherRate = 0.0;
+    double power = time * time;
+    for (int k = 3; k <= this->Order; ++k)
+    {
+      power *= time;
+      const double term = power * std::abs(glm::dot(gradient, this->Terms[k]));
+      higher += term;
+      higherRate += k * term;
+    }
+    const double rounding = Rounding * glm::dot(glm::abs(gradient), way);
     if (i == face)
     {
-      const double rate = time * glm::dot(this->Cell.Gradients[i], this->EndMomentum);
-      if (std::max(time * this->Rates[i], rate) > -size * (1.2 * exponent + Rounding))
+      const double rate = time * glm::dot(gradient, this->EndMomentum);
+      if (std::max(time * this->Rates[i], rate) > -(2.0 * higherRate + rounding))
       {
         return false;
       }
     }
-    else if (std::min(begin + time * this->Rates[i], this->WeightOfWay(i)) <
-      size * (0.4 * exponent + Rounding))
+    else if (std::min(this->Begin.Weights[i] + time * this->Rates[i], this->WeightOfWay(i)) <
+      2.0 * higher + rounding)
     {
       return false;
     }

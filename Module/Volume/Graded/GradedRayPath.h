@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -25,6 +26,9 @@ struct GradedRayWalk::Path
   GradedRayStatistics* Statistics = nullptr;
   /** Is told of the pieces of the path; null for none. */
   GradedRayVisitor* Visitor = nullptr;
+  /** True if the ray has passed an inverted cell, and if it has done so since it last entered. */
+  bool HasPassedFold = false;
+  bool IsFolded = false;
   /** True if the visitor has ended the ray. */
   bool IsEnded = false;
   /** Outside of the mesh: a place and the direction; unit length. */
@@ -33,6 +37,8 @@ struct GradedRayWalk::Path
   /** Faces of the next entry, and the number of the ray there; null for any. */
   const EntryFaces* Faces = nullptr;
   std::size_t Number = 0;
+  /** Drawn boundary, by which entries are ruled out after the first one; null for none. */
+  const EntryRaster* Raster = nullptr;
   /** Inside: the cell, the place in it and the momentum. */
   std::int64_t Cell = -1;
   PlaceInCell Place;
@@ -49,6 +55,15 @@ struct GradedRayWalk::Path
   double IndexBefore = 1.0;
   /** Faces by which the ray has entered without moving on since. */
   std::vector<std::int32_t> Touched;
+  /** Largest error of the distances at which it has done so. */
+  double TouchError = 0.0;
+  /**
+   * Faces by which the ray has entered since it last left a fold, and those before. Light goes
+   * backwards in inverted cells: a ray that leaves after one may be in front of the faces that it
+   * has entered by, and passes over them. A straight ray crosses each face once.
+   */
+  std::vector<std::int32_t> Entered;
+  std::vector<std::int32_t> Passed;
   /** True if the last step is short enough for a zigzag. */
   bool IsShort = false;
   /** Short steps in a row, and the cell that was remembered last in their course. */
@@ -59,6 +74,28 @@ struct GradedRayWalk::Path
   /** Constraints that were tried last since the last step that was not short; 0 for none. */
   int LastConstraints = 0;
 
+  /** Makes this the state of a ray that has not begun; keeps the memory of its lists. */
+  void Restart()
+  {
+    Path fresh;
+    fresh.Touched.swap(this->Touched);
+    fresh.Entered.swap(this->Entered);
+    fresh.Touched.clear();
+    fresh.Entered.clear();
+    *this = std::move(fresh);
+  }
+  void PassOverEntries()
+  {
+    this->Passed.insert(this->Passed.end(), this->Entered.begin(), this->Entered.end());
+    this->Entered.clear();
+    this->IsFolded = false;
+  }
+  void SetFaces(const EntryFaces* faces, std::size_t number)
+  {
+    this->Faces = faces;
+    this->Number = number;
+    this->Raster = faces ? faces->GetRaster() : nullptr;
+  }
   bool IsSearching() const { return this->Limit < std::numeric_limits<double>::infinity(); }
   void ForgetZigzag()
   {

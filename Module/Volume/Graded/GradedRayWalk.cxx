@@ -112,6 +112,7 @@ void GradedRayStatistics::Add(const GradedRayStatistics& other)
   this->FlatSteps += other.FlatSteps;
   this->InvertedSteps += other.InvertedSteps;
   this->Trapped += other.Trapped;
+  this->TrappedInFolds += other.TrappedInFolds;
   this->Lost += other.Lost;
 }
 
@@ -184,6 +185,8 @@ void GradedRayWalk::Finish(Path& path) const
   }
   statistics.Rays += result.State != GradedRayState::Missed ? 1 : 0;
   statistics.Trapped += result.State == GradedRayState::Trapped ? 1 : 0;
+  statistics.TrappedInFolds +=
+    result.State == GradedRayState::Trapped && path.HasPassedFold ? 1 : 0;
   statistics.Lost += result.State == GradedRayState::Lost ? 1 : 0;
   statistics.Steps += path.Steps;
 }
@@ -250,11 +253,14 @@ bool GradedRayWalk::EnterMesh(Path& path) const
       result.State = path.IsEnded ? GradedRayState::Ended : result.State;
       return false;
     }
-    if (crossing.Distance > BoundaryCrossings::DistanceError)
+    if (crossing.Distance > std::max(path.TouchError, crossing.Error))
     {
       path.Touched.clear();
+      path.TouchError = 0.0;
     }
+    path.TouchError = std::max(path.TouchError, crossing.Error);
     path.Touched.push_back(crossing.Face);
+    path.Entered.push_back(crossing.Face);
     this->PutIn(crossing, path);
     path.PassageBegin = this->PlaceOf(path);
     path.TellLeg(crossing.Distance);
@@ -299,7 +305,11 @@ BoundaryCrossing GradedRayWalk::FindEntry(Path& path) const
 {
   if (!path.Faces)
   {
-    return this->Crossings.Find(path.Origin, path.Direction, false, path.Touched);
+    if (path.Raster && !path.Raster->MayEnterAfter(path.Origin, path.Direction))
+    {
+      return {};
+    }
+    return this->Crossings.Find(path.Origin, path.Direction, false, path.Touched, path.Passed);
   }
   const EntryFaces& faces = *path.Faces;
   path.Faces = nullptr;
@@ -395,11 +405,17 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
     path.Place.Entry = face;
     return false;
   }
+  if (path.IsFolded)
+  {
+    path.PassOverEntries();
+  }
   path.Origin = result.Exit = this->PlaceOf(path);
   path.Direction = result.Direction = glm::normalize(path.Momentum);
-  if (glm::length(path.Origin - path.PassageBegin) > BoundaryCrossings::DistanceError)
+  if (glm::length(path.Origin - path.PassageBegin) >
+    std::max(path.TouchError, BoundaryCrossings::DistanceError))
   {
     path.Touched.clear();
+    path.TouchError = 0.0;
   }
   return true;
 }
@@ -416,6 +432,8 @@ int GradedRayWalk::CrossCell(Path& path) const
   ++path.Steps;
   path.Statistics->FlatSteps += cell.IsFlat ? 1 : 0;
   path.Statistics->InvertedSteps += cell.IsInverted ? 1 : 0;
+  path.IsFolded |= cell.IsInverted && !path.IsSearching();
+  path.HasPassedFold |= path.IsFolded;
   const double sign = cell.IsInverted ? -1.0 : 1.0;
   const bool isStraight = path.IsSearching() || this->Medium.IsStraight;
   const double square = glm::dot(path.Momentum, path.Momentum);

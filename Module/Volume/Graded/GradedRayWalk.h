@@ -15,6 +15,8 @@
  * 4. Flat cells are passed in no time, inverted cells backwards, as by straight rays. If the two
  *    sides of a flat cell have different n^2, a jump of the index, Snell's law holds at its plane.
  * 5. Outside of the mesh, rays are straight. They enter it as often as they meet its boundary.
+ * After a way through an inverted cell, a ray passes over the faces by which it has entered: it may
+ * have come out in front of them, and would go round for ever.
  *
  * A ray can glide along a face to which n^2 rises from both sides, or along an edge. Its zigzag has
  * infinitely many crossings as its height tends to 0. A ray that returns to the same cell in steps
@@ -128,6 +130,8 @@ struct GradedRayStatistics
   std::int64_t FlatSteps = 0;
   std::int64_t InvertedSteps = 0;
   std::int64_t Trapped = 0;
+  /** Trapped rays that have passed inverted cells, in which light goes backwards. */
+  std::int64_t TrappedInFolds = 0;
   std::int64_t Lost = 0;
 
   void Add(const GradedRayStatistics& other);

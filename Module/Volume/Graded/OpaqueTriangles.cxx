@@ -8,6 +8,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,53 @@ constexpr double BoxGrowth = 0x1p-40;
 double SizeOf(const glm::dvec3& v)
 {
   return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
+
+/** Corners of a tetrahedron and of a triangle. */
+using CellCorners = std::array<glm::dvec3, 4>;
+using Corners = std::array<glm::dvec3, 3>;
+
+/** True if a plane across an axis has the cell on one side and the triangle on the other. */
+bool AreApart(const glm::dvec3& axis, const CellCorners& cell, const Corners& triangle)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 ofCell(infinity, -infinity);
+  glm::dvec2 ofTriangle = ofCell;
+  // The corners are relative to one of the cell's, which is exact for the cell and off by one
+  // rounding of its coordinates for the triangle.
+  double size = 1.0;
+  for (const glm::dvec3& corner : cell)
+  {
+    const double at = glm::dot(axis, corner);
+    ofCell = { std::min(ofCell.x, at), std::max(ofCell.y, at) };
+  }
+  for (const glm::dvec3& corner : triangle)
+  {
+    const double at = glm::dot(axis, corner);
+    ofTriangle = { std::min(ofTriangle.x, at), std::max(ofTriangle.y, at) };
+    size = std::max(size, SizeOf(corner));
+  }
+  const double margin = BoxGrowth * size * glm::length(axis);
+  return ofCell.x > ofTriangle.y + margin || ofTriangle.x > ofCell.y + margin;
+}
+
+/** True if the plane of the triangle or of one of the cell's faces keeps the two apart. */
+bool AreApart(const CellCorners& cell, const Corners& triangle)
+{
+  if (AreApart(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]), cell, triangle))
+  {
+    return true;
+  }
+  for (std::size_t i = 0; i < cell.size(); ++i)
+  {
+    const glm::dvec3& first = cell[i];
+    const glm::dvec3 normal = glm::cross(cell[(i + 1) % 4] - first, cell[(i + 2) % 4] - first);
+    if (AreApart(normal, cell, triangle))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 }
@@ -158,19 +206,41 @@ std::vector<std::uint8_t> OpaqueTriangles::FindCells(
     {
       for (std::size_t c = begin; c < end; ++c)
       {
-        AxisBox box;
-        for (const auto vertex : cells[c].Vertices)
+        CellCorners corners;
+        for (std::size_t i = 0; i < corners.size(); ++i)
         {
-          const glm::dvec3 place = mesh.GetPosition(vertex);
-          box.Add({ place, place });
+          corners[i] = mesh.GetPosition(cells[c].Vertices[i]);
         }
-        // The cell is in the ball about its box, and the ball within its radius of a short piece.
-        const double radius = 0.5 * glm::length(box.High - box.Low);
-        const Chord piece{ 0.5 * (box.Low + box.High), glm::dvec3(BoxGrowth), 1.0 };
-        found[c] = this->MayMeet(piece, radius + BoxGrowth) ? 1 : 0;
+        found[c] = this->MayBeIn(corners) ? 1 : 0;
       }
     });
   return found;
+}
+
+//------------------------------------------------------------------------------
+/** True unless a plane keeps all triangles apart from a cell. */
+bool OpaqueTriangles::MayBeIn(const std::array<glm::dvec3, 4>& cell) const
+{
+  TubeBounds tube;
+  tube.StartLow = glm::min(glm::min(cell[0], cell[1]), glm::min(cell[2], cell[3])) - BoxGrowth;
+  tube.StartHigh = glm::max(glm::max(cell[0], cell[1]), glm::max(cell[2], cell[3])) + BoxGrowth;
+  tube.DirectionLow = tube.DirectionHigh = glm::dvec3(BoxGrowth);
+  const CellCorners corners{ glm::dvec3(0.0), cell[1] - cell[0], cell[2] - cell[0],
+    cell[3] - cell[0] };
+  bool mayBeIn = false;
+  this->Tree.Visit(tube, 1.0,
+    [&](std::int32_t item, const TubeRange&)
+    {
+      const auto& triangle = this->Triangles[static_cast<std::size_t>(item)];
+      Corners there;
+      for (std::size_t i = 0; i < there.size(); ++i)
+      {
+        there[i] = this->Points[static_cast<std::size_t>(triangle[i])] - cell[0];
+      }
+      mayBeIn = !AreApart(corners, there);
+      return mayBeIn ? -1.0 : 1.0;
+    });
+  return mayBeIn;
 }
 
 //------------------------------------------------------------------------------

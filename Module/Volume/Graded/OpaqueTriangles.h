@@ -63,6 +63,7 @@ private:
   bool MeetPart(GradedArc& arc, const Chord& chord, double from, double to, OpaqueHit& hit) const;
   bool MeetLine(const Chord& chord, OpaqueHit& hit) const;
   bool MayMeet(const Chord& chord, double height) const;
+  bool MayBeIn(const std::array<glm::dvec3, 4>& cell) const;
 
   std::vector<glm::dvec3> Points;
   std::vector<std::array<std::int32_t, 3>> Triangles;

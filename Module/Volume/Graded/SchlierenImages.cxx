@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace meniscus
 {
@@ -20,7 +21,7 @@ constexpr double Pi = 3.14159265358979323846;
 /** Rows of the screen that are one piece of work. */
 constexpr int RowsPerBand = 16;
 
-/** A convex polygon: a triangle that up to four half planes have cut. */
+/** A convex polygon: up to four corners, and one more for each of four half planes that cut it. */
 struct Polygon
 {
   std::array<glm::dvec2, 8> Corners;
@@ -80,6 +81,9 @@ struct Polygon
   }
 };
 
+/** Corners of a quadrangle, one after the other around it. */
+using Quadrangle = std::array<glm::dvec2, 4>;
+
 /** Index of the pixel at a coordinate, in a range that one may be beyond on both sides. */
 int PixelAt(double coordinate, int first, int last)
 {
@@ -126,24 +130,48 @@ public:
   {
   }
 
-  /** Spreads light evenly over a triangle. */
-  void Add(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double light)
+  /** Spreads light evenly over a quadrangle; if it is not convex, over its two triangles. */
+  void Add(const Quadrangle& corners, double light)
   {
-    if (this->AddWhole(a, b, c, light))
+    if (this->AddWhole(corners, light))
     {
       return;
     }
-    Polygon triangle;
-    triangle.Corners = { a, b, c };
-    triangle.Size = 3;
-    const double area = triangle.GetArea();
+    if (IsConvex(corners))
+    {
+      this->AddPolygon({ { corners[0], corners[1], corners[2], corners[3] }, 4 }, light);
+      return;
+    }
+    this->AddPolygon({ { corners[0], corners[1], corners[2] }, 3 }, 0.5 * light);
+    this->AddPolygon({ { corners[0], corners[2], corners[3] }, 3 }, 0.5 * light);
+  }
+
+private:
+  /** True if all corners turn to the same side. */
+  static bool IsConvex(const Quadrangle& corners)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      const glm::dvec2 a = corners[(i + 1) % 4] - corners[i];
+      const glm::dvec2 b = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+      const double turn = a.x * b.y - a.y * b.x;
+      least = std::min(least, turn);
+      most = std::max(most, turn);
+    }
+    return least > 0.0 || most < 0.0;
+  }
+  void AddPolygon(const Polygon& polygon, double light)
+  {
+    const double area = polygon.GetArea();
     if (!(area > 0.0))
     {
-      this->AddPoint((a + b + c) / 3.0, light);
+      this->AddPoint((polygon.Corners[0] + polygon.Corners[1] + polygon.Corners[2]) / 3.0, light);
       return;
     }
     const double density = light / area;
-    ForEachSlice(triangle, 1, this->First, this->Last,
+    ForEachSlice(polygon, 1, this->First, this->Last,
       [this, density](const Polygon& strip, int row)
       {
         ForEachSlice(strip, 0, 0, this->Width,
@@ -151,17 +179,16 @@ public:
           { this->At(column, row) += density * part.GetArea(); });
       });
   }
-
-private:
-  /** Adds the light of a triangle in one pixel, with or without its border. */
-  bool AddWhole(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double light)
+  /** Adds the light of a quadrangle in one pixel, with or without its border. */
+  bool AddWhole(const Quadrangle& corners, double light)
   {
-    const glm::dvec2 middle = glm::floor((a + b + c) / 3.0 + 0.5);
-    const glm::dvec2 far =
-      glm::max(glm::max(glm::abs(a - middle), glm::abs(b - middle)), glm::abs(c - middle));
-    if (!(std::max(far.x, far.y) <= 0.5))
+    const glm::dvec2 middle = glm::floor(0.5 * (corners[0] + corners[2]) + 0.5);
+    for (const glm::dvec2& corner : corners)
     {
-      return false;
+      if (!(std::max(std::abs(corner.x - middle.x), std::abs(corner.y - middle.y)) <= 0.5))
+      {
+        return false;
+      }
     }
     if (middle.x >= 0.0 && middle.x < this->Width && middle.y >= this->First &&
       middle.y < this->Last)
@@ -292,10 +319,9 @@ std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, 
         static_cast<std::size_t>(column);
       if (!std::isnan(landings[pixel].x))
       {
-        const glm::dvec2 first = cornerAt(column, row);
-        const glm::dvec2 opposite = cornerAt(column + 1, row + 1);
-        band.Add(first, cornerAt(column + 1, row), opposite, 0.5);
-        band.Add(first, opposite, cornerAt(column, row + 1), 0.5);
+        band.Add({ cornerAt(column, row), cornerAt(column + 1, row), cornerAt(column + 1, row + 1),
+                   cornerAt(column, row + 1) },
+          1.0);
       }
     }
   };

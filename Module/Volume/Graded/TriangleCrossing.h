@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 
 namespace meniscus
 {
@@ -24,6 +25,8 @@ struct TriangleCrossing
   std::array<double, 3> Weights{};
   /** From the line's point to the crossing. */
   glm::dvec3 Way{ 0.0 };
+  /** Twice the area of the triangle as seen along the line, for a direction of unit length. */
+  double TwiceArea = 0.0;
   /** True if the line goes against the normal, about which the corners turn to the left. */
   bool IsFront = false;
 };
@@ -53,6 +56,7 @@ bool CrossTriangle(const std::array<glm::dvec3, 3>& corners, const Order& isBefo
   {
     return false;
   }
+  crossing.TwiceArea = std::abs(sum);
   crossing.Way = glm::dvec3(0.0);
   for (std::size_t i = 0; i < 3; ++i)
   {

@@ -349,6 +349,7 @@ std::vector<std::int64_t> GradedPathCheck::CellsAround(const std::vector<std::in
 void GradedPathCheck::Begin(const PlaceOnRay& ray)
 {
   this->Last = ray;
+  this->HasPassedFold = false;
   this->Near.clear();
 }
 
@@ -403,7 +404,8 @@ std::vector<GradedPathCheck::Crossing> GradedPathCheck::FindCrossings() const
       continue;
     }
     // A face that is seen edge-on, and a place on the face, are no certain crossings.
-    const bool isCertain = least > tolerance && distance > tolerance * Length(normal) / -fall;
+    const bool isCertain =
+      !this->HasPassedFold && least > tolerance && distance > tolerance * Length(normal) / -fall;
     // The place is a mean of the corners by quotients of triple products of the direction and two
     // corners, which are at most 2 from the ray.
     const Real longest = std::max({ Distance(corners[0], corners[1]),

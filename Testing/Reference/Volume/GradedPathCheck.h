@@ -58,6 +58,11 @@ public:
    * @param glides true if the ray may have been taken along a face, to the rounding of positions.
    */
   bool GoTo(const PlaceOnRay& next, bool glides);
+  /**
+   * Tells that the ray has passed an inverted cell, in which light goes backwards. From then on it
+   * may pass over faces on its straight ways: no crossing is certain.
+   */
+  void PassFold() { this->HasPassedFold = true; }
   /** True if the straight ray from the last place meets the mesh for certain. */
   bool MeetsMesh() const;
 
@@ -113,6 +118,7 @@ private:
   std::vector<Cell> Cells;
   std::vector<std::vector<std::int64_t>> CellsOfPoints;
   PlaceOnRay Last;
+  bool HasPassedFold = false;
   /** Cells near the last place; none outside. */
   std::vector<std::int64_t> Near;
 };

@@ -5,6 +5,7 @@
 
 #include "TestBasics.h"
 #include "Volume/Graded/BoundaryCones.h"
+#include "Volume/Graded/BoundaryCrossings.h"
 #include "Volume/Graded/EntryRaster.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
@@ -48,7 +49,7 @@ struct Camera
   RayImage GetImage() const
   {
     return { Pixels, Pixels, [this](const glm::dvec3& place) { return this->Project(place); },
-      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); } };
+      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); }, this->Axes[2] };
   }
 
 private:
@@ -157,6 +158,128 @@ TEST(EntryFaces, ResultsAreThoseOfTheTree)
       }
     }
   }
+}
+
+// Rays that a gas has bent leave a cube behind all faces that they could enter by; where they pass
+// a hole or come close to an edge, the tree must be asked.
+TEST(EntryFaces, MostRaysDoNotEnterAgain)
+{
+  for (const bool hasHole : { false, true })
+  {
+    GradedScene scene(CenteredGrid(6, 1.0),
+      [hasHole](const glm::dvec3& p)
+      {
+        const bool isHole = hasHole && glm::length(p) < 0.5;
+        return isHole ? NaN : 1.0005 + 2.0e-4 * std::sin(3.0 * p.x) * std::cos(2.0 * p.y + p.z);
+      });
+    const Camera camera({ 0.1, 0.05, -1.0 }, 3.0, true);
+    const EntryRaster raster(scene.Mesh, scene.Tree, camera.GetImage());
+    const BoundaryCrossings crossings(scene.Mesh, scene.Tree);
+    int ruledOut = 0;
+    int entered = 0;
+    for (int i = 0; i < Pixels * Pixels; ++i)
+    {
+      const GradedRay ray = camera.GetRay(glm::dvec2(i % Pixels, i / Pixels));
+      const BoundaryCrossing first =
+        crossings.Find(ray.Origin, glm::normalize(ray.Direction), false, {});
+      const GradedRayResult result = scene.Walk(ray.Origin, ray.Direction);
+      const bool mayEnter = raster.MayEnterAfter(result.Exit, result.Direction);
+      ruledOut += result.State == GradedRayState::Left && !mayEnter ? 1 : 0;
+      // From before the mesh, and from its middle, where the hole is left.
+      EXPECT_TRUE(
+        first.Face < 0 || raster.MayEnterAfter(ray.Origin, glm::normalize(ray.Direction)));
+      const glm::dvec3 middle = result.Entry + 0.5 * (result.Exit - result.Entry);
+      if (crossings.Find(middle, result.Direction, false, {}).Face >= 0)
+      {
+        EXPECT_TRUE(raster.MayEnterAfter(middle, result.Direction)) << i;
+        ++entered;
+      }
+      EXPECT_TRUE(raster.MayEnterAfter(result.Exit, -result.Direction));
+    }
+    EXPECT_GT(ruledOut, Pixels * Pixels / 8) << hasHole;
+    EXPECT_GT(entered, hasHole ? 4 : -1);
+  }
+}
+
+TEST(EntryFaces, RaysWithoutFacesAreLeftOut)
+{
+  const auto scene = std::move(MakeScenes().front());
+  const Camera camera({ 0.3, -0.4, 0.8 }, 3.0, true);
+  const EntryRaster raster(scene->Mesh, scene->Tree, camera.GetImage());
+  const auto collect = [&raster]()
+  {
+    return raster.Collect({ 0, 0 }, { Pixels, Pixels },
+      [](int column, int row) { return static_cast<std::size_t>(row * Pixels + column); });
+  };
+  const EntryFaces all = collect();
+  EntryFaces few = collect();
+  const std::vector<std::size_t> kept = few.KeepRaysWithFaces();
+  EXPECT_GT(kept.size(), 10u);
+  std::size_t next = 0;
+  for (std::size_t ray = 0; ray < Pixels * Pixels; ++ray)
+  {
+    if (all.GetFirst(ray) >= 0)
+    {
+      ASSERT_LT(next, kept.size());
+      EXPECT_EQ(kept[next], ray);
+      EXPECT_EQ(few.GetFirst(next), all.GetFirst(ray));
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, kept.size());
+}
+
+// Distances of crossings against those of extended precision, from faces seen from the front to
+// faces that are grazed: their errors are bounded, and those of the latter exceed the bound of the
+// former.
+TEST(BoundaryCrossings, ErrorsOfDistancesAreBounded)
+{
+  RandomNumbers random(21);
+  int crossed = 0;
+  int beyond = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    MeshArrays arrays = KuhnGrid(1);
+    Jitter(arrays, 0.2, static_cast<unsigned int>(i));
+    const GradedScene scene(arrays, [](const glm::dvec3&) { return 2.0; });
+    const BoundaryCrossings crossings(scene.Mesh, scene.Tree);
+    const auto& faces = scene.Tree.GetFaces();
+    for (std::size_t number = 0; number < faces.size(); ++number)
+    {
+      const auto& vertices = faces[number].Vertices;
+      const glm::dvec3 corners[3] = { scene.Mesh.GetPosition(vertices[0]),
+        scene.Mesh.GetPosition(vertices[1]), scene.Mesh.GetPosition(vertices[2]) };
+      const glm::dvec3 normal =
+        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      const double angle = std::pow(10.0, random.Uniform(-5.0, 0.0));
+      const glm::dvec3 direction =
+        glm::normalize(glm::normalize(corners[1] - corners[0] +
+                         random.Uniform(0.1, 1.0) * (corners[2] - corners[0])) -
+          angle * normal);
+      const glm::dvec3 origin = (corners[0] + corners[1] + corners[2]) / 3.0 - 0.3 * direction;
+      const BoundaryCrossing found = crossings.Find(origin, direction, false, {});
+      if (found.Face != static_cast<std::int32_t>(number))
+      {
+        continue;
+      }
+      using Exact = glm::vec<3, long double, glm::defaultp>;
+      const Exact first(corners[0]);
+      const Exact exactNormal = glm::cross(Exact(corners[1]) - first, Exact(corners[2]) - first);
+      const long double distance =
+        glm::dot(exactNormal, first - Exact(origin)) / glm::dot(exactNormal, Exact(direction));
+      const double error = std::abs(static_cast<double>(found.Distance - distance));
+      if (found.Error == TetrahedralMesh::PositionUnit)
+      {
+        continue;
+      }
+      EXPECT_LE(error, found.Error) << i << ' ' << number << ' ' << angle;
+      EXPECT_GE(found.Error, BoundaryCrossings::DistanceError);
+      ++crossed;
+      beyond += error > BoundaryCrossings::DistanceError ? 1 : 0;
+    }
+  }
+  EXPECT_GT(crossed, 1000);
+  EXPECT_GT(beyond, 10);
 }
 
 TEST(EntryFaces, NothingIsCollectedIfAPlaceHasNoPixel)

@@ -480,7 +480,39 @@ TEST(GradedRayWalk, RayIsStoppedAfterItsSteps)
   const GradedRayResult ray = glass.Trace(glm::dvec3(0.4, 0.45, 0.3), glm::dvec3(1.0, 1.1, 1.2));
   EXPECT_EQ(ray.State, GradedRayState::Trapped);
   EXPECT_EQ(glass.Statistics.Trapped, 1);
+  EXPECT_EQ(glass.Statistics.TrappedInFolds, 0);
   EXPECT_EQ(glass.Statistics.Steps, 65536);
+}
+
+// A cell beyond the boundary, turned inside out by a vertex that has been pulled through its face:
+// light enters it by its far side and goes back to the near one. From there it goes on, past the
+// face by which it has entered, straight or bent.
+TEST(GradedRayWalk, RayLeavesAFoldForward)
+{
+  MeshArrays arrays = KuhnGrid(2);
+  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
+  {
+    const bool isMiddleOfTop = arrays.PointAt(static_cast<std::int64_t>(p / 3)) == //
+      glm::dvec3(0.5, 0.5, 1.0);
+    arrays.Points[p] += isMiddleOfTop ? 0.8 : 0.0;
+  }
+  for (const bool isStraight : { false, true })
+  {
+    GradedScene scene(arrays, LinearField(1.5, glm::dvec3(0.2, 0.1, 0.3)));
+    scene.Medium.IsStraight = isStraight;
+    RandomNumbers random(8);
+    for (int i = 0; i < 4000; ++i)
+    {
+      const glm::dvec3 direction = random.GetDirection();
+      const glm::dvec3 target(random.Uniform(0.5, 1.3), random.Uniform(0.0, 1.0), 0.9);
+      const GradedRayResult ray = scene.Trace(target - 3.0 * direction, direction);
+      EXPECT_NE(ray.State, GradedRayState::Trapped) << i;
+    }
+    EXPECT_GT(scene.Statistics.InvertedSteps, 100);
+    ExpectAllThrough(scene.Statistics);
+    // Far fewer than the steps of rays that go round in the fold.
+    EXPECT_LT(scene.Statistics.Steps, 40 * scene.Statistics.Rays);
+  }
 }
 
 TEST(GradedRayWalk, RayBeginsInside)

@@ -286,6 +286,45 @@ TEST(OpaqueTriangles, NothingIsNoObject)
   EXPECT_EQ(See(scene, line, { 0, 0, 2 }, { 0, 0, -1 }).Hit.Triangle, -1);
 }
 
+// Cells a thousand times as long as high are those that a plane cuts, none of their neighbours.
+TEST(OpaqueTriangles, LongCellsAreMarkedIfTheyMayHoldATriangle)
+{
+  MeshArrays arrays = KuhnGrid(9);
+  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
+  {
+    arrays.Points[p] *= 1000.0;
+  }
+  const GradedScene scene(arrays, [](const glm::dvec3&) { return 2.0; });
+  const auto at = [&scene](double x, double y, double z)
+  { return glm::dvec3(x, y, z) * scene.Mesh.GetRadius() + scene.Mesh.GetCenter(); };
+  // A triangle far larger than the mesh, and one far smaller than a cell.
+  const OpaqueTriangles plane = MakeTriangles(
+    scene, { { -9e4, -500.0, 0.37 }, { 9e4, -500.0, 0.38 }, { 0.0, 9e4, 0.39 } }, { { 0, 1, 2 } });
+  const glm::dvec3 small = at(0.3, 1e-4, 1e-4);
+  const OpaqueTriangles speck = MakeTriangles(scene,
+    { small, small + glm::dvec3(1e-6, 0, 0), small + glm::dvec3(0, 1e-6, 0) }, { { 0, 1, 2 } });
+  const std::vector<std::uint8_t> cut = plane.FindCells(scene.Mesh);
+  const glm::dvec3 normal = glm::cross(glm::dvec3(18e4, 0, 0.01), glm::dvec3(9e4, 90500.0, 0.02));
+  for (std::size_t c = 0; c < cut.size(); ++c)
+  {
+    double least = 1.0;
+    double most = -1.0;
+    for (const auto vertex : scene.Mesh.GetCells()[c].Vertices)
+    {
+      const glm::dvec3 p = scene.Mesh.GetPosition(vertex) * scene.Mesh.GetRadius() +
+        scene.Mesh.GetCenter() - glm::dvec3(-9e4, -500.0, 0.37);
+      const double height = glm::dot(p, normal) / glm::length(normal);
+      least = std::min(least, height);
+      most = std::max(most, height);
+    }
+    EXPECT_EQ(cut[c] != 0, least < 0.0 && most > 0.0) << c;
+  }
+  const std::vector<std::uint8_t> marked = speck.FindCells(scene.Mesh);
+  const auto count = std::count(marked.begin(), marked.end(), 1);
+  EXPECT_GE(count, 1);
+  EXPECT_LE(count, 2);
+}
+
 // In a gas, rays go in lanes but for cells that an object may be in, and see what each sees alone.
 TEST(OpaqueTriangles, LanesSeeObjectsInTheMesh)
 {
