@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/ParallelPlanes.h"
 
-#include "Refraction/Membrane/HeightField.h"
-
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -61,15 +60,21 @@ bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const 
     IsConvexField(membrane, link.Surface->GetPatches(), HeightFrame(side * axis));
 }
 
-// Smallest index of refraction of the first `count` layers.
-double FindLeastIndex(const std::vector<PlaneLayer>& layers, std::size_t count)
+// The first `count` layers, of which the last one has no end.
+std::vector<PlaneLayer> MakeLayers(const std::vector<PlaneLayer>& all, std::size_t count)
 {
-  double least = layers[0].Index;
-  for (std::size_t i = 1; i < count; ++i)
+  std::vector<PlaneLayer> layers(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  layers.back().End = std::numeric_limits<double>::infinity();
+  double least = layers.front().Index;
+  for (const PlaneLayer& layer : layers)
   {
-    least = std::min(least, layers[i].Index);
+    least = std::min(least, layer.Index);
   }
-  return least;
+  for (PlaneLayer& layer : layers)
+  {
+    layer.Squared = layer.Index / least * (layer.Index / least);
+  }
+  return layers;
 }
 
 }
@@ -88,8 +93,8 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   {
     return;
   }
-  this->Axis = (first.Passage.FromFront ? -1.0 : 1.0) *
-    glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]);
+  this->Frame = HeightFrame((first.Passage.FromFront ? -1.0 : 1.0) *
+    glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]));
   this->Eye = stack.GetEye();
   this->Exact = true;
   this->Slack = 0.0;
@@ -98,7 +103,8 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   {
     double depth = 0.0;
     double deviation = 0.0;
-    if (!FindPlane(link, this->Axis, this->Eye, depth, deviation) || depth <= layers.back().Begin)
+    if (!FindPlane(link, this->GetAxis(), this->Eye, depth, deviation) ||
+      depth <= layers.back().Begin)
     {
       return;
     }
@@ -111,22 +117,64 @@ void ParallelPlanes::Set(const RefractionStack& stack)
       2.0 * deviation * surface.GetMembrane().GetRadius() +
         surface.GetSlack(glm::length(stack.GetOrigin() + link.Shift)));
   }
-  const double least = FindLeastIndex(layers, layers.size());
-  for (PlaneLayer& layer : layers)
+  this->Inner.clear();
+  for (std::size_t i = 0; i + 1 < layers.size(); ++i)
   {
-    layer.Squared = layer.Index / least * (layer.Index / least);
+    this->Inner.push_back(this->FindInner(stack.GetLinks()[i], layers[i]));
   }
-  this->Layers = layers;
+  for (std::size_t count = 1; count <= layers.size(); ++count)
+  {
+    this->Layers.push_back(MakeLayers(layers, count));
+  }
+}
+
+//------------------------------------------------------------------------------
+// The rectangle about the vertices, or the part of it about its middle that is as wide as a square
+// in a circle; an empty one if corners of both are not on the surface.
+ParallelPlanes::Rectangle ParallelPlanes::FindInner(
+  const RefractionStack::Link& link, const PlaneLayer& inFront) const
+{
+  const Membrane& membrane = link.Surface->GetMembrane();
+  const glm::dvec3 foot = this->Eye + inFront.End * this->GetAxis() - link.Shift;
+  Rectangle all{ glm::dvec2(std::numeric_limits<double>::infinity()),
+    glm::dvec2(-std::numeric_limits<double>::infinity()) };
+  for (const Membrane::Facet& facet : membrane.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      const glm::dvec2 place =
+        this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)] - foot);
+      all = { glm::min(all.Low, place), glm::max(all.High, place) };
+    }
+  }
+  const auto isOn = [&](double x, double y)
+  {
+    SurfaceCrossing crossing;
+    const glm::dvec3 place = foot + x * this->Frame.First + y * this->Frame.Second;
+    return link.FindCrossing(
+      place - (inFront.End - inFront.Begin) * this->GetAxis(), this->GetAxis(), 0.0, crossing);
+  };
+  const glm::dvec2 middle = 0.5 * (all.Low + all.High);
+  for (const double part : { 1.0, std::sqrt(0.5) })
+  {
+    const glm::dvec2 low = glm::mix(middle, all.Low, part);
+    const glm::dvec2 high = glm::mix(middle, all.High, part);
+    if (isOn(low.x, low.y) && isOn(high.x, low.y) && isOn(high.x, high.y) && isOn(low.x, high.y))
+    {
+      return { low, high };
+    }
+  }
+  return { all.High, all.Low };
 }
 
 //------------------------------------------------------------------------------
 int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 {
-  const double depth = glm::dot(this->Axis, point - this->Eye);
+  const double depth = glm::dot(this->GetAxis(), point - this->Eye);
   int count = this->IsEmpty() ? -1 : 0;
   for (std::size_t i = 1; i < this->Layers.size(); ++i)
   {
-    const double plane = this->Layers[i].Begin;
+    const double plane = this->Layers.back()[i].Begin;
     // Written so that a NaN fails.
     if (!(std::fabs(depth - plane) > this->Slack))
     {
@@ -134,33 +182,26 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
     }
     count += depth > plane ? 1 : 0;
   }
-  return depth > 0.0 ? count : -1;
+  return count;
 }
 
 //------------------------------------------------------------------------------
 // The unknown is the tangent t of LateralSum.
-glm::dvec3 ParallelPlanes::FindSight(
-  const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
+glm::dvec3 ParallelPlanes::FindSight(const glm::dvec3& point, std::size_t count) const
 {
   const glm::dvec3 away = point - this->Eye;
-  const double depth = glm::dot(this->Axis, away);
-  const glm::dvec3 lateral = away - depth * this->Axis;
+  const double depth = glm::dot(this->GetAxis(), away);
+  const glm::dvec3 lateral = away - depth * this->GetAxis();
   const double distance = glm::length(lateral);
-  const std::vector<PlaneLayer>& layers = this->Layers;
-  const double least = FindLeastIndex(layers, count + 1);
-  const double along = glm::dot(this->Axis, near);
-  const double nearSine =
-    layers[0].Index / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
+  const std::vector<PlaneLayer>& layers = this->Layers[count];
   const double straight = distance / depth;
-  double t =
-    along > 0.0 && nearSine < 1.0 ? nearSine / std::sqrt(1.0 - nearSine * nearSine) : straight;
+  double t = straight;
   for (int tries = 0; tries < LateralSum::MostSteps; ++tries)
   {
     LateralSum sum;
-    for (std::size_t i = 0; i <= count; ++i)
+    for (const PlaneLayer& layer : layers)
     {
-      const double ratio = layers[i].Index / least;
-      sum.Add((i < count ? layers[i].End : depth) - layers[i].Begin, ratio * ratio, t);
+      sum.Add(std::min(layer.End, depth) - layer.Begin, layer.Squared, t);
     }
     const double step = sum.GetStep(distance, t);
     t = std::max(t + step, straight);
@@ -170,10 +211,10 @@ glm::dvec3 ParallelPlanes::FindSight(
       break;
     }
   }
-  const double sine = least / layers[0].Index * t / std::sqrt(1.0 + t * t);
+  const double sine = t / std::sqrt(layers[0].Squared * (1.0 + t * t));
   return distance > 0.0
-    ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->Axis + (sine / distance) * lateral
-    : this->Axis;
+    ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->GetAxis() + (sine / distance) * lateral
+    : this->GetAxis();
 }
 
 }

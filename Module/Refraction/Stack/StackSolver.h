@@ -34,6 +34,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace meniscus
@@ -47,14 +49,21 @@ struct StackDetail
   std::int32_t Passed = 0;          ///< number of interfaces in front of the point
 };
 
+/** Places that StackSolver::Solve writes the images of points to. */
+struct ImageOutput
+{
+  VirtualVertex* Vertices;
+  StackDetail* Details;
+  double* Legs;             ///< one per interface and point
+  std::size_t LegsPerPoint; ///< number of interfaces, including interfaces behind the eye
+};
+
 /** Image of a point through a stack; SightPoint and Facet are on the first interface. */
 struct StackVertex
   : VirtualVertex
   , StackDetail
 {
 };
-
-struct ImageOutput;
 
 class StackSolver
 {
@@ -65,7 +74,10 @@ public:
   /** Sets the interfaces. The eye must be set again afterwards. */
   MediaChain SetInterfaces(const std::vector<Interface>& list);
 
-  /** Fits the trees to an eye. Solving is allowed only if the result is `Ready`. */
+  /**
+   * Sets an eye, and fits the beams to it unless the surfaces are exact parallel planes, which
+   * hardly ever need them. Solving is allowed only if the result is `Ready`.
+   */
   EyeStatus SetEye(const glm::dvec3& eye, const RangeLoop& loop = SerialLoop);
 
   /** Sets the eye of GetStack() alone, for rays that are traced through it. */
@@ -81,6 +93,13 @@ public:
    */
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     StackDetail* details, double* legs) const;
+
+  /**
+   * Solves those points of a chain whose images exact parallel planes decide, as Solve does: points
+   * behind all of them. The numbers of the others are appended to `others`.
+   */
+  void SolveBehindPlanes(const double* points, std::size_t begin, std::size_t end,
+    const ImageOutput& output, std::vector<std::size_t>& others) const;
 
   /** State of a chain of points: the path of the last answer, and the step that led to it. */
   struct Memory
@@ -121,7 +140,8 @@ public:
                            : this->MakeRefracted(point - this->Stack.GetOrigin(), path);
   }
 
-  const StackBeams& GetBeams() const { return this->Beams; }
+  /** Beams of the patches, fitted to the eye at the first call unless SetEye has done so. */
+  const StackBeams& GetBeams() const { return this->PrepareBeams(SerialLoop); }
   /** The surfaces, if they are parallel planes; otherwise empty. */
   const ParallelPlanes& GetPlanes() const { return this->Planes; }
   bool IsInReach(const glm::dvec3& local) const;
@@ -156,7 +176,9 @@ public:
 private:
   void SolveChain(
     const double* points, std::size_t begin, std::size_t end, const ImageOutput& output) const;
+  const StackBeams& PrepareBeams(const RangeLoop& loop) const;
   void BoundLegs();
+  bool MayBeBehind(const glm::dvec3& local) const;
   bool MayBeOnLeg(const glm::dvec3& local, std::size_t count) const;
   bool Follow(const glm::dvec3& local, Memory& memory) const;
   bool FindBehindPlanes(const glm::dvec3& local, StackPath& path) const;
@@ -165,7 +187,8 @@ private:
   StackVertex PassThrough(const glm::dvec3& point) const;
 
   RefractionStack Stack;
-  StackBeams Beams;
+  mutable StackBeams Beams;
+  mutable std::unique_ptr<std::once_flag> BeamsOnce = std::make_unique<std::once_flag>();
   ParallelPlanes Planes;
   std::vector<AxisBox> LegBoxes; ///< of all legs between two interfaces
   mutable std::atomic<std::int64_t> Undecided{ 0 };
