@@ -490,7 +490,8 @@ void vtkRefractedGeometryFilter::WriteImages(vtkPolyData* input, vtkPolyData* ou
         input, block.Vertices, block.Selection, surface, ofFirst, output);
   if (list && all)
   {
-    meniscus::AddStackImageArrays(input, *block.Images, block.Cells, *list, options, output);
+    meniscus::AddStackImageArrays(
+      input, block.GetStackImages(), block.Cells, *list, options, output);
   }
   else if (list)
   {

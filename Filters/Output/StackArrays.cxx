@@ -86,8 +86,11 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
   const StackDetails& details, const OutputOptions& options, vtkPolyData* output)
 {
   auto* ids = vtkIdTypeArray::SafeDownCast(output->GetPointData()->GetArray("SourcePointId"));
+  const auto count = static_cast<std::size_t>(ids->GetNumberOfTuples());
   std::vector<StackPoint> points;
   std::vector<double> legs;
+  points.reserve(count);
+  legs.reserve(count * details.Interfaces);
   for (vtkIdType k = 0; k < ids->GetNumberOfTuples(); ++k)
   {
     const auto source = static_cast<std::size_t>(ids->GetValue(k));
@@ -101,15 +104,20 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
 }
 
 //------------------------------------------------------------------------------
-void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const AllImages& cells,
+void AddStackImageArrays(vtkPolyData* input, const StackImages& images, const AllImages& cells,
   const StackSolver& solver, const OutputOptions& options, vtkPolyData* output)
 {
   const std::size_t interfaces = solver.GetStack().GetNumberOfInterfaces();
+  std::vector<double> legs = images.GetLegs();
   std::vector<StackPoint> points;
-  std::vector<double> legs;
+  points.reserve(images.GetPointImages().size());
+  for (const ImagePoint& image : images.GetPointImages())
+  {
+    points.push_back(
+      { FindPoint(input, image), &image.Vertex, images.GetDetails()[points.size()] });
+  }
   StackPath path;
-  for (const std::vector<ImagePoint>* list :
-    { &images.GetPointImages(), &cells.Lines.Points, &cells.Polygons.Points })
+  for (const std::vector<ImagePoint>* list : { &cells.Lines.Points, &cells.Polygons.Points })
   {
     for (const ImagePoint& image : *list)
     {

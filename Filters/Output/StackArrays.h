@@ -5,6 +5,7 @@
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/OutputArrays.h"
 #include "Refraction/Stack/StackSolver.h"
+#include "Refraction/StackImages/StackImages.h"
 
 #include <cstddef>
 #include <vector>
@@ -32,9 +33,9 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
 
 /**
  * The same for an output of all images that BuildImagePolyData has made from `images` and `cells`.
- * The paths of its points are traced again.
+ * The paths of points that are not points of the input are traced again.
  */
-void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const AllImages& cells,
+void AddStackImageArrays(vtkPolyData* input, const StackImages& images, const AllImages& cells,
   const StackSolver& solver, const OutputOptions& options, vtkPolyData* output);
 
 }

@@ -97,6 +97,12 @@ void SolvedBlock::MakeImages(RefractionScene& scene)
 }
 
 //------------------------------------------------------------------------------
+const StackImages& SolvedBlock::GetStackImages() const
+{
+  return static_cast<const StackImages&>(*this->Images);
+}
+
+//------------------------------------------------------------------------------
 bool SolvedBlock::IsSelected(std::size_t chunk) const
 {
   const std::size_t first = chunk * CellImages::Chunk;

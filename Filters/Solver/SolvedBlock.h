@@ -7,7 +7,7 @@
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/KeptOutput.h"
 #include "Filters/Output/StackArrays.h"
-#include "Refraction/Images/CellImages.h"
+#include "Refraction/StackImages/StackImages.h"
 
 #include "vtkPolyData.h"
 #include "vtkWeakPointer.h"
@@ -37,6 +37,8 @@ struct SolvedBlock
   /** Replaces `Images` by all images of the points, which have to be solved; without flat facets.
    */
   void MakeImages(RefractionScene& scene);
+  /** `Images` of several interfaces. */
+  const StackImages& GetStackImages() const;
   /** True if a chunk of CellImages::Chunk points in the order of solving has selected points. */
   bool IsSelected(std::size_t chunk) const;
 

@@ -105,21 +105,16 @@ struct PolarizedReflectance
 inline PolarizedReflectance ComputePolarizedReflectance(
   double cosine, double exterior, double interior)
 {
-  const double c = std::clamp(cosine, 0.0, 1.0);
+  // Without branches, for loops over lanes.
+  const double c = std::min(std::max(cosine, 0.0), 1.0);
   const double n = interior / exterior;
   const double squared = n * n + c * c - 1.0;
-  if (exterior == interior)
-  {
-    return { 0.0, 0.0 };
-  }
-  if (squared <= 0.0)
-  {
-    return { 1.0, 1.0 };
-  }
-  const double g = std::sqrt(squared);
+  const double g = std::sqrt(std::max(squared, 0.0));
   const double across = (c - g) / (c + g);
   const double within = (n * n * c - g) / (n * n * c + g);
-  return { across * across, within * within };
+  const double most = exterior == interior ? 0.0 : 1.0;
+  const bool isTotal = squared <= 0.0 || exterior == interior;
+  return { isTotal ? most : across * across, isTotal ? most : within * within };
 }
 
 /**
@@ -142,7 +137,6 @@ public:
   /** Transmitted share of unpolarised light, in [0, 1]. */
   double Get() const { return 0.5 * (this->Across.Passed + this->Within.Passed); }
 
-private:
   /** Shares of one polarisation. */
   struct Shares
   {
@@ -151,20 +145,18 @@ private:
 
     void Add(double reflectance)
     {
-      if (!(reflectance < 1.0))
-      {
-        this->Passed = 0.0;
-        return;
-      }
+      // Without branches, for loops over lanes. Written so that a NaN passes nothing.
+      const bool mayPass = reflectance < 1.0;
       const double passed = 1.0 - reflectance;
       const double once = 1.0 - this->ReflectedBack * reflectance;
-      this->Passed *= passed / once;
-      this->ReflectedBack = reflectance + passed * passed * this->ReflectedBack / once;
+      const double back = reflectance + passed * passed * this->ReflectedBack / once;
+      this->Passed = mayPass ? this->Passed * (passed / once) : 0.0;
+      this->ReflectedBack = mayPass ? back : this->ReflectedBack;
     }
   };
 
-  Shares Across;
-  Shares Within;
+  Shares Across{};
+  Shares Within{};
 };
 
 /**

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/ParallelPlanes.h"
 
-#include "Refraction/Membrane/HeightField.h"
-
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -61,15 +60,21 @@ bool FindPlane(const RefractionStack::Link& link, const glm::dvec3& axis, const 
     IsConvexField(membrane, link.Surface->GetPatches(), HeightFrame(side * axis));
 }
 
-// Smallest index of refraction of the first `count` layers.
-double FindLeastIndex(const std::vector<PlaneLayer>& layers, std::size_t count)
+// The first `count` layers, of which the last one has no end.
+std::vector<PlaneLayer> MakeLayers(const std::vector<PlaneLayer>& all, std::size_t count)
 {
-  double least = layers[0].Index;
-  for (std::size_t i = 1; i < count; ++i)
+  std::vector<PlaneLayer> layers(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  layers.back().End = std::numeric_limits<double>::infinity();
+  double least = layers.front().Index;
+  for (const PlaneLayer& layer : layers)
   {
-    least = std::min(least, layers[i].Index);
+    least = std::min(least, layer.Index);
   }
-  return least;
+  for (PlaneLayer& layer : layers)
+  {
+    layer.Squared = layer.Index / least * (layer.Index / least);
+  }
+  return layers;
 }
 
 }
@@ -88,8 +93,8 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   {
     return;
   }
-  this->Axis = (first.Passage.FromFront ? -1.0 : 1.0) *
-    glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]);
+  this->Frame = HeightFrame((first.Passage.FromFront ? -1.0 : 1.0) *
+    glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]));
   this->Eye = stack.GetEye();
   this->Exact = true;
   this->Slack = 0.0;
@@ -98,7 +103,8 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   {
     double depth = 0.0;
     double deviation = 0.0;
-    if (!FindPlane(link, this->Axis, this->Eye, depth, deviation) || depth <= layers.back().Begin)
+    if (!FindPlane(link, this->GetAxis(), this->Eye, depth, deviation) ||
+      depth <= layers.back().Begin)
     {
       return;
     }
@@ -111,22 +117,64 @@ void ParallelPlanes::Set(const RefractionStack& stack)
       2.0 * deviation * surface.GetMembrane().GetRadius() +
         surface.GetSlack(glm::length(stack.GetOrigin() + link.Shift)));
   }
-  const double least = FindLeastIndex(layers, layers.size());
-  for (PlaneLayer& layer : layers)
+  this->Inner.clear();
+  for (std::size_t i = 0; i + 1 < layers.size(); ++i)
   {
-    layer.Squared = layer.Index / least * (layer.Index / least);
+    this->Inner.push_back(this->FindInner(stack.GetLinks()[i], layers[i]));
   }
-  this->Layers = layers;
+  for (std::size_t count = 1; count <= layers.size(); ++count)
+  {
+    this->Layers.push_back(MakeLayers(layers, count));
+  }
+}
+
+//------------------------------------------------------------------------------
+// The rectangle about the vertices, or the part of it about its middle that is as wide as a square
+// in a circle; an empty one if corners of both are not on the surface.
+ParallelPlanes::Rectangle ParallelPlanes::FindInner(
+  const RefractionStack::Link& link, const PlaneLayer& inFront) const
+{
+  const Membrane& membrane = link.Surface->GetMembrane();
+  const glm::dvec3 foot = this->Eye + inFront.End * this->GetAxis() - link.Shift;
+  Rectangle all{ glm::dvec2(std::numeric_limits<double>::infinity()),
+    glm::dvec2(-std::numeric_limits<double>::infinity()) };
+  for (const Membrane::Facet& facet : membrane.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      const glm::dvec2 place =
+        this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)] - foot);
+      all = { glm::min(all.Low, place), glm::max(all.High, place) };
+    }
+  }
+  const auto isOn = [&](double x, double y)
+  {
+    SurfaceCrossing crossing;
+    const glm::dvec3 place = foot + x * this->Frame.First + y * this->Frame.Second;
+    return link.FindCrossing(
+      place - (inFront.End - inFront.Begin) * this->GetAxis(), this->GetAxis(), 0.0, crossing);
+  };
+  const glm::dvec2 middle = 0.5 * (all.Low + all.High);
+  for (const double part : { 1.0, std::sqrt(0.5) })
+  {
+    const glm::dvec2 low = glm::mix(middle, all.Low, part);
+    const glm::dvec2 high = glm::mix(middle, all.High, part);
+    if (isOn(low.x, low.y) && isOn(high.x, low.y) && isOn(high.x, high.y) && isOn(low.x, high.y))
+    {
+      return { low, high };
+    }
+  }
+  return { all.High, all.Low };
 }
 
 //------------------------------------------------------------------------------
 int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 {
-  const double depth = glm::dot(this->Axis, point - this->Eye);
+  const double depth = glm::dot(this->GetAxis(), point - this->Eye);
   int count = this->IsEmpty() ? -1 : 0;
   for (std::size_t i = 1; i < this->Layers.size(); ++i)
   {
-    const double plane = this->Layers[i].Begin;
+    const double plane = this->Layers.back()[i].Begin;
     // Written so that a NaN fails.
     if (!(std::fabs(depth - plane) > this->Slack))
     {
@@ -134,26 +182,20 @@ int ParallelPlanes::CountInFront(const glm::dvec3& point) const
     }
     count += depth > plane ? 1 : 0;
   }
-  return depth > 0.0 ? count : -1;
+  return count;
 }
 
 //------------------------------------------------------------------------------
-double ParallelPlanes::FindTangent(
-  double depth, double straight, std::size_t count, double least, const glm::dvec3& near) const
+double ParallelPlanes::FindTangent(double depth, double straight, std::size_t count) const
 {
-  const std::vector<PlaneLayer>& layers = this->Layers;
-  const double along = glm::dot(this->Axis, near);
-  const double nearSine =
-    layers[0].Index / least * glm::length(glm::cross(this->Axis, near)) / glm::length(near);
-  double t =
-    along > 0.0 && nearSine < 1.0 ? nearSine / std::sqrt(1.0 - nearSine * nearSine) : straight;
+  const std::vector<PlaneLayer>& layers = this->Layers[count];
+  double t = straight;
   for (int tries = 0; tries < LateralSum::MostSteps; ++tries)
   {
     LateralSum sum;
-    for (std::size_t i = 0; i <= count; ++i)
+    for (const PlaneLayer& layer : layers)
     {
-      const double ratio = layers[i].Index / least;
-      sum.Add((i < count ? layers[i].End : depth) - layers[i].Begin, ratio * ratio, t);
+      sum.Add(std::min(layer.End, depth) - layer.Begin, layer.Squared, t);
     }
     const double step = sum.GetStep(straight * depth, t);
     t = std::max(t + step, straight);
@@ -167,19 +209,17 @@ double ParallelPlanes::FindTangent(
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 ParallelPlanes::FindSight(
-  const glm::dvec3& point, std::size_t count, const glm::dvec3& near) const
+glm::dvec3 ParallelPlanes::FindSight(const glm::dvec3& point, std::size_t count) const
 {
   const glm::dvec3 away = point - this->Eye;
-  const double depth = glm::dot(this->Axis, away);
-  const glm::dvec3 lateral = away - depth * this->Axis;
+  const double depth = glm::dot(this->GetAxis(), away);
+  const glm::dvec3 lateral = away - depth * this->GetAxis();
   const double distance = glm::length(lateral);
-  const double least = FindLeastIndex(this->Layers, count + 1);
-  const double t = this->FindTangent(depth, distance / depth, count, least, near);
-  const double sine = least / this->Layers[0].Index * t / std::sqrt(1.0 + t * t);
+  const double t = this->FindTangent(depth, distance / depth, count);
+  const double sine = t / std::sqrt(this->Layers[count][0].Squared * (1.0 + t * t));
   return distance > 0.0
-    ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->Axis + (sine / distance) * lateral
-    : this->Axis;
+    ? std::sqrt(std::max(1.0 - sine * sine, 0.0)) * this->GetAxis() + (sine / distance) * lateral
+    : this->GetAxis();
 }
 
 //------------------------------------------------------------------------------
@@ -187,11 +227,13 @@ glm::dvec3 ParallelPlanes::FindSight(
 // follows from that: next to a critical angle, Snell's law for rounded directions loses it.
 void ParallelPlanes::Refract(std::size_t plane, const glm::dvec3& direction, RayJet& ray) const
 {
-  const double ratio = this->Layers[plane].Index / this->Layers[plane + 1].Index;
-  const VectorBy along = ratio * (ray.DirectionBy - this->Axis * Dot(this->Axis, ray.DirectionBy));
-  const double inverse = 1.0 / glm::dot(this->Axis, direction);
+  const std::vector<PlaneLayer>& layers = this->GetLayers();
+  const double ratio = layers[plane].Index / layers[plane + 1].Index;
+  const glm::dvec3& axis = this->GetAxis();
+  const VectorBy along = ratio * (ray.DirectionBy - axis * Dot(axis, ray.DirectionBy));
+  const double inverse = 1.0 / glm::dot(axis, direction);
   ray.Direction = direction;
-  ray.DirectionBy = along - this->Axis * (inverse * Dot(direction, along));
+  ray.DirectionBy = along - axis * (inverse * Dot(direction, along));
 }
 
 //------------------------------------------------------------------------------
@@ -199,18 +241,16 @@ bool ParallelPlanes::FindPath(
   const RefractionStack& stack, const glm::dvec3& point, std::size_t count, StackPath& path) const
 {
   const glm::dvec3 away = point - this->Eye;
-  const double depth = glm::dot(this->Axis, away);
-  const glm::dvec3 lateral = away - depth * this->Axis;
+  const glm::dvec3& axis = this->GetAxis();
+  const std::vector<PlaneLayer>& layers = this->Layers[count];
+  const double depth = glm::dot(axis, away);
+  const glm::dvec3 lateral = away - depth * axis;
   const double straight = glm::length(lateral) / depth;
   const glm::dvec3 side = straight > 0.0 ? glm::normalize(lateral) : glm::dvec3(0.0);
-  const double least = FindLeastIndex(this->Layers, count + 1);
-  const double t = this->FindTangent(depth, straight, count, least, glm::dvec3(0.0));
+  const double t = this->FindTangent(depth, straight, count);
   // The ray in a layer, with a part of 1 along the axis.
-  const auto getWay = [this, least, t, &side](std::size_t layer)
-  {
-    const double ratio = this->Layers[layer].Index / least;
-    return this->Axis + t * LateralSum::GetScale(ratio * ratio, t) * side;
-  };
+  const auto getWay = [&axis, &layers, t, &side](std::size_t layer)
+  { return axis + t * LateralSum::GetScale(layers[layer].Squared, t) * side; };
   path.Forget(stack.GetLinks().size());
   path.Count = 0;
   RayJet ray;
@@ -218,11 +258,11 @@ bool ParallelPlanes::FindPath(
   for (std::size_t i = 0; i < count; ++i)
   {
     const RefractionStack::Link& link = stack.GetLinks()[i];
-    const double thickness = this->Layers[i].End - this->Layers[i].Begin;
+    const double thickness = layers[i].End - layers[i].Begin;
     const glm::dvec3 way = getWay(i);
     const glm::dvec3 place = ray.Origin + thickness * way;
     SurfaceCrossing crossing;
-    if (!link.FindCrossing(place - thickness * this->Axis - link.Shift, this->Axis, 0.0, crossing))
+    if (!link.FindCrossing(place - thickness * axis - link.Shift, axis, 0.0, crossing))
     {
       return false;
     }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Stack/PlaneLanes.h"
 #include "Refraction/Stack/RefractionStack.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -27,30 +29,49 @@ public:
 
   bool IsEmpty() const { return this->Layers.empty(); }
 
+  std::size_t GetNumberOfPlanes() const { return this->IsEmpty() ? 0 : this->Layers.size() - 1; }
+
   /** True if the surfaces deviate from planes by rounding in double precision only. */
   bool AreExact() const { return !this->IsEmpty() && this->Exact; }
 
   /** Unit vector along which the planes follow each other, away from the eye. */
-  const glm::dvec3& GetAxis() const { return this->Axis; }
+  const glm::dvec3& GetAxis() const { return this->Frame.Axis; }
+  /** The axis, and coordinates across it. */
+  const HeightFrame& GetFrame() const { return this->Frame; }
 
-  /** Layers in front of, between and behind the planes. */
-  const std::vector<PlaneLayer>& GetLayers() const { return this->Layers; }
+  /** Layers in front of, between and behind all planes. */
+  const std::vector<PlaneLayer>& GetLayers() const { return this->Layers.back(); }
+  /** The same for the first `count` planes alone. */
+  const std::vector<PlaneLayer>& GetLayers(std::size_t count) const { return this->Layers[count]; }
 
   /** Instruction set for loops over points. */
   InstructionSet GetInstructionSet() const { return this->Instructions; }
 
   /**
-   * Number of planes in front of a point; -1 if there are no planes, or if the point is on one
-   * within rounding, or behind the eye.
+   * Number of planes in front of a point, 0 behind the eye; -1 if there are no planes, or if the
+   * point is on one within rounding.
    */
   int CountInFront(const glm::dvec3& point) const;
 
   /**
-   * Unit direction of the sight ray to a point behind `count` planes, at least one. `near` is a
-   * direction to begin the search at, of any length; the result depends on it within rounding only.
+   * True if all places between two corners, in the frame from the axis through the eye on, are
+   * known to be inside of the outline of a plane.
    */
-  glm::dvec3 FindSight(
-    const glm::dvec3& point, std::size_t count, const glm::dvec3& near = glm::dvec3(0.0)) const;
+  bool IsInside(std::size_t plane, const glm::dvec2& low, const glm::dvec2& high) const
+  {
+    const Rectangle& inner = this->Inner[plane];
+    return low.x >= inner.Low.x && low.y >= inner.Low.y && high.x <= inner.High.x &&
+      high.y <= inner.High.y;
+  }
+
+  /** True if a point at a depth along the axis, from the eye, is behind all planes. */
+  bool IsBehindAll(double depth) const
+  {
+    return depth - this->GetLayers().back().Begin > this->Slack;
+  }
+
+  /** Unit direction of the sight ray to a point behind `count` planes, at least one. */
+  glm::dvec3 FindSight(const glm::dvec3& point, std::size_t count) const;
 
   /**
    * Path to a point behind `count` planes, at least one, of the stack that these planes are of. Its
@@ -61,18 +82,24 @@ public:
     StackPath& path) const;
 
 private:
+  struct Rectangle
+  {
+    glm::dvec2 Low;
+    glm::dvec2 High;
+  };
+  Rectangle FindInner(const RefractionStack::Link& link, const PlaneLayer& inFront) const;
   /**
    * Tangent of LateralSum, in a layer of the smallest index of those in front of the point.
    * `straight` is the tangent of the straight way to the point.
    */
-  double FindTangent(
-    double depth, double straight, std::size_t count, double least, const glm::dvec3& near) const;
+  double FindTangent(double depth, double straight, std::size_t count) const;
   void Refract(std::size_t plane, const glm::dvec3& direction, RayJet& ray) const;
 
   glm::dvec3 Eye{ 0.0 };
-  glm::dvec3 Axis{ 0.0 };
-  std::vector<PlaneLayer> Layers;
-  double Slack = 0.0; ///< rounding of the planes
+  HeightFrame Frame;
+  std::vector<std::vector<PlaneLayer>> Layers; ///< by the number of planes, from 0 to all
+  std::vector<Rectangle> Inner;                ///< by plane: rectangles inside of the outlines
+  double Slack = 0.0;                          ///< rounding of the planes
   bool Exact = false;
   InstructionSet Instructions = BestInstructionSet();
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/PlaneImages.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+#include "Refraction/Stack/StackShot.h"
 #include "Refraction/Surface/PatchCrossings.h"
 #include "Simd/LaneLoop.h"
 
@@ -13,35 +15,58 @@ namespace
 {
 
 // Facets to cross from one sight point to the next. For longer ways the tree is faster.
-constexpr int LongestFacetWay = 16;
+constexpr std::size_t LongestFacetWay = 16;
 
 }
+
+//------------------------------------------------------------------------------
+/** Sets the distance from the axis, and the direction away from it. */
+struct PlaneImages::BeginKernel
+{
+  void operator()(PlaceLanes& lanes, int i) const
+  {
+    const double x = lanes.Across[0][i];
+    const double y = lanes.Across[1][i];
+    const double distance = std::sqrt(x * x + y * y);
+    lanes.Distance[i] = distance;
+    lanes.Across[0][i] = x / (distance > 0.0 ? distance : 1.0);
+    lanes.Across[1][i] = y / (distance > 0.0 ? distance : 1.0);
+  }
+};
+
+/** Sets the places on the plane behind the layer that was passed last. */
+struct PlaneImages::PlaceKernel
+{
+  void operator()(PlaceLanes& lanes, int i) const
+  {
+    lanes.Last[0][i] = lanes.Side[i] * lanes.Across[0][i];
+    lanes.Last[1][i] = lanes.Side[i] * lanes.Across[1][i];
+  }
+};
 
 //------------------------------------------------------------------------------
 bool PlaneImages::Add(const glm::dvec3& point, std::size_t number)
 {
-  const glm::dvec3 local = point - this->Stack.GetOrigin();
-  const auto planes = static_cast<int>(this->Planes.GetLayers().size()) - 1;
-  if (this->Planes.CountInFront(local) != planes)
+  const HeightFrame& frame = this->Planes.GetFrame();
+  const glm::dvec3 away = point - this->Stack.GetOrigin() - this->Stack.GetEye();
+  const double depth = frame.GetHeight(away);
+  if (!this->Planes.IsBehindAll(depth))
   {
     return false;
   }
   const int lane = this->Lanes.Count++;
-  const glm::dvec3 away = local - this->Stack.GetEye();
-  const double depth = glm::dot(this->Planes.GetAxis(), away);
-  const glm::dvec3 lateral = away - depth * this->Planes.GetAxis();
-  const double distance = glm::length(lateral);
+  const glm::dvec2 across = frame.Project(away);
   this->Lanes.Depth[lane] = depth;
-  this->Lanes.Distance[lane] = distance;
-  this->Lateral[lane] = (distance > 0.0 ? 1.0 / distance : 0.0) * lateral;
+  this->Lanes.Across[0][lane] = across.x;
+  this->Lanes.Across[1][lane] = across.y;
   this->Numbers[lane] = number;
-  this->IsMissed[lane] = false;
-  this->Transmittance[lane] = PlateTransmittance();
+  this->Points[lane] = point;
+  this->Meetings[lane] = Meeting::Inside;
   return true;
 }
 
 //------------------------------------------------------------------------------
-void PlaneImages::Solve(const ImageOutput& output)
+void PlaneImages::Solve(const ImageOutput& output, std::vector<std::size_t>& others)
 {
   const int count = this->Lanes.Count;
   if (count == 0)
@@ -52,95 +77,188 @@ void PlaneImages::Solve(const ImageOutput& output)
   for (int lane = count; lane % LaneGroup != 0; ++lane)
   {
     this->Lanes.Depth[lane] = this->Lanes.Depth[count - 1];
-    this->Lanes.Distance[lane] = this->Lanes.Distance[count - 1];
+    this->Lanes.Across[0][lane] = this->Lanes.Across[0][count - 1];
+    this->Lanes.Across[1][lane] = this->Lanes.Across[1][count - 1];
   }
   const std::vector<PlaneLayer>& layers = this->Planes.GetLayers();
-  this->Lanes.FindTangents(layers, this->Planes.GetInstructionSet());
-  this->Lanes.Pass(layers, 0, this->Planes.GetInstructionSet());
+  const InstructionSet set = this->Planes.GetInstructionSet();
+  RunLanes(BeginKernel{}, set, this->Lanes);
+  this->Lanes.FindTangents(layers, set);
+  this->Lanes.Pass(layers, 0, set);
   for (std::size_t plane = 0; plane + 1 < layers.size(); ++plane)
   {
-    this->MeetPlane(plane, output);
-    this->Lanes.Pass(layers, plane + 1, this->Planes.GetInstructionSet());
+    RunLanes(PlaceKernel{}, set, this->Lanes);
+    if (plane == 0 || !this->AreAllInside(plane))
+    {
+      this->FindFacets(plane);
+    }
+    this->Lanes.Pass(layers, plane + 1, set);
     this->WriteLegs(plane, output);
   }
   this->WriteVertices(output);
+  for (int lane = 0; lane < count; ++lane)
+  {
+    if (this->Meetings[lane] != Meeting::Inside)
+    {
+      this->WriteWithout(lane, output, others);
+    }
+  }
+  this->Lanes.Count = 0;
 }
 
 //------------------------------------------------------------------------------
-void PlaneImages::MeetPlane(std::size_t plane, const ImageOutput& output)
+// Foot of the eye on a plane, relative to the origin of its surface.
+glm::dvec3 PlaneImages::GetFoot(std::size_t plane) const
 {
-  const glm::dvec3 foot =
-    this->Stack.GetEye() + this->Planes.GetLayers()[plane].End * this->Planes.GetAxis();
-  const std::vector<PlaneLayer>& layers = this->Planes.GetLayers();
+  return this->Stack.GetEye() + this->Planes.GetLayers()[plane].End * this->Planes.GetAxis() -
+    this->Stack.GetLinks()[plane].Shift;
+}
+
+//------------------------------------------------------------------------------
+// True if all places are inside of the outline, which is convex: it contains a box around them if
+// it contains the corners.
+bool PlaneImages::AreAllInside(std::size_t plane) const
+{
+  glm::dvec2 low;
+  glm::dvec2 high;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double* const places = this->Lanes.Last[axis];
+    const auto ends = std::minmax_element(places, places + this->Lanes.Count);
+    low[axis] = *ends.first;
+    high[axis] = *ends.second;
+  }
+  if (this->Planes.IsInside(plane, low, high))
+  {
+    return true;
+  }
+  Facet facet;
+  return this->FindFacet(plane, low, facet) == Meeting::Inside &&
+    this->FindFacet(plane, { high.x, low.y }, facet) == Meeting::Inside &&
+    this->FindFacet(plane, high, facet) == Meeting::Inside &&
+    this->FindFacet(plane, { low.x, high.y }, facet) == Meeting::Inside;
+}
+
+//------------------------------------------------------------------------------
+// Finds the facets of a plane that contain the places of all rays so far inside.
+void PlaneImages::FindFacets(std::size_t plane)
+{
   Facet facet; // kept from point to point
   for (int lane = 0; lane < this->Lanes.Count; ++lane)
   {
-    const glm::dvec3 place = foot + this->Lanes.Side[lane] * this->Lateral[lane];
-    this->IsMissed[lane] = this->IsMissed[lane] || !this->FindFacet(plane, place, facet);
-    output.Details[this->Numbers[lane]].LastSightPoint = place + this->Stack.GetOrigin();
-    this->Transmittance[lane].Add(
-      this->Lanes.Cosine[lane], layers[plane].Index, layers[plane + 1].Index);
+    const glm::dvec2 place(this->Lanes.Last[0][lane], this->Lanes.Last[1][lane]);
+    if (this->Meetings[lane] == Meeting::Inside)
+    {
+      this->Meetings[lane] = this->FindFacet(plane, place, facet);
+    }
     if (plane == 0)
     {
-      this->SightPoint[lane] = place;
+      this->Lanes.First[0][lane] = place.x;
+      this->Lanes.First[1][lane] = place.y;
       this->FirstFacet[lane] = facet.Number;
     }
   }
 }
 
 //------------------------------------------------------------------------------
-bool PlaneImages::FindFacet(std::size_t plane, const glm::dvec3& place, Facet& facet) const
+PlaneImages::Meeting PlaneImages::FindFacet(
+  std::size_t plane, const glm::dvec2& place, Facet& facet) const
 {
+  if (facet.Number != CurvedPatches::NoFacet)
+  {
+    const Meeting meeting = this->GoToFacet(plane, place, LongestFacetWay, facet);
+    if (meeting != Meeting::Open)
+    {
+      return meeting;
+    }
+  }
   const RefractionStack::Link& link = this->Stack.GetLinks()[plane];
-  const CurvedPatches& patches = link.Surface->GetPatches();
-  const glm::dvec3 local = place - link.Shift;
-  if (facet.Number != CurvedPatches::NoFacet && GoToFacet(patches, local, facet))
-  {
-    return true;
-  }
   const PlaneLayer& layer = this->Planes.GetLayers()[plane];
-  const glm::dvec3& axis = this->Planes.GetAxis();
+  const HeightFrame& frame = this->Planes.GetFrame();
+  const glm::dvec3 local = this->GetFoot(plane) + place.x * frame.First + place.y * frame.Second;
   SurfaceCrossing crossing;
-  if (!link.FindCrossing(local - (layer.End - layer.Begin) * axis, axis, 0.0, crossing))
+  if (link.FindCrossing(local - (layer.End - layer.Begin) * frame.Axis, frame.Axis, 0.0, crossing))
   {
-    return false;
+    facet = this->MakeFacet(plane, crossing.Facet);
+    return facet.FindOutside(place).Least >= -PatchCrossings::Border ? Meeting::Inside
+                                                                     : Meeting::Open;
   }
-  facet.Set(patches, crossing.Facet);
-  return facet.FindOutside(local).Least >= -PatchCrossings::Border;
+  // From any facet to the border: each of them is passed once at most, if the way is no circle.
+  facet = this->MakeFacet(plane, 0);
+  const std::size_t facets = link.Surface->GetMembrane().GetFacets().size();
+  const Meeting meeting = this->GoToFacet(plane, place, facets, facet);
+  return meeting == Meeting::Inside ? Meeting::Open : meeting;
 }
 
 //------------------------------------------------------------------------------
-// Crosses the edge beyond which the place is farthest, until a facet contains it.
-bool PlaneImages::GoToFacet(const CurvedPatches& patches, const glm::dvec3& place, Facet& facet)
+// Crosses the edge beyond which the place is farthest, until a facet contains it, or until it is
+// beyond a border. At most `most` facets are passed.
+PlaneImages::Meeting PlaneImages::GoToFacet(
+  std::size_t plane, const glm::dvec2& place, std::size_t most, Facet& facet) const
 {
-  for (int step = 0; step < LongestFacetWay; ++step)
+  const CurvedPatches& patches = this->Stack.GetLinks()[plane].Surface->GetPatches();
+  for (std::size_t step = 0; step < most; ++step)
   {
     const Outside outside = facet.FindOutside(place);
     if (outside.Least >= -PatchCrossings::Border)
     {
-      return true;
+      return Meeting::Inside;
     }
     const std::int32_t next = patches.GetNeighbour(facet.Number, outside.Corner);
     if (next == CurvedPatches::NoFacet)
     {
-      return false;
+      return this->IsBeyond(plane, place, facet, outside) ? Meeting::Outside : Meeting::Open;
     }
-    facet.Set(patches, next);
+    facet = this->MakeFacet(plane, next);
   }
-  return false;
+  return Meeting::Open;
 }
 
 //------------------------------------------------------------------------------
-void PlaneImages::Facet::Set(const CurvedPatches& patches, std::int32_t facet)
+// True if a place is beyond a border edge, and so beyond the convex outline, by more than rounding:
+// of the place, and of the outline's turns. A turn by the slack over the length of an edge at each
+// of n edges on the way to the place adds up to n^2 times the slack there.
+bool PlaneImages::IsBeyond(
+  std::size_t plane, const glm::dvec2& place, const Facet& facet, const Outside& outside) const
 {
-  const CurvedPatch patch = patches.GetPatch(facet);
-  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
-  const glm::dvec3 normal = glm::cross(u, v);
-  const double inverse = 1.0 / glm::dot(normal, normal);
-  this->Number = facet;
-  this->Corner = patch.Corner[0];
-  this->Gradient = { inverse * glm::cross(v, normal), inverse * glm::cross(normal, u) };
+  const auto corner = static_cast<std::size_t>(outside.Corner);
+  const glm::dvec2& begin = facet.Corners[(corner + 1) % 3];
+  const double length = glm::length(facet.Corners[(corner + 2) % 3] - begin);
+  const double edges = 1.0 + glm::length(place - begin) / length;
+  const glm::dvec2 byPlace =
+    corner == 0 ? facet.ByPlace[0] + facet.ByPlace[1] : facet.ByPlace[corner - 1];
+  const double slack = this->Stack.GetLinks()[plane].Surface->GetSlack(
+    glm::length(place) + glm::length(this->GetFoot(plane)));
+  return -outside.Least > edges * edges * slack * glm::length(byPlace);
+}
+
+//------------------------------------------------------------------------------
+PlaneImages::Facet PlaneImages::MakeFacet(std::size_t plane, std::int32_t number) const
+{
+  const Membrane& membrane = this->Stack.GetLinks()[plane].Surface->GetMembrane();
+  const glm::dvec3 foot = this->GetFoot(plane);
+  Facet facet;
+  facet.Number = number;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::int32_t vertex = membrane.GetFacets()[static_cast<std::size_t>(number)][k];
+    facet.Corners[k] = this->Planes.GetFrame().Project(
+      membrane.GetPositions()[static_cast<std::size_t>(vertex)] - foot);
+  }
+  const glm::dvec2 u = facet.Corners[1] - facet.Corners[0];
+  const glm::dvec2 v = facet.Corners[2] - facet.Corners[0];
+  const double inverse = 1.0 / Cross(u, v);
+  facet.ByPlace[0] = inverse * glm::dvec2(v.y, -v.x);
+  facet.ByPlace[1] = inverse * glm::dvec2(-u.y, u.x);
+  return facet;
+}
+
+//------------------------------------------------------------------------------
+Outside PlaneImages::Facet::FindOutside(const glm::dvec2& place) const
+{
+  const glm::dvec2 way = place - this->Corners[0];
+  return meniscus::FindOutside(
+    { glm::dot(this->ByPlace[0], way), glm::dot(this->ByPlace[1], way) });
 }
 
 //------------------------------------------------------------------------------
@@ -160,27 +278,55 @@ void PlaneImages::WriteLegs(std::size_t plane, const ImageOutput& output) const
 //------------------------------------------------------------------------------
 void PlaneImages::WriteVertices(const ImageOutput& output) const
 {
-  const glm::dvec3& origin = this->Stack.GetOrigin();
+  const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
+  const HeightFrame& frame = this->Planes.GetFrame();
   const PlaneLayer& first = this->Planes.GetLayers().front();
+  const glm::dvec3 eye = this->Stack.GetOrigin() + this->Stack.GetEye();
+  const glm::dvec3 toFirst = first.End * frame.Axis;
+  const glm::dvec3 lastFoot = eye + this->Planes.GetLayers()[links.size() - 1].End * frame.Axis;
   for (int lane = 0; lane < this->Lanes.Count; ++lane)
   {
-    const glm::dvec3& place = this->SightPoint[lane];
+    const glm::dvec3 sight = toFirst + this->Lanes.First[0][lane] * frame.First +
+      this->Lanes.First[1][lane] * frame.Second;
     // Eq. 2.4 over the length of the sight ray.
     const double behind =
       first.Index * this->Lanes.Optical[lane] * this->Lanes.FirstCosine[lane] / first.End;
-    VirtualVertex vertex;
-    vertex.Position = place + behind * (place - this->Stack.GetEye()) + origin;
-    vertex.SightPoint = place + origin;
+    VirtualVertex& vertex = output.Vertices[this->Numbers[lane]];
+    vertex.SightPoint = eye + sight;
+    vertex.Position = vertex.SightPoint + behind * sight;
     vertex.Depth = this->Lanes.Geometric[lane];
     vertex.Reflectance = this->Lanes.Reflectance[lane];
     vertex.Cosine = this->Lanes.FirstCosine[lane];
     vertex.Facet = this->FirstFacet[lane];
     vertex.State = ImageState::Found;
-    output.Vertices[this->Numbers[lane]] = vertex;
+    vertex.Orientation = 1;
     StackDetail& detail = output.Details[this->Numbers[lane]];
-    detail.Transmittance = this->Transmittance[lane].Get();
-    detail.Passed = static_cast<std::int32_t>(this->Stack.GetLinks().size());
+    detail.LastSightPoint =
+      lastFoot + this->Lanes.Last[0][lane] * frame.First + this->Lanes.Last[1][lane] * frame.Second;
+    detail.Transmittance = 0.5 * (this->Lanes.Passed[0][lane] + this->Lanes.Passed[1][lane]);
+    detail.Passed = static_cast<std::int32_t>(links.size());
   }
+}
+
+//------------------------------------------------------------------------------
+// A point whose ray misses a plane has no image, unless it is in front of the planes within
+// rounding.
+void PlaneImages::WriteWithout(
+  int lane, const ImageOutput& output, std::vector<std::size_t>& others) const
+{
+  const std::size_t number = this->Numbers[lane];
+  const glm::dvec3& point = this->Points[lane];
+  if (this->Meetings[lane] == Meeting::Open ||
+    IsBeforeAll(this->Stack, point - this->Stack.GetOrigin()))
+  {
+    others.push_back(number);
+    return;
+  }
+  output.Vertices[number] = VirtualVertex();
+  output.Vertices[number].Position = point;
+  output.Details[number] = StackDetail();
+  double* const legs = output.Legs + output.LegsPerPoint * number;
+  std::fill(legs, legs + output.LegsPerPoint, 0.0);
 }
 
 }

@@ -2,29 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/StackSolver.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
 
-/** Places that StackSolver::Solve writes the images of points to. */
-struct ImageOutput
-{
-  VirtualVertex* Vertices;
-  StackDetail* Details;
-  double* Legs;             ///< one per interface and point
-  std::size_t LegsPerPoint; ///< number of interfaces, including interfaces behind the eye
-};
-
 /**
  * Images of points behind all planes of a stack of exact parallel planes. The sight rays of a chain
  * of points are found in lanes; the facets that they meet, by the facets of the point before.
+ * Places on planes are coordinates of the planes' frame, from the axis through the eye.
  */
 class PlaneImages
 {
@@ -43,55 +36,62 @@ public:
    */
   bool Add(const glm::dvec3& point, std::size_t number);
 
-  /** Writes the images of the points that have been added. */
-  void Solve(const ImageOutput& output);
-
-  /** Removes the points, and calls `miss(number)` for those whose rays miss a surface. */
-  template <typename Miss>
-  void Clear(const Miss& miss)
-  {
-    for (int lane = 0; lane < this->Lanes.Count; ++lane)
-    {
-      if (this->IsMissed[lane])
-      {
-        miss(this->Numbers[lane]);
-      }
-    }
-    this->Lanes.Count = 0;
-  }
+  /**
+   * Writes the images of the points that have been added, and removes the points. The numbers of
+   * those whose rays pass a border within rounding are appended to `others`.
+   */
+  void Solve(const ImageOutput& output, std::vector<std::size_t>& others);
 
 private:
+  /** Where a ray meets a plane. */
+  enum class Meeting : unsigned char
+  {
+    Inside,
+    Outside, ///< beyond the border by more than rounding
+    Open
+  };
+
   /** A facet, and its barycentric coordinates as functions of the place. */
   struct Facet
   {
     std::int32_t Number = CurvedPatches::NoFacet;
-    glm::dvec3 Corner{};
-    PlaceGradient Gradient{};
+    glm::dvec2 Corners[3];
+    glm::dvec2 ByPlace[2]; ///< gradients of the second and the third coordinate
 
-    void Set(const CurvedPatches& patches, std::int32_t facet);
-    Outside FindOutside(const glm::dvec3& place) const
-    {
-      const glm::dvec3 way = place - this->Corner;
-      return meniscus::FindOutside(
-        { glm::dot(this->Gradient.U, way), glm::dot(this->Gradient.V, way) });
-    }
+    Outside FindOutside(const glm::dvec2& place) const;
   };
 
-  void MeetPlane(std::size_t plane, const ImageOutput& output);
-  bool FindFacet(std::size_t plane, const glm::dvec3& place, Facet& facet) const;
-  static bool GoToFacet(const CurvedPatches& patches, const glm::dvec3& place, Facet& facet);
+  glm::dvec3 GetFoot(std::size_t plane) const;
+  Facet MakeFacet(std::size_t plane, std::int32_t number) const;
+  bool AreAllInside(std::size_t plane) const;
+  void FindFacets(std::size_t plane);
+  Meeting FindFacet(std::size_t plane, const glm::dvec2& place, Facet& facet) const;
+  Meeting GoToFacet(
+    std::size_t plane, const glm::dvec2& place, std::size_t most, Facet& facet) const;
+  bool IsBeyond(
+    std::size_t plane, const glm::dvec2& place, const Facet& facet, const Outside& outside) const;
   void WriteLegs(std::size_t plane, const ImageOutput& output) const;
   void WriteVertices(const ImageOutput& output) const;
+  void WriteWithout(int lane, const ImageOutput& output, std::vector<std::size_t>& others) const;
 
   const RefractionStack& Stack;
   const ParallelPlanes& Planes;
-  PlaneLanes Lanes;
+
+  /** Lanes, and the places of the rays on the first plane and on the plane met last. */
+  struct PlaceLanes : PlaneLanes
+  {
+    double Across[2][Most]; ///< of the points
+    double First[2][Most];
+    double Last[2][Most];
+  };
+  PlaceLanes Lanes;
   std::size_t Numbers[Most];
-  bool IsMissed[Most];
-  glm::dvec3 Lateral[Most]; ///< unit vectors from the axis to the points
-  PlateTransmittance Transmittance[Most];
-  glm::dvec3 SightPoint[Most]; ///< relative to the stack's origin
+  glm::dvec3 Points[Most]; ///< in world coordinates
+  Meeting Meetings[Most];  ///< with the first plane that the ray does not meet, if there is one
   std::int32_t FirstFacet[Most];
+
+  struct BeginKernel;
+  struct PlaceKernel;
 };
 
 }

@@ -73,6 +73,25 @@ struct PassKernel
   }
 };
 
+/** Passes the plane behind a layer. */
+struct TransmitKernel
+{
+  double Before;
+  double Behind;
+
+  void operator()(PlaneLanes& lanes, int i) const
+  {
+    PlateTransmittance light;
+    light.Across = { lanes.Passed[0][i], lanes.ReflectedBack[0][i] };
+    light.Within = { lanes.Passed[1][i], lanes.ReflectedBack[1][i] };
+    light.Add(lanes.Cosine[i], this->Before, this->Behind);
+    lanes.Passed[0][i] = light.Across.Passed;
+    lanes.ReflectedBack[0][i] = light.Across.ReflectedBack;
+    lanes.Passed[1][i] = light.Within.Passed;
+    lanes.ReflectedBack[1][i] = light.Within.ReflectedBack;
+  }
+};
+
 /** Starts the sums behind the first layer. */
 struct FirstKernel
 {
@@ -96,6 +115,12 @@ struct FirstKernel
 void PlaneLanes::FindTangents(const std::vector<PlaneLayer>& layers, InstructionSet set)
 {
   std::fill(this->Tangent, this->Tangent + Most, 0.0);
+  this->RefineTangents(layers, set);
+}
+
+//------------------------------------------------------------------------------
+void PlaneLanes::RefineTangents(const std::vector<PlaneLayer>& layers, InstructionSet set)
+{
   bool isOpen = true;
   for (int i = 0; i < LateralSum::MostSteps && isOpen; ++i)
   {
@@ -118,11 +143,17 @@ void PlaneLanes::Pass(const std::vector<PlaneLayer>& layers, std::size_t layer, 
     std::fill(this->Side, this->Side + Most, 0.0);
     std::fill(this->Geometric, this->Geometric + Most, 0.0);
     std::fill(this->Optical, this->Optical + Most, 0.0);
+    std::fill(this->Passed[0], this->Passed[0] + 2 * Most, 1.0);
+    std::fill(this->ReflectedBack[0], this->ReflectedBack[0] + 2 * Most, 0.0);
   }
   RunLanes(PassKernel{ layers[layer] }, set, *this);
   if (layer == 0)
   {
     RunLanes(FirstKernel{ layers[0].Index, layers[1].Index }, set, *this);
+  }
+  if (layer + 1 < layers.size())
+  {
+    RunLanes(TransmitKernel{ layers[layer].Index, layers[layer + 1].Index }, set, *this);
   }
 }
 

@@ -74,7 +74,7 @@ struct PlaneLanes
 
   int Count = 0;
   double Depth[Most];    ///< distance of the point from the eye along the axis
-  double Distance[Most]; ///< distance of the point from the axis
+  double Distance[Most]; ///< distance of the point from the axis through the eye
   double Tangent[Most];  ///< tangent of the sight ray in a layer of the smallest index
 
   /** Members of LateralSum, and 1 if the last step was not short, otherwise 0. */
@@ -93,10 +93,16 @@ struct PlaneLanes
   double Geometric[Most];   ///< sum of the lengths behind it
   double Optical[Most];     ///< sum of the lengths over the indices of refraction behind it
 
+  /** Light that passes the planes: PlateTransmittance::Shares of both polarisations. */
+  double Passed[2][Most];
+  double ReflectedBack[2][Most];
+
   /** Sets the tangents of the sight rays to points in the last layer. */
   void FindTangents(const std::vector<PlaneLayer>& layers, InstructionSet set);
+  /** The same from guesses; the results depend on them within rounding only. */
+  void RefineTangents(const std::vector<PlaneLayer>& layers, InstructionSet set);
 
-  /** Passes a layer, the first one at first, and the plane behind it. */
+  /** Passes a layer, the first one at first, and the plane behind it, if there is one. */
   void Pass(const std::vector<PlaneLayer>& layers, std::size_t layer, InstructionSet set);
 };
 

@@ -19,7 +19,7 @@ namespace
 constexpr double HigherDegreeOfGuess = 2.0;
 
 // Divisions of one patch; parts that are left are divided by each search that needs it.
-constexpr std::size_t MostDivisions = 1 << 12;
+constexpr std::size_t MostBeamDivisions = 1 << 12;
 
 // Least cosine between a ray and the mean of the six of its part in parts that are not divided
 // further for their spread. Another value changes the time only, as long as StackSearch projects
@@ -135,7 +135,8 @@ public:
     {
       Part& part = this->Result.Parts[i];
       part.Resolved = this->CountResolved(part);
-      if (part.Resolved < this->Links && this->Divisions < MostDivisions && this->IsDivided(part))
+      if (part.Resolved < this->Links && this->Divisions < MostBeamDivisions &&
+        this->IsDivided(part))
       {
         this->Divide(i);
       }

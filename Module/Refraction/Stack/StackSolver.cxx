@@ -34,6 +34,11 @@ constexpr std::size_t QuickTries = 3;
 constexpr int QuickSteps = 12;
 constexpr double FarthestGuess = 4.0;
 
+glm::dvec3 GetPoint(const double* points, std::size_t i)
+{
+  return { points[3 * i], points[3 * i + 1], points[3 * i + 2] };
+}
+
 // Parameters of a ray by which its origin moves by `shift`, as far as it can within the surface.
 glm::dvec2 GetParameters(const RayJet& ray, const glm::dvec3& shift)
 {
@@ -63,13 +68,27 @@ EyeStatus StackSolver::SetEye(const glm::dvec3& eye, const RangeLoop& loop)
 {
   const EyeStatus status = this->Stack.SetEye(eye);
   this->Planes.Clear();
+  this->BeamsOnce = std::make_unique<std::once_flag>();
   if (status == EyeStatus::Ready && !this->Stack.GetLinks().empty())
   {
-    this->Beams.Update(this->Stack, loop);
     this->Planes.Set(this->Stack);
     this->BoundLegs();
+    if (!this->Planes.AreExact())
+    {
+      this->PrepareBeams(loop);
+    }
   }
   return status;
+}
+
+//------------------------------------------------------------------------------
+const StackBeams& StackSolver::PrepareBeams(const RangeLoop& loop) const
+{
+  if (!this->Stack.GetLinks().empty())
+  {
+    std::call_once(*this->BeamsOnce, [this, &loop] { this->Beams.Update(this->Stack, loop); });
+  }
+  return this->Beams;
 }
 
 //------------------------------------------------------------------------------
@@ -107,6 +126,14 @@ bool StackSolver::MayBeOnLeg(const glm::dvec3& local, std::size_t count) const
 }
 
 //------------------------------------------------------------------------------
+// False if FindBehindPlanes decides about the point: it is in front of exact parallel planes, behind
+// which all refracted rays are, or behind some of them, which are the only way to it.
+bool StackSolver::NeedsSearch(const glm::dvec3& local) const
+{
+  return !this->Planes.AreExact() || this->Planes.CountInFront(local) < 0;
+}
+
+//------------------------------------------------------------------------------
 bool StackSolver::IsInReach(const glm::dvec3& local) const
 {
   const auto& links = this->Stack.GetLinks();
@@ -132,32 +159,38 @@ void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end
 void StackSolver::SolveChain(
   const double* points, std::size_t begin, std::size_t end, const ImageOutput& output) const
 {
-  static_assert(Chain <= PlaneImages::Most);
   Memory memory;
   const StackPath none{};
-  PlaneImages planes(this->Stack, this->Planes);
-  const auto getPoint = [points](std::size_t i)
-  { return glm::dvec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]); };
-  const auto solve = [&](std::size_t i)
+  thread_local std::vector<std::size_t> others; // kept so that its memory is reused
+  others.clear();
+  this->SolveBehindPlanes(points, begin, end, output, others);
+  for (const std::size_t i : others)
   {
-    const glm::dvec3 point = getPoint(i);
+    const glm::dvec3 point = GetPoint(points, i);
     const StackVertex vertex = this->SolvePoint(point, memory);
     output.Vertices[i] = vertex;
     output.Details[i] = vertex;
     this->MeasureLegs(
       point, vertex.Passed > 0 ? memory.Path : none, output.Legs + output.LegsPerPoint * i);
-  };
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::SolveBehindPlanes(const double* points, std::size_t begin, std::size_t end,
+  const ImageOutput& output, std::vector<std::size_t>& others) const
+{
+  static_assert(Chain <= PlaneImages::Most);
+  PlaneImages planes(this->Stack, this->Planes);
+  const bool isExact = this->Planes.AreExact();
   for (std::size_t i = begin; i < end; ++i)
   {
-    const glm::dvec3 point = getPoint(i);
-    if (!this->Planes.AreExact() || !this->IsInReach(point - this->Stack.GetOrigin()) ||
-      !planes.Add(point, i))
+    const glm::dvec3 point = GetPoint(points, i);
+    if (!isExact || !this->IsInReach(point - this->Stack.GetOrigin()) || !planes.Add(point, i))
     {
-      solve(i);
+      others.push_back(i);
     }
   }
-  planes.Solve(output);
-  planes.Clear(solve);
+  planes.Solve(output, others);
 }
 
 //------------------------------------------------------------------------------
@@ -196,7 +229,7 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory) con
     memory.Changes.clear();
     isFound = this->FindBehindPlanes(local, memory.Next);
   }
-  const std::size_t most = this->IsBehindExactPlanes(local) ? 0 : this->Stack.GetLinks().size();
+  const std::size_t most = this->NeedsSearch(local) ? this->Stack.GetLinks().size() : 0;
   for (std::size_t count = most; count > 0 && !isFound; --count)
   {
     isFound = this->MayBeOnLeg(local, count) && this->FindFirst({ local, count }, memory.Next);
@@ -254,7 +287,8 @@ bool StackSolver::Follow(const glm::dvec3& local, Memory& memory) const
 bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
 {
   thread_local std::vector<StackBeams::Candidate> candidates; // kept so that its memory is reused
-  this->Beams.FindCandidates(target, candidates);
+  const StackBeams& beams = this->GetBeams();
+  beams.FindCandidates(target, candidates);
   path.Forget(this->Stack.GetLinks().size());
   const std::size_t tries = std::min(candidates.size(), QuickTries);
   for (std::size_t i = 0; i < tries && candidates[i].Size < FarthestGuess; ++i)
@@ -268,7 +302,7 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
       return true;
     }
   }
-  StackSearch search(this->Stack, this->Beams, target);
+  StackSearch search(this->Stack, beams, target);
   for (const StackBeams::Candidate& candidate : candidates)
   {
     if (search.Find(candidate.Facet, path))
@@ -278,14 +312,6 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
   }
   this->Undecided += search.IsComplete() ? 0 : 1;
   return false;
-}
-
-//------------------------------------------------------------------------------
-// True if FindBehindPlanes decides about the point: there is no other way to it than through all
-// planes in front of it.
-bool StackSolver::IsBehindExactPlanes(const glm::dvec3& local) const
-{
-  return this->Planes.AreExact() && this->Planes.CountInFront(local) > 0;
 }
 
 //------------------------------------------------------------------------------
@@ -331,22 +357,20 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
     images.push_back(path);
     return ImageState::Found;
   }
-  if (this->IsBehindExactPlanes(local))
-  {
-    return ImageState::NoImage;
-  }
   bool isComplete = true;
-  for (std::size_t count = this->Stack.GetLinks().size(); count > 0; --count)
+  const std::size_t most = this->NeedsSearch(local) ? this->Stack.GetLinks().size() : 0;
+  for (std::size_t count = most; count > 0; --count)
   {
     if (!this->MayBeOnLeg(local, count))
     {
       continue;
     }
     const StackTarget target{ local, count };
-    StackSearch search(this->Stack, this->Beams, target);
-    this->Beams.VisitFacets(count, local, 0.0,
-      [this, &search, &path, &images](std::int32_t facet)
-      { search.FindAll(this->Beams.GetParts(facet), path, images); });
+    const StackBeams& beams = this->GetBeams();
+    StackSearch search(this->Stack, beams, target);
+    beams.VisitFacets(count, local, 0.0,
+      [&beams, &search, &path, &images](std::int32_t facet)
+      { search.FindAll(beams.GetParts(facet), path, images); });
     isComplete = isComplete && search.IsComplete();
   }
   this->Undecided += isComplete ? 0 : 1;

@@ -33,6 +33,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace meniscus
@@ -46,14 +48,21 @@ struct StackDetail
   std::int32_t Passed = 0;          ///< number of interfaces in front of the point
 };
 
+/** Places that StackSolver::Solve writes the images of points to. */
+struct ImageOutput
+{
+  VirtualVertex* Vertices;
+  StackDetail* Details;
+  double* Legs;             ///< one per interface and point
+  std::size_t LegsPerPoint; ///< number of interfaces, including interfaces behind the eye
+};
+
 /** Image of a point through a stack; SightPoint and Facet are on the first interface. */
 struct StackVertex
   : VirtualVertex
   , StackDetail
 {
 };
-
-struct ImageOutput;
 
 class StackSolver
 {
@@ -64,7 +73,10 @@ public:
   /** Sets the interfaces. The eye must be set again afterwards. */
   MediaChain SetInterfaces(const std::vector<Interface>& list);
 
-  /** Fits the trees to an eye. Solving is allowed only if the result is `Ready`. */
+  /**
+   * Sets an eye, and fits the beams to it unless the surfaces are exact parallel planes, which
+   * hardly ever need them. Solving is allowed only if the result is `Ready`.
+   */
   EyeStatus SetEye(const glm::dvec3& eye, const RangeLoop& loop = SerialLoop);
 
   /** Sets the eye of GetStack() alone, for rays that are traced through it. */
@@ -80,6 +92,13 @@ public:
    */
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     StackDetail* details, double* legs) const;
+
+  /**
+   * Solves those points of a chain whose images exact parallel planes decide, as Solve does: points
+   * behind all of them. The numbers of the others are appended to `others`.
+   */
+  void SolveBehindPlanes(const double* points, std::size_t begin, std::size_t end,
+    const ImageOutput& output, std::vector<std::size_t>& others) const;
 
   /** State of a chain of points: the path of the last answer, and the step that led to it. */
   struct Memory
@@ -120,7 +139,8 @@ public:
                            : this->MakeRefracted(point - this->Stack.GetOrigin(), path);
   }
 
-  const StackBeams& GetBeams() const { return this->Beams; }
+  /** Beams of the patches, fitted to the eye at the first call unless SetEye has done so. */
+  const StackBeams& GetBeams() const { return this->PrepareBeams(SerialLoop); }
   /** The surfaces, if they are parallel planes; otherwise empty. */
   const ParallelPlanes& GetPlanes() const { return this->Planes; }
   bool IsInReach(const glm::dvec3& local) const;
@@ -155,17 +175,19 @@ public:
 private:
   void SolveChain(
     const double* points, std::size_t begin, std::size_t end, const ImageOutput& output) const;
+  const StackBeams& PrepareBeams(const RangeLoop& loop) const;
   void BoundLegs();
+  bool NeedsSearch(const glm::dvec3& local) const;
   bool MayBeOnLeg(const glm::dvec3& local, std::size_t count) const;
   bool Follow(const glm::dvec3& local, Memory& memory) const;
   bool FindBehindPlanes(const glm::dvec3& local, StackPath& path) const;
-  bool IsBehindExactPlanes(const glm::dvec3& local) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
   StackVertex PassThrough(const glm::dvec3& point) const;
 
   RefractionStack Stack;
-  StackBeams Beams;
+  mutable StackBeams Beams;
+  mutable std::unique_ptr<std::once_flag> BeamsOnce = std::make_unique<std::once_flag>();
   ParallelPlanes Planes;
   std::vector<AxisBox> LegBoxes; ///< of all legs between two interfaces
   mutable std::atomic<std::int64_t> Undecided{ 0 };

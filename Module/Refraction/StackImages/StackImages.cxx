@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace meniscus
 {
@@ -22,24 +23,66 @@ void StackImages::SetPoints(const double* points, std::size_t count)
 //------------------------------------------------------------------------------
 void StackImages::SolvePoints(std::size_t begin, std::size_t end)
 {
+  static_assert(Chunk == StackSolver::Chain, "a chunk is a chain");
+  for (std::size_t first = begin; first < end; first += Chunk)
+  {
+    this->SolveChunk(first, std::min(first + Chunk, end));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Points behind exact parallel planes have one image at most, and are solved together.
+void StackImages::SolveChunk(std::size_t begin, std::size_t end)
+{
+  const std::size_t interfaces = this->Solver.GetStack().GetNumberOfInterfaces();
+  std::array<VirtualVertex, Chunk> vertices;
+  std::array<StackDetail, Chunk> details;
+  std::vector<double> legs(Chunk * interfaces);
+  std::vector<std::size_t> others;
+  this->Solver.SolveBehindPlanes(this->Points + 3 * begin, 0, end - begin,
+    { vertices.data(), details.data(), legs.data(), interfaces }, others);
   std::vector<StackPath> paths;
   StackSolver::Memory memory;
+  ChunkImages& chunk = this->Chunks[begin / Chunk];
+  chunk.Images.reserve(end - begin);
+  chunk.Details.reserve(end - begin);
+  chunk.Legs.reserve((end - begin) * interfaces);
+  const auto add = [&](std::size_t i, const VirtualVertex& vertex, const StackDetail& detail)
+  {
+    ImagePoint image;
+    image.Vertex = vertex;
+    image.Source[0] = static_cast<std::int64_t>(i);
+    image.Passed = detail.Passed;
+    chunk.Images.push_back(image);
+    chunk.Details.push_back(detail);
+  };
+  std::sort(others.begin(), others.end());
+  auto other = others.cbegin();
   for (std::size_t i = begin; i < end; ++i)
   {
-    if (i % Chunk == 0)
+    const std::size_t lane = i - begin;
+    if (other == others.cend() || *other != lane)
     {
-      memory = StackSolver::Memory();
+      this->States[i] = vertices[lane].State;
+      this->Counts[i] = vertices[lane].State == ImageState::Found ? 1 : 0;
+      if (this->Counts[i] > 0)
+      {
+        add(i, vertices[lane], details[lane]);
+        const double* own = legs.data() + interfaces * lane;
+        chunk.Legs.insert(chunk.Legs.end(), own, own + interfaces);
+      }
+      continue;
     }
+    ++other;
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
     this->States[i] = this->Solver.FindImages(point, memory, paths);
     this->Counts[i] = static_cast<std::uint32_t>(paths.size());
     for (const StackPath& path : paths)
     {
-      ImagePoint image;
-      image.Vertex = this->Solver.MakeVertex(point, path);
-      image.Source[0] = static_cast<std::int64_t>(i);
-      image.Passed = static_cast<std::int32_t>(path.Count);
-      this->Chunks[i / Chunk].push_back(image);
+      const StackVertex vertex = this->Solver.MakeVertex(point, path);
+      add(i, vertex, vertex);
+      chunk.Legs.resize(chunk.Legs.size() + interfaces);
+      this->Solver.MeasureLegs(point, path, chunk.Legs.data() + chunk.Legs.size() - interfaces);
     }
   }
 }
@@ -48,9 +91,21 @@ void StackImages::SolvePoints(std::size_t begin, std::size_t end)
 void StackImages::FinishPoints()
 {
   this->Images.clear();
-  for (const std::vector<ImagePoint>& chunk : this->Chunks)
+  this->Details.clear();
+  this->Legs.clear();
+  std::size_t count = 0;
+  for (const ChunkImages& chunk : this->Chunks)
   {
-    this->Images.insert(this->Images.end(), chunk.begin(), chunk.end());
+    count += chunk.Images.size();
+  }
+  this->Images.reserve(count);
+  this->Details.reserve(count);
+  this->Legs.reserve(count * this->Solver.GetStack().GetNumberOfInterfaces());
+  for (const ChunkImages& chunk : this->Chunks)
+  {
+    this->Images.insert(this->Images.end(), chunk.Images.begin(), chunk.Images.end());
+    this->Details.insert(this->Details.end(), chunk.Details.begin(), chunk.Details.end());
+    this->Legs.insert(this->Legs.end(), chunk.Legs.begin(), chunk.Legs.end());
   }
   this->Chunks.clear();
   this->First.assign(this->States.size() + 1, 0);
@@ -89,50 +144,77 @@ bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
 }
 
 //------------------------------------------------------------------------------
-// True if a cell is behind parallel planes, on one leg, and its image is straight: the middles of
-// its sides and its own middle are drawn within half of the tolerance of their exact sight rays, as
-// those of other whole cells.
-bool StackImages::IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count) const
+// True if a cell is behind parallel planes, on one leg.
+bool StackImages::AreBehindPlanes(const std::int64_t* ids, std::size_t count) const
 {
   const ParallelPlanes& planes = this->Solver.GetPlanes();
-  const RefractionStack& stack = this->Solver.GetStack();
-  const bool isOnOneLeg = !planes.IsEmpty() &&
-    std::all_of(ids, ids + count,
-      [this, &planes, &stack, ids](std::int64_t id)
-      {
-        return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
-          this->GetFirstImage(id).Passed == this->GetFirstImage(ids[0]).Passed &&
-          planes.CountInFront(this->GetPoint(id) - stack.GetOrigin()) ==
-          this->GetFirstImage(id).Passed;
-      });
-  if (!isOnOneLeg || count == 0 || this->GetFirstImage(ids[0]).Passed == 0)
+  if (planes.IsEmpty() || count == 0 ||
+    this->GetNumberOfImages(static_cast<std::size_t>(ids[0])) != 1)
   {
     return false;
   }
+  const std::int32_t passed = this->GetFirstImage(ids[0]).Passed;
+  return passed > 0 &&
+    std::all_of(ids, ids + count,
+      [this, &planes, passed](std::int64_t id)
+      {
+        return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
+          this->GetFirstImage(id).Passed == passed &&
+          planes.CountInFront(this->GetPoint(id) - this->Solver.GetStack().GetOrigin()) == passed;
+      });
+}
+
+//------------------------------------------------------------------------------
+// Adds the places of a cell that tell whether its image is straight: the middles of its sides and
+// its own middle.
+void StackImages::AddPlaces(
+  const std::int64_t* ids, std::size_t count, std::size_t number, PlaneSights& sights) const
+{
+  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
   const auto passed = static_cast<std::size_t>(this->GetFirstImage(ids[0]).Passed);
-  const auto isDrawn = [this, &planes, &stack, passed](
-                         const glm::dvec3& place, const glm::dvec3& image)
-  {
-    const glm::dvec3 drawn = image - stack.GetOrigin() - stack.GetEye();
-    const glm::dvec3 sight = planes.FindSight(place - stack.GetOrigin(), passed, drawn);
-    // Written so that a NaN fails.
-    return glm::length(glm::cross(drawn, sight)) <= 0.5 * this->Tolerance * glm::length(drawn);
-  };
-  glm::dvec3 middle(0.0);
-  glm::dvec3 image(0.0);
+  glm::dvec3 sum(0.0);
+  glm::dvec3 sumOfImages(0.0);
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::int64_t next = ids[(i + 1) % count];
+    const glm::dvec3 point = this->GetPoint(ids[i]);
     const glm::dvec3& seen = this->GetFirstImage(ids[i]).Vertex.Position;
-    if (!isDrawn(0.5 * (this->GetPoint(ids[i]) + this->GetPoint(next)),
-          0.5 * (seen + this->GetFirstImage(next).Vertex.Position)))
-    {
-      return false;
-    }
-    middle += this->GetPoint(ids[i]) / static_cast<double>(count);
-    image += seen / static_cast<double>(count);
+    sights.Add(number, passed, 0.5 * (point + this->GetPoint(next)) - eye,
+      0.5 * (seen + this->GetFirstImage(next).Vertex.Position) - eye);
+    sum += point;
+    sumOfImages += seen;
   }
-  return isDrawn(middle, image);
+  const double inverse = 1.0 / static_cast<double>(count);
+  sights.Add(number, passed, inverse * sum - eye, inverse * sumOfImages - eye);
+}
+
+//------------------------------------------------------------------------------
+// Finds cells that are drawn whole without tracing rays: those in front of all surfaces, and those
+// behind parallel planes that are drawn within half of the tolerance of their sight rays, as other
+// whole cells.
+std::vector<bool> StackImages::FindWhole(
+  const ObjectCells& cells, std::size_t begin, std::size_t end) const
+{
+  std::vector<bool> isWhole(end - begin, false);
+  std::vector<std::size_t> failed;
+  PlaneSights sights(this->Solver.GetPlanes(), 0.5 * this->Tolerance, failed);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const bool isBehind = this->AreBehindPlanes(ids, count);
+    if (isBehind)
+    {
+      this->AddPlaces(ids, count, i - begin, sights);
+    }
+    isWhole[i - begin] = isBehind || this->AreInFront(ids, count);
+  }
+  sights.Finish();
+  for (const std::size_t number : failed)
+  {
+    isWhole[number] = false;
+  }
+  return isWhole;
 }
 
 //------------------------------------------------------------------------------
@@ -140,13 +222,14 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
   const StackMapper mapper(this->Solver, *this->Sheet);
+  const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
   std::vector<StackMapper::Part> parts;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
-    if (this->AreInFront(ids, count) || this->IsDrawnBehindPlanes(ids, count))
+    if (keepsPoints[i - begin])
     {
       this->AddWhole(ids, count, names[i], whole);
       ++report.Whole;
@@ -176,6 +259,7 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
   ImageMesh& whole, unsigned char* isMapped) const
 {
   const StackMapper mapper(this->Solver, *this->Sheet);
+  const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
   std::vector<std::int64_t> corners;
   std::vector<Triangle> triangles;
@@ -189,7 +273,7 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
       ++report.Without;
       continue;
     }
-    bool isWhole = this->AreInFront(ids, count) || this->IsDrawnBehindPlanes(ids, count);
+    bool isWhole = keepsPoints[i - begin];
     triangles.clear();
     if (!isWhole)
     {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Refraction/Images/CellImages.h"
+#include "Refraction/Stack/PlaneSights.h"
 #include "Refraction/StackImages/StackMapper.h"
 
 #include <cstddef>
@@ -35,6 +36,11 @@ public:
   void SolvePoints(std::size_t begin, std::size_t end) override;
   void FinishPoints() override;
   void SetTolerance(double tolerance) override;
+  /** Details of each image of GetPointImages(). */
+  const std::vector<StackDetail>& GetDetails() const { return this->Details; }
+  /** Lengths of its legs, as StackSolver::Solve writes them. */
+  const std::vector<double>& GetLegs() const { return this->Legs; }
+
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
@@ -52,17 +58,31 @@ private:
     std::vector<StackMapper::Part> Parts;
   };
 
+  /** Images of a chunk of points. */
+  struct ChunkImages
+  {
+    std::vector<ImagePoint> Images;
+    std::vector<StackDetail> Details;
+    std::vector<double> Legs;
+  };
+
+  void SolveChunk(std::size_t begin, std::size_t end);
   bool ClipTriangles(
     const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
   void MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
     const glm::dvec3& eye, ImagePoint& point) const;
-  bool IsDrawnBehindPlanes(const std::int64_t* ids, std::size_t count) const;
+  std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
+  void AddPlaces(
+    const std::int64_t* ids, std::size_t count, std::size_t number, PlaneSights& sights) const;
+  bool AreBehindPlanes(const std::int64_t* ids, std::size_t count) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
 
   const StackSolver& Solver;
   std::unique_ptr<SightSheet> Sheet;
   double Farthest = 0.0; ///< largest distance of a point from the eye
-  std::vector<std::vector<ImagePoint>> Chunks;
+  std::vector<ChunkImages> Chunks;
+  std::vector<StackDetail> Details;
+  std::vector<double> Legs;
 };
 
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images of many points behind parallel planes, against bisection and against points alone.
 #include "Refraction/Stack/PlaneImages.h"
+#include "Refraction/Stack/PlaneSights.h"
 #include "RefractionTestRandom.h"
 #include "StackTestScene.h"
 
@@ -210,6 +211,47 @@ TEST(RefractionStackPlanes, RoundedPlanesAreNotExact)
   SetStack(solver, { { MakeSurface(mesh), { 1.0, 1.33 } } }, { 0.0, 50.0, 0.0 });
   EXPECT_FALSE(solver.GetPlanes().IsEmpty());
   EXPECT_FALSE(solver.GetPlanes().AreExact());
+}
+
+//------------------------------------------------------------------------------
+// Places drawn beside their sight rays by an angle pass a test if the tolerance is larger. Drawn at
+// the axis, grazing, or behind the eye, they fail.
+TEST(RefractionStackPlanes, PlacesAreDrawnWithinTheTolerance)
+{
+  const glm::dvec3 eye = Tilt * glm::dvec3(3.0, 80.0, -5.0);
+  StackSolver solver;
+  SetStack(solver, MakePlanes(Tilt, 3), eye);
+  const auto& planes = solver.GetPlanes();
+  constexpr double angle = 1e-6;
+  for (const double ratio : { 0.999, 1.001 })
+  {
+    std::vector<std::size_t> failed;
+    PlaneSights sights(planes, ratio * angle, failed);
+    std::vector<std::size_t> expected;
+    Random random(43);
+    for (std::size_t i = 0; i < 600; ++i)
+    {
+      const std::size_t count = 1 + i / 3 % 3; // chains of the same, as of one cell, and others
+      const double heights[3] = { random(-19.0, -1.0), random(-29.0, -21.0), random(-90.0, -31.0) };
+      const glm::dvec3 point = Tilt *
+        (i == 7 ? glm::dvec3(3.0, heights[count - 1], -5.0)
+                : glm::dvec3(random(-50.0, 50.0), heights[count - 1], random(-50.0, 50.0)));
+      const glm::dvec3 sight = planes.FindSight(point - solver.GetStack().GetOrigin(), count);
+      const glm::dvec3 beside = glm::normalize(glm::cross(sight, random.Point(eye, eye + 1.0)));
+      const glm::dvec3 drawn[6] = { sight, 7.0 * sight,
+        std::cos(angle) * sight + std::sin(angle) * beside, Tilt * glm::dvec3(0.0, 1.0, 0.0),
+        Tilt * glm::dvec3(1.0, -1e-9, 0.0), -sight };
+      const bool fails = i % 6 > 2 || (i % 6 == 2 && ratio < 1.0);
+      // The opposite of a sight ray is on its line.
+      if (fails && i % 6 != 5)
+      {
+        expected.push_back(i);
+      }
+      sights.Add(i, count, point - eye, drawn[i % 6]);
+    }
+    sights.Finish();
+    EXPECT_EQ(failed, expected);
+  }
 }
 
 //------------------------------------------------------------------------------
