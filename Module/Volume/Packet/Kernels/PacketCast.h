@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Packet_Kernels_PacketCast_h
 #define meniscus_Volume_Packet_Kernels_PacketCast_h
 
+#include "Simd/SimdPair.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/BinMeasureModel.h"
 #include "Volume/Packet/Models/BlendModeModels.h"
@@ -120,7 +121,14 @@ void CastBlendMode(const PacketJob& job)
   static_assert(Model<Simd>::SeesJumps == description.SeesJumps());
   if constexpr (description.IsMedium())
   {
-    CastComposite<Simd, Model, PacketClearMedium>(job);
+    if (job.Medium || job.Mixture != ComponentMixture::None)
+    {
+      CastComposite<Simd, Model, PacketClearMedium>(job);
+      return;
+    }
+    // Models with more values per lane are slower in pairs: registers have to be stored.
+    using Pair = SimdPair<Simd>;
+    PacketWalk<Pair, Model<Pair, PacketNoGradientShading<Pair>>>(job).Run();
   }
   else
   {
