@@ -127,12 +127,17 @@ struct SimdAVX2 : SimdRowLoads<SimdAVX2, 8>
     return Select(third, part(16), Select(second, part(8), part(0)));
   }
   /**
-   * Numbers that have just been loaded one by one. Load() would wait for parts of the array to be
-   * stored.
+   * The lower and the upper halves of numbers that have just been loaded one by one. Load() would
+   * wait for parts of the array to be stored.
    */
-  static Int Pack(const std::int32_t (&x)[Width])
+  static void PackPairs(const std::int64_t (&x)[Width], Int& first, Int& second)
   {
-    return { _mm256_setr_epi32(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]) };
+    const __m256i low = _mm256_setr_epi64x(x[0], x[1], x[4], x[5]);
+    const __m256i high = _mm256_setr_epi64x(x[2], x[3], x[6], x[7]);
+    const __m256 a = _mm256_castsi256_ps(low);
+    const __m256 b = _mm256_castsi256_ps(high);
+    first.V = _mm256_castps_si256(_mm256_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
+    second.V = _mm256_castps_si256(_mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
   }
   /** Loads four floats from each of the rows, by `load`, and transposes them. */
   template <typename LoadRow>

@@ -101,13 +101,17 @@ struct SimdAVX512 : SimdRowLoads<SimdAVX512, 16>
       _mm512_loadu_si512(table), index.V, _mm512_loadu_si512(table + 16)) };
   }
   /**
-   * Numbers that have just been loaded one by one. Load() would wait for parts of the array to be
-   * stored.
+   * The lower and the upper halves of numbers that have just been loaded one by one. Load() would
+   * wait for parts of the array to be stored.
    */
-  static Int Pack(const std::int32_t (&x)[Width])
+  static void PackPairs(const std::int64_t (&x)[Width], Int& first, Int& second)
   {
-    return { _mm512_setr_epi32(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10],
-      x[11], x[12], x[13], x[14], x[15]) };
+    const __m512i low = _mm512_setr_epi64(x[0], x[1], x[4], x[5], x[8], x[9], x[12], x[13]);
+    const __m512i high = _mm512_setr_epi64(x[2], x[3], x[6], x[7], x[10], x[11], x[14], x[15]);
+    const __m512 a = _mm512_castsi512_ps(low);
+    const __m512 b = _mm512_castsi512_ps(high);
+    first.V = _mm512_castps_si512(_mm512_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
+    second.V = _mm512_castps_si512(_mm512_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
   }
   /** Loads four floats from each of the rows, by `load`, and transposes them. */
   template <typename LoadRow>

@@ -125,14 +125,21 @@ struct SimdNEON
     Float none;
     Transpose(row(0), row(1), row(2), row(3), x, y, z, none);
   }
-  static void GatherVertices(
-    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
+  static void FollowPairs(const std::int32_t* pairs, Int index, Int& first, Int& second)
   {
     std::int32_t at[Width];
     Store(at, index);
-    const auto row = [&](int i)
-    { return vld1q_f32(vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(at[i])] }); };
-    Transpose(row(0), row(1), row(2), row(3), vertex[0], vertex[1], vertex[2], vertex[3]);
+    const auto pair = [&](int i)
+    {
+      const int32x2_t loaded = vld1_s32(pairs + std::int64_t{ 2 } * at[i]);
+      const std::int32_t next = vget_lane_s32(loaded, 0);
+      __builtin_prefetch(pairs + std::int64_t{ 2 } * (next < 0 ? 0 : next));
+      return loaded;
+    };
+    const int32x4_t low = vcombine_s32(pair(0), pair(1));
+    const int32x4_t high = vcombine_s32(pair(2), pair(3));
+    first.V = vuzp1q_s32(low, high);
+    second.V = vuzp2q_s32(low, high);
   }
   static Float GatherCellScalars(const float* scalars, Int cellFace)
   {

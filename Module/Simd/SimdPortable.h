@@ -140,12 +140,7 @@ struct SimdPortable
   /** table[index], for a table of 32 entries and an index below 24. */
   static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {
-    return LoadFrom(table, index);
-  }
-  /** from[index], for an index in the 32 bits of an unsigned integer. */
-  static Int LoadFrom(const std::int32_t* from, Int index)
-  {
-    return IntOf([&](int i) { return from[static_cast<std::uint32_t>(index.V[i])]; });
+    return IntOf([&](int i) { return table[index.V[i]]; });
   }
 
   /** Loads, for each lane, the four floats at `from + Stride * index`. */
@@ -169,13 +164,15 @@ struct SimdPortable
     z = column(2);
   }
   /**
-   * Loads the four floats of the vertex ids[index], for an index in the 32 bits of an unsigned
-   * integer.
+   * Loads, for each lane, the two numbers at `pairs + 2 * index`, and asks for the memory of the
+   * pair that the first of them is the index of, if it is not negative.
    */
-  static void GatherVertices(
-    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
+  static void FollowPairs(const std::int32_t* pairs, Int index, Int& first, Int& second)
   {
-    GatherQuads<4>(vertices, LoadFrom(ids, index), vertex[0], vertex[1], vertex[2], vertex[3]);
+    const auto column = [&](int k)
+    { return IntOf([&](int i) { return pairs[std::int64_t{ 2 } * index.V[i] + k]; }); };
+    first = column(0);
+    second = column(1);
   }
   /** scalars[cellFace / 4] for each lane. */
   static Float GatherCellScalars(const float* scalars, Int cellFace)

@@ -5,6 +5,7 @@
 #include <immintrin.h>
 
 #include <cstdint>
+#include <cstring>
 
 namespace meniscus
 {
@@ -14,22 +15,27 @@ namespace meniscus
  * instructions are slower on some processors and hardly faster on others. See SimdPortable.h for
  * the meaning of the functions.
  *
- * Simd: the set of instructions, which derives from this class and defines TransposeAs(), Pack()
- * and Store().
+ * Simd: the set of instructions, which derives from this class and defines TransposeAs(),
+ * PackPairs() and Store().
  */
 template <class Simd, int Lanes>
 struct SimdRowLoads
 {
   template <class Int>
-  static Int LoadFrom(const std::int32_t* from, Int index)
+  static void FollowPairs(const std::int32_t* pairs, Int index, Int& first, Int& second)
   {
     std::int32_t at[Lanes];
     Simd::Store(at, index);
-    for (std::int32_t& value : at)
+    std::int64_t loaded[Lanes];
+    for (int i = 0; i < Lanes; ++i)
     {
-      value = from[static_cast<std::uint32_t>(value)];
+      const std::int32_t* pair = pairs + std::int64_t{ 2 } * at[i];
+      std::memcpy(&loaded[i], pair, sizeof(loaded[i]));
+      // An address that is not in the table is ignored.
+      const auto next = reinterpret_cast<std::uintptr_t>(pairs) + sizeof(loaded[i]) * *pair;
+      __builtin_prefetch(reinterpret_cast<const void*>(next));
     }
-    return Simd::Pack(at);
+    Simd::PackPairs(loaded, first, second);
   }
 
   template <int Stride, class Int, class Float>
@@ -47,15 +53,6 @@ struct SimdRowLoads
     Float none;
     Simd::TransposeAs(
       [three](const float* row) { return _mm_maskload_ps(row, three); }, rows.Of, x, y, z, none);
-  }
-  template <class Int, class Float>
-  static void GatherVertices(
-    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
-  {
-    const Rows rows(index,
-      [ids, vertices](std::int32_t i)
-      { return vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(i)] }; });
-    Simd::TransposeAs(LoadFour(), rows.Of, vertex[0], vertex[1], vertex[2], vertex[3]);
   }
 
 private:

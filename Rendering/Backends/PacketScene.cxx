@@ -27,9 +27,10 @@ void PackProperty(const VolumePropertyTables& property, PacketTables& packed)
 }
 
 //------------------------------------------------------------------------------
-void SetMedium(const RayCastTables& tables, const RayCastOptics& optics, TileCaster::Scene& scene)
+void SetMedium(RayCastTables& tables, const RayCastOptics& optics, TileCaster::Scene& scene)
 {
   scene.Mesh = &tables.Input.GetMesh();
+  scene.Passages = &tables.Input.GetPassages();
   scene.Boundary = &scene.Mesh->GetBoundary();
   scene.CellScalars = optics.CellScalars ? tables.Input.GetCellScalars().data() : nullptr;
   scene.VertexGradients =

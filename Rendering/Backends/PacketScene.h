@@ -20,6 +20,6 @@ void PackProperty(const VolumePropertyTables& property, PacketTables& packed);
  * Sets the mesh of a scene and everything that its medium depends on, but the tables of the
  * property and the light. The scene refers to `tables`.
  */
-void SetMedium(const RayCastTables& tables, const RayCastOptics& optics, TileCaster::Scene& scene);
+void SetMedium(RayCastTables& tables, const RayCastOptics& optics, TileCaster::Scene& scene);
 
 }

@@ -500,8 +500,8 @@ std::string VolumeInput::WarnOfOverlaps(std::int64_t rays)
 std::int64_t VolumeInput::GetBytes() const
 {
   return this->Mesh.GetBytes() + BytesOf(this->Scalars) + BytesOf(this->CellScalars) +
-    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces()) + BytesOf(this->InputCells) +
-    this->Divided.GetBytes();
+    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces()) + BytesOf(this->Passages) +
+    BytesOf(this->InputCells) + this->Divided.GetBytes();
 }
 
 //------------------------------------------------------------------------------
@@ -531,6 +531,22 @@ const BoundaryTree& VolumeInput::GetBoundaryTree()
   this->LinksOfTree = this->LinkVersion;
   this->MeshOfTree = this->MeshVersion;
   return this->Tree;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<CellPassages>& VolumeInput::GetPassages()
+{
+  if (this->BuildOfPassages != this->BuildVersion)
+  {
+    this->Passages = FindPassages(this->Mesh, ThreadedLoop);
+  }
+  else if (this->LinksOfPassages != this->LinkVersion)
+  {
+    UpdateLinks(this->Mesh, this->Passages, ThreadedLoop);
+  }
+  this->BuildOfPassages = this->BuildVersion;
+  this->LinksOfPassages = this->LinkVersion;
+  return this->Passages;
 }
 
 }

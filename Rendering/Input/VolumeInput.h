@@ -9,6 +9,7 @@
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/InputContent.h"
 #include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/CellPassages.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/TransferFunction.h"
 #include "Volume/Optics/VisibleScalars.h"
@@ -129,6 +130,8 @@ public:
   int GetComponent() const { return this->BuiltComponent; }
   /** Tree over the boundary of the active cells; built when first requested. */
   const BoundaryTree& GetBoundaryTree();
+  /** Passages of the cells; found when first requested. */
+  const std::vector<CellPassages>& GetPassages();
 
   /**
    * Warning that parts of the mesh overlap; empty if there are no such rays, and after the first
@@ -177,6 +180,7 @@ private:
   /** Cells that are left out before the mesh is built. */
   UnusableCells Unusable;
   BoundaryTree Tree;
+  std::vector<CellPassages> Passages;
   /** Empty until asked for, and if the mesh has them. */
   std::vector<std::int32_t> InputCells;
   std::vector<float> Scalars;
@@ -218,6 +222,9 @@ private:
   /** Versions of the links and positions that the tree is of. */
   TableVersion LinksOfTree;
   TableVersion MeshOfTree;
+  /** Versions of the links and cells that the passages are of. */
+  TableVersion LinksOfPassages;
+  TableVersion BuildOfPassages;
   std::int64_t InputCellSearches = 0;
 
   TableVersion BuildVersion;

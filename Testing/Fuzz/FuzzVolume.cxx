@@ -324,7 +324,9 @@ void VolumeRun::Cast(const TetrahedralMesh& mesh)
     return;
   }
   this->ReadPlanes(frame);
+  const std::vector<CellPassages> passages = FindPassages(mesh);
   this->Scene.Mesh = &mesh;
+  this->Scene.Passages = &passages;
   this->Scene.Boundary = &mesh.GetBoundary();
   this->Scene.Tables = &this->Input.Tables;
   this->Scene.Rays = FixedPointRays(frame, this->Width, this->Height,

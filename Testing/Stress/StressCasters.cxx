@@ -63,6 +63,7 @@ public:
     VisibleScalars visible;
     visible.AddAttenuation(this->Intervals);
     this->Mesh.UpdateActiveCells(this->Scalars, visible);
+    this->Passages = FindPassages(this->Mesh);
     this->Tables.Intervals = PackIntervals(this->Intervals);
   }
 
@@ -73,6 +74,7 @@ public:
     result.Image.Rgba.assign(std::size_t{ 4 } * this->Size * this->Size, 0.0f);
     TileCaster::Scene scene;
     scene.Mesh = &this->Mesh;
+    scene.Passages = &this->Passages;
     scene.Boundary = &this->Mesh.GetBoundary();
     scene.Tables = &this->Tables;
     scene.TerminationTransmittance = Transmittance;
@@ -110,6 +112,7 @@ private:
 
   int Size = 0;
   TetrahedralMesh Mesh;
+  std::vector<CellPassages> Passages;
   PacketTables Tables;
   std::vector<float> Scalars;
   std::vector<TransferFunctionInterval> Intervals;

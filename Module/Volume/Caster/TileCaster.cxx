@@ -116,6 +116,8 @@ void TileCaster::SetOptics(const Scene& scene, PacketJob& job)
   job.Emitting = scene.Emitting;
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
+  static_assert(sizeof(CellPassages) == 8 * sizeof(std::int32_t), "eight numbers");
+  job.Passages = &scene.Passages->front().Of.front().Link;
   job.CellScalars = scene.CellScalars;
   job.Surfaces = tables.Surfaces.data();
   job.NumberOfSurfaces = sizeOf(tables.Surfaces);

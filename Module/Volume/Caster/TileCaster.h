@@ -12,6 +12,7 @@
 #include "Volume/Caster/PixelRays.h"
 #include "Volume/Caster/RefractedLegEntries.h"
 #include "Volume/Caster/SightLegEntries.h"
+#include "Volume/Mesh/CellPassages.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/PreIntegration.h"
 #include "Volume/Optics/RefractionMedium.h"
@@ -40,6 +41,8 @@ public:
   struct Scene
   {
     const TetrahedralMesh* Mesh = nullptr;
+    /** Passages of the mesh's cells. */
+    const std::vector<CellPassages>* Passages = nullptr;
     /** Boundary by which rays enter. */
     const std::vector<BoundaryFace>* Boundary = nullptr;
     const PacketTables* Tables = nullptr;

@@ -3,6 +3,7 @@
 // Every operation of the SIMD types compared with scalar code, to the bit. AVX2 and AVX-512 need
 // their own compiler options; they are covered by the images of PacketWalkTest and
 // PacketOpticsTest.
+#include "Simd/SimdPair.h"
 #include "Simd/SimdPortable.h"
 #ifdef __aarch64__
 #include "Simd/SimdNEON.h"
@@ -95,9 +96,9 @@ protected:
 };
 
 #ifdef __aarch64__
-using Sets = testing::Types<SimdPortable, meniscus::SimdNEON>;
+using Sets = testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>, meniscus::SimdNEON>;
 #else
-using Sets = testing::Types<SimdPortable>;
+using Sets = testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>>;
 #endif
 TYPED_TEST_SUITE(SimdOperations, Sets);
 
@@ -263,7 +264,6 @@ TYPED_TEST(SimdOperations, ShiftsAndTablesOfWords)
     this->Fill(by, [&](int) { return static_cast<std::int32_t>(this->Random() % 24); });
     this->Fill(expected, [&](int i) { return table[by[i]]; });
     this->ExpectSame(Simd::LookupOf24(table, Simd::Load(by)), expected, "word");
-    this->ExpectSame(Simd::LoadFrom(table, Simd::Load(by)), expected, "load");
   }
 }
 
@@ -320,14 +320,15 @@ TYPED_TEST(SimdOperations, GathersAndLookUps)
   using Simd = TypeParam;
   constexpr int width = Simd::Width;
   std::vector<float> table(64 * 5);
-  std::vector<std::int32_t> cells(64 * 8);
+  std::vector<std::int32_t> pairs(2 * 256);
   for (std::size_t i = 0; i < table.size(); ++i)
   {
     table[i] = static_cast<float>(i) - 7.5f;
   }
-  for (std::int32_t& number : cells)
+  for (std::int32_t& number : pairs)
   {
-    number = static_cast<std::int32_t>(this->Random() % 64);
+    // Places in the table, and negative numbers: links to no neighbour, and marked links.
+    number = static_cast<std::int32_t>(this->Random() % 512) - 256;
   }
   for (int round = 0; round < Rounds; ++round)
   {
@@ -350,11 +351,13 @@ TYPED_TEST(SimdOperations, GathersAndLookUps)
     }
     std::int32_t face[width];
     this->Fill(face, [&](int) { return static_cast<std::int32_t>(this->Random() % 256); });
-    Simd::GatherVertices(cells.data(), table.data(), Simd::Load(face), q);
-    for (int k = 0; k < 4; ++k)
+    typename Simd::Int pair[2];
+    Simd::FollowPairs(pairs.data(), Simd::Load(face), pair[0], pair[1]);
+    for (int k = 0; k < 2; ++k)
     {
-      this->Fill(expected, [&](int i) { return table[4 * cells[face[i]] + k]; });
-      this->ExpectSame(q[k], expected, "vertex");
+      std::int32_t number[width];
+      this->Fill(number, [&](int i) { return pairs[2 * face[i] + k]; });
+      this->ExpectSame(pair[k], number, "number of a pair");
     }
     this->Fill(expected, [&](int i) { return table[face[i] / 4]; });
     this->ExpectSame(

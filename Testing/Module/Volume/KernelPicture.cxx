@@ -36,7 +36,9 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
     cast.CellGradients = gradients.data();
   }
   cast.GradientOpacity = !scene.GradientIntervals.empty();
+  const std::vector<CellPassages> passages = FindPassages(scene.Mesh);
   cast.Mesh = &scene.Mesh;
+  cast.Passages = &passages;
   cast.Boundary = &scene.Mesh.GetBoundary();
   cast.Tables = &tables;
   cast.Rays = rays;

@@ -33,6 +33,8 @@ struct PacketJob
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
   std::int64_t NumberOfCells;
+  /** Link and next vertex of each face of each cell (CellPassages). */
+  const std::int32_t* Passages;
   /** One normalised scalar per cell, used instead of the scalars of the vertices; null for none. */
   const float* CellScalars;
   const PacketInterval* Intervals;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Simd/SimdPair.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/BinMeasureModel.h"
 #include "Volume/Packet/Models/BlendModeModels.h"
@@ -119,7 +120,14 @@ void CastBlendMode(const PacketJob& job)
   static_assert(Model<Simd>::SeesJumps == description.SeesJumps());
   if constexpr (description.IsMedium())
   {
-    CastComposite<Simd, Model, PacketClearMedium>(job);
+    if (job.Medium || job.Mixture != ComponentMixture::None)
+    {
+      CastComposite<Simd, Model, PacketClearMedium>(job);
+      return;
+    }
+    // Models with more values per lane are slower in pairs: registers have to be stored.
+    using Pair = SimdPair<Simd>;
+    PacketWalk<Pair, Model<Pair, PacketNoGradientShading<Pair>>>(job).Run();
   }
   else
   {

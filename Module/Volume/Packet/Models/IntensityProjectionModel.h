@@ -6,6 +6,7 @@
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketLanes.h"
 
 #include <cstdint>
 
@@ -55,7 +56,7 @@ public:
   void Enter(Mask) {}
 
   /** All lanes: nothing is occluded in these modes. */
-  Mask IsOn() const { return Simd::FromBits((1u << Simd::Width) - 1u); }
+  Mask IsOn() const { return Simd::FromBits(AllLanes<Simd>); }
 
   /** False: jumps of the scalar between cells, for scalars of cells, are not used. */
   static constexpr bool SeesJumps = false;

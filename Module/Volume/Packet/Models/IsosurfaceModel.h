@@ -5,6 +5,7 @@
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketLanes.h"
 #include "Volume/Packet/Models/PacketSurfaces.h"
 
 #include <cstdint>
@@ -35,7 +36,7 @@ public:
     , Lower(Simd::Splat(1.0f))
     , Upper(Simd::Splat(-1.0f))
   {
-    this->Reset(Simd::FromBits((1u << Simd::Width) - 1u));
+    this->Reset(Simd::FromBits(AllLanes<Simd>));
   }
 
   void Reset(Mask lanes)

@@ -4,6 +4,7 @@
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketLanes.h"
 #include "Volume/Packet/Models/RayEventSegments.h"
 
 #include <cstdint>
@@ -78,8 +79,8 @@ private:
   void Process(unsigned int lanes, Float from, Float to, Float length, const Place& place);
 
   const PacketJob& Job;
-  unsigned int OnBits = (1u << Simd::Width) - 1u;
-  unsigned int ApartBits = (1u << Simd::Width) - 1u;
+  unsigned int OnBits = AllLanes<Simd>;
+  unsigned int ApartBits = AllLanes<Simd>;
 };
 
 //------------------------------------------------------------------------------

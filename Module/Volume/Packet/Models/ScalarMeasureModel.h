@@ -5,6 +5,7 @@
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompensatedSum.h"
 #include "Volume/Packet/Models/OpticalDepthModel.h"
+#include "Volume/Packet/Models/PacketLanes.h"
 
 namespace meniscus
 {
@@ -63,7 +64,7 @@ public:
   Mask Advance(Mask lanes);
 
   /** All lanes: rays are measured to their ends. */
-  Mask IsOn() const { return Simd::FromBits((1u << Simd::Width) - 1u); }
+  Mask IsOn() const { return Simd::FromBits(AllLanes<Simd>); }
 
   static constexpr bool SeesJumps = false;
   static constexpr int NumberOfTriples = 0;

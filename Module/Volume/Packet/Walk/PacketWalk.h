@@ -5,6 +5,7 @@
 
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketLanes.h"
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/VertexAttributes.h"
 #include "Volume/Packet/Walk/PacketCorners.h"
@@ -88,7 +89,7 @@ private:
   struct Ahead
   {
     Int Face;
-    /** Index of the cell's first vertex in the job's cells; unsigned. */
+    /** Index of the cell's first face in the job's passages. */
     Int Row;
     Corner X;
     /** Used with scalars of cells only. */
@@ -100,7 +101,6 @@ private:
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   Float MoveToFace(Mask lanes, FacePoint& point) const;
-  Int OppositeVertices(Int cellFace) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
   /** Place of a segment, for models that need it. */
@@ -156,6 +156,8 @@ private:
   Int Order;
   /** 4 * cell + face just entered by; negative outside of the mesh. */
   Int CellFace;
+  /** Vertex opposite that face in the cell; any vertex outside of the mesh. */
+  Int Opposite;
   FacePoint Face;
   /** Line of each lane's ray, for models that need it. */
   PacketLine<Simd> Line;
@@ -178,6 +180,7 @@ private:
   std::int32_t Entry[Width];
   std::int32_t Ids[3][Width];
   std::int32_t CellFaces[Width];
+  std::int32_t Opposites[Width];
   std::int32_t StepsOf[Width];
   std::int32_t Overlaps[Width];
   float DepthsNow[Width];
@@ -227,7 +230,8 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   {
     this->Ray[lane] = -1;
     this->Ids[0][lane] = this->Ids[1][lane] = this->Ids[2][lane] = 0;
-    this->CellFaces[lane] = this->StepsOf[lane] = this->Overlaps[lane] = 0;
+    this->CellFaces[lane] = this->Opposites[lane] = 0;
+    this->StepsOf[lane] = this->Overlaps[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
     for (int axis = 0; axis < 2; ++axis)
@@ -247,10 +251,10 @@ void PacketWalk<Simd, Model>::Run()
   // Replacing rays costs about as much as a step: it is worthwhile once half of the lanes wait.
   constexpr int enough = Width / 2;
   const Int zero = Simd::Splat(0);
-  unsigned int busy = this->Replace((1u << Width) - 1u);
+  unsigned int busy = this->Replace(AllLanes<Simd>);
   while (busy != 0)
   {
-    // The cell ahead is fetched before the segment behind is integrated, which hides the latency.
+    // The vertex ahead is fetched before the segment behind is integrated, which hides the latency.
     // In meshes whose cells share no faces, there is often no cell ahead in any lane.
     Ahead ahead;
     const bool inside = (busy & ~Simd::Bits(this->CellFace < zero)) != 0;
@@ -318,12 +322,13 @@ inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
   ahead.Face = Simd::And(cellFace, Simd::Splat(3));
-  ahead.Row = (cellFace - ahead.Face) + (cellFace - ahead.Face);
-  Simd::GatherVertices(this->Job.Cells, this->VertexTable, ahead.Row + ahead.Face, vertex);
+  ahead.Row = cellFace - ahead.Face;
+  Simd::template GatherQuads<4>(
+    this->VertexTable, this->Opposite, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, ahead.X);
   if constexpr (Model::NumberOfTriples > 0)
   {
-    ahead.X.Others.Gather(this->ValueTables, this->OppositeVertices(cellFace));
+    ahead.X.Others.Gather(this->ValueTables, this->Opposite);
   }
   if constexpr (Model::UsesCellGradients)
   {
@@ -362,7 +367,10 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
       dropC, Simd::Splat(FaceTurns<Simd>::ShiftOfC), Simd::Splat(FaceTurns<Simd>::ShiftOfB)));
   const Int turn = Simd::ShiftRight(
     Simd::LookupOf24(FaceTurns<Simd>::Table.Words, this->Order + ahead.Face), shift);
-  const Int link = Simd::LoadFrom(this->Job.Cells + 4, ahead.Row + Simd::And(turn, Simd::Splat(3)));
+  Int link;
+  Int opposite;
+  Simd::FollowPairs(
+    this->Job.Passages, ahead.Row + Simd::And(turn, Simd::Splat(3)), link, opposite);
 
   // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
@@ -378,6 +386,7 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
     Simd::Select(lanes, Simd::And(turn, Simd::Splat(FaceTurns<Simd>::MaskOfOrder)), this->Order);
   const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
+  this->Opposite = Simd::Select(lanes, opposite, this->Opposite);
   this->Steps = this->Steps + Simd::One(lanes);
   this->Pass(lanes, crossed, ahead);
 }
@@ -511,6 +520,8 @@ bool PacketWalk<Simd, Model>::NextEntry(int lane)
     this->Ids[i][lane] = entry.Vertices[i];
   }
   this->CellFaces[lane] = entry.CellFace;
+  this->Opposites[lane] =
+    this->Job.Cells[8 * std::int64_t{ entry.CellFace >> 2 } + (entry.CellFace & 3)];
   return true;
 }
 
@@ -615,6 +626,7 @@ void PacketWalk<Simd, Model>::StoreLanes()
   Simd::Store(this->DepthsNow, this->DepthNow);
   Simd::Store(this->StepsOf, this->Steps);
   Simd::Store(this->CellFaces, this->CellFace);
+  Simd::Store(this->Opposites, this->Opposite);
   this->Integral.Store(this->Values);
   this->OnBits = Simd::Bits(this->Integral.IsOn());
 }
@@ -626,6 +638,7 @@ void PacketWalk<Simd, Model>::LoadLanes()
   this->DepthNow = Simd::Load(this->DepthsNow);
   this->Steps = Simd::Load(this->StepsOf);
   this->CellFace = Simd::Load(this->CellFaces);
+  this->Opposite = Simd::Load(this->Opposites);
   this->StartDepth = Simd::Load(this->StartDepths);
   this->EndDepth = Simd::Load(this->EndDepths);
   this->LengthPerDepth = Simd::Load(this->LengthsPerDepth);

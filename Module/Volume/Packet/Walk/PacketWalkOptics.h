@@ -10,20 +10,6 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-/** Vertices opposite the faces, which the faces do not contain. */
-template <class Simd, class Model>
-inline auto PacketWalk<Simd, Model>::OppositeVertices(Int cellFace) const -> Int
-{
-  std::int32_t at[Width];
-  Simd::Store(at, cellFace);
-  for (std::int32_t& face : at)
-  {
-    face = this->Job.Cells[8 * std::int64_t{ face >> 2 } + (face & 3)];
-  }
-  return Simd::Load(at);
-}
-
-//------------------------------------------------------------------------------
 /** Gradients of cells; 0 if there are none, for scalars of cells. */
 template <class Simd, class Model>
 inline auto PacketWalk<Simd, Model>::GradientsOf(Int cellFace) const -> CellValues

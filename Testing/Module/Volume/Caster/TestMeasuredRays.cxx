@@ -38,7 +38,9 @@ protected:
     const FixedPointRays rays(FrameAlongZ(this->Mesh, Extent, Size), Size, Size);
     PlaceVertices(this->Mesh, this->Scalars, rays, SerialLoop, this->Tables.Vertices);
     this->Tables.Intervals = PackIntervals(ConstantFunction(2.0));
+    this->Passages = FindPassages(this->Mesh);
     this->Scene.Mesh = &this->Mesh;
+    this->Scene.Passages = &this->Passages;
     this->Scene.Boundary = &this->Mesh.GetBoundary();
     this->Scene.Tables = &this->Tables;
     this->Scene.Rays = rays;
@@ -81,6 +83,7 @@ protected:
   }
 
   TetrahedralMesh Mesh;
+  std::vector<CellPassages> Passages;
   std::vector<glm::dvec3> Points;
   std::vector<float> Scalars;
   PacketTables Tables;

@@ -47,7 +47,9 @@ public:
       { frame, Size, Size, this->Mesh.GetCenter(), -50.0, BoxOf(this->Tree, frame) });
     this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), SerialLoop);
     this->Frames.Place(this->Mesh, this->Scalars, SerialLoop);
+    this->Passages = FindPassages(this->Mesh);
     this->Scene.Mesh = &this->Mesh;
+    this->Scene.Passages = &this->Passages;
     this->Scene.Boundary = &this->Mesh.GetBoundary();
     this->Scene.Tables = &this->Tables;
     this->Scene.Refracted = { { &this->Sight.GetRays()[0] }, &this->Frames, &this->Tree, false };
@@ -77,6 +79,7 @@ public:
   }
 
   TetrahedralMesh Mesh;
+  std::vector<CellPassages> Passages;
   RayFrame Frame;
   RefractedRayStack Sight;
   RefractionFrames Frames;

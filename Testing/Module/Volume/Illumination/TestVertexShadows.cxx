@@ -31,6 +31,7 @@ public:
     this->Scalars.assign(static_cast<std::size_t>(this->Mesh.GetNumberOfVertices()), 0.0f);
     this->Tables.Intervals = PackIntervals(function);
     this->Scene.Medium.Mesh = &this->Mesh;
+    this->Scene.Medium.Passages = &this->Passages;
     this->Scene.Medium.Tables = &this->Tables;
     this->Scene.Medium.Set = set;
     this->Scene.Scalars = &this->Scalars;
@@ -56,6 +57,7 @@ public:
   {
     this->Tree.Build(this->Mesh);
     this->Starts.Build(this->Mesh);
+    this->Passages = FindPassages(this->Mesh);
     std::vector<float> result(this->Scalars.size(), -1.0f);
     this->Sums = CastShadows(this->Scene, light, SerialLoop,
       [&result](std::int32_t vertex, float transmittance)
@@ -76,6 +78,7 @@ public:
   }
 
   TetrahedralMesh Mesh;
+  std::vector<CellPassages> Passages;
   std::vector<float> Scalars;
   PacketTables Tables;
   BoundaryTree Tree;

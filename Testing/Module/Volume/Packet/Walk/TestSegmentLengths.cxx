@@ -58,7 +58,9 @@ double MeasureLength(const TetrahedralMesh& mesh, InstructionSet set)
   scene.Rays = FixedPointRays(FrameAlongZ(mesh, Extent, Size), Size, Size);
   PlaceVertices(mesh, scalars, scene.Rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(ConstantFunction(1.0));
+  const std::vector<CellPassages> passages = FindPassages(mesh);
   scene.Mesh = &mesh;
+  scene.Passages = &passages;
   scene.Boundary = &mesh.GetBoundary();
   scene.Tables = &tables;
   scene.Set = set;

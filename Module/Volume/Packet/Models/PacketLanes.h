@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PacketLanes_h
+#define meniscus_Volume_Packet_Models_PacketLanes_h
+
+namespace meniscus
+{
+
+/** Bit mask (Simd::Bits()) of all lanes, of which there are at most 32. */
+template <class Simd>
+constexpr unsigned int AllLanes = ~0u >> (32 - Simd::Width);
+
+}
+
+#endif
