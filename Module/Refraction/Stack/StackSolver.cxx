@@ -126,8 +126,8 @@ bool StackSolver::MayBeOnLeg(const glm::dvec3& local, std::size_t count) const
 }
 
 //------------------------------------------------------------------------------
-// False if FindBehindPlanes decides about the point: it is in front of exact parallel planes, behind
-// which all refracted rays are, or behind some of them, which are the only way to it.
+// False if FindBehindPlanes decides about the point: it is in front of exact parallel planes,
+// behind which all refracted rays are, or behind some of them, which are the only way to it.
 bool StackSolver::NeedsSearch(const glm::dvec3& local) const
 {
   return !this->Planes.AreExact() || this->Planes.CountInFront(local) < 0;
