@@ -114,7 +114,7 @@ void AddStackImageArrays(vtkPolyData* input, const StackImages& images, const Al
   for (const ImagePoint& image : images.GetPointImages())
   {
     points.push_back(
-      { FindPoint(input, image), &image.Vertex, images.GetDetails()[points.size()] });
+      { FindTruePoint(input, image), &image.Vertex, images.GetDetails()[points.size()] });
   }
   StackPath path;
   for (const std::vector<ImagePoint>* list : { &cells.Lines.Points, &cells.Polygons.Points })

@@ -2,13 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of programs as the pages show them, within the code that they assume. Writes an image of
 // each.
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkColorTransferFunction.h>
 #include <vtkDataSetTriangleFilter.h>
 #include <vtkElevationFilter.h>
 #include <vtkPNGWriter.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkRTAnalyticSource.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractionPass.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
 #include <vtkTetrahedraRayCastMapper.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace
@@ -74,7 +85,6 @@ void DrawVolume()
   const auto water = MakeWater(30.0, 14.0);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
   mapper->SetInputConnection(tetrahedra->GetOutputPort());
-#include "VTKBasics.h"
 #include "volume.inc"
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);

@@ -22,7 +22,6 @@
 #include <string>
 #include <vector>
 
-using namespace meniscus::test;
 using namespace meniscus;
 
 namespace
@@ -241,14 +240,17 @@ void AddAll(ShaderFolder& folder)
     folder.AddFragment(name, RayCastShaderSource(vtkTetrahedraRayCastFS, optics));
     folder.Add(name, "comp", RayCastShaderSource(vtkTetrahedraRayCastCS, optics));
   }
-  for (const auto& [legs, behind] : Product(List(1, 2, 3), List(0, 1)))
+  for (const int legs : { 1, 2, 3 })
   {
-    if (legs == 1 && behind == 1)
+    for (const int behind : { 0, 1 })
     {
-      continue; // no ray goes on
+      if (legs == 1 && behind == 1)
+      {
+        continue; // no ray goes on
+      }
+      folder.AddFragment("tiles", EntryListerSource(vtkTetrahedraEntryTilesFS, legs, behind == 1));
+      folder.Add("tiles", "comp", EntryListerSource(vtkTetrahedraEntryTilesCS, legs, behind == 1));
     }
-    folder.AddFragment("tiles", EntryListerSource(vtkTetrahedraEntryTilesFS, legs, behind == 1));
-    folder.Add("tiles", "comp", EntryListerSource(vtkTetrahedraEntryTilesCS, legs, behind == 1));
   }
   folder.AddFragment("place", vtkTetrahedraPlaceFS);
   folder.AddFragment("compose", vtkTetrahedraComposeFS);
