@@ -459,6 +459,7 @@ TEST(Schlieren, RaysThatStayAreStoppedWithAWarning)
   ASSERT_EQ(observer->Warnings.size(), 1u);
   EXPECT_NE(observer->Warnings[0].find("4 rays were stopped"), std::string::npos);
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
+  EXPECT_EQ(filter->GetStatistic("NumberOfRaysStoppedInFolds"), 0);
 }
 
 TEST(Schlieren, BadInputIsAnError)
