@@ -50,13 +50,15 @@ constexpr double BoxGrowth = 0x1p-23;
  */
 double ErrorOf(const std::array<glm::dvec3, 3>& corners, double twiceArea)
 {
-  double longest = 0.0;
+  double square = 0.0;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
+    const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
+    square = std::max(square, glm::dot(edge, edge));
   }
   constexpr double most = TetrahedralMesh::PositionUnit;
-  return std::min(BoundaryCrossings::DistanceError * (1.0 + 8.0 * longest / twiceArea), most);
+  const double share = 8.0 * std::sqrt(square) / twiceArea;
+  return std::min(BoundaryCrossings::DistanceError * (1.0 + share), most);
 }
 
 /** True if the line is in a box somewhere from `begin` to `end`. */

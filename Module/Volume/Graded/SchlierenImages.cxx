@@ -296,7 +296,8 @@ double KnifeEdge::Transmit(const glm::dvec2& deflection) const
 double Interferometer::Interfere(double pathDifference, const glm::dvec2& place) const
 {
   const double waves = pathDifference / this->Wavelength + glm::dot(this->Fringes, place);
-  return 0.5 * (1.0 + std::cos(2.0 * Pi * (waves - std::floor(waves))));
+  const double part = waves - std::floor(waves);
+  return part == 0.0 ? 1.0 : 0.5 * (1.0 + std::cos(2.0 * Pi * part));
 }
 
 //------------------------------------------------------------------------------

@@ -353,6 +353,7 @@ TEST(Mirage, RaysThatStayAreStoppedWithAWarning)
   ASSERT_EQ(observer->Warnings.size(), 1u);
   EXPECT_TRUE(HasText(observer->Warnings[0], "4 rays were stopped"));
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
+  EXPECT_EQ(filter->GetStatistic("NumberOfRaysStoppedInFolds"), 0);
   EXPECT_EQ(ValueAt(filter, "Seen", 2), vtkTetrahedraMirage::STOPPED);
 }
 

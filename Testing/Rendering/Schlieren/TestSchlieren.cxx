@@ -433,6 +433,7 @@ TEST(Schlieren, RaysThatStayAreStoppedWithAWarning)
   ASSERT_EQ(observer->Warnings.size(), 1u);
   EXPECT_TRUE(HasText(observer->Warnings[0], "4 rays were stopped"));
   EXPECT_EQ(filter->GetStatistic("NumberOfStoppedRays"), 4);
+  EXPECT_EQ(filter->GetStatistic("NumberOfRaysStoppedInFolds"), 0);
 }
 
 TEST(Schlieren, BadInputIsAnError)
