@@ -51,12 +51,13 @@ struct DivisionCounts
  * The cells are given as tetrahedra between their corners, which match across shared faces. In each
  * round all new edges are measured (at three places; at more in the first pieces of cells of a high
  * degree); so are faces and pieces of cells with a degree above 2, whose shape functions may vanish
- * on all edges: their errors count for their longest edge. Edges with errors above a threshold are
- * marked; each piece with marked edges is halved at the longest of these, and so on. The rule is
- * one order of all edges, so the triangles of a shared face are the same on both sides: the first
- * marked edge of a piece that lies in the face is the first one of the face, whichever other edges
- * the piece has. No neighbours crack, whatever their types. A new point is the middle of its edge
- * in reference coordinates.
+ * on all edges: their errors count for their longest edge. The insides of all pieces are measured
+ * if values are seen as isosurfaces. Edges with errors above a threshold are marked; each piece
+ * with marked edges is halved at the longest of these, and so on. The rule is one order of all
+ * edges, so the triangles of a shared face are the same on both sides: the first marked edge of a
+ * piece that lies in the face is the first one of the face, whichever other edges the piece has. No
+ * neighbours crack, whatever their types. A new point is the middle of its edge in reference
+ * coordinates.
  *
  * The threshold is the tolerance if the budget allows. Otherwise it is an error for which the
  * budget is likely to be enough, and is lowered until the budget is spent. If the last threshold is
