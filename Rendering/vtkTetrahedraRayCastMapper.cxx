@@ -529,8 +529,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   frame.Optics.CompactCells = this->CompactCells;
   frame.Optics.CellScalars =
     internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
-  frame.Optics.Illuminated =
-    this->GlobalIlluminationReach > 0.0f && meniscus::CanBeIlluminated(frame.Optics);
+  frame.Optics.Illuminated = this->GlobalIlluminationReach > 0.0f && frame.Optics.Model().IsLit();
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
       ((volume->GetProperty()->GetShade() != 0 && !frame.Optics.Illuminated) ||

@@ -97,13 +97,6 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 }
 
 //------------------------------------------------------------------------------
-bool CanBeIlluminated(const RayCastOptics& optics)
-{
-  const BlendModel& model = optics.Model();
-  return model.IsMedium() || (model.IsLit() && !optics.CellScalars);
-}
-
-//------------------------------------------------------------------------------
 bool operator==(const RayCastOptics& a, const RayCastOptics& b)
 {
   const auto members = [](const RayCastOptics& optics)

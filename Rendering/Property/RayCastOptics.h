@@ -118,12 +118,6 @@ struct ViewContext
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);
 
-/**
- * True if a volume with shading can attenuate its own light. Isosurfaces of scalars of cells
- * cannot: they pass through the vertices, which are on neither side of them.
- */
-bool CanBeIlluminated(const RayCastOptics& optics);
-
 /** True if a property uses a gradient opacity function. */
 bool UsesGradientOpacity(vtkVolumeProperty* property);
 
