@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Chart_h
-#define meniscus_Benchmarks_Chart_h
+#pragma once
 
 #include <string>
 #include <utility>
@@ -33,5 +32,3 @@ bool WriteChart(const std::string& file, const std::string& title, const std::st
   ChartScale scale = ChartScale::Logarithmic);
 
 } // namespace meniscus::benchmark
-
-#endif

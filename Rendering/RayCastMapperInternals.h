@@ -49,6 +49,7 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
+  bool WarnedLights = false;
   /** Fallbacks that were reported: the backends that refused, and the backend that drew instead. */
   std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;

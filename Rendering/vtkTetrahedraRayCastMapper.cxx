@@ -514,9 +514,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   frame.Optics.CompactCells = this->CompactCells;
   frame.Optics.CellScalars =
     internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
-  frame.Optics.Illuminated =
-    this->GlobalIlluminationReach > 0.0f && meniscus::CanBeIlluminated(frame.Optics);
+  frame.Optics.Illuminated = this->GlobalIlluminationReach > 0.0f && frame.Optics.Model().IsLit();
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
+  this->WarnOnce(frame.Optics.HasUnusableLights, internals.WarnedLights,
+    "A light that is switched on has no direction, or a number that is not finite; it does not "
+    "shine.");
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
       ((volume->GetProperty()->GetShade() != 0 && !frame.Optics.Illuminated) ||
         meniscus::UsesGradientOpacity(volume->GetProperty())),

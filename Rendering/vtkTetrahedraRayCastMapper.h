@@ -462,11 +462,11 @@ public:
   /**
    * Set/Get how far shadows reach in a volume whose property shades, as a fraction of the diameter
    * of a sphere about the volume, in [0, 1]; VTK's name and range. Each light is attenuated by the
-   * medium, or by the isosurfaces, on this part of its way to the vertices of the mesh, and the
-   * ambient light by the mean over 32 directions (ambient occlusion); Documentation/volume.md has
-   * the rules for several lights and for changes. Default is 0: light is not attenuated; NaN counts
-   * as 0. Cell data and independent components, which have no gradient, are lit by scattered light
-   * alone; isosurfaces of cell data have no shadows.
+   * medium, or by the isosurfaces, on this part of its way to the vertices of the mesh (isosurfaces
+   * of cell data: to the middles of the cells), and the ambient light by the mean over 32
+   * directions (ambient occlusion); Documentation/volume.md has the rules for several lights and
+   * for changes. Default is 0: light is not attenuated; NaN counts as 0. Media of cell data and of
+   * independent components, which have no gradient, are lit by scattered light alone.
    */
   void SetGlobalIlluminationReach(float reach);
   vtkGetMacro(GlobalIlluminationReach, float);

@@ -8,8 +8,7 @@
  * colours; the packet contains the data for Fresnel's equations, attenuation along the true path,
  * textures or a reflected environment. A shader may trace further rays with intersect().
  */
-#ifndef meniscus_Benchmarks_RayTracer_RefractionTracer_h
-#define meniscus_Benchmarks_RayTracer_RefractionTracer_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -137,5 +136,3 @@ private:
 };
 
 } // namespace meniscus::benchmark
-
-#endif

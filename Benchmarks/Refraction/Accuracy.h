@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Accuracy_h
-#define meniscus_Benchmarks_Refraction_Accuracy_h
+#pragma once
 
 #include <string>
 
@@ -40,5 +39,3 @@ ImageCount CountImages();
 double MeasureHemispherePixels();
 
 } // namespace meniscus::benchmark
-
-#endif

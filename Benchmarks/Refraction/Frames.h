@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Frames_h
-#define meniscus_Benchmarks_Refraction_Frames_h
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -49,5 +48,3 @@ std::vector<RaceReport> RunRaces();
 void PrintRaces(std::ostream& out);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Growth_h
-#define meniscus_Benchmarks_Refraction_Growth_h
+#pragma once
 
 #include "RefractionOptions.h"
 
@@ -60,5 +59,3 @@ ThreadedFigures MeasureThreaded(int cells);
 std::string RunGrowth(const RefractionOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

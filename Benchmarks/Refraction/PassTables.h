@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_PassTables_h
-#define meniscus_Benchmarks_Refraction_PassTables_h
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -19,5 +18,3 @@ std::string PrintPassTables(std::ostream& out);
 bool WritePoolPicture(const std::string& file);
 
 } // namespace meniscus::benchmark
-
-#endif

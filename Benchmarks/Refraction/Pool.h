@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Pool_h
-#define meniscus_Benchmarks_Refraction_Pool_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -47,5 +46,3 @@ struct PoolPictures
 PoolPictures ComparePool();
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_RefractionOptions_h
-#define meniscus_Benchmarks_Refraction_RefractionOptions_h
+#pragma once
 
 #include <string>
 
@@ -31,5 +30,3 @@ extern const char* const RefractionUsage;
 RefractionOptions ParseRefractionOptions(int argc, char* argv[]);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_RefractionReport_h
-#define meniscus_Benchmarks_Refraction_RefractionReport_h
+#pragma once
 
 #include "RefractionOptions.h"
 
@@ -14,5 +13,3 @@ namespace meniscus::benchmark
 void PrintRefractionReport(std::ostream& out, const RefractionOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

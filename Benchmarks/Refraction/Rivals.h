@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Rivals_h
-#define meniscus_Benchmarks_Refraction_Rivals_h
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -19,5 +18,3 @@ namespace meniscus::benchmark
 bool CompareRivals(const std::string& folder, std::ostream& out);
 
 } // namespace meniscus::benchmark
-
-#endif

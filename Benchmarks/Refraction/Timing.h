@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_Timing_h
-#define meniscus_Benchmarks_Refraction_Timing_h
+#pragma once
 
 #include <algorithm>
 #include <chrono>
@@ -71,5 +70,3 @@ Seconds TimeMedian(const Work& work, int runs = 5)
 }
 
 } // namespace meniscus::benchmark
-
-#endif

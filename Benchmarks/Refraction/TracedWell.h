@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** The well and its membrane for the Embree tracer. */
-#ifndef meniscus_Benchmarks_Refraction_TracedWell_h
-#define meniscus_Benchmarks_Refraction_TracedWell_h
+#pragma once
 
 #include "RefractionTracer.h"
 #include "WellScene.h"
@@ -46,5 +45,3 @@ void TracePixels(const RefractionTracer& tracer, const TracedView& view, const V
 testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Refraction_WellScene_h
-#define meniscus_Benchmarks_Refraction_WellScene_h
+#pragma once
 
 #include "HeightField.h"
 #include "RefractionPicture.h"
@@ -107,5 +106,3 @@ private:
 };
 
 } // namespace meniscus::benchmark
-
-#endif

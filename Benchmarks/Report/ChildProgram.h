@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Programs in processes of their own, whose crash or endless loop ends nothing else. */
-#ifndef meniscus_Benchmarks_Report_ChildProgram_h
-#define meniscus_Benchmarks_Report_ChildProgram_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -34,5 +33,3 @@ ChildEnd RunChild(const ChildProgram& program);
 std::string ReadText(const std::string& name);
 
 } // namespace meniscus::report
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Report_Machine_h
-#define meniscus_Benchmarks_Report_Machine_h
+#pragma once
 
 #include "ReportOptions.h"
 #include "ReportText.h"
@@ -19,5 +18,3 @@ std::string DescribeMachine(const ReportOptions& options, ReportText& report);
 bool IsSoftware(const std::string& renderer);
 
 } // namespace meniscus::report
-
-#endif

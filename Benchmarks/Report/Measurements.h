@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Report_Measurements_h
-#define meniscus_Benchmarks_Report_Measurements_h
+#pragma once
 
 #include "ReportOptions.h"
 #include "ReportText.h"
@@ -13,5 +12,3 @@ namespace meniscus::report
 void MeasureAll(const ReportOptions& options, ReportText& report);
 
 } // namespace meniscus::report
-
-#endif

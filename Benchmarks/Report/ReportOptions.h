@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Report_ReportOptions_h
-#define meniscus_Benchmarks_Report_ReportOptions_h
+#pragma once
 
 #include <string>
 
@@ -25,5 +24,3 @@ extern const char* const ReportUsage;
 ReportOptions ParseReportOptions(int argc, char* argv[]);
 
 } // namespace meniscus::report
-
-#endif

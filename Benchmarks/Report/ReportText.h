@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** The report's text and figures while they are collected. */
-#ifndef meniscus_Benchmarks_Report_ReportText_h
-#define meniscus_Benchmarks_Report_ReportText_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -51,5 +50,3 @@ private:
 };
 
 } // namespace meniscus::report
-
-#endif

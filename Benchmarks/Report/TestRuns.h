@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Google Test programs, test by test, also if one of them crashes. */
-#ifndef meniscus_Benchmarks_Report_TestRuns_h
-#define meniscus_Benchmarks_Report_TestRuns_h
+#pragma once
 
 #include "ReportOptions.h"
 #include "ReportText.h"
@@ -18,5 +17,3 @@ namespace meniscus::report
 void RunTests(const ReportOptions& options, ReportText& report);
 
 } // namespace meniscus::report
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_ResampledMapper_h
-#define meniscus_Benchmarks_Volume_ResampledMapper_h
+#pragma once
 
 #include "VolumeContestants.h"
 
@@ -16,5 +15,3 @@ namespace meniscus::benchmark
 MapperPointer MakeResampledMapper(int size);
 
 } // namespace meniscus::benchmark
-
-#endif

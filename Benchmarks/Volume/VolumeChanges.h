@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Frames after changes that a user makes: a moved camera, a light, an opacity, another mesh. */
-#ifndef meniscus_Benchmarks_Volume_VolumeChanges_h
-#define meniscus_Benchmarks_Volume_VolumeChanges_h
+#pragma once
 
 #include <iosfwd>
 
@@ -21,5 +20,3 @@ bool PrintChanges(std::ostream& out, const VolumeOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus
-
-#endif

@@ -5,8 +5,7 @@
  * mapper draws one frame, so that other load of the machine affects all of them alike. Ratios of
  * frames of one round are therefore more reliable than the times.
  */
-#ifndef meniscus_Benchmarks_Volume_VolumeComparison_h
-#define meniscus_Benchmarks_Volume_VolumeComparison_h
+#pragma once
 
 #include "ReferenceImage.h"
 #include "VolumeContestants.h"
@@ -157,5 +156,3 @@ private:
 };
 
 } // namespace meniscus::benchmark
-
-#endif

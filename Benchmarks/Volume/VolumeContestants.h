@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_VolumeContestants_h
-#define meniscus_Benchmarks_Volume_VolumeContestants_h
+#pragma once
 
 #include "TestTransferFunctions.h"
 #include "VolumeOptions.h"
@@ -52,5 +51,3 @@ std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 
 } // namespace meniscus::benchmark
-
-#endif

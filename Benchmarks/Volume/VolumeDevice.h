@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** The graphics device that OpenGL uses here: names, limits, and the speed of its memory. */
-#ifndef meniscus_Benchmarks_Volume_VolumeDevice_h
-#define meniscus_Benchmarks_Volume_VolumeDevice_h
+#pragma once
 
 #include <ostream>
 
@@ -21,5 +20,3 @@ void PrintDevice(std::ostream& out);
 double MeasureCopyBandwidth(vtkRenderWindow* window);
 
 } // namespace meniscus::benchmark
-
-#endif

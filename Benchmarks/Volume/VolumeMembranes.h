@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Cost of a membrane over the whole image. */
-#ifndef meniscus_Benchmarks_Volume_VolumeMembranes_h
-#define meniscus_Benchmarks_Volume_VolumeMembranes_h
+#pragma once
 
 #include "VolumeComparison.h"
 
@@ -32,5 +31,3 @@ std::vector<MembraneCost> MeasureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 
 } // namespace meniscus::benchmark
-
-#endif

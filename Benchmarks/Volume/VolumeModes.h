@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Scenes besides the plain volume: with lighting, of isosurfaces, and behind a membrane. */
-#ifndef meniscus_Benchmarks_Volume_VolumeModes_h
-#define meniscus_Benchmarks_Volume_VolumeModes_h
+#pragma once
 
 #include <array>
 #include <string>
@@ -36,5 +35,3 @@ void ApplyMode(VolumeMode mode, vtkUnstructuredGrid* grid, vtkUnstructuredGridVo
 std::array<double, 2> ViewAnglesOf(VolumeMode mode, int view);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_VolumeOptions_h
-#define meniscus_Benchmarks_Volume_VolumeOptions_h
+#pragma once
 
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
@@ -64,5 +63,3 @@ bool FindFunctionKind(const std::string& name, test::FunctionKind& kind);
 test::Grid MakeVolumeMesh(const VolumeOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_VolumeOutput_h
-#define meniscus_Benchmarks_Volume_VolumeOutput_h
+#pragma once
 
 #include "VolumeComparison.h"
 
@@ -59,5 +58,3 @@ bool WritePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Charts like Figs. 7 and 8 of Weiler et al. (2003). */
-#ifndef meniscus_Benchmarks_Volume_VolumePaper_h
-#define meniscus_Benchmarks_Volume_VolumePaper_h
+#pragma once
 
 #include <iosfwd>
 
@@ -21,5 +20,3 @@ struct VolumeOptions;
 bool DrawPaper(std::ostream& out, const VolumeOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_VolumeProbe_h
-#define meniscus_Benchmarks_Volume_VolumeProbe_h
+#pragma once
 
 #include "VolumeContestants.h"
 
@@ -27,5 +26,3 @@ ProbeResult ProbeContestant(const std::string& name, const VolumeOptions& option
 int RunProbe(const Contestant& contestant, const VolumeOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Benchmarks_Volume_VolumeReport_h
-#define meniscus_Benchmarks_Volume_VolumeReport_h
+#pragma once
 
 #include "VolumeOptions.h"
 
@@ -20,5 +19,3 @@ void PrintReport(std::ostream& out, const VolumeOptions& options);
 void PrintGrowth(std::ostream& out, const VolumeOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

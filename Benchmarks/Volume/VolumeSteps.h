@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Time steps on one mesh: the share that a step takes of the first frame of a mesh. */
-#ifndef meniscus_Benchmarks_Volume_VolumeSteps_h
-#define meniscus_Benchmarks_Volume_VolumeSteps_h
+#pragma once
 
 #include <iosfwd>
 
@@ -20,5 +19,3 @@ struct VolumeOptions;
 bool PrintSteps(std::ostream& out, const VolumeOptions& options);
 
 } // namespace meniscus::benchmark
-
-#endif

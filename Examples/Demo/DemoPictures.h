@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_DemoPictures_h
-#define meniscus_Examples_Demo_DemoPictures_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkRenderWindow.h"
@@ -28,5 +27,3 @@ private:
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkRenderWindow> Window;
 };
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_DemoProgress_h
-#define meniscus_Examples_Demo_DemoProgress_h
+#pragma once
 
 #include <string>
 
@@ -12,5 +11,3 @@ void ShowProgress(const std::string& what, double progress);
 
 /** Updates an algorithm under a progress bar on standard error and prints its duration. */
 void UpdateWithProgress(vtkAlgorithm* algorithm, const std::string& what);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_DemoVolumeInput_h
-#define meniscus_Examples_Demo_DemoVolumeInput_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 
@@ -21,5 +20,3 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeDemoMesh();
  * null, with a message on standard error, if there is none.
  */
 vtkSmartPointer<vtkUnstructuredGrid> ReadDemoMesh(const std::string& file);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_RefractionDemo_h
-#define meniscus_Examples_Demo_RefractionDemo_h
+#pragma once
 
 #include <string>
 
@@ -10,5 +9,3 @@
  * written.
  */
 bool RunRefractionDemo(const std::string& folder);
-
-#endif

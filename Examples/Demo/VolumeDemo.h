@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_VolumeDemo_h
-#define meniscus_Examples_Demo_VolumeDemo_h
+#pragma once
 
 #include <string>
 
@@ -12,5 +11,3 @@ class vtkUnstructuredGrid;
  * written.
  */
 bool RunVolumeDemo(vtkUnstructuredGrid* mesh, const std::string& folder);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_WellDemo_h
-#define meniscus_Examples_Demo_WellDemo_h
+#pragma once
 
 #include <string>
 
@@ -10,5 +9,3 @@
  * images, the same by ray tracing, and their difference. Returns false if it could not be written.
  */
 bool RunWellDemo(const std::string& folder);
-
-#endif

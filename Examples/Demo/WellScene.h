@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Demo_WellScene_h
-#define meniscus_Examples_Demo_WellScene_h
+#pragma once
 
 #include "vtkSmartPointer.h"
 
@@ -63,5 +62,3 @@ struct DemoView
 };
 vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const DemoWater& water,
   const DemoView& view, int size, const unsigned char background[3]);
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Examples_Water_WaterWindow_h
-#define meniscus_Examples_Water_WaterWindow_h
+#pragma once
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
@@ -71,5 +70,3 @@ private:
   vtkNew<vtkRenderer> TracedRenderer;
   vtkNew<vtkRenderWindow> Window;
 };
-
-#endif

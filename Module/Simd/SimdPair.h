@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Simd_SimdPair_h
-#define meniscus_Simd_SimdPair_h
+#pragma once
 
 #include <cstdint>
 
@@ -175,5 +174,3 @@ struct SimdPair
 };
 
 }
-
-#endif

@@ -60,8 +60,9 @@ bool VolumeIllumination::MediumKey::operator==(const MediumKey& other) const
 {
   const auto members = [](const MediumKey& key)
   {
-    return std::tie(key.Blending, key.Attenuation, key.Isovalues, key.SurfaceOpacities,
-      key.GradientOpacity, key.VertexGradients, key.GradientMagnitude, key.Reach);
+    return std::tie(key.Blending, key.CellScalars, key.Attenuation, key.Isovalues,
+      key.SurfaceOpacities, key.GradientOpacity, key.VertexGradients, key.GradientMagnitude,
+      key.Reach);
   };
   return this->Mesh == other.Mesh && this->Values == other.Values &&
     members(*this) == members(other) && this->ClippingPlanes == other.ClippingPlanes &&
@@ -89,6 +90,7 @@ auto VolumeIllumination::KeyOf(const RayCastTables& tables, const Request& reque
   }
   key.Attenuation.push_back(static_cast<float>(optics.Components));
   key.Blending = optics.Blending;
+  key.CellScalars = optics.CellScalars;
   for (const Isosurface& surface : tables.Property.GetIsosurfaces())
   {
     key.Isovalues.push_back(surface.Scalar);
@@ -120,6 +122,7 @@ void VolumeIllumination::SetMediumOf(RayCastTables& tables, const Request& reque
   {
     // Isosurfaces and their scalars count where there are some.
     const bool newStarts = !(key.Mesh == this->Medium.Mesh) ||
+      key.Blending != this->Medium.Blending || key.CellScalars != this->Medium.CellScalars ||
       key.Isovalues != this->Medium.Isovalues ||
       (!key.Isovalues.empty() && !(key.Values == this->Medium.Values));
     this->Medium = std::move(key);
@@ -137,6 +140,12 @@ void VolumeIllumination::SetMediumOf(RayCastTables& tables, const Request& reque
 //------------------------------------------------------------------------------
 void VolumeIllumination::BuildStarts(RayCastTables& tables)
 {
+  if (this->AreInCells())
+  {
+    // Surfaces are faces of cells, and pass through their vertices.
+    this->Starts.BuildInCells(tables.Input.GetMesh(), ThreadedLoop);
+    return;
+  }
   const StartSurfaces surfaces{ tables.Input.GetScalars(), this->Medium.Isovalues };
   this->Starts.Build(
     tables.Input.GetMesh(), ThreadedLoop, surfaces.Isovalues.empty() ? nullptr : &surfaces);
@@ -170,12 +179,12 @@ std::vector<std::size_t> VolumeIllumination::FindUnknown(const std::vector<RayCa
 //------------------------------------------------------------------------------
 void VolumeIllumination::CastLight(const ShadowScene& scene, KnownLight& light)
 {
-  std::vector<float> cast(static_cast<std::size_t>(scene.Medium.Mesh->GetNumberOfVertices()), 1.0f);
+  std::vector<float> cast(this->Starts.GetSize(), 1.0f);
   if (CanCast(light.Position))
   {
     CastShadows(scene, light.Position, ThreadedLoop,
-      [&cast](std::int32_t vertex, float transmittance)
-      { cast[static_cast<std::size_t>(vertex)] = transmittance; });
+      [&cast](std::int32_t start, float transmittance)
+      { cast[static_cast<std::size_t>(start)] = transmittance; });
     ++this->Casts;
   }
   light.Transmittance = std::move(cast);
@@ -187,22 +196,21 @@ void VolumeIllumination::CastDirection(const ShadowScene& scene, int direction)
   std::vector<float>& sums = this->Ambient;
   if (direction == 0)
   {
-    sums.assign(static_cast<std::size_t>(scene.Medium.Mesh->GetNumberOfVertices()), 0.0f);
+    sums.assign(this->Starts.GetSize(), 0.0f);
   }
   CastShadows(scene, glm::dvec4(FibonacciDirection(direction, NumberOfDirections), 0.0),
     ThreadedLoop,
-    [&sums](std::int32_t vertex, float transmittance)
-    { sums[static_cast<std::size_t>(vertex)] += transmittance; });
+    [&sums](std::int32_t start, float transmittance)
+    { sums[static_cast<std::size_t>(start)] += transmittance; });
   ++this->Casts;
   this->AmbientDirections = direction + 1;
 }
 
 //------------------------------------------------------------------------------
 /** Makes the values of the transmittances. */
-void VolumeIllumination::Combine(RayCastTables& tables, const Request& request)
+void VolumeIllumination::Combine(const Request& request)
 {
   const std::vector<RayCastLight>& lights = request.Optics.Lighting.Lights;
-  const TetrahedralMesh& mesh = tables.Input.GetMesh();
   const glm::dmat3 rows(request.Base.RowX, request.Base.RowY, request.Base.RowDepth);
   this->Brightest = 0;
   for (std::size_t i = 1; i < lights.size(); ++i)
@@ -217,27 +225,27 @@ void VolumeIllumination::Combine(RayCastTables& tables, const Request& request)
   const bool isMedium = request.Optics.Model().IsMedium();
   const auto directions =
     static_cast<float>(isMedium ? NumberOfDirections : NumberOfDirections / 2);
-  this->Values.assign(static_cast<std::size_t>(mesh.GetNumberOfVertices()), glm::vec3(1.0f));
-  const std::vector<std::int32_t>& vertices = this->Starts.GetVertices();
-  ForEachBlock(vertices.size(), ThreadedLoop,
+  this->Values.assign(this->Starts.GetSize(), glm::vec3(1.0f));
+  const std::vector<std::int32_t>& numbers = this->Starts.GetNumbers();
+  ForEachBlock(numbers.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t i = first; i < last; ++i)
       {
-        const auto vertex = static_cast<std::size_t>(vertices[i]);
-        glm::vec3& value = this->Values[vertex];
-        value.x = std::min(this->Ambient[vertex] / directions, 1.0f);
+        const auto start = static_cast<std::size_t>(numbers[i]);
+        glm::vec3& value = this->Values[start];
+        value.x = std::min(this->Ambient[start] / directions, 1.0f);
         double sum = 0.0;
         double weights = 0.0;
         for (std::size_t number = 0; number < lights.size(); ++number)
         {
-          const float transmittance = this->Lights[number].Transmittance[vertex];
+          const float transmittance = this->Lights[number].Transmittance[start];
           if (static_cast<int>(number) == this->Brightest)
           {
             value.y = transmittance;
             continue;
           }
-          const glm::dvec3 place = mesh.GetPosition(vertices[i]) * rows;
+          const glm::dvec3 place = this->Starts.GetPlace(numbers[i]) * rows;
           const double weight = BrightnessAt(lights[number], place);
           sum += weight * transmittance;
           weights += weight;
@@ -290,7 +298,7 @@ bool VolumeIllumination::Update(
     }
     this->CastDirection(scene, this->AmbientDirections);
   }
-  this->Combine(tables, request);
+  this->Combine(request);
   return true;
 }
 

@@ -5,7 +5,7 @@
 #include "Common/TableVersion.h"
 #include "Rendering/Property/RayCastOptics.h"
 #include "Volume/Caster/PacketTables.h"
-#include "Volume/Illumination/VertexStarts.h"
+#include "Volume/Illumination/ShadowStarts.h"
 #include "Volume/Rays/RayFrame.h"
 
 #include <glm/vec3.hpp>
@@ -22,10 +22,11 @@ struct RayCastTables;
 struct ShadowScene;
 
 /**
- * Light that reaches the vertices of a volume through its own medium, or past its isosurfaces: per
- * vertex the numbers of VertexLight. Transmittances are computed again when the medium, the reach,
- * the clipping planes or the place of the light in relation to the volume have changed, each light
- * by itself; another camera or colour of a light does not change them.
+ * Light that reaches the vertices of a volume through its own medium, or past its isosurfaces, and
+ * the cells of a volume with isosurfaces of cell data: the numbers of VertexLight of each.
+ * Transmittances are computed again when the medium, the reach, the clipping planes or the place of
+ * the light in relation to the volume have changed, each light by itself; another camera or colour
+ * of a light does not change them.
  */
 class VolumeIllumination
 {
@@ -52,7 +53,7 @@ public:
   bool Update(
     RayCastTables& tables, const Request& request, const std::function<bool(double)>& progress);
 
-  /** One entry per vertex of the mesh; vertices without a visible cell have ones. */
+  /** One entry per vertex or cell of the mesh; vertices without a visible cell have ones. */
   const std::vector<glm::vec3>& GetValues() const { return this->Values; }
   /** Index of the light that has a transmittance of its own. */
   int GetBrightestLight() const { return this->Brightest; }
@@ -69,6 +70,7 @@ private:
     TableVersions Mesh;
     TableVersions Values;
     BlendMode Blending = BlendMode::Composite;
+    bool CellScalars = false;
     /** Attenuation of the functions, without colours. */
     std::vector<float> Attenuation;
     /** Isovalues, ascending, and opacities of the isosurfaces. */
@@ -86,21 +88,25 @@ private:
   struct KnownLight
   {
     glm::dvec4 Position;
-    /** One per vertex. */
+    /** One per vertex or cell. */
     std::vector<float> Transmittance;
   };
 
   MediumKey KeyOf(const RayCastTables& tables, const Request& request) const;
   void SetMediumOf(RayCastTables& tables, const Request& request);
   void BuildStarts(RayCastTables& tables);
+  bool AreInCells() const
+  {
+    return this->Medium.CellScalars && !GetBlendModel(this->Medium.Blending).IsMedium();
+  }
   std::vector<std::size_t> FindUnknown(const std::vector<RayCastLight>& lights);
   void CastLight(const ShadowScene& scene, KnownLight& light);
   void CastDirection(const ShadowScene& scene, int direction);
-  void Combine(RayCastTables& tables, const Request& request);
+  void Combine(const Request& request);
 
   MediumKey Medium;
   PacketTables Packed;
-  VertexStarts Starts;
+  ShadowStarts Starts;
   /** In the order of the frame's lights. */
   std::vector<KnownLight> Lights;
   /** Sums over the directions cast so far, and their number. */

@@ -17,7 +17,6 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
-#include <cstddef>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -114,13 +113,6 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 }
 
 //------------------------------------------------------------------------------
-bool CanBeIlluminated(const RayCastOptics& optics)
-{
-  const BlendModel& model = optics.Model();
-  return model.IsMedium() || (model.IsLit() && !optics.CellScalars);
-}
-
-//------------------------------------------------------------------------------
 bool operator==(const RayCastOptics& a, const RayCastOptics& b)
 {
   const auto members = [](const RayCastOptics& optics)
@@ -163,7 +155,9 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Vie
   {
     if (optics.Shading && light->GetSwitch())
     {
-      optics.Lighting.Lights.push_back(ToFrame(light, place));
+      const RayCastLight own = ToFrame(light, place);
+      optics.Lighting.Lights.push_back(IsFinite(own) ? own : RayCastLight());
+      optics.HasUnusableLights |= !IsFinite(own);
     }
   }
 }
@@ -186,15 +180,6 @@ std::string DescribeUnlit(const RayCastOptics& optics)
     {
       text << "the " << name << " of the volume property is " << number
            << "; shading needs finite numbers";
-      return text.str();
-    }
-  }
-  for (std::size_t i = 0; i < lighting.Lights.size(); ++i)
-  {
-    if (!IsFinite(lighting.Lights[i]))
-    {
-      text << "the switched-on light of number " << i
-           << " has no direction, or a number that is not finite";
       return text.str();
     }
   }

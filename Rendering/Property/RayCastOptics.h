@@ -58,6 +58,8 @@ struct RayCastOptics
   /** Factor from a gradient's length in the frame to scalar per world length. */
   double GradientMagnitude = 1.0;
   SurfaceLighting Lighting;
+  /** True if a light has no direction or a number that is not finite; it is black. */
+  bool HasUnusableLights = false;
   std::vector<RayClippingPlane> ClippingPlanes;
   /** Medium behind the first interface; clear for blend modes that show no light. */
   RefractionMedium Medium;
@@ -118,16 +120,9 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Vie
   RayCastOptics& optics);
 
 /**
- * Describes a number of the material or of a light that is not finite; empty if there is none, or
- * without shading.
+ * Describes a number of the material that is not finite; empty if there is none or no shading.
  */
 std::string DescribeUnlit(const RayCastOptics& optics);
-
-/**
- * True if a volume with shading can attenuate its own light. Isosurfaces of scalars of cells
- * cannot: they pass through the vertices, which are on neither side of them.
- */
-bool CanBeIlluminated(const RayCastOptics& optics);
 
 /** True if a property uses a gradient opacity function. */
 bool UsesGradientOpacity(vtkVolumeProperty* property);

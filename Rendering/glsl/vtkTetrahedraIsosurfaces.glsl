@@ -40,7 +40,14 @@ void startPart(float scalar)
   isRangeKnown = false;
 }
 
-#if VERTEX_LIGHT
+#if VERTEX_LIGHT && CELL_SCALARS
+// Light before a face that is a surface: that of the cell which the ray has left by it.
+vec3 lightBefore(float isovalue, bool fromBelow)
+{
+  int before = cellValue(CELL_SIZE * cell + FIRST_LINK + face);
+  return texelFetch(vertexLight, before < 0 ? cell : before >> 2).xyz;
+}
+#elif VERTEX_LIGHT
 // Light at a point of a surface, on the ray: interpolated between those vertices of the cell that
 // lie on the side from which the ray comes. The surface itself may hide the light from the others.
 // Their weights are in the ratio of the volumes of the other three and the point, in the space of
@@ -48,11 +55,12 @@ void startPart(float scalar)
 vec3 lightBefore(float isovalue, bool fromBelow)
 {
   ivec4 numbers = cellVertices(cell);
+  RayVertex vertices[4] = RayVertex[4](a, b, c, fetchVertex(numbers.w));
   vec3 place[4];
   for (int k = 0; k < 4; ++k)
   {
-    RayVertex p = fetchVertex(numbers[k]);
-    place[k] = vec3(placeOf(p) * (1.0 / 65536.0), vertexScalar(p) - isovalue);
+    place[k] =
+      vec3(placeOf(vertices[k]) * (1.0 / 65536.0), vertexScalar(vertices[k]) - isovalue);
   }
   vec3 sum = vec3(0.0);
   float total = 0.0;

@@ -4,8 +4,7 @@
  * Parts that the regression tests share. They use VTK and the public classes only, so that the
  * tests build inside VTK and against an installed package as well.
  */
-#ifndef meniscus_Testing_Cxx_RegressionScene_h
-#define meniscus_Testing_Cxx_RegressionScene_h
+#pragma once
 
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
@@ -63,5 +62,3 @@ vtkSmartPointer<vtkActor> AddSurface(VolumeScene& scene, vtkAlgorithmOutput* por
 void LookAtWater(VolumeScene& scene, double distance);
 
 } // namespace meniscus::test
-
-#endif

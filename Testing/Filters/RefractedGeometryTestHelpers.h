@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
-#define meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
+#pragma once
 
 #include "RefractionPicture.h"
 
@@ -77,5 +76,3 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
 void AddTruth(vtkPolyData* data);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Fuzz_ByteReader_h
-#define meniscus_Testing_Fuzz_ByteReader_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -116,5 +115,3 @@ private:
 };
 
 }
-
-#endif

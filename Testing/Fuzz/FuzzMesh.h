@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Fuzz_FuzzMesh_h
-#define meniscus_Testing_Fuzz_FuzzMesh_h
+#pragma once
 
 #include "ByteReader.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -43,5 +42,3 @@ private:
 void CheckMesh(const TetrahedralMesh& mesh, const TetrahedraView& view, MeshStatus status);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Fuzz_FuzzOptics_h
-#define meniscus_Testing_Fuzz_FuzzOptics_h
+#pragma once
 
 #include "ByteReader.h"
 #include "Volume/Optics/SurfaceLighting.h"
@@ -29,5 +28,3 @@ RayFrameInput ReadCamera(
   ByteReader& reader, const glm::dvec3& center, double radius, int width, int height);
 
 }
-
-#endif

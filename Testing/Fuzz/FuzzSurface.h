@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Fuzz_FuzzSurface_h
-#define meniscus_Testing_Fuzz_FuzzSurface_h
+#pragma once
 
 #include "ByteReader.h"
 #include "Refraction/Images/CellImages.h"
@@ -76,5 +75,3 @@ struct FuzzObject
 void CheckImage(const VirtualVertex& image, std::size_t facets);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Fuzz_FuzzTarget_h
-#define meniscus_Testing_Fuzz_FuzzTarget_h
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -35,5 +34,3 @@ inline constexpr FuzzTarget FuzzTargets[] = { { "function", FuzzFunction },
   { "membrane", FuzzMembrane }, { "stack", FuzzStack }, { "volume", FuzzVolume } };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Metamorphic relations: changes of a scene that must not change the result. No reference result is
  * needed, so scenes can be arbitrary.
  */
-#ifndef meniscus_Testing_Metamorphic_Relation_h
-#define meniscus_Testing_Metamorphic_Relation_h
+#pragma once
 
 #include "MathBasics.h"
 
@@ -61,5 +60,3 @@ struct Relation
 };
 
 } // namespace meniscus::test
-
-#endif

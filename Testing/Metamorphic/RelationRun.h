@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_RelationRun_h
-#define meniscus_Testing_Metamorphic_RelationRun_h
+#pragma once
 
 #include "ProgrammeOptions.h"
 #include "Relation.h"
@@ -32,5 +31,3 @@ int CasesAt(double intensity, int atOne);
 std::uint64_t SeedOfCase(std::uint64_t seed, const std::string& relation, int index);
 
 } // namespace meniscus::test
-
-#endif

@@ -5,8 +5,7 @@
  * Light plays no part, so that pictures differ by the geometry of refraction alone. All rays of a
  * camera meet the surface, or miss its body as a whole: the rim of a membrane is not in view.
  */
-#ifndef meniscus_Testing_Povray_ComparisonScene_h
-#define meniscus_Testing_Povray_ComparisonScene_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -67,5 +66,3 @@ ObjectColors FindObjectColors(const ComparisonScene& scene, const unsigned char*
 std::vector<ComparisonScene> MakeComparisonScenes();
 
 } // namespace meniscus::test
-
-#endif

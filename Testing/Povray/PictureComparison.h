@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Povray_PictureComparison_h
-#define meniscus_Testing_Povray_PictureComparison_h
+#pragma once
 
 #include "ComparisonScene.h"
 #include "VolumeScene.h"
@@ -61,5 +60,3 @@ bool IsExplained(const unsigned char* pixel, const ByteImage& closeUp, const Obj
 double LargestDifference(const PictureComparison& comparison, double offset, double area);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Povray_PovrayProcess_h
-#define meniscus_Testing_Povray_PovrayProcess_h
+#pragma once
 
 #include "PovrayWriter.h"
 #include "VolumeScene.h"
@@ -27,5 +26,3 @@ struct PovrayProcess
 };
 
 } // namespace meniscus::test
-
-#endif

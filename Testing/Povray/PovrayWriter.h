@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Povray_PovrayWriter_h
-#define meniscus_Testing_Povray_PovrayWriter_h
+#pragma once
 
 #include "ComparisonScene.h"
 
@@ -48,5 +47,3 @@ std::string PovrayScene(const ComparisonScene& scene, const PictureWindow& windo
 std::string PovrayOptions(const std::string& name, int pixels);
 
 } // namespace meniscus::test
-
-#endif

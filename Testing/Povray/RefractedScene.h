@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Povray_RefractedScene_h
-#define meniscus_Testing_Povray_RefractedScene_h
+#pragma once
 
 #include "ComparisonScene.h"
 #include "VolumeScene.h"
@@ -16,5 +15,3 @@ namespace meniscus::test
 ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
 
 } // namespace meniscus::test
-
-#endif

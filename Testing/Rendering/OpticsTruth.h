@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_OpticsTruth_h
-#define meniscus_Testing_Rendering_OpticsTruth_h
+#pragma once
 
 #include "ProjectionModes.h"
 #include "RayCastScene.h"
@@ -33,5 +32,3 @@ TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const s
   double tolerance = FloatTolerance, double excusedShare = LargestSilhouetteShare);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_RayCastScene_h
-#define meniscus_Testing_Rendering_RayCastScene_h
+#pragma once
 
 #include "ReferenceImage.h"
 #include "TestMeshes.h"
@@ -94,5 +93,3 @@ public:
 vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_StackScene_h
-#define meniscus_Testing_Rendering_StackScene_h
+#pragma once
 
 #include "MembraneScene.h"
 
@@ -34,5 +33,3 @@ std::vector<reference::Ray> FindParts(
 std::array<double, 4> ComposeParts(const std::vector<reference::Ray>& parts, const TraceRay& trace);
 
 } // namespace meniscus::test
-
-#endif

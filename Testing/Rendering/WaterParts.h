@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_WaterParts_h
-#define meniscus_Testing_Rendering_WaterParts_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -20,5 +19,3 @@ vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithmOutput* port);
 void SetFlatColor(vtkActor* actor, double red, double green, double blue);
 
 } // namespace meniscus::test
-
-#endif

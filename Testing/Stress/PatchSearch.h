@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_PatchSearch_h
-#define meniscus_Testing_Stress_PatchSearch_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -62,5 +61,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_PatchTracer_h
-#define meniscus_Testing_Stress_PatchTracer_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Refraction/Membrane/CurvedPatches.h"
@@ -75,5 +74,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

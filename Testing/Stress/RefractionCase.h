@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_RefractionCase_h
-#define meniscus_Testing_Stress_RefractionCase_h
+#pragma once
 
 #include "SmoothSurface.h"
 #include "StressRandom.h"
@@ -60,5 +59,3 @@ struct RefractionFamily
 std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_RefractionCheck_h
-#define meniscus_Testing_Stress_RefractionCheck_h
+#pragma once
 
 #include "RefractionCase.h"
 
@@ -53,5 +52,3 @@ struct RefractionTally
 RefractionTally CheckCase(const RefractionCase& test);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_RefractionTriangles_h
-#define meniscus_Testing_Stress_RefractionTriangles_h
+#pragma once
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "RefractionCheck.h"
@@ -19,5 +18,3 @@ RefractionTally CheckTriangles(const RefractionCase& test, CurvedMembraneSolver&
   const reference::SightOracle& oracle, const reference::SurfaceError& error);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StackCase_h
-#define meniscus_Testing_Stress_StackCase_h
+#pragma once
 
 #include "MembraneMeshes.h"
 #include "Refraction/Surface/MediaChain.h"
@@ -67,5 +66,3 @@ struct MirrorFamily
 std::vector<MirrorFamily> MirrorFamilies();
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StackCheck_h
-#define meniscus_Testing_Stress_StackCheck_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 #include "RefractionCheck.h"
@@ -24,5 +23,3 @@ RefractionTally CheckStack(const StackCase& test);
 RefractionTally CheckMirror(const MirrorCase& test);
 
 } // namespace meniscus::test
-
-#endif

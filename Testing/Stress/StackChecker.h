@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StackChecker_h
-#define meniscus_Testing_Stress_StackChecker_h
+#pragma once
 
 #include "PatchTracer.h"
 #include "Refraction/Stack/StackSolver.h"
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

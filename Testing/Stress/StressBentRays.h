@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StressBentRays_h
-#define meniscus_Testing_Stress_StressBentRays_h
+#pragma once
 
 #include "StressCheck.h"
 
@@ -15,5 +14,3 @@ namespace meniscus::test
 StressTally CheckBentRays(const StressCase& stress);
 
 } // namespace meniscus::test
-
-#endif

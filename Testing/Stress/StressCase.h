@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StressCase_h
-#define meniscus_Testing_Stress_StressCase_h
+#pragma once
 
 #include "TestMeshes.h"
 #include "VolumeFunctions.h"
@@ -57,5 +56,3 @@ struct StressFamily
 std::vector<StressFamily> StressFamilies(double intensity, std::uint64_t seed);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** All uses of the software under test by the stress programme. */
-#ifndef meniscus_Testing_Stress_StressCasters_h
-#define meniscus_Testing_Stress_StressCasters_h
+#pragma once
 
 #include "StressCase.h"
 #include "VolumeScene.h"
@@ -42,5 +41,3 @@ std::unique_ptr<StressCaster> MakeStressCaster(const std::string& name);
 
 } // namespace test
 } // namespace meniscus
-
-#endif

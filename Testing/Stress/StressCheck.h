@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StressCheck_h
-#define meniscus_Testing_Stress_StressCheck_h
+#pragma once
 
 #include "StressCasters.h"
 
@@ -48,5 +47,3 @@ struct StressTally
 StressTally CheckCase(StressCaster& caster, const StressCase& stress);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StressRandom_h
-#define meniscus_Testing_Stress_StressRandom_h
+#pragma once
 
 #include "RandomNumbers.h"
 
@@ -11,5 +10,3 @@ namespace meniscus::test
 using StressRandom = RandomNumbers;
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Stress_StressRun_h
-#define meniscus_Testing_Stress_StressRun_h
+#pragma once
 
 #include "CaseProcess.h"
 #include "StressCheck.h"
@@ -31,5 +30,3 @@ FamilyResult RunFamily(
   const StressFamily& family, const std::string& caster, int stride, double secondsPerCase);
 
 } // namespace meniscus::test
-
-#endif

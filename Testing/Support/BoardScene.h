@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** A board of letters with a striped ring, for pictures of places. */
-#ifndef meniscus_Testing_Support_BoardScene_h
-#define meniscus_Testing_Support_BoardScene_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -48,5 +47,3 @@ struct BoardScene
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_CaseProcess_h
-#define meniscus_Testing_Support_CaseProcess_h
+#pragma once
 
 #include "MathBasics.h"
 
@@ -48,5 +47,3 @@ void RunCases(int cases, int stride, double secondsPerCase, const CaseStart& sta
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose = nullptr);
 
 } // namespace meniscus::test
-
-#endif

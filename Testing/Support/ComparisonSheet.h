@@ -4,8 +4,7 @@
  * Square pictures side by side, one row per case: drawn by the project, made by a reference, and
  * the difference of both. The figures in the documentation.
  */
-#ifndef meniscus_Testing_Support_ComparisonSheet_h
-#define meniscus_Testing_Support_ComparisonSheet_h
+#pragma once
 
 #include "RefractionPicture.h"
 
@@ -55,5 +54,3 @@ PlaceComparison AddComparison(ComparisonSheet& sheet, int row, const std::string
   const PlaceColour& colour);
 
 }
-
-#endif

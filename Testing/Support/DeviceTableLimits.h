@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_DeviceTableLimits_h
-#define meniscus_Testing_Support_DeviceTableLimits_h
+#pragma once
 
 #include <vtkTetrahedraRayCastMapper.h>
 
@@ -30,5 +29,3 @@ struct DeviceTableLimits
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Meshes that are difficult for a ray caster, in addition to TestMeshes.h. */
-#ifndef meniscus_Testing_Support_HardMeshes_h
-#define meniscus_Testing_Support_HardMeshes_h
+#pragma once
 
 #include "RandomNumbers.h"
 #include "TestMeshes.h"
@@ -50,5 +49,3 @@ Grid MakeScrambled(vtkUnstructuredGrid* grid, const Field& field, RandomNumbers&
 Grid MakeSoup(RandomNumbers& random);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_MathBasics_h
-#define meniscus_Testing_Support_MathBasics_h
+#pragma once
 
 /** @file
  * Headers of the standard library and of GLM that most programs of the tests use, and Product().
@@ -46,5 +45,3 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#endif

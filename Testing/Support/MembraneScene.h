@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_MembraneScene_h
-#define meniscus_Testing_Support_MembraneScene_h
+#pragma once
 
 #include "RefractedRays.h"
 #include "TracedImage.h"
@@ -36,5 +35,3 @@ MembraneCase MakeDomeCase(double apex, double radius, double half, int cells);
 MembraneCase MakeWavesCase(double level, double amplitude, double k, double half, int cells);
 
 } // namespace meniscus::test
-
-#endif

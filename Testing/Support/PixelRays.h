@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_PixelRays_h
-#define meniscus_Testing_Support_PixelRays_h
+#pragma once
 
 #include "ReferenceCellTree.h"
 
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

@@ -4,8 +4,7 @@
  * A pool of water with waves, textured walls and three objects, under a sky that it reflects: drawn
  * by vtkRefractionPass, and traced through the exact waves in double precision.
  */
-#ifndef meniscus_Testing_Support_PoolScene_h
-#define meniscus_Testing_Support_PoolScene_h
+#pragma once
 
 #include "RefractionPicture.h"
 #include "VolumeScene.h"
@@ -120,5 +119,3 @@ private:
 };
 
 } // namespace meniscus::testing
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_Product_h
-#define meniscus_Testing_Support_Product_h
+#pragma once
 
 #include <cstddef>
 #include <tuple>
@@ -144,5 +143,3 @@ using test::Numbers;
 using test::Product;
 
 } // namespace meniscus::testing
-
-#endif

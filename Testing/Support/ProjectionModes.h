@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_ProjectionModes_h
-#define meniscus_Testing_Support_ProjectionModes_h
+#pragma once
 
 #include "ReferenceOptics.h"
 #include "VTKBasics.h"
@@ -47,5 +46,3 @@ inline std::vector<int> AllBlendModes()
 }
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_RandomNumbers_h
-#define meniscus_Testing_Support_RandomNumbers_h
+#pragma once
 
 #include "MathBasics.h"
 
@@ -51,5 +50,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_ReferenceImage_h
-#define meniscus_Testing_Support_ReferenceImage_h
+#pragma once
 
 #include "PixelRays.h"
 #include "ReferenceRayIntegrator.h"
@@ -89,5 +88,3 @@ Comparison CompareToReference(const ByteImage& image, const ReferenceImage& trut
   const std::array<double, 3>& background, int left = 0, int bottom = 0);
 
 } // namespace meniscus::test
-
-#endif

@@ -5,8 +5,7 @@
  * double precision, or made by tracing rays through an analytic membrane. Two images are compared
  * pixel by pixel.
  */
-#ifndef meniscus_Testing_Support_RefractionPicture_h
-#define meniscus_Testing_Support_RefractionPicture_h
+#pragma once
 
 #include "HeightField.h"
 #include "VTKBasics.h"
@@ -134,5 +133,3 @@ PlaceComparison ComparePlaces(
   const PlacePicture& truth, const PlacePicture& other, const PixelCamera& camera);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_StrictImage_h
-#define meniscus_Testing_Support_StrictImage_h
+#pragma once
 
 #include "VolumeScene.h"
 
@@ -43,5 +42,3 @@ BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name
   const std::string& folder = std::string());
 
 } // namespace meniscus::test
-
-#endif

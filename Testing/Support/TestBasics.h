@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_TestBasics_h
-#define meniscus_Testing_Support_TestBasics_h
+#pragma once
 
 /** @file
  * Headers that most tests use: those of MathBasics.h, GoogleTest, and HasText().
@@ -30,5 +29,3 @@ namespace meniscus::testing
 using test::HasText;
 
 } // namespace meniscus::testing
-
-#endif

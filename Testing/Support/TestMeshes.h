@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_TestMeshes_h
-#define meniscus_Testing_Support_TestMeshes_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -64,5 +63,3 @@ Grid ReadDataMesh(const std::string& name);
 Grid ReadMesh(const std::string& path);
 
 } // namespace meniscus::test
-
-#endif

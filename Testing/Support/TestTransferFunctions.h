@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_TestTransferFunctions_h
-#define meniscus_Testing_Support_TestTransferFunctions_h
+#pragma once
 
 #include "ReferenceTransferFunction.h"
 #include "VTKBasics.h"
@@ -53,5 +52,3 @@ reference::ReferenceTransferFunction ToReference(
   vtkVolumeProperty* property, OpacityModel model = OpacityModel::AttenuationCoefficient);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_TracedImage_h
-#define meniscus_Testing_Support_TracedImage_h
+#pragma once
 
 #include "PixelRays.h"
 #include "VolumeScene.h"
@@ -35,5 +34,3 @@ TracedComparison CompareToTrace(const FloatImage& image, const PixelRays& rays,
   const TraceRay& trace, double tolerance, double rounding);
 
 } // namespace meniscus::test
-
-#endif

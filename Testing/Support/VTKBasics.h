@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_VTKBasics_h
-#define meniscus_Testing_Support_VTKBasics_h
+#pragma once
 
 /** @file
  * Headers of VTK that most programs of the tests use, those of MathBasics.h, and
@@ -94,5 +93,3 @@ using test::PointOf;
 using test::TupleOf;
 
 } // namespace meniscus::testing
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_VolumeFunctions_h
-#define meniscus_Testing_Support_VolumeFunctions_h
+#pragma once
 
 #include "RandomNumbers.h"
 #include "ReferenceTransferFunction.h"
@@ -40,5 +39,3 @@ double BrightestColor(const VolumeFunction& function);
 vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeFunction& function);
 
 } // namespace meniscus::test
-
-#endif

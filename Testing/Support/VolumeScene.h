@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Support_VolumeScene_h
-#define meniscus_Testing_Support_VolumeScene_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -108,5 +107,3 @@ std::string DeviceName(vtkRenderWindow* window);
 double DiagonalOf(const double bounds[6]);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Refraction_Stack_PlaneSights_h
-#define meniscus_Refraction_Stack_PlaneSights_h
+#pragma once
 
 #include "Refraction/Stack/ParallelPlanes.h"
 #include "Refraction/Stack/PlaneLanes.h"
@@ -60,5 +59,3 @@ private:
 };
 
 }
-
-#endif

@@ -153,10 +153,14 @@ int DivisionRound::LongestEdge(const CellPiece& piece, const int* corners, int c
 }
 
 //------------------------------------------------------------------------------
-/** Measures the faces and the insides of new pieces of cells with a high degree. */
+/**
+ * Measures the faces and the insides of new pieces of cells with a high degree, and the insides of
+ * all new pieces if there are surfaces: differences in edges that no surface meets count there.
+ */
 void DivisionRound::MeasureInside()
 {
   constexpr int corners[4] = { 0, 1, 2, 3 };
+  const bool hasSurfaces = this->Limits.Measure.HasSurfaces;
   struct Found
   {
     std::vector<Wish> Wishes;
@@ -183,15 +187,18 @@ void DivisionRound::MeasureInside()
             found[block].Kept = std::max(found[block].Kept, error);
           }
         };
-        if (piece.Degree <= 2 || piece.NewEdges == 0)
-        {
-          continue;
-        }
+        const bool hasFaces = piece.Degree > 2 && piece.NewEdges != 0;
         for (const auto& face : PieceFaces)
         {
-          measure(face.Corners, 3);
+          if (hasFaces)
+          {
+            measure(face.Corners, 3);
+          }
         }
-        measure(corners, 4);
+        if (hasFaces || (hasSurfaces && piece.Degree > 0 && piece.NewEdges != 0))
+        {
+          measure(corners, 4);
+        }
       }
     });
   for (const Found& some : found)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -67,14 +68,8 @@ double ShapeTest::MeasureEdge(std::int32_t cell, const glm::vec3& from, const gl
   }
   const glm::dvec3 chord = b.Position - a.Position;
   const double square = glm::dot(chord, chord);
-  const double length = std::sqrt(square);
-  DrawnValues edge;
-  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
-  {
-    const auto ends = std::minmax(a.Values[field], b.Values[field]);
-    edge[field] = { ends.first, ends.second,
-      length > 0.0 ? (ends.second - ends.first) / length : 0.0, length };
-  }
+  DrawnValues edge = this->ValuesOf(a, b, std::sqrt(square));
+  bool hasGradients = !this->Measure.HasSurfaces;
   double most = 0.0;
   for (int i = 1; i < parts; ++i)
   {
@@ -90,9 +85,97 @@ double ShapeTest::MeasureEdge(std::int32_t cell, const glm::vec3& from, const gl
     {
       drawn.Values[field] = (1.0 - along) * a.Values[field] + along * b.Values[field];
     }
-    most = std::max(most, this->ErrorOf(sample, drawn, glm::length(offset - drawn.Position), edge));
+    const double distance = glm::length(offset - drawn.Position);
+    double error = this->ErrorOf(sample, drawn, distance, edge);
+    if (error > most && !hasGradients)
+    {
+      this->SetGradients(cell, from, to, edge);
+      hasGradients = true;
+      error = this->ErrorOf(sample, drawn, distance, edge);
+    }
+    most = std::max(most, error);
   }
   return most;
+}
+
+//------------------------------------------------------------------------------
+auto ShapeTest::ValuesOf(const CellSample& a, const CellSample& b, double length) const
+  -> DrawnValues
+{
+  DrawnValues values;
+  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+  {
+    const auto ends = std::minmax(a.Values[field], b.Values[field]);
+    DrawnValue& value = values[field];
+    value.IsKnown = length > 0.0;
+    value.Lowest = ends.first;
+    value.Highest = ends.second;
+    value.Slope = length > 0.0 ? (ends.second - ends.first) / length : 0.0;
+    value.Length = length;
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+/** The values as a piece draws them, with their gradients. */
+auto ShapeTest::ValuesOf(const std::array<CellSample, 4>& corners) const -> DrawnValues
+{
+  const auto edge = [&corners](std::size_t i) { return corners[i].Position - corners[0].Position; };
+  const glm::dmat3 span(edge(1), edge(2), edge(3));
+  DrawnValues values;
+  if (glm::determinant(span) == 0.0)
+  {
+    return values;
+  }
+  const glm::dmat3 toGradient = glm::inverse(glm::transpose(span));
+  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+  {
+    const auto at = [&](std::size_t i) { return corners[i].Values[field]; };
+    const auto ends = std::minmax({ at(0), at(1), at(2), at(3) });
+    DrawnValue& value = values[field];
+    value.IsKnown = true;
+    value.Lowest = ends.first;
+    value.Highest = ends.second;
+    value.Gradient =
+      glm::length(toGradient * glm::dvec3(at(1) - at(0), at(2) - at(0), at(3) - at(0)));
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Sets the smallest gradients at the ends and in the middle of an edge. A surface is displaced by a
+ * difference of the value divided by its gradient; along an edge that is nearly in the surface, the
+ * slope is much smaller.
+ */
+void ShapeTest::SetGradients(
+  std::int32_t cell, const glm::vec3& from, const glm::vec3& to, DrawnValues& values)
+{
+  // Share of a cell: a gradient that changes by its own size in the cell is off by half of this.
+  constexpr double step = 1.0e-4;
+  std::array<double, CellSample::MostFields> least;
+  least.fill(std::numeric_limits<double>::infinity());
+  for (const double share : { 0.0, 0.5, 1.0 })
+  {
+    const glm::dvec3 place = glm::mix(glm::dvec3(from), glm::dvec3(to), share);
+    const CellSample here = this->Sampler.Sample(cell, place);
+    std::array<CellSample, 4> around{ here, here, here, here };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      glm::dvec3 next = place;
+      next[axis] += place[axis] > 0.5 ? -step : step;
+      around[static_cast<std::size_t>(axis) + 1] = this->Sampler.Sample(cell, next);
+    }
+    const DrawnValues drawn = this->ValuesOf(around);
+    for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+    {
+      least[field] = std::min(least[field], drawn[field].Gradient);
+    }
+  }
+  for (std::size_t field = 0; field < this->NumberOfFields; ++field)
+  {
+    values[field].Gradient = std::isfinite(least[field]) ? least[field] : 0.0;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -118,7 +201,9 @@ double ShapeTest::MeasureMiddle(
       drawn.Values[field] += weights[i] * samples[i].Values[field];
     }
   }
-  return this->ErrorOf(sample, drawn, glm::length(sample.Position - drawn.Position), {});
+  const DrawnValues inside =
+    count == 4 && this->Measure.HasSurfaces ? this->ValuesOf(samples) : DrawnValues();
+  return this->ErrorOf(sample, drawn, glm::length(sample.Position - drawn.Position), inside);
 }
 
 //------------------------------------------------------------------------------
@@ -130,11 +215,12 @@ double ShapeTest::ValueError(
   const double difference = std::abs(value - drawn);
   double error = scale.Measure(value, drawn);
   double slope = edge.Slope;
-  if (this->Measure.HasSurfaces && edge.Length > 0.0)
+  if (this->Measure.HasSurfaces && edge.IsKnown)
   {
     error = std::max(error, scale.Bound(edge.Lowest, edge.Highest, difference));
     // That of a parabola at one of the ends: an edge that a surface touches has hardly any slope.
-    slope += 4.0 * difference / edge.Length;
+    slope += edge.Length > 0.0 ? 4.0 * difference / edge.Length : 0.0;
+    slope = std::max(slope, edge.Gradient);
   }
   return this->Measure.ValuesMayMove && slope > 0.0
     ? std::min(error, this->Measure.OfPlace * difference / slope)

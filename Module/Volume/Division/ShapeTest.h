@@ -42,16 +42,25 @@ public:
     const CellPiece& piece, const int* corners, int count, const std::vector<CellSample>& points);
 
 private:
-  /** A value as an edge draws it: its ends, and its slope by length; 0 where there is no edge. */
+  /** A value as an edge or a piece draws it. */
   struct DrawnValue
   {
+    /** False where nothing else is known. */
+    bool IsKnown = false;
     double Lowest = 0.0;
     double Highest = 0.0;
+    /** Slope along an edge, by length, and the edge's length; 0 in a piece. */
     double Slope = 0.0;
     double Length = 0.0;
+    /** Smallest slope in the direction in which it is steepest; 0 if it is not known. */
+    double Gradient = 0.0;
   };
   using DrawnValues = std::array<DrawnValue, CellSample::MostFields>;
 
+  DrawnValues ValuesOf(const CellSample& a, const CellSample& b, double length) const;
+  DrawnValues ValuesOf(const std::array<CellSample, 4>& corners) const;
+  void SetGradients(
+    std::int32_t cell, const glm::vec3& from, const glm::vec3& to, DrawnValues& values);
   double ErrorOf(const CellSample& sample, const CellSample& drawn, double distance,
     const DrawnValues& edge) const;
   double ValueError(std::size_t field, double value, double drawn, const DrawnValue& edge) const;

@@ -39,19 +39,19 @@ void LightFrames::Set(const RayFrame& base, const glm::dvec4& light)
 
 //------------------------------------------------------------------------------
 void LightFrames::Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
-  const VertexStarts& starts, const RangeLoop& loop)
+  const ShadowStarts& starts, const RangeLoop& loop)
 {
   std::atomic<unsigned int> needed{ this->IsParallel() ? 1u : 0u };
   if (!this->IsParallel())
   {
-    const std::vector<std::int32_t>& vertices = starts.GetVertices();
-    ForEachBlock(vertices.size(), loop,
+    const std::vector<std::int32_t>& numbers = starts.GetNumbers();
+    ForEachBlock(numbers.size(), loop,
       [&](std::size_t, std::size_t first, std::size_t last)
       {
         unsigned int bits = 0;
         for (std::size_t i = first; i < last; ++i)
         {
-          bits |= 1u << this->IndexOf(this->StepFrom(this->ToBase * starts.GetPlace(vertices[i])));
+          bits |= 1u << this->IndexOf(this->StepFrom(this->ToBase * starts.GetPlace(numbers[i])));
         }
         needed |= bits;
       });

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "Common/RangeLoop.h"
-#include "Volume/Illumination/VertexStarts.h"
+#include "Volume/Illumination/ShadowStarts.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RefractionFrames.h"
@@ -35,7 +35,7 @@ public:
    * @param scalars as for PlaceVertices().
    */
   void Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
-    const VertexStarts& starts, const RangeLoop& loop);
+    const ShadowStarts& starts, const RangeLoop& loop);
 
   bool IsParallel() const { return this->Light.w == 0.0; }
   int GetNumberOfFrames() const { return static_cast<int>(this->Frames.size()); }

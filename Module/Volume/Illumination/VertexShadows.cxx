@@ -31,7 +31,7 @@ struct ShadowLine
   /** Frame; negative if the transmittance is 1 without a cast. */
   int Frame = -1;
   FrameLine Line{};
-  /** Depths of the start at the vertex, and of the part that is cast. */
+  /** Depths of the start, and of the part that is cast. */
   double Place = 0.0;
   double Begin = 0.0;
   double End = 0.0;
@@ -45,16 +45,16 @@ struct ShadowBatch
   /** Lines that may enter by faces of the boundary, the first `Searched` ones of a cast. */
   std::array<LineBlock, BatchSize / LineBlock::Size> Blocks;
   std::size_t Searched = 0;
-  /** Rays of all lines, their vertices and their numbers in Entries. */
+  /** Rays of all lines, their starts and their numbers in Entries. */
   std::vector<PacketRay> Rays;
-  std::vector<std::int32_t> Vertices;
+  std::vector<std::int32_t> Starts;
   std::vector<std::int32_t> Numbers;
-  /** Entries in the cells at the vertices, and the numbers of the lines that have one. */
+  /** Entries in the cells of the starts, and the numbers of the lines that have one. */
   std::vector<std::pair<std::int32_t, PacketEntry>> Inside;
   RayBundleEntries::Workspace Found;
   EntryLists Entries;
   std::vector<PacketResult> Results;
-  /** Vertices whose lines are cast again, from the boundary. */
+  /** Starts whose lines are cast again, from the boundary. */
   std::vector<std::int32_t> Again;
   RayStatistics Sums;
 
@@ -62,7 +62,7 @@ struct ShadowBatch
   {
     this->Searched = 0;
     this->Rays.clear();
-    this->Vertices.clear();
+    this->Starts.clear();
     this->Numbers.clear();
     this->Inside.clear();
     for (LineBlock& block : this->Blocks)
@@ -109,13 +109,12 @@ public:
   ShadowCast(const ShadowScene& scene, const glm::dvec4& light, const RangeLoop& loop,
     const ShadowTaker& take);
 
-  /** Casts the lines of the vertices [first, last) of the starts. */
+  /** Casts the lines of the starts [first, last). */
   RayStatistics Cast(std::size_t first, std::size_t last, ShadowBatch& batch) const;
 
 private:
-  ShadowLine LineOf(std::int32_t vertex) const;
-  void Add(
-    std::int32_t vertex, const ShadowLine& line, bool fromBoundary, ShadowBatch& batch) const;
+  ShadowLine LineOf(std::int32_t start) const;
+  void Add(std::int32_t start, const ShadowLine& line, bool fromBoundary, ShadowBatch& batch) const;
   void FindRays(const FrameCaster& caster, ShadowBatch& batch) const;
   void CastLines(const FrameCaster& caster, ShadowBatch& batch) const;
 
@@ -143,10 +142,10 @@ ShadowCast::ShadowCast(
 }
 
 //------------------------------------------------------------------------------
-ShadowLine ShadowCast::LineOf(std::int32_t vertex) const
+ShadowLine ShadowCast::LineOf(std::int32_t start) const
 {
   ShadowLine line;
-  const glm::dvec3 place = this->Frames.ToBaseFrame(this->Scene.Starts->GetPlace(vertex));
+  const glm::dvec3 place = this->Frames.ToBaseFrame(this->Scene.Starts->GetPlace(start));
   const glm::dvec3 step = this->Frames.StepFrom(place);
   const double distance = glm::length(step);
   double begin = 0.0;
@@ -160,7 +159,7 @@ ShadowLine ShadowCast::LineOf(std::int32_t vertex) const
   {
     ClipLine(plane, place, along, begin, end);
   }
-  // A light at the vertex has no direction, and no way to it.
+  // A light at the start has no direction, and no way to it.
   if (!(begin < end) || !(distance > 0.0))
   {
     return line;
@@ -178,9 +177,9 @@ ShadowLine ShadowCast::LineOf(std::int32_t vertex) const
 }
 
 //------------------------------------------------------------------------------
-/** Adds a line to the batch, with its entry into the cell at the vertex. */
+/** Adds a line to the batch, with its entry into the cell of its start. */
 void ShadowCast::Add(
-  std::int32_t vertex, const ShadowLine& line, bool fromBoundary, ShadowBatch& batch) const
+  std::int32_t start, const ShadowLine& line, bool fromBoundary, ShadowBatch& batch) const
 {
   const FrameCaster& caster = *this->Casters[static_cast<std::size_t>(line.Frame)];
   const FixedPointRays& rays = caster.Frame.Rays;
@@ -189,7 +188,7 @@ void ShadowCast::Add(
   ray.EndDepth = rays.FromPivot(line.End);
   PacketEntry entry;
   const bool isInside = !fromBoundary && this->Scene.Starts->AreInside() &&
-    caster.Entries.EntersCell(this->Scene.Starts->GetCell(vertex), ray, line.Place, entry);
+    caster.Entries.EntersCell(this->Scene.Starts->GetCell(start), ray, line.Place, entry);
   std::size_t number = BatchSize + batch.Rays.size();
   if (!isInside || caster.MayEnter(ray, line.Place))
   {
@@ -209,7 +208,7 @@ void ShadowCast::Add(
     batch.Inside.emplace_back(static_cast<std::int32_t>(number), entry);
   }
   batch.Rays.push_back(ray);
-  batch.Vertices.push_back(vertex);
+  batch.Starts.push_back(start);
   batch.Numbers.push_back(static_cast<std::int32_t>(number));
 }
 
@@ -244,14 +243,14 @@ void ShadowCast::FindRays(const FrameCaster& caster, ShadowBatch& batch) const
     ray.EndEntry = batch.Entries.GetBegin(number + 1);
     if (ray.FirstEntry == ray.EndEntry)
     {
-      this->Take(batch.Vertices[i], 1.0f);
+      this->Take(batch.Starts[i], 1.0f);
       continue;
     }
     batch.Rays[kept] = ray;
-    batch.Vertices[kept++] = batch.Vertices[i];
+    batch.Starts[kept++] = batch.Starts[i];
   }
   batch.Rays.resize(kept);
-  batch.Vertices.resize(kept);
+  batch.Starts.resize(kept);
 }
 
 //------------------------------------------------------------------------------
@@ -280,26 +279,26 @@ void ShadowCast::CastLines(const FrameCaster& caster, ShadowBatch& batch) const
     ++batch.Sums.Rays;
     if (result.Lost != 0 && inside > 0)
     {
-      batch.Again.push_back(batch.Vertices[i]);
+      batch.Again.push_back(batch.Starts[i]);
       continue;
     }
     batch.Sums.Lost += result.Lost;
-    this->Take(batch.Vertices[i], isPlain ? std::exp(-result.Color[0]) : result.Color[3]);
+    this->Take(batch.Starts[i], isPlain ? std::exp(-result.Color[0]) : result.Color[3]);
   }
 }
 
 //------------------------------------------------------------------------------
 RayStatistics ShadowCast::Cast(std::size_t first, std::size_t last, ShadowBatch& batch) const
 {
-  const std::vector<std::int32_t>& vertices = this->Scene.Starts->GetVertices();
+  const std::vector<std::int32_t>& numbers = this->Scene.Starts->GetNumbers();
   batch.Sums = RayStatistics();
   for (std::size_t i = first; i < last; ++i)
   {
     ShadowLine& line = batch.Lines[i - first];
-    line = this->LineOf(vertices[i]);
+    line = this->LineOf(numbers[i]);
     if (line.Frame < 0)
     {
-      this->Take(vertices[i], 1.0f);
+      this->Take(numbers[i], 1.0f);
     }
   }
   for (int frame = 0; frame < this->Frames.GetNumberOfFrames(); ++frame)
@@ -313,7 +312,7 @@ RayStatistics ShadowCast::Cast(std::size_t first, std::size_t last, ShadowBatch&
     {
       if (batch.Lines[i - first].Frame == frame)
       {
-        this->Add(vertices[i], batch.Lines[i - first], false, batch);
+        this->Add(numbers[i], batch.Lines[i - first], false, batch);
       }
     }
     if (!batch.Rays.empty())
@@ -324,11 +323,11 @@ RayStatistics ShadowCast::Cast(std::size_t first, std::size_t last, ShadowBatch&
   // Lines that cells inverted by rounding led around.
   std::vector<std::int32_t> again;
   std::swap(again, batch.Again);
-  for (const std::int32_t vertex : again)
+  for (const std::int32_t start : again)
   {
-    const ShadowLine line = this->LineOf(vertex);
+    const ShadowLine line = this->LineOf(start);
     batch.Clear();
-    this->Add(vertex, line, true, batch);
+    this->Add(start, line, true, batch);
     this->CastLines(*this->Casters[static_cast<std::size_t>(line.Frame)], batch);
   }
   return batch.Sums;
@@ -341,15 +340,15 @@ RayStatistics CastShadows(
   const ShadowScene& scene, const glm::dvec4& light, const RangeLoop& loop, const ShadowTaker& take)
 {
   const ShadowCast cast(scene, light, loop, take);
-  const std::size_t vertices = scene.Starts->GetVertices().size();
-  std::vector<RayStatistics> sums((vertices + BatchSize - 1) / BatchSize);
+  const std::size_t starts = scene.Starts->GetNumbers().size();
+  std::vector<RayStatistics> sums((starts + BatchSize - 1) / BatchSize);
   loop(sums.size(),
     [&](std::size_t begin, std::size_t end)
     {
       const auto batch = std::make_unique<ShadowBatch>();
       for (std::size_t i = begin; i < end; ++i)
       {
-        sums[i] = cast.Cast(i * BatchSize, std::min(vertices, (i + 1) * BatchSize), *batch);
+        sums[i] = cast.Cast(i * BatchSize, std::min(starts, (i + 1) * BatchSize), *batch);
       }
     });
   RayStatistics total;

@@ -5,7 +5,7 @@
 #include "Common/RangeLoop.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Illumination/LightFrames.h"
-#include "Volume/Illumination/VertexStarts.h"
+#include "Volume/Illumination/ShadowStarts.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Rays/RayStatistics.h"
@@ -31,7 +31,7 @@ struct ShadowScene
   const std::vector<float>* Scalars = nullptr;
   /** Tree over the mesh's boundary, and the starts of lines. */
   const BoundaryTree* Tree = nullptr;
-  const VertexStarts* Starts = nullptr;
+  const ShadowStarts* Starts = nullptr;
   /** Frame of lights; see LightFrames::Set(). */
   RayFrame Base;
   /** Largest length of a line, in units of the frame. */
@@ -41,18 +41,17 @@ struct ShadowScene
 /** Transmittance below which a line ends: 1/16 of a step of a picture with 8 bits. */
 constexpr float OpaqueShadow = 1.0f / 4096.0f;
 
-/** Gets the transmittance from a light to a vertex. */
-using ShadowTaker = std::function<void(std::int32_t vertex, float transmittance)>;
+/** Gets the transmittance from a light to a start, a vertex or a cell. */
+using ShadowTaker = std::function<void(std::int32_t start, float transmittance)>;
 
 /**
- * Transmittance of a medium from the vertices of its mesh to a light. The lines to the light are
- * cast in packets, in groups of vertices that follow each other along the mesh's Morton curve, by
- * the walk that draws pictures. A line begins in a cell at its vertex, goes on behind gaps in the
- * mesh, and ends at the light, at the reach, where it is opaque or where it leaves the mesh for
- * good.
+ * Transmittance of a medium from the starts in its mesh to a light. The lines to the light are cast
+ * in packets, in groups of starts that follow each other along the mesh's Morton curve, by the walk
+ * that draws pictures. A line begins in the cell of its start, goes on behind gaps in the mesh, and
+ * ends at the light, at the reach, where it is opaque or where it leaves the mesh for good.
  * @param light position and 1, or direction towards the light, not 0, and 0. From a place at the
  *   light, the transmittance is 1.
- * @param take called for each vertex of the starts, once, from any thread.
+ * @param take called for each start, once, from any thread.
  */
 RayStatistics CastShadows(const ShadowScene& scene, const glm::dvec4& light, const RangeLoop& loop,
   const ShadowTaker& take);

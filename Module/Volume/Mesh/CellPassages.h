@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Mesh_CellPassages_h
-#define meniscus_Volume_Mesh_CellPassages_h
+#pragma once
 
 #include "Common/RangeLoop.h"
 
@@ -47,5 +46,3 @@ void UpdateLinks(
   const TetrahedralMesh& mesh, std::vector<CellPassages>& passages, const RangeLoop& loop);
 
 }
-
-#endif

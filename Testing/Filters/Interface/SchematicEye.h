@@ -5,8 +5,7 @@
  * model of the human eye with aspherics, J. Opt. Soc. Am. A 2, 1985. The axis is the y axis, with
  * the outside above. Lengths are in millimetres.
  */
-#ifndef meniscus_Testing_Filters_Interface_SchematicEye_h
-#define meniscus_Testing_Filters_Interface_SchematicEye_h
+#pragma once
 
 #include "ExactStack.h"
 
@@ -36,5 +35,3 @@ reference::MembraneMesh MakeCornea(const CorneaSurface& surface, int cells);
 reference::ExactSurface MakeExactCornea(const CorneaSurface& surface, double before);
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Lists of interfaces for every filter that has one. */
-#ifndef meniscus_Testing_Filters_Interface_StackFilterHelpers_h
-#define meniscus_Testing_Filters_Interface_StackFilterHelpers_h
+#pragma once
 
 #include "RefractedGeometryTestHelpers.h"
 
@@ -94,5 +93,3 @@ void ExpectBadLists(const Make& make, const Measure& measure)
 }
 
 }
-
-#endif

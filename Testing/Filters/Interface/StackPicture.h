@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Views through surfaces in sequence: the filter's and those of exact rays. */
-#ifndef meniscus_Testing_Filters_Interface_StackPicture_h
-#define meniscus_Testing_Filters_Interface_StackPicture_h
+#pragma once
 
 #include "ComparisonSheet.h"
 #include "ExactStack.h"
@@ -66,5 +65,3 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture
   vtkPolyData* object, const PlacePicture& traced, const PlaceColour& colour);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
-#define meniscus_Testing_Filters_Mesher_ClosedSurfaces_h
+#pragma once
 
 #include "VTKBasics.h"
 
@@ -38,5 +37,3 @@ void RemoveTriangle(vtkPolyData* surface, vtkIdType triangle);
 void TurnTriangle(vtkPolyData* surface, vtkIdType triangle);
 
 }
-
-#endif

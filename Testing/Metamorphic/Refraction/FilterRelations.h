@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_FilterRelations_h
-#define meniscus_FilterRelations_h
+#pragma once
 
 #include "RandomNumbers.h"
 #include "Relation.h"
@@ -23,5 +22,3 @@ std::vector<FilterRelation> GetFilterRelations();
 std::vector<FilterRelation> GetLightRelations();
 
 } // namespace meniscus::test
-
-#endif

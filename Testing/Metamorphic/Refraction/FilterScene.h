@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Random scenes for the filters of refraction: a membrane, an eye and an object of plane quads. */
-#ifndef meniscus_FilterScene_h
-#define meniscus_FilterScene_h
+#pragma once
 
 #include "RefractionTrial.h"
 #include "VTKBasics.h"
@@ -64,5 +63,3 @@ vtkSmartPointer<vtkPolyData> GetResult(vtkRefractedGeometryFilter* filter);
 glm::dvec3 GetTuple(vtkPolyData* data, const char* name, vtkIdType point);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_FilterTrial_h
-#define meniscus_FilterTrial_h
+#pragma once
 
 #include "FilterScene.h"
 
@@ -83,5 +82,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Refraction_RefractionTrial_h
-#define meniscus_Testing_Metamorphic_Refraction_RefractionTrial_h
+#pragma once
 
 #include "MembraneMeshes.h"
 #include "RandomNumbers.h"
@@ -98,5 +97,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

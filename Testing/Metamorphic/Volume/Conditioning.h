@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_Conditioning_h
-#define meniscus_Testing_Metamorphic_Volume_Conditioning_h
+#pragma once
 
 #include "VolumeCase.h"
 
@@ -77,5 +76,3 @@ private:
 double PlainTolerance(int backend);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_MapScene_h
-#define meniscus_Testing_Metamorphic_Volume_MapScene_h
+#pragma once
 
 #include "VolumeCase.h"
 
@@ -17,5 +16,3 @@ glm::dvec3 PointBy(const glm::dmat4& map, const glm::dvec3& p);
 void MapScene(VolumeCase& test, const glm::dmat4& map);
 
 } // namespace meniscus::test
-
-#endif

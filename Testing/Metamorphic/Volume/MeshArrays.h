@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_MeshArrays_h
-#define meniscus_Testing_Metamorphic_Volume_MeshArrays_h
+#pragma once
 
 #include "TestMeshes.h"
 
@@ -74,5 +73,3 @@ struct MeshTetrahedron
 std::vector<MeshTetrahedron> TetrahedraOf(const MeshArrays& mesh);
 
 } // namespace meniscus::test
-
-#endif

@@ -3,8 +3,7 @@
 /**
  * Meshes rewritten so that they describe the same field.
  */
-#ifndef meniscus_Testing_Metamorphic_Volume_MeshChanges_h
-#define meniscus_Testing_Metamorphic_Volume_MeshChanges_h
+#pragma once
 
 #include "MeshArrays.h"
 #include "RandomNumbers.h"
@@ -60,5 +59,3 @@ vtkSmartPointer<vtkRectilinearGrid> ToRectilinear(const MeshArrays& mesh);
 void SetRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_MeshFamilies_h
-#define meniscus_Testing_Metamorphic_Volume_MeshFamilies_h
+#pragma once
 
 #include "MeshArrays.h"
 #include "RandomNumbers.h"
@@ -54,5 +53,3 @@ void SetRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumber
 void MoveToCells(MeshArrays& mesh);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_VolumeCase_h
-#define meniscus_Testing_Metamorphic_Volume_VolumeCase_h
+#pragma once
 
 #include "MembraneScene.h"
 #include "MeshArrays.h"
@@ -115,5 +114,3 @@ vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeLook& look);
 void MapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
 
 } // namespace meniscus::test
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_VolumeRelation_h
-#define meniscus_Testing_Metamorphic_Volume_VolumeRelation_h
+#pragma once
 
 #include "Conditioning.h"
 #include "Relation.h"
@@ -78,5 +77,3 @@ std::vector<VolumeRelation> StateRelations();
 std::vector<VolumeRelation> MembraneRelations();
 
 } // namespace meniscus::test
-
-#endif

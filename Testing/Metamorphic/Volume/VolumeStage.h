@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Metamorphic_Volume_VolumeStage_h
-#define meniscus_Testing_Metamorphic_Volume_VolumeStage_h
+#pragma once
 
 #include "VolumeCase.h"
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace meniscus::test
-
-#endif

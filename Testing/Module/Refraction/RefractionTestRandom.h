@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Refraction_RefractionTestRandom_h
-#define meniscus_Testing_Module_Refraction_RefractionTestRandom_h
+#pragma once
 
 #include "MathBasics.h"
 
@@ -32,5 +31,3 @@ private:
 };
 
 }
-
-#endif

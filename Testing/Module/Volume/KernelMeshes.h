@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Volume_KernelMeshes_h
-#define meniscus_Testing_Module_Volume_KernelMeshes_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -51,5 +50,3 @@ RayFrame FrameAlongZ(const TetrahedralMesh& mesh, double extent, int pixels);
 std::vector<TransferFunctionInterval> ConstantFunction(double attenuation);
 
 }
-
-#endif

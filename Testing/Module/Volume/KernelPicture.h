@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Volume_KernelPicture_h
-#define meniscus_Testing_Module_Volume_KernelPicture_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Simd/InstructionSets.h"
@@ -45,5 +44,3 @@ Picture CastPicture(
 std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested);
 
 }
-
-#endif

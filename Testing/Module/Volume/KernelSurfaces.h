@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Volume_KernelSurfaces_h
-#define meniscus_Testing_Module_Volume_KernelSurfaces_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Refraction/Surface/Interface.h"
@@ -58,5 +57,3 @@ RefractedRayStack::View LookAt(
 void SetMesh(RefractedRayStack::View& view, const WorldBox& box);
 
 }
-
-#endif

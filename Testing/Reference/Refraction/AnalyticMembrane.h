@@ -4,8 +4,7 @@
  * Exact refraction at the plane y = 0 and at the lower half of a sphere that touches it from above.
  * Written independently of the kernel: Snell's law is used as n1 sin a = n2 sin b, not as Eq. 2.2.
  */
-#ifndef meniscus_Testing_Reference_Refraction_AnalyticMembrane_h
-#define meniscus_Testing_Reference_Refraction_AnalyticMembrane_h
+#pragma once
 
 #include <glm/vec3.hpp>
 
@@ -48,5 +47,3 @@ private:
 };
 
 }
-
-#endif

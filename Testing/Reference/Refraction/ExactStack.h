@@ -4,8 +4,7 @@
  * Rays through planes, spheres and spheroids in closed form, and their meshes: the truth for stacks
  * of interfaces, independent of the kernel's patches and equations.
  */
-#ifndef meniscus_Testing_Reference_Refraction_ExactStack_h
-#define meniscus_Testing_Reference_Refraction_ExactStack_h
+#pragma once
 
 #include "MembraneMeshes.h"
 
@@ -64,5 +63,3 @@ MembraneMesh MakeCap(const glm::dvec3& centre, double radius, const glm::dvec3& 
 MembraneMesh MakePlane(double y, double side, int cells, bool down = false);
 
 }
-
-#endif

@@ -6,8 +6,7 @@
  * found by a dense search in double precision, independently of the kernel's patches, trees and
  * equations.
  */
-#ifndef meniscus_Testing_Reference_Refraction_HeightField_h
-#define meniscus_Testing_Reference_Refraction_HeightField_h
+#pragma once
 
 #include "MembraneMeshes.h"
 
@@ -60,5 +59,3 @@ struct HeightField
 };
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * the oracle adds the error of the membrane's mesh to every bound, which is larger by many orders
  * of magnitude.
  */
-#ifndef meniscus_Testing_Reference_Refraction_Interval_h
-#define meniscus_Testing_Reference_Refraction_Interval_h
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -138,5 +137,3 @@ T Sine(const T& a)
 }
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Triangle meshes of membranes for tests and benchmarks. The y axis points to the eye, the apex is
  * the origin, facets are counter-clockwise as seen from the eye, and normals are exact.
  */
-#ifndef meniscus_Testing_Reference_Refraction_MembraneMeshes_h
-#define meniscus_Testing_Reference_Refraction_MembraneMeshes_h
+#pragma once
 
 #include "Refraction/Membrane/Membrane.h"
 
@@ -62,5 +61,3 @@ MembraneMesh MakeRandom(double side, int cells, double roughness, double tilt, u
 MembraneMesh MakeSphere(int resolution, double side);
 
 }
-
-#endif

@@ -14,8 +14,7 @@
  * image within `radius` of it. Everything else (near caustics, borders, the critical angle, the
  * point's own place) lies in `uncertain` boxes.
  */
-#ifndef meniscus_Testing_Reference_Refraction_SightOracle_h
-#define meniscus_Testing_Reference_Refraction_SightOracle_h
+#pragma once
 
 #include "SmoothSurface.h"
 
@@ -86,5 +85,3 @@ private:
 };
 
 }
-
-#endif

@@ -4,8 +4,7 @@
  * A height field y = f(x, z) over a square about the origin: a sum of plane waves, hills and a cap
  * of a sphere, with first and second derivatives, at points and over intervals.
  */
-#ifndef meniscus_Testing_Reference_Refraction_SmoothSurface_h
-#define meniscus_Testing_Reference_Refraction_SmoothSurface_h
+#pragma once
 
 #include "Interval.h"
 #include "MembraneMeshes.h"
@@ -79,5 +78,3 @@ struct SmoothSurface
 };
 
 }
-
-#endif

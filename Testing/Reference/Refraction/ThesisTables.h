@@ -4,8 +4,7 @@
  * The error measurements of the thesis's Tables 4.1 to 4.5: the printed figures, and functions that
  * measure the same rows again. Documentation/refraction-measurements.md describes the set-up.
  */
-#ifndef meniscus_Testing_Reference_Refraction_ThesisTables_h
-#define meniscus_Testing_Reference_Refraction_ThesisTables_h
+#pragma once
 
 #include "AnalyticMembrane.h"
 #include "MembraneMeshes.h"
@@ -85,5 +84,3 @@ ErrorStatistics MeasureThesisRow(const ThesisRow& row);
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Reference_Volume_GradedPathCheck_h
-#define meniscus_Testing_Reference_Volume_GradedPathCheck_h
+#pragma once
 
 #include "ReferenceMesh.h"
 
@@ -124,5 +123,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Reference_Volume_GradedRayIntegrator_h
-#define meniscus_Testing_Reference_Volume_GradedRayIntegrator_h
+#pragma once
 
 #include "ReferenceMesh.h"
 
@@ -64,5 +63,3 @@ private:
 };
 
 }
-
-#endif

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** The cells that a ray crosses, and their order: see ReferenceRayIntegrator. */
-#ifndef meniscus_Testing_Reference_Volume_RayCrossings_h
-#define meniscus_Testing_Reference_Volume_RayCrossings_h
+#pragma once
 
 #include "ReferenceCellTree.h"
 #include "ReferenceMesh.h"
@@ -54,5 +53,3 @@ void FindOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tr
   const CellTest* canBeSeen, std::vector<Crossing>& crossings);
 
 } // namespace meniscus::reference
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Reference_Volume_ReferenceCellTree_h
-#define meniscus_Testing_Reference_Volume_ReferenceCellTree_h
+#pragma once
 
 #include "ReferenceMesh.h"
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace meniscus::reference
-
-#endif

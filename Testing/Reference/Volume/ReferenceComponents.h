@@ -4,8 +4,7 @@
  * The density-emitter integral of several scalars at once, in double precision, on the segments of
  * ReferenceRayIntegrator.
  */
-#ifndef meniscus_Testing_Reference_Volume_ReferenceComponents_h
-#define meniscus_Testing_Reference_Volume_ReferenceComponents_h
+#pragma once
 
 #include "ReferenceRayIntegrator.h"
 #include "ReferenceTransferFunction.h"
@@ -34,5 +33,3 @@ std::array<double, 4> IntegrateComponents(const Ray& ray,
   const std::vector<ReferenceTransferFunction>& functions);
 
 } // namespace meniscus::reference
-
-#endif

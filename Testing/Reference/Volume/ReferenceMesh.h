@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Reference_Volume_ReferenceMesh_h
-#define meniscus_Testing_Reference_Volume_ReferenceMesh_h
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -104,5 +103,3 @@ private:
 };
 
 } // namespace meniscus::reference
-
-#endif

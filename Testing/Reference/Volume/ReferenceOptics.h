@@ -4,8 +4,7 @@
  * Optical models other than plain compositing, in double precision, on the segments of
  * ReferenceRayIntegrator: projections, isosurfaces and lighting.
  */
-#ifndef meniscus_Testing_Reference_Volume_ReferenceOptics_h
-#define meniscus_Testing_Reference_Volume_ReferenceOptics_h
+#pragma once
 
 #include "ReferenceMesh.h"
 #include "ReferenceRayIntegrator.h"
@@ -107,5 +106,3 @@ std::array<double, 4> IntegrateShaded(const Ray& ray, const std::vector<RaySegme
   int stepsPerPiece);
 
 } // namespace meniscus::reference
-
-#endif

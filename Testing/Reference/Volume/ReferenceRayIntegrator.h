@@ -17,8 +17,7 @@
  * ignored. Only the order follows from the faces: the cells and their ends are those of clipping. A
  * cell that the transfer function makes invisible in its whole range of scalars occludes nothing.
  */
-#ifndef meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
-#define meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
+#pragma once
 
 #include "RayCrossings.h"
 #include "ReferenceCellTree.h"
@@ -114,5 +113,3 @@ private:
 };
 
 } // namespace meniscus::reference
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Reference_Volume_ReferenceTransferFunction_h
-#define meniscus_Testing_Reference_Volume_ReferenceTransferFunction_h
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -64,5 +63,3 @@ private:
 };
 
 } // namespace meniscus::reference
-
-#endif

@@ -5,8 +5,7 @@
  * the integrators for a volume that is seen through a membrane. Surfaces are formulas, and Snell's
  * law is n1 sin a = n2 sin b, independently of the kernel's patches and optics.
  */
-#ifndef meniscus_Testing_Reference_Volume_RefractedRays_h
-#define meniscus_Testing_Reference_Volume_RefractedRays_h
+#pragma once
 
 #include "ReferenceRayIntegrator.h"
 
@@ -63,5 +62,3 @@ std::array<double, 4> Compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace);
 
 } // namespace meniscus::reference
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_Integral_CellIntegrator_h
-#define meniscus_Testing_Rendering_Integral_CellIntegrator_h
+#pragma once
 
 #include "IntegralScene.h"
 
@@ -41,5 +40,3 @@ private:
 double IntegrateImage(vtkImageData* image, int n, const WorldRay& ray);
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_Integral_IntegralScene_h
-#define meniscus_Testing_Rendering_Integral_IntegralScene_h
+#pragma once
 
 #include "RayCastScene.h"
 
@@ -77,5 +76,3 @@ double WorstError(vtkTetrahedraRayIntegral* filter, const char* name,
 double IntegrateCells(vtkUnstructuredGrid* grid, bool scalars);
 
 } // namespace meniscus::test
-
-#endif

@@ -212,18 +212,14 @@ TEST(FunctionSampling, OpacitiesAgreeWithVTK)
   }
 }
 
-/** The width between these nodes is not finite: VTK shows the first colour, but at the last node.
- */
+/** The width between these nodes is not finite. The function is straight; VTK's own is not. */
 TEST(FunctionSampling, NodesAtTheEndsOfTheRange)
 {
   const auto color = MakeColors({ { -1.7e308, 0.0, 0.2, 0.4 }, { 1.7e308, 1.0, 0.2, 0.6 } });
   const std::vector<double> image = Render(MakeOpaque(color));
-  for (int cell = 0; cell < NumberOfCells; ++cell)
+  const double middle[3] = { 0.5, 0.2, 0.5 };
+  for (const auto& [cell, k] : Product(NumberOfCells, 3))
   {
-    const double* expected = color->GetColor(ScalarOf(cell));
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_NEAR(image[4 * cell + k], expected[k], Bound) << "at " << ScalarOf(cell);
-    }
+    EXPECT_NEAR(image[4 * cell + k], middle[k], Bound) << "at " << ScalarOf(cell);
   }
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Rendering_Integral_TrueCellMeshes_h
-#define meniscus_Testing_Rendering_Integral_TrueCellMeshes_h
+#pragma once
 
 #include "TestMeshes.h"
 
@@ -43,5 +42,3 @@ Grid MakeCell(const CellCase& shape, double displacement, unsigned int seed);
 Grid MakeMixedBlock(int n, bool quadratic, unsigned int seed);
 
 }
-
-#endif

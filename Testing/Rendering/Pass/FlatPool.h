@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** A flat pool seen through vtkRefractionPass, and Snell's law and Fresnel's for its pixels. */
-#ifndef meniscus_Testing_Rendering_Pass_FlatPool_h
-#define meniscus_Testing_Rendering_Pass_FlatPool_h
+#pragma once
 
 #include "RayCastScene.h"
 #include "WaterParts.h"
@@ -177,5 +176,3 @@ void ExpectColors(
 }
 
 }
-
-#endif

@@ -5,8 +5,7 @@
  * ReferenceRayIntegrator: the truth for picks and for images of events. Thresholds and peaks are
  * found by bisection, not by the kernel's formulas.
  */
-#ifndef meniscus_Testing_Rendering_Picking_EventTruth_h
-#define meniscus_Testing_Rendering_Picking_EventTruth_h
+#pragma once
 
 #include "MathBasics.h"
 #include "ReferenceOptics.h"
@@ -72,5 +71,3 @@ RobustEvents FindRobustEvents(const reference::ReferenceRayIntegrator& integrato
   double depthRounding);
 
 } // namespace meniscus::test
-
-#endif

@@ -72,8 +72,8 @@ struct PacketJob
    */
   const float* VertexGradients;
   /**
-   * Three numbers per vertex (VertexLight), for a medium or isosurfaces that are lit with global
-   * illumination; null for none.
+   * Three numbers (VertexLight) per vertex, or per cell for isosurfaces of cell data, of a medium
+   * or isosurfaces that are lit with global illumination; null for none.
    */
   const float* VertexLight;
   /**

@@ -114,23 +114,34 @@ private:
     }
     void Replace(Mask lanes, const End& by)
     {
+      this->ReplaceLight(lanes, by.Light);
+      this->Opacity = Simd::Select(lanes, by.Opacity, this->Opacity);
+    }
+    void ReplaceLight(Mask lanes, const PacketLit<Simd>& by)
+    {
       for (int c = 0; c < 3; ++c)
       {
         Float& reflected = this->Light.Reflected[c];
         Float& highlight = this->Light.Highlight[c];
-        reflected = Simd::Select(lanes, by.Light.Reflected[c], reflected);
-        highlight = Simd::Select(lanes, by.Light.Highlight[c], highlight);
+        reflected = Simd::Select(lanes, by.Reflected[c], reflected);
+        highlight = Simd::Select(lanes, by.Highlight[c], highlight);
       }
-      this->Opacity = Simd::Select(lanes, by.Opacity, this->Opacity);
     }
   };
 
-  /** @param values interpolated at the end; their last triple is the light. */
+  // Results are written where they are used: copies cost as much as the interpolation of values.
+
+  /** Effects of a gradient in `lanes` of an end of the segments. */
   template <class Values, class Line>
-  End Evaluate(
-    Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray);
+  void Evaluate(Mask lanes, const Vector& gradient, const Values& values, Float depth,
+    const Line& ray, End& end);
+  void SetOpacity(Mask lanes, const Vector& gradient, End& end);
+  /** @param values interpolated at the place; their last triple is the light. */
   template <class Values, class Line>
-  PacketLit<Simd> Light(const Vector& gradient, const Values& values, Float depth, const Line& ray);
+  PacketLit<Simd> Light(
+    const Vector& gradient, const Values& values, Float depth, const Line& ray) const;
+  template <class Place>
+  void LightCell(Mask lanes, const Vector& gradient, const Place& place);
   template <class Values>
   static Vector ShadowOf(const Values& values);
   template <class Values>
@@ -141,8 +152,6 @@ private:
   PacketIntervals<Simd> Opacity;
   End Front;
   End Back;
-  /** Light at the place that was lit last; used with shadows only. */
-  PacketLitParts<Simd> Parts;
   /** Lanes whose next segment begins where the last one ended, with the same gradient. */
   Mask Continues;
 };
@@ -179,12 +188,11 @@ inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ShadowOf(const Va
 template <class Simd, bool OfVertices, bool Shadowed>
 template <class Values, class Line>
 inline PacketLit<Simd> PacketGradientShading<Simd, OfVertices, Shadowed>::Light(
-  const Vector& gradient, const Values& values, Float depth, const Line& ray)
+  const Vector& gradient, const Values& values, Float depth, const Line& ray) const
 {
   if constexpr (Shadowed)
   {
-    this->Parts = this->Lights.LightInParts(gradient, depth, ray);
-    return this->Parts.Attenuate(ShadowOf(values));
+    return this->Lights.LightInParts(gradient, depth, ray).Attenuate(ShadowOf(values));
   }
   else
   {
@@ -194,32 +202,38 @@ inline PacketLit<Simd> PacketGradientShading<Simd, OfVertices, Shadowed>::Light(
 
 //------------------------------------------------------------------------------
 template <class Simd, bool OfVertices, bool Shadowed>
-template <class Values, class Line>
-inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::Evaluate(
-  Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray) -> End
+inline void PacketGradientShading<Simd, OfVertices, Shadowed>::SetOpacity(
+  Mask lanes, const Vector& gradient, End& end)
 {
-  End end;
-  end.SetNeutral();
+  if (this->Medium.NumberOfOpacityIntervals == 0)
+  {
+    return;
+  }
+  const Float square = Simd::Fma(
+    gradient[0], gradient[0], Simd::Fma(gradient[1], gradient[1], gradient[2] * gradient[2]));
+  const Float size = Simd::Splat(this->Medium.GradientMagnitude) * Simd::Sqrt(square);
+  const auto& fields = this->Opacity.GetFields();
+  const Mask outside = lanes & ((size < fields.Lower) | (size > fields.Upper));
+  if (Simd::Bits(outside) != 0)
+  {
+    this->Opacity.Find(outside, size);
+  }
+  const Float opacity = Simd::Max(
+    Simd::Fma(size - fields.Lower, fields.AttenuationSlope, fields.Attenuation), Simd::Splat(0.0f));
+  end.Opacity = Simd::Select(lanes, opacity, end.Opacity);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, bool OfVertices, bool Shadowed>
+template <class Values, class Line>
+inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Evaluate(
+  Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray, End& end)
+{
   if (this->Medium.Shading)
   {
-    end.Light = this->Light(gradient, values, depth, ray);
+    end.ReplaceLight(lanes, this->Light(gradient, values, depth, ray));
   }
-  if (this->Medium.NumberOfOpacityIntervals > 0)
-  {
-    const Float square = Simd::Fma(
-      gradient[0], gradient[0], Simd::Fma(gradient[1], gradient[1], gradient[2] * gradient[2]));
-    const Float size = Simd::Splat(this->Medium.GradientMagnitude) * Simd::Sqrt(square);
-    const auto& fields = this->Opacity.GetFields();
-    const Mask outside = lanes & ((size < fields.Lower) | (size > fields.Upper));
-    if (Simd::Bits(outside) != 0)
-    {
-      this->Opacity.Find(outside, size);
-    }
-    end.Opacity =
-      Simd::Max(Simd::Fma(size - fields.Lower, fields.AttenuationSlope, fields.Attenuation),
-        Simd::Splat(0.0f));
-  }
-  return end;
+  this->SetOpacity(lanes, gradient, end);
 }
 
 //------------------------------------------------------------------------------
@@ -238,32 +252,52 @@ inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Begin(Mask lanes,
     const Mask elsewhere = lanes & (Simd::Not(this->Continues) | place.Late);
     if (Simd::Bits(elsewhere) != 0)
     {
-      const End front = this->Evaluate(elsewhere, this->ToFrame(place.StartValues),
-        place.StartValues, place.StartDepth, place.Ray);
-      this->Front.Replace(elsewhere, front);
+      this->Evaluate(elsewhere, this->ToFrame(place.StartValues), place.StartValues,
+        place.StartDepth, place.Ray, this->Front);
     }
-    this->Back.Replace(lanes,
-      this->Evaluate(
-        lanes, this->ToFrame(place.EndValues), place.EndValues, place.EndDepth, place.Ray));
+    this->Evaluate(lanes, this->ToFrame(place.EndValues), place.EndValues, place.EndDepth,
+      place.Ray, this->Back);
     this->Continues = Simd::AndNot(this->Continues, place.Stepped) | lanes;
   }
   else
   {
     const Vector gradient = this->ToFrame(place.CellGradient);
-    const End front =
-      this->Evaluate(lanes, gradient, place.StartValues, place.StartDepth, place.Ray);
-    this->Front.Replace(lanes, front);
-    End back = front;
-    if (this->Medium.Shading && this->Lights.DependOnPlace())
+    this->SetOpacity(lanes, gradient, this->Front);
+    this->Back.Opacity = Simd::Select(lanes, this->Front.Opacity, this->Back.Opacity);
+    if (this->Medium.Shading)
     {
-      back.Light = this->Light(gradient, place.EndValues, place.EndDepth, place.Ray);
+      this->LightCell(lanes, gradient, place);
     }
-    else if constexpr (Shadowed)
-    {
-      back.Light =
-        this->Medium.Shading ? this->Parts.Attenuate(ShadowOf(place.EndValues)) : back.Light;
-    }
-    this->Back.Replace(lanes, back);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Lights both ends of segments with the same gradient. */
+template <class Simd, bool OfVertices, bool Shadowed>
+template <class Place>
+inline void PacketGradientShading<Simd, OfVertices, Shadowed>::LightCell(
+  Mask lanes, const Vector& gradient, const Place& place)
+{
+  if (this->Lights.DependOnPlace())
+  {
+    this->Front.ReplaceLight(
+      lanes, this->Light(gradient, place.StartValues, place.StartDepth, place.Ray));
+    this->Back.ReplaceLight(
+      lanes, this->Light(gradient, place.EndValues, place.EndDepth, place.Ray));
+  }
+  else if constexpr (Shadowed)
+  {
+    const PacketLitParts<Simd> parts =
+      this->Lights.LightInParts(gradient, place.StartDepth, place.Ray);
+    this->Front.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.StartValues)));
+    this->Back.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.EndValues)));
+  }
+  else
+  {
+    const PacketLit<Simd> lit =
+      this->Light(gradient, place.StartValues, place.StartDepth, place.Ray);
+    this->Front.ReplaceLight(lanes, lit);
+    this->Back.ReplaceLight(lanes, lit);
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Volume_Packet_Models_PacketLanes_h
-#define meniscus_Volume_Packet_Models_PacketLanes_h
+#pragma once
 
 namespace meniscus
 {
@@ -11,5 +10,3 @@ template <class Simd>
 constexpr unsigned int AllLanes = ~0u >> (32 - Simd::Width);
 
 }
-
-#endif

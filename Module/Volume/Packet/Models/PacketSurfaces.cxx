@@ -80,6 +80,17 @@ glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm:
 }
 
 /**
+ * The numbers of VertexLight before a face that is an isosurface of cell data: those of the cell
+ * that the ray has left by it.
+ */
+glm::dvec3 LightOfCellBefore(const PacketJob& job, std::int32_t cellFace)
+{
+  const std::int64_t cell = cellFace / 4;
+  const std::int32_t before = job.Cells[8 * cell + 4 + cellFace % 4];
+  return TripleAt(job.VertexLight, before < 0 ? cell : before / 4);
+}
+
+/**
  * The numbers of VertexLight at a point of an isosurface: interpolated between those vertices of
  * the cell that lie on the side from which the ray comes. The surface itself may hide the light
  * from the others.
@@ -132,8 +143,9 @@ glm::dvec3 LitColor(const PacketJob& job, const PacketSegment& segment,
   const glm::dvec3 place(across, (fromPivot + job.Pivot) / PacketVertex::GridPerDepth);
 
   const SeenCell cell = SeeCell(job, segment.CellFace / 4);
-  const glm::dvec4 weights =
-    job.VertexGradients || job.VertexLight ? WeightsAt(cell, place) : glm::dvec4(0.0);
+  const glm::dvec4 weights = job.VertexGradients || (job.VertexLight && !job.CellScalars)
+    ? WeightsAt(cell, place)
+    : glm::dvec4(0.0);
   glm::dvec3 normal;
   if (job.CellScalars)
   {
@@ -147,8 +159,10 @@ glm::dvec3 LitColor(const PacketJob& job, const PacketSegment& segment,
   {
     normal = *job.GradientToFrame * TripleAt(job.CellGradients, segment.CellFace / 4);
   }
-  const ReflectedLight light = Light(*job.Lighting, normal, place, slope,
-    LightBefore(job, cell, weights, surface.Scalar, fromBelow));
+  const glm::dvec3 reached = job.VertexLight && job.CellScalars
+    ? LightOfCellBefore(job, segment.CellFace)
+    : LightBefore(job, cell, weights, surface.Scalar, fromBelow);
+  const ReflectedLight light = Light(*job.Lighting, normal, place, slope, reached);
   return emitted * light.Reflected + light.Highlight;
 }
 

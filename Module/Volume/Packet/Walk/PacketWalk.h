@@ -100,7 +100,7 @@ private:
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
-  Float MoveToFace(Mask lanes, FacePoint& point) const;
+  Float MoveToFace(Mask lanes, const FacePoint& point, FacePoint& met) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
   /** Place of a segment, for models that need it. */
@@ -407,8 +407,8 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
-  FacePoint exit = this->Face;
-  const Float crossing = this->MoveToFace(lanes, exit);
+  FacePoint exit;
+  const Float crossing = this->MoveToFace(lanes, this->Face, exit);
   const Float faceDepth = this->Face.GetDepth();
   const Float depth = exit.GetDepth();
   const Float faceScalar = this->Face.Scalar;
@@ -422,8 +422,9 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   const Float length = isCut ? Simd::Select(late | early, end - start, crossing) : crossing;
   Float from = faceScalar;
   Float to = exit.Scalar;
-  VertexValues fromValues = this->Face.Values;
-  VertexValues toValues = exit.Values;
+  // Copies cost as much as the interpolation of the values.
+  VertexValues cutValues[2];
+  const VertexValues* values[2] = { &this->Face.Values, &exit.Values };
   if (this->Job.CellScalars)
   {
     // A jump between cells is integrated where the cell is entered, unless the ray begins behind
@@ -442,13 +443,19 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   {
     if (isCut)
     {
-      const auto at = [&](Float place)
-      { return this->Face.Values.Between((place - faceDepth) / (depth - faceDepth), exit.Values); };
-      fromValues.Replace(late, at(start));
-      toValues.Replace(early, at(end));
+      const auto cut = [&](int which, Mask replaced, Float place)
+      {
+        cutValues[which] = *values[which];
+        cutValues[which].Replace(replaced,
+          this->Face.Values.Between((place - faceDepth) / (depth - faceDepth), exit.Values));
+      };
+      cut(0, late, start);
+      cut(1, early, end);
+      values[0] = &cutValues[0];
+      values[1] = &cutValues[1];
     }
   }
-  const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
+  const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, *values[0], *values[1],
     crossed.Gradient, this->Line };
   this->Pending =
     this->Pending | this->Integral.Begin(lanes, from, to, length * this->LengthPerDepth, place);
@@ -680,9 +687,11 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   area(this->C, this->A, this->AreaCA);
   // A face without projected area is met at its first vertex.
   // Once more from there, relative to a depth that is close.
-  FacePoint entry{ this->A.Depth, Simd::Splat(0.0f), this->A.Scalar, this->A.Others };
-  this->MoveToFace(lanes, entry);
-  this->MoveToFace(lanes, entry);
+  const FacePoint first{ this->A.Depth, Simd::Splat(0.0f), this->A.Scalar, this->A.Others };
+  FacePoint near;
+  FacePoint entry;
+  this->MoveToFace(lanes, first, near);
+  this->MoveToFace(lanes, near, entry);
   if (this->Job.CellScalars)
   {
     const Int zero = Simd::Splat(0);

@@ -13,9 +13,11 @@ namespace meniscus
  * Moves a point of the rays to that in which they meet ABC, and returns the difference of the
  * depths. The given scalars are not used. A face without projected area keeps the point; the
  * results of other lanes are undefined.
+ * @param met another object than `point`.
  */
 template <class Simd, class Model>
-inline auto PacketWalk<Simd, Model>::MoveToFace(Mask lanes, FacePoint& point) const -> Float
+inline auto PacketWalk<Simd, Model>::MoveToFace(
+  Mask lanes, const FacePoint& point, FacePoint& met) const -> Float
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Float inverse = Simd::Splat(1.0f) / total;
@@ -34,7 +36,6 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(Mask lanes, FacePoint& point) co
   const Float moved = sum * inverse;
   const Int whole = Simd::ToInt(moved);
   Float difference = moved - point.Rest;
-  FacePoint met;
   met.Whole = point.Whole + whole;
   met.Rest = moved - Simd::ToFloat(whole);
   met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
@@ -62,7 +63,6 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(Mask lanes, FacePoint& point) co
     met.Replace(flat, point);
     difference = Simd::Select(flat, Simd::Splat(0.0f), difference);
   }
-  point = met;
   return difference;
 }
 

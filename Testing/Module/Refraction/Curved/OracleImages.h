@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Refraction_Curved_OracleImages_h
-#define meniscus_Testing_Module_Refraction_Curved_OracleImages_h
+#pragma once
 
 #include "HeightField.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -73,5 +72,3 @@ inline void ExpectImagesOfTheField(const CurvedMembraneSolver& geometry,
 }
 
 } // namespace meniscus::testing
-
-#endif

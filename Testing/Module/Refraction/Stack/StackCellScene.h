@@ -4,8 +4,7 @@
  * Objects whose images through several surfaces are compared with rays that are traced one by one
  * and intersected with the object on each leg.
  */
-#ifndef meniscus_Testing_Module_Refraction_Stack_StackCellScene_h
-#define meniscus_Testing_Module_Refraction_Stack_StackCellScene_h
+#pragma once
 
 #include "MathBasics.h"
 #include "Refraction/StackImages/StackImages.h"
@@ -104,5 +103,3 @@ Comparison Compare(const StackSolver& solver, const Object& object, int rays, un
 /** Each point of the output is where its sight ray shows the object's point. */
 void ExpectExactPoints(const StackSolver& solver, const Object& object, double largest);
 }
-
-#endif

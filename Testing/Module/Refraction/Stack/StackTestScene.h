@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Refraction_Stack_StackTestScene_h
-#define meniscus_Testing_Module_Refraction_Stack_StackTestScene_h
+#pragma once
 
 #include "ExactStack.h"
 #include "HeightField.h"
@@ -45,5 +44,3 @@ inline StackVertex SolveAlone(const StackSolver& solver, const glm::dvec3& point
 }
 
 }
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Testing_Module_Volume_Graded_GradedScene_h
-#define meniscus_Testing_Module_Volume_Graded_GradedScene_h
+#pragma once
 
 #include "KernelMeshes.h"
 #include "RandomNumbers.h"
@@ -137,5 +136,3 @@ inline void CrossAxes(const glm::dvec3& direction, glm::dvec3& first, glm::dvec3
 }
 
 }
-
-#endif

@@ -82,7 +82,7 @@ public:
   std::vector<float> Scalars;
   PacketTables Tables;
   BoundaryTree Tree;
-  VertexStarts Starts;
+  ShadowStarts Starts;
   ShadowScene Scene;
   RayStatistics Sums;
 };
@@ -105,7 +105,7 @@ double LengthInCube(const glm::dvec3& place, const glm::dvec3& direction)
 /** Error by the places of lines next to vertices, with that of single precision. */
 double ErrorOf(double attenuation, double edge)
 {
-  return 2.0 * attenuation * edge * VertexStarts::Share + 2.0e-6;
+  return 2.0 * attenuation * edge * ShadowStarts::Share + 2.0e-6;
 }
 
 class VertexShadowsTest : public ::testing::TestWithParam<InstructionSet>

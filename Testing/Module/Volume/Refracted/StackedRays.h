@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Surfaces in sequence, views of them, and the rays of a pixel behind each. */
-#ifndef meniscus_Testing_Module_Volume_Refracted_StackedRays_h
-#define meniscus_Testing_Module_Volume_Refracted_StackedRays_h
+#pragma once
 
 #include "KernelSurfaces.h"
 
@@ -74,5 +73,3 @@ inline RefractedRay RayOf(const RefractedRayTiles& rays, int column, int row)
 }
 
 }
-
-#endif
