@@ -38,21 +38,18 @@ inline auto PacketWalk<Simd, Model>::MoveToFace(
   Float difference = moved - point.Rest;
   met.Whole = point.Whole + whole;
   met.Rest = moved - Simd::ToFloat(whole);
-  met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
-  if constexpr (Model::SeesJumps)
-  {
-    // Relative to the corner with the largest weight: where the corners with weight have one
-    // scalar, as along an edge in an isosurface, the result is exactly that scalar.
-    const Mask notA = Simd::Max(this->AreaAB, this->AreaCA) > this->AreaBC;
-    const Mask c = notA & (this->AreaAB > this->AreaCA);
-    const auto rotate = [&](Float ofA, Float ofB, Float ofC)
-    { return Simd::Select(c, ofC, Simd::Select(notA, ofB, ofA)); };
-    const Float first = rotate(this->A.Scalar, this->B.Scalar, this->C.Scalar);
-    const Float second = rotate(this->B.Scalar, this->C.Scalar, this->A.Scalar);
-    const Float third = rotate(this->C.Scalar, this->A.Scalar, this->B.Scalar);
-    met.Scalar = meanFrom(first, second, third, rotate(this->AreaAB, this->AreaBC, this->AreaCA),
-      rotate(this->AreaCA, this->AreaAB, this->AreaBC));
-  }
+  // The scalar is relative to the corner with the largest weight. Its rounding errors are small
+  // next to every corner, as narrow transfer functions need. Where the corners with weight have one
+  // scalar, as along an edge in an isosurface, the result is exactly that scalar.
+  const Mask notA = Simd::Max(this->AreaAB, this->AreaCA) > this->AreaBC;
+  const Mask c = notA & (this->AreaAB > this->AreaCA);
+  const auto rotate = [&](Float ofA, Float ofB, Float ofC)
+  { return Simd::Select(c, ofC, Simd::Select(notA, ofB, ofA)); };
+  const Float first = rotate(this->A.Scalar, this->B.Scalar, this->C.Scalar);
+  const Float second = rotate(this->B.Scalar, this->C.Scalar, this->A.Scalar);
+  const Float third = rotate(this->C.Scalar, this->A.Scalar, this->B.Scalar);
+  met.Scalar = meanFrom(first, second, third, rotate(this->AreaAB, this->AreaBC, this->AreaCA),
+    rotate(this->AreaCA, this->AreaAB, this->AreaBC));
   for (int i = 0; i < VertexValues::Size; ++i)
   {
     met.Values.Of[i] = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
