@@ -172,7 +172,7 @@ void SetWaves(CurvedMembraneSolver& solver, int cells)
 std::vector<double> MakePoints()
 {
   constexpr std::size_t number = 16 * CurvedMembraneSolver::Chain;
-  meniscus::testing::Random random(5);
+  meniscus::test::Random random(5);
   std::vector<double> points;
   for (std::size_t i = 0; i < number; ++i)
   {

@@ -76,7 +76,7 @@ std::string PrintPassTables(std::ostream& out)
 //------------------------------------------------------------------------------
 bool WritePoolPicture(const std::string& file)
 {
-  testing::PoolScene scene(16);
+  test::PoolScene scene(16);
   scene.SetOptics({ true, true, glm::dvec3(0.02, 0.008, 0.004) });
   scene.ShowObjects(true);
   const test::ByteImage picture = scene.Draw();

@@ -48,12 +48,12 @@ std::string NameFacets(int cells)
   return std::to_string(2 * cells * cells) + " facets";
 }
 
-testing::PoolOptics Everything()
+test::PoolOptics Everything()
 {
   return { true, true, glm::dvec3(0.02, 0.008, 0.004) };
 }
 
-double PercentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPicture& truth)
+double PercentOff(const std::vector<glm::dvec3>& colors, const test::PoolPicture& truth)
 {
   double water = 0.0;
   double off = 0.0;
@@ -86,7 +86,7 @@ std::vector<glm::dvec3> ToColors(const Bytes& bytes, std::size_t stride)
 class PoolShader : public TracedShader
 {
 public:
-  explicit PoolShader(const testing::PoolScene& scene)
+  explicit PoolShader(const test::PoolScene& scene)
     : Scene(scene)
   {
     for (int part = 0; part < scene.NumberOfParts(); ++part)
@@ -120,7 +120,7 @@ public:
       glm::dvec3 color(0.0);
       if (packet.Facet[k] != TracedPacket::None)
       {
-        testing::PoolSight sight;
+        test::PoolSight sight;
         sight.Ray = { packet.Sight[0][k], packet.Sight[1][k], packet.Sight[2][k] };
         sight.Normal = { packet.Normal[0][k], packet.Normal[1][k], packet.Normal[2][k] };
         if (packet.Triangle[k] != TracedPacket::None)
@@ -144,13 +144,13 @@ public:
   }
 
 private:
-  const testing::PoolScene& Scene;
+  const test::PoolScene& Scene;
   TracedMesh Mesh;
   std::vector<std::uint32_t> First; ///< triangle of each part
 };
 
 PoolFigures TraceWithEmbree(
-  const testing::PoolScene& scene, const testing::PoolPicture& truth, int cells, int frames)
+  const test::PoolScene& scene, const test::PoolPicture& truth, int cells, int frames)
 {
   const PoolShader shader(scene);
   reference::HeightField other = scene.MakeField();
@@ -161,7 +161,7 @@ PoolFigures TraceWithEmbree(
   tracer.SetIndices(scene.MakeField().Exterior, scene.MakeField().Interior);
   tracer.SetMembrane(water[0]);
   tracer.SetObject(shader.MakeMesh());
-  const testing::PixelCamera& camera = scene.GetCamera();
+  const test::PixelCamera& camera = scene.GetCamera();
   const TracedView view{ camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
     camera.GetPixels() };
   std::vector<unsigned char> picture(4 * truth.Colors.size());
@@ -180,7 +180,7 @@ PoolFigures TraceWithEmbree(
     1e3 * frame.Cpu };
 }
 
-PoolFigures FindCoarsestTraced(const testing::PoolScene& scene, const testing::PoolPicture& truth)
+PoolFigures FindCoarsestTraced(const test::PoolScene& scene, const test::PoolPicture& truth)
 {
   for (const int cells : CoarseCells)
   {
@@ -194,7 +194,7 @@ PoolFigures FindCoarsestTraced(const testing::PoolScene& scene, const testing::P
 
 #endif
 
-PoolFigures DrawWithPass(testing::PoolScene& scene, const testing::PoolPicture& truth, int frames)
+PoolFigures DrawWithPass(test::PoolScene& scene, const test::PoolPicture& truth, int frames)
 {
   PoolFigures result;
   std::vector<Seconds> times;
@@ -211,9 +211,9 @@ PoolFigures DrawWithPass(testing::PoolScene& scene, const testing::PoolPicture& 
   return result;
 }
 
-PoolFigures DrawCoarsely(const testing::PoolPicture& truth, int cells, double tolerance, int frames)
+PoolFigures DrawCoarsely(const test::PoolPicture& truth, int cells, double tolerance, int frames)
 {
-  testing::PoolScene scene(cells);
+  test::PoolScene scene(cells);
   scene.SetOptics(Everything());
   scene.SetAccuracy(true, tolerance);
   PoolFigures result = DrawWithPass(scene, truth, frames);
@@ -224,7 +224,7 @@ PoolFigures DrawCoarsely(const testing::PoolPicture& truth, int cells, double to
 }
 
 // The cheapest of several tolerances, each with the coarsest membrane that reaches the error.
-PoolFigures FindCoarsestPass(const testing::PoolPicture& truth)
+PoolFigures FindCoarsestPass(const test::PoolPicture& truth)
 {
   double least = std::numeric_limits<double>::max();
   int chosen = PictureCells;
@@ -268,7 +268,7 @@ std::vector<PassFrames> MeasurePass()
   std::vector<PassFrames> result;
   for (const auto& mode : modes)
   {
-    testing::PoolScene scene(Cells);
+    test::PoolScene scene(Cells);
     scene.SetOptics(Everything());
     scene.SetAccuracy(mode.All, mode.Tolerance);
     scene.ShowObjects(mode.Objects);
@@ -292,9 +292,9 @@ std::vector<PassFrames> MeasurePass()
 //------------------------------------------------------------------------------
 PoolPictures ComparePool()
 {
-  testing::PoolScene scene(PictureCells);
+  test::PoolScene scene(PictureCells);
   scene.SetOptics(Everything());
-  const testing::PoolPicture truth = scene.Trace();
+  const test::PoolPicture truth = scene.Trace();
   PoolPictures result;
   result.Pass = DrawWithPass(scene, truth, PictureFrames);
   result.Pass.SetUp = NameFacets(PictureCells) + ", default tolerance";

@@ -140,7 +140,7 @@ private:
       WellScene scene(cells, quads);
       this->Prepare(scene, tolerance);
       const double error =
-        testing::ComparePlaces(this->Truth, scene.DrawPlaces(), scene.GetCamera()).Error;
+        test::ComparePlaces(this->Truth, scene.DrawPlaces(), scene.GetCamera()).Error;
       if (error <= AcceptedPixels)
       {
         int frame = 0;
@@ -171,7 +171,7 @@ private:
       RefractionTracer tracer;
       this->Prepare(tracer, scene, cells);
       const auto picture = PlacesOf(tracer, scene.GetCamera());
-      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.GetCamera()).Error;
+      this->TracedError = test::ComparePlaces(this->Truth, picture, scene.GetCamera()).Error;
       if (this->TracedError <= AcceptedPixels)
       {
         return cells;
@@ -207,7 +207,7 @@ private:
 
   bool All;
   SetUp Ours;
-  testing::PlacePicture Truth;
+  test::PlacePicture Truth;
   TriangleColors Colors;
   double TracedError = 0.0;
 };

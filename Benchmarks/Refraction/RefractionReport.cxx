@@ -174,7 +174,7 @@ private:
   static std::string GetPictures()
   {
     std::string text;
-    for (const testing::PictureScene& scene : testing::GetPictureScenes())
+    for (const test::PictureScene& scene : test::GetPictureScenes())
     {
       vtkNew<vtkPlaneSource> plane;
       const double half = 0.5 * scene.Size;
@@ -184,19 +184,18 @@ private:
       plane->SetResolution(scene.Tiles, scene.Tiles);
       plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
       plane->Update();
-      testing::AddPlaces(plane->GetOutput());
+      test::AddPlaces(plane->GetOutput());
       vtkNew<vtkRefractedGeometryFilter> filter;
       filter->SetInputData(0, plane->GetOutput());
-      filter->SetMembraneData(testing::MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
+      filter->SetMembraneData(test::MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
       filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
       filter->SetExteriorIndexOfRefraction(scene.Field.Exterior);
       filter->SetInteriorIndexOfRefraction(scene.Field.Interior);
       filter->Update();
-      const testing::PixelCamera camera = scene.GetCamera();
-      const auto compared =
-        testing::ComparePlaces(testing::TracePlaces(scene.Field, camera,
-                                 testing::MakeSquareTracer(-scene.Depth, scene.Size)),
-          testing::DrawPlaces(filter->GetOutput(), camera), camera);
+      const test::PixelCamera camera = scene.GetCamera();
+      const auto compared = test::ComparePlaces(
+        test::TracePlaces(scene.Field, camera, test::MakeSquareTracer(-scene.Depth, scene.Size)),
+        test::DrawPlaces(filter->GetOutput(), camera), camera);
       text += (text.empty() ? "" : "; ") + scene.Name + " " +
         MakeNumber(100.0 * (compared.Coverage + compared.Place) / compared.Covered) + " %";
     }

@@ -58,10 +58,10 @@ struct Rival
 /** Places and colours by a direction, or by a place in a plane. */
 struct PlaceMap
 {
-  std::vector<testing::PlacePixel> Places;
+  std::vector<test::PlacePixel> Places;
   std::vector<std::uint32_t> Colors;
 
-  void Add(const testing::PlacePixel& place)
+  void Add(const test::PlacePixel& place)
   {
     this->Places.push_back(place);
     this->Colors.push_back(0xff000000u + static_cast<std::uint32_t>(this->Colors.size()));
@@ -87,9 +87,9 @@ public:
     }
   }
 
-  testing::PlacePicture MakePicture(const RefractionTracer& tracer, const TracedView& view) const
+  test::PlacePicture MakePicture(const RefractionTracer& tracer, const TracedView& view) const
   {
-    testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
+    test::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
     TracePixels(tracer, view,
       [this, &picture](const TracedPacket& packet, int k, std::size_t number)
       {
@@ -245,19 +245,18 @@ public:
   }
 
 private:
-  RivalPoint Judge(const std::string& setting, const testing::PlacePicture& picture,
-    const testing::PixelCamera& camera, const Seconds& time) const
+  RivalPoint Judge(const std::string& setting, const test::PlacePicture& picture,
+    const test::PixelCamera& camera, const Seconds& time) const
   {
-    const testing::PlaceComparison comparison =
-      testing::ComparePlaces(this->Truth, picture, camera);
+    const test::PlaceComparison comparison = test::ComparePlaces(this->Truth, picture, camera);
     return { setting, 1e3 * time.Cpu, comparison.Error, comparison.Coverage };
   }
 
   // Times of frames of a scene that draws geometry.
   RivalPoint Measure(const std::string& setting, WellScene& scene) const
   {
-    const testing::PlacePicture picture = scene.DrawPlaces();
-    const testing::PixelCamera camera = scene.GetCamera();
+    const test::PlacePicture picture = scene.DrawPlaces();
+    const test::PixelCamera camera = scene.GetCamera();
     std::vector<Seconds> times;
     scene.Draw();
     for (int i = 0; i < Frames; ++i)
@@ -341,7 +340,7 @@ private:
       tracer.SetMembrane(water[0]);
       tracer.SetObject(object);
       const TracedView view = ViewOf(scene.GetCamera());
-      const testing::PlacePicture picture =
+      const test::PlacePicture picture =
         map ? map->MakePicture(tracer, view) : PlacesOf(tracer, scene.GetCamera());
       const TracedShader* shader = &colors;
       if (map)
@@ -368,7 +367,7 @@ private:
   WellSurface Surface;
   bool IsFlat;
   std::vector<int> Cells;
-  testing::PlacePicture Truth;
+  test::PlacePicture Truth;
 };
 
 // Diefenbach's matrix by the angle of incidence: the direction in which it shows a point of the

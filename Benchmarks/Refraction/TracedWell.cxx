@@ -67,17 +67,17 @@ TriangleColors ColorsOf(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-TracedView ViewOf(const testing::PixelCamera& camera)
+TracedView ViewOf(const test::PixelCamera& camera)
 {
   return { camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
     camera.GetPixels() };
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
+test::PlacePicture PlacesOf(const RefractionTracer& tracer, const test::PixelCamera& camera)
 {
   const TracedView view = ViewOf(camera);
-  testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
+  test::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
   TracePixels(tracer, view,
     [&picture](const TracedPacket& packet, int k, std::size_t number)
     {
@@ -85,7 +85,7 @@ testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::Pi
       {
         return;
       }
-      testing::PlacePixel& pixel = picture[number];
+      test::PlacePixel& pixel = picture[number];
       pixel.Covered = true;
       for (int i = 0; i < 3; ++i)
       {

@@ -20,7 +20,7 @@ TracedMesh ObjectOf(vtkPolyData* data);
 /** Colours of these triangles. */
 TriangleColors ColorsOf(vtkPolyData* data);
 
-TracedView ViewOf(const testing::PixelCamera& camera);
+TracedView ViewOf(const test::PixelCamera& camera);
 
 /** Traces an image; calls visit(packet, k, pixel) for each pixel, number k of its packet. */
 template <typename Visit>
@@ -42,6 +42,6 @@ void TracePixels(const RefractionTracer& tracer, const TracedView& view, const V
 }
 
 /** Places that the tracer's image shows. */
-testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera);
+test::PlacePicture PlacesOf(const RefractionTracer& tracer, const test::PixelCamera& camera);
 
 } // namespace meniscus::benchmark

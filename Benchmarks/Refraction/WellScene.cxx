@@ -107,7 +107,7 @@ WellScene::WellScene(int cells, int quads, WellSurface surface)
   , Present(this->Field)
   , Cells(cells)
   , Well(MakeWell(quads))
-  , Membrane(testing::MakeMembrane(this->MakeMesh()))
+  , Membrane(test::MakeMembrane(this->MakeMesh()))
 {
   this->Filter->SetInputData(0, this->Well);
   this->Filter->SetMembraneData(this->Membrane);
@@ -213,7 +213,7 @@ void WellScene::MoveWellAside()
 }
 
 //------------------------------------------------------------------------------
-testing::PixelCamera WellScene::GetCamera() const
+test::PixelCamera WellScene::GetCamera() const
 {
   return { this->Eye, Target, HalfTangent };
 }
@@ -277,7 +277,7 @@ void WellScene::Update()
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePixel WellScene::Meet(const glm::dvec3& start, const glm::dvec3& direction)
+test::PlacePixel WellScene::Meet(const glm::dvec3& start, const glm::dvec3& direction)
 {
   double t = std::numeric_limits<double>::max();
   for (const int axis : { 0, 2 })
@@ -299,7 +299,7 @@ testing::PlacePixel WellScene::Meet(const glm::dvec3& start, const glm::dvec3& d
   }
   const double bottom = (-Depth - start.y) / direction.y;
   const glm::dvec3 hit = start + bottom * direction;
-  testing::PlacePixel pixel;
+  test::PlacePixel pixel;
   if (bottom > 0.0 && bottom < t && std::max(std::fabs(hit.x), std::fabs(hit.z)) <= HalfWidth)
   {
     t = bottom;
@@ -310,15 +310,15 @@ testing::PlacePixel WellScene::Meet(const glm::dvec3& start, const glm::dvec3& d
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePicture WellScene::Trace() const
+test::PlacePicture WellScene::Trace() const
 {
-  return testing::TracePlaces(this->Present, this->GetCamera(), &WellScene::Meet);
+  return test::TracePlaces(this->Present, this->GetCamera(), &WellScene::Meet);
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePicture WellScene::DrawPlaces()
+test::PlacePicture WellScene::DrawPlaces()
 {
-  testing::AddPlaces(this->Well);
+  test::AddPlaces(this->Well);
   this->Well->Modified();
   vtkSmartPointer<vtkPolyData> drawn;
   if (this->HasMatrix)
@@ -337,7 +337,7 @@ testing::PlacePicture WellScene::DrawPlaces()
     this->Filter->Update();
     drawn = this->Filter->GetOutput();
   }
-  const auto picture = testing::DrawPlaces(drawn, this->GetCamera());
+  const auto picture = test::DrawPlaces(drawn, this->GetCamera());
   this->Well->GetPointData()->RemoveArray("Place");
   return picture;
 }

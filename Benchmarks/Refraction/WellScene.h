@@ -61,7 +61,7 @@ public:
   /** Moves the well to the far side of the membrane, where its outer facets show it. */
   void MoveWellAside();
 
-  testing::PixelCamera GetCamera() const;
+  test::PixelCamera GetCamera() const;
 
   /** Runs the filter and draws, until the image is complete. */
   void Draw();
@@ -69,7 +69,7 @@ public:
   void Update();
 
   /** Place where a ray leaves the well through a wall or the bottom. */
-  static testing::PlacePixel Meet(const glm::dvec3& start, const glm::dvec3& direction);
+  static test::PlacePixel Meet(const glm::dvec3& start, const glm::dvec3& direction);
 
   /**
    * Draws the well itself through one matrix instead of the filter's output: depths below the water
@@ -81,9 +81,9 @@ public:
    * Places of the well that the present eye sees through the present membrane, by rays in double
    * precision.
    */
-  testing::PlacePicture Trace() const;
+  test::PlacePicture Trace() const;
   /** The same places from the filter's output, or through the matrix. */
-  testing::PlacePicture DrawPlaces();
+  test::PlacePicture DrawPlaces();
 
 private:
   void SetUpWindow();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractedGeometryTestHelpers.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 //------------------------------------------------------------------------------

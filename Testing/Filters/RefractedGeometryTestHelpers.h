@@ -7,7 +7,7 @@
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractedLightFilter.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 using Point = std::array<double, 3>;

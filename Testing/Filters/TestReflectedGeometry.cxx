@@ -13,7 +13,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 using Filter = vtkRefractedGeometryFilter;
 

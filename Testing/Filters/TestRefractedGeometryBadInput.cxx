@@ -8,7 +8,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 const double Infinity = std::numeric_limits<double>::infinity();

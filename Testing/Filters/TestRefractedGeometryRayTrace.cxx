@@ -8,7 +8,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)
 {

@@ -16,7 +16,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();

@@ -11,7 +11,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 namespace reference = meniscus::reference;
 
 constexpr double Water = 1.333;

@@ -28,12 +28,13 @@ std::vector<std::uint8_t> BytesOf(const std::string& line)
   return bytes;
 }
 
-class FuzzCorpusTest : public testing::TestWithParam<FuzzTarget>
+class FuzzCorpusTest : public ::testing::TestWithParam<FuzzTarget>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpusTest, testing::ValuesIn(FuzzTargets),
-  [](const testing::TestParamInfo<FuzzTarget>& tested) { return std::string(tested.param.Name); });
+INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpusTest, ::testing::ValuesIn(FuzzTargets),
+  [](const ::testing::TestParamInfo<FuzzTarget>& tested)
+  { return std::string(tested.param.Name); });
 
 }
 

@@ -13,7 +13,7 @@ int main(int argc, char* argv[])
   {
     listing = listing || std::strncmp(argv[i], "--gtest_list_tests", 18) == 0;
   }
-  testing::InitGoogleTest(&argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
   if (!listing && !meniscus::test::HasDisplay())
   {
     std::cout << "no display: skipped\n";

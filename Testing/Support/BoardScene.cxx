@@ -4,7 +4,7 @@
 
 #include "RefractionPicture.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {

@@ -5,7 +5,7 @@
 
 #include "VTKBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** A rectangle of squares; U and V are its sides, to the right and up for a reader. */
@@ -36,8 +36,8 @@ struct Ring
 
 struct BoardScene
 {
-  testing::Board Board;
-  std::optional<testing::Ring> Ring;
+  test::Board Board;
+  std::optional<test::Ring> Ring;
 
   /** Triangles with the point array "Place". */
   vtkSmartPointer<vtkPolyData> MakeData() const;

@@ -4,7 +4,7 @@
 
 #include "vtkPNGWriter.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {

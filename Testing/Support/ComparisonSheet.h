@@ -10,7 +10,7 @@
 
 class vtkImageData;
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 class ComparisonSheet

@@ -14,7 +14,7 @@
 
 #include <glm/exponential.hpp>
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {
@@ -516,4 +516,4 @@ PoolPicture PoolScene::Trace() const
   return picture;
 }
 
-} // namespace meniscus::testing
+} // namespace meniscus::test

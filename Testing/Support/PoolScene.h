@@ -13,7 +13,7 @@ class vtkRefractedGeometryFilter;
 class vtkRefractionPass;
 class vtkTexture;
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** Optical effects of the water besides refraction. */
@@ -118,4 +118,4 @@ private:
   test::VolumeScene Window;
 };
 
-} // namespace meniscus::testing
+} // namespace meniscus::test

@@ -133,13 +133,3 @@ auto Product(const Lists&... lists)
 }
 
 } // namespace meniscus::test
-
-namespace meniscus::testing
-{
-
-using test::Below;
-using test::List;
-using test::Numbers;
-using test::Product;
-
-} // namespace meniscus::testing

@@ -6,7 +6,7 @@
 #include "vtkGenericCell.h"
 #include "vtkStaticCellLocator.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {

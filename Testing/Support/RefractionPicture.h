@@ -10,7 +10,7 @@
 #include "HeightField.h"
 #include "VTKBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** A membrane of the references as a data set, with or without its normals. */

@@ -22,10 +22,3 @@ inline ::testing::AssertionResult HasText(const std::string& text, const std::st
 }
 
 } // namespace meniscus::test
-
-namespace meniscus::testing
-{
-
-using test::HasText;
-
-} // namespace meniscus::testing

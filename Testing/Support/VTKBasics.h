@@ -85,11 +85,3 @@ glm::dvec3 TupleOf(const Array& array, vtkIdType i)
 }
 
 } // namespace meniscus::test
-
-namespace meniscus::testing
-{
-
-using test::PointOf;
-using test::TupleOf;
-
-} // namespace meniscus::testing

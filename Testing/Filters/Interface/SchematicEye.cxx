@@ -3,7 +3,7 @@
 #include "SchematicEye.h"
 #include "MathBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {

@@ -9,7 +9,7 @@
 
 #include "ExactStack.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** A conic of revolution with its vertex at y = -Vertex. */

@@ -9,7 +9,7 @@
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** Moves a surface along y. */

@@ -8,7 +8,7 @@
 #include "Refraction/Surface/MediaChain.h"
 #include "StackFilterHelpers.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 struct StackPicture

@@ -12,7 +12,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 
 constexpr int Pixels = 512;

@@ -8,7 +8,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 const double Eye[3] = { 20.0, 300.0, 10.0 };
 

@@ -11,7 +11,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 // Depth of a virtual point at vertical sight, Eq. 2.4: the true depth times n1 / n2.
 double DepthBelowTheEye(vtkRefractedGeometryFilter* filter)

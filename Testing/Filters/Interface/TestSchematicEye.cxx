@@ -8,7 +8,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 // Gauss's equation at each surface, from the pupil outwards: n' / s' = n / s - (n - n') / R for
 // distances behind the surface. Returns the distance behind the anterior vertex.

@@ -13,7 +13,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 namespace reference = meniscus::reference;
 
 const glm::dvec3 Up(0.0, 1.0, 0.0);
@@ -209,7 +209,7 @@ class SightRaySteps : public ::testing::Test
 {
 };
 using StepFilters =
-  testing::Types<vtkTruePositionFilter, vtkSightRayFilter, vtkTriangulatedPositionFilter>;
+  ::testing::Types<vtkTruePositionFilter, vtkSightRayFilter, vtkTriangulatedPositionFilter>;
 TYPED_TEST_SUITE(SightRaySteps, StepFilters);
 
 TYPED_TEST(SightRaySteps, ProgressIsReportedAndAbortObeyed)

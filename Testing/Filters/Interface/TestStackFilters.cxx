@@ -10,7 +10,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 namespace reference = meniscus::reference;
 
 const glm::dvec3 Eye(20.0, 300.0, 10.0);

@@ -8,7 +8,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 namespace reference = meniscus::reference;
 
 const glm::dvec3 Up(0.0, 1.0, 0.0);

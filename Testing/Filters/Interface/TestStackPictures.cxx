@@ -9,7 +9,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 using meniscus::test::RandomNumbers;
 
@@ -20,7 +20,7 @@ struct LensScene
 {
   StackPicture View;
   std::vector<ExactSurface> Passed; // in front of the square
-  meniscus::testing::Outline Outline;
+  meniscus::test::Outline Outline;
   double Depth; // the square is at y = -Depth
   double Size;
   double Farthest; // length of the last legs to points

@@ -9,7 +9,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeSquare(double half, double z, int cells)
 {

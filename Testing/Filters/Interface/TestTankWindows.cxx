@@ -12,7 +12,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 /** Windows of a tank in x < 0, y < 0: one towards x and one towards y, of a given depth inside. */
 vtkSmartPointer<vtkPolyData> MakeWindows(double inside)

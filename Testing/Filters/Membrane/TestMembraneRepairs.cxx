@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using meniscus::reference::MembraneMesh;
 
 glm::dvec3 Load(const std::vector<double>& array, std::int64_t index)

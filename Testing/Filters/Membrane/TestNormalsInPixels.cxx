@@ -8,7 +8,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 
 constexpr double Glass = 1.52;

@@ -10,7 +10,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 
 /** y - f(x, z). */

@@ -12,7 +12,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 using namespace meniscus::reference;
 
 const double Pi = std::acos(-1.0);

@@ -11,7 +11,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 /** Waves whose heights, but not their triangles, depend on `amplitude`. */
 vtkSmartPointer<vtkPolyData> MakeWater(double amplitude)

@@ -16,7 +16,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using meniscus::reference::MembraneMesh;
 
 /** Square water in the plane y = 0 whose normals point up, or down for -1. */

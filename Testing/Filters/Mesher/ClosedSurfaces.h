@@ -4,7 +4,7 @@
 
 #include "VTKBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 using Surface = vtkSmartPointer<vtkPolyData>;

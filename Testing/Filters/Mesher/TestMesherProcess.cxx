@@ -21,7 +21,7 @@
 #include <unistd.h>
 #endif
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 namespace
 {

@@ -8,7 +8,7 @@
 #include "vtkTetra.h"
 #include "vtkTetrahedralizeSurface.h"
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include "RefractedGeometryTestHelpers.h"
 #include "VTKTestBasics.h"
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 TEST(CoarseTriangles, AreToldOnceAndDrawn)
 {

@@ -9,7 +9,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeView(vtkDataObject* geometry)
 {

@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using namespace meniscus::reference;
 
 constexpr int Side = 41;

@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 constexpr double Side = 100.0;
 

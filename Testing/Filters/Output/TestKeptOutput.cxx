@@ -11,7 +11,6 @@ namespace
 {
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 using Filter = vtkRefractedGeometryFilter;
 
 struct Part

@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 using meniscus::reference::HeightField;
 
 const double Pi = std::acos(-1.0);

@@ -9,7 +9,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 vtkDataArray* PointArray(vtkPolyData* data, const char* name)
 {

@@ -12,7 +12,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 struct Counters
 {

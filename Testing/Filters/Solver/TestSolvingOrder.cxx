@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 constexpr int Side = 16;
 constexpr int Count = Side * Side * Side;

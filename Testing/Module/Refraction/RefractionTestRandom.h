@@ -4,7 +4,7 @@
 
 #include "MathBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** Random numbers that do not depend on the standard library. */

@@ -11,7 +11,7 @@ namespace
 {
 
 using namespace meniscus::reference;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 constexpr SurfaceError Exact{ 1e-12, 1e-12 };
 

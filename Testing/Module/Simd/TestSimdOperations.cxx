@@ -96,9 +96,9 @@ protected:
 };
 
 #ifdef __aarch64__
-using Sets = testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>, meniscus::SimdNEON>;
+using Sets = ::testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>, meniscus::SimdNEON>;
 #else
-using Sets = testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>>;
+using Sets = ::testing::Types<SimdPortable, meniscus::SimdPair<SimdPortable>>;
 #endif
 TYPED_TEST_SUITE(SimdOperations, Sets);
 

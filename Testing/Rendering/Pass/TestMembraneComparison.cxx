@@ -8,7 +8,7 @@
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
-using meniscus::testing::ComparisonSheet;
+using meniscus::test::ComparisonSheet;
 
 namespace
 {

@@ -109,7 +109,7 @@ void ExpectErrorsOfTheThesis(vtkImageData* volume)
 TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
 {
   const auto membrane =
-    meniscus::testing::MakeMembrane(meniscus::reference::MakeDisc(Radius, 5, Radius), false);
+    meniscus::test::MakeMembrane(meniscus::reference::MakeDisc(Radius, 5, Radius), false);
   vtkNew<vtkSphere> sphere;
   sphere->SetCenter(0.0, Radius, 0.0);
   sphere->SetRadius(Radius);

@@ -16,7 +16,6 @@
 #include <vtkTriangleFilter.h>
 
 using namespace meniscus::test;
-using namespace meniscus::testing;
 using meniscus::reference::HeightField;
 
 namespace

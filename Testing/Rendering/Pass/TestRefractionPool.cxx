@@ -6,7 +6,7 @@
 #include "PoolScene.h"
 #include "TestBasics.h"
 
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 namespace
 {

@@ -395,7 +395,7 @@ double TruthOfSurfaces(const Box& box, const Ray& ray, const std::vector<vtkLigh
   return sum;
 }
 
-class TetrahedraRayCastShadowsMatrix : public testing::TestWithParam<MatrixCase>
+class TetrahedraRayCastShadowsMatrix : public ::testing::TestWithParam<MatrixCase>
 {
 };
 
@@ -476,7 +476,7 @@ int ExpectClosedForm(MatrixScene& drawn, const MatrixCase& tested)
       for (int c = 0; c < 3; ++c)
       {
         EXPECT_NEAR(image.GetPixel(x, y)[c], Color[c] * truth, tolerance) << x << " " << y;
-        if (testing::Test::HasFailure())
+        if (::testing::Test::HasFailure())
         {
           return 0;
         }
@@ -518,7 +518,7 @@ TEST_P(TetrahedraRayCastShadowsMatrix, HasClosedForm)
         drawn.Scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
         EXPECT_EQ(drawn.GetCasts(), 0.0);
       }
-      if (testing::Test::HasFailure())
+      if (::testing::Test::HasFailure())
       {
         return;
       }
@@ -529,7 +529,7 @@ TEST_P(TetrahedraRayCastShadowsMatrix, HasClosedForm)
 }
 
 INSTANTIATE_TEST_SUITE_P(Combinations, TetrahedraRayCastShadowsMatrix,
-  testing::Values(MatrixCase{ "CompositePoints", vtkVolumeMapper::COMPOSITE_BLEND, Data::Points },
+  ::testing::Values(MatrixCase{ "CompositePoints", vtkVolumeMapper::COMPOSITE_BLEND, Data::Points },
     MatrixCase{ "CompositeCells", vtkVolumeMapper::COMPOSITE_BLEND, Data::Cells },
     MatrixCase{
       "CompositeIndependent", vtkVolumeMapper::COMPOSITE_BLEND, Data::IndependentComponents },

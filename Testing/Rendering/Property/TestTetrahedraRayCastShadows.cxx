@@ -451,7 +451,7 @@ struct ShadowErrors
  * @param sheet gets the picture, the reference and ten times the difference; null for none.
  */
 ShadowErrors CompareToShadowRays(RayCastScene& scene, vtkUnstructuredGrid* grid,
-  vtkVolumeProperty* property, int step, meniscus::testing::ComparisonSheet* sheet)
+  vtkVolumeProperty* property, int step, meniscus::test::ComparisonSheet* sheet)
 {
   const FloatImage image = scene.RenderFloat();
   const PixelRays rays(scene.GetRenderer());
@@ -601,10 +601,10 @@ TEST_P(TetrahedraRayCastShadowRays, MatchesBruteForce)
   AddParallelLight(scene.GetRenderer(), 1.0, 2.0, 3.0);
   const char* const wanted = std::getenv("MENISCUS_TEST_SHADOW_STEP");
   const int step = wanted ? std::max(std::atoi(wanted), 1) : GetParam().Step;
-  std::unique_ptr<meniscus::testing::ComparisonSheet> sheet;
+  std::unique_ptr<meniscus::test::ComparisonSheet> sheet;
   if (wanted)
   {
-    sheet = std::make_unique<meniscus::testing::ComparisonSheet>(1, 3, GetParam().Size / step);
+    sheet = std::make_unique<meniscus::test::ComparisonSheet>(1, 3, GetParam().Size / step);
   }
   const ShadowErrors errors = CompareToShadowRays(scene, grid, property, step, sheet.get());
   if (sheet)

@@ -6,7 +6,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "TestBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** Images that were compared, and points with several images, or too close to a caustic. */
@@ -71,4 +71,4 @@ inline void ExpectImagesOfTheField(const CurvedMembraneSolver& geometry,
   counts.Several += exact.size() > 1;
 }
 
-} // namespace meniscus::testing
+} // namespace meniscus::test

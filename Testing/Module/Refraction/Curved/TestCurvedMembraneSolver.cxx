@@ -14,7 +14,6 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
   double exterior = 1.0, double interior = 1.333)

@@ -16,7 +16,7 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using meniscus::test::Product;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 constexpr double Pi = 3.14159265358979323846;
 

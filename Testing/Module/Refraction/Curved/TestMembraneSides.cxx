@@ -13,7 +13,7 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 const double Pi = std::acos(-1.0);
 

@@ -15,7 +15,6 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 EyeStatus SetMirror(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye)
 {

@@ -14,7 +14,7 @@ namespace
 
 using namespace meniscus;
 using meniscus::reference::MembraneMesh;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 void Set(CurvedMembraneSolver& solver, const MembraneMesh& mesh, const glm::dvec3& eye,
   double exterior = 1.0, double interior = 1.333, bool reflects = false)

@@ -12,7 +12,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::test;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 using namespace meniscus::reference;
 
 FlatMembraneSolver Make(

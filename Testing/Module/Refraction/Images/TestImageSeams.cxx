@@ -185,7 +185,7 @@ struct SeamScene
 
 SeamScene MakeScene(int index)
 {
-  meniscus::testing::Random random(static_cast<unsigned>(index + 1));
+  meniscus::test::Random random(static_cast<unsigned>(index + 1));
   SeamScene scene;
   const double length = random(40.0, 120.0);
   const bool crosses = index % 3 == 1;

@@ -14,7 +14,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 const double Pi = std::acos(-1.0);
 

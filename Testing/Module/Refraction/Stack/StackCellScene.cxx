@@ -8,7 +8,7 @@
 
 using namespace meniscus::test;
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 namespace
 {

@@ -9,7 +9,7 @@
 #include "MathBasics.h"
 #include "Refraction/StackImages/StackImages.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 /** An object of triangles and its images. */

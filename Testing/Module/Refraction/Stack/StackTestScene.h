@@ -7,7 +7,7 @@
 #include "Refraction/Stack/StackSolver.h"
 #include "TestBasics.h"
 
-namespace meniscus::testing
+namespace meniscus::test
 {
 
 inline std::shared_ptr<const RefractingSurface> MakeSurface(const reference::MembraneMesh& mesh)

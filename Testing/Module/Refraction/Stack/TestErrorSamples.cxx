@@ -12,7 +12,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 constexpr double Water = 1.333;
 

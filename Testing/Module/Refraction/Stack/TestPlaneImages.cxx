@@ -11,7 +11,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 // A rotation without zeros, about the diagonal of the axes.
 const glm::dmat3 Tilt = glm::dmat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;

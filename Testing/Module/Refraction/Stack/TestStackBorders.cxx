@@ -11,7 +11,7 @@ namespace
 
 using meniscus::StackSolver;
 using meniscus::reference::MembraneMesh;
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 constexpr double HalfWidth = 3.0;
 constexpr double Bottom = -2.0;

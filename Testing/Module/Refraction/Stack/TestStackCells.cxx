@@ -11,7 +11,6 @@ namespace
 using meniscus::StackSolver;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

@@ -10,7 +10,6 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 

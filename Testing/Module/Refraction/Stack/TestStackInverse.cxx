@@ -12,7 +12,6 @@ namespace
 using namespace meniscus;
 using meniscus::reference::MembraneMesh;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 constexpr double Size = 200.0;
 

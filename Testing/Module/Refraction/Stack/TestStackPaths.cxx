@@ -9,7 +9,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 const double Pi = std::acos(-1.0);
 
@@ -263,7 +263,7 @@ TEST(RefractionStackPaths, PointsOnTracedRaysHaveImages)
     }
     ++points;
     const glm::dvec3 local = path.GetLast().Origin + random(0.1, 300.0) * path.GetLast().Direction;
-    const StackVertex vertex = meniscus::testing::SolveAlone(solver, local + stack.GetOrigin());
+    const StackVertex vertex = meniscus::test::SolveAlone(solver, local + stack.GetOrigin());
     EXPECT_EQ(vertex.State, ImageState::Found) << i << " facet " << facet;
   }
   EXPECT_GT(points, 2000);

@@ -11,7 +11,6 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-using namespace meniscus::testing;
 
 const double Pi = std::acos(-1.0);
 
@@ -641,7 +640,7 @@ TEST(RefractionStack, RangesDoNotChangeResults)
 // must not reach from one range of points, or of patches, to the next.
 TEST(RefractionStack, RangesOfRaysThroughPanesDoNotChangeResults)
 {
-  const auto first = MakeSurface(meniscus::testing::MakeWaves(100.0, 0.0, 0.8, 3.0, 12));
+  const auto first = MakeSurface(meniscus::test::MakeWaves(100.0, 0.0, 0.8, 3.0, 12));
   const auto second = MakeSurface(MakePlane(-15.0, 120.0, 9));
   const std::vector<Interface> list{ { first, { 1.0, 1.5 } }, { second, { 1.5, 1.333 } } };
   const glm::dvec3 eye(5.0, 90.0, -8.0);

@@ -11,7 +11,7 @@ namespace
 
 using namespace meniscus;
 using namespace meniscus::reference;
-using namespace meniscus::testing;
+using namespace meniscus::test;
 
 // Walls with a side on a plane interface, in front of it and behind it, sails that touch it with
 // one corner, turned and rounded to `digits` binary digits together with the interfaces.

@@ -9,7 +9,7 @@
 #include "Volume/Refracted/FacetBoxes.h"
 
 using namespace meniscus;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 namespace
 {

@@ -15,7 +15,7 @@
 
 using namespace meniscus;
 using namespace meniscus::test;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 namespace
 {

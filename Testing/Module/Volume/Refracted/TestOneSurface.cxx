@@ -6,7 +6,7 @@
 
 using namespace meniscus;
 using namespace meniscus::test;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 /**
  * Every ray meets a coarse sphere at its exact intersection, including the outline, where a ray

@@ -11,7 +11,7 @@
 
 using namespace meniscus;
 using namespace meniscus::test;
-using meniscus::testing::Random;
+using meniscus::test::Random;
 
 namespace
 {
