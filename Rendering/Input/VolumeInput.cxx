@@ -291,15 +291,30 @@ std::string VolumeInput::DescribeRejected(std::int64_t cells) const
 }
 
 //------------------------------------------------------------------------------
-/** Number of cells that are too thin or too small for the precision of coordinates. */
+/**
+ * A size of the mesh that single precision does not hold, or the number of cells that are too thin
+ * or too small for the precision of coordinates.
+ */
 std::string VolumeInput::DescribeImprecise() const
 {
+  // Roundings of lengths, 2^-24 of the radius, are to be numbers of full precision, and sums of up
+  // to 16 radii to be finite: a ray is at most twice as long, and its eye some radii away.
+  constexpr double least = 16777216.0 * std::numeric_limits<float>::min();
+  constexpr double most = std::numeric_limits<float>::max() / 16.0;
+  const double radius = this->Mesh.GetRadius();
   const std::int64_t cells = this->Mesh.GetNumberOfImpreciseCells();
+  std::ostringstream text;
+  if (this->Mesh.GetNumberOfCells() > 0 && radius != 0.0 && !(radius >= least && radius <= most))
+  {
+    text << "The mesh has a radius of " << radius
+         << "; single precision holds lengths in meshes of " << least << " to " << most
+         << ", so that this one may be drawn wrongly or not at all. ";
+    return text.str();
+  }
   if (cells == 0 || !this->HasSingleDepths)
   {
     return std::string();
   }
-  std::ostringstream text;
   text << cells << " of " << this->Mesh.GetNumberOfCells() << " cells have an edge shorter than "
        << TetrahedralMesh::ShortestPreciseEdge * this->Mesh.GetRadius()
        << ", 1/131072 of the mesh's radius: lengths of rays in such layers and small cells may be "

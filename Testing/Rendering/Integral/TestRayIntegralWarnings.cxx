@@ -112,6 +112,40 @@ TEST(MeshWarnings, NoThinLayers)
   EXPECT_TRUE(UpdateAndListen(rays).empty());
 }
 
+/** Meshes of any size that single precision holds are measured, others are told. */
+TEST(MeshWarnings, SizesBeyondSinglePrecision)
+{
+  const Grid unit = MakeLayers(2, 0.5);
+  const std::vector<double> expected =
+    ValuesOf(MakeFilter(unit, 4, 4, { "PathLength" }), "PathLength");
+  const std::vector<std::pair<double, bool>> scales = { { 1e-36, false }, { 1e-30, true },
+    { 1e-10, true }, { 1e10, true }, { 1e37, true }, { 1e38, false } };
+  for (const auto& [scale, isHeld] : scales)
+  {
+    const Grid grid = MakeLayers(2, 0.5);
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      double x[3];
+      grid->GetPoint(p, x);
+      grid->GetPoints()->SetPoint(p, scale * x[0], scale * x[1], scale * x[2]);
+    }
+    const Filter rays = MakeFilter(grid, 4, 4, { "PathLength" });
+    const std::vector<std::string> warnings = UpdateAndListen(rays);
+    if (!isHeld)
+    {
+      ASSERT_EQ(warnings.size(), 1u) << scale;
+      EXPECT_TRUE(HasText(warnings[0], "The mesh has a radius of "));
+      continue;
+    }
+    EXPECT_TRUE(warnings.empty()) << scale;
+    const std::vector<double> lengths = ValuesOf(rays, "PathLength");
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      EXPECT_NEAR(lengths[i] / scale, expected[i], 1e-6) << scale;
+    }
+  }
+}
+
 /** A filled body in a filled body: rays count the first one that they enter. */
 TEST(MeshWarnings, OverlappingBodies)
 {
