@@ -143,8 +143,11 @@ void PlaneLanes::Pass(const std::vector<PlaneLayer>& layers, std::size_t layer, 
     std::fill(this->Side, this->Side + Most, 0.0);
     std::fill(this->Geometric, this->Geometric + Most, 0.0);
     std::fill(this->Optical, this->Optical + Most, 0.0);
-    std::fill(this->Passed[0], this->Passed[0] + 2 * Most, 1.0);
-    std::fill(this->ReflectedBack[0], this->ReflectedBack[0] + 2 * Most, 0.0);
+    for (int polarisation = 0; polarisation < 2; ++polarisation)
+    {
+      std::fill(this->Passed[polarisation], this->Passed[polarisation] + Most, 1.0);
+      std::fill(this->ReflectedBack[polarisation], this->ReflectedBack[polarisation] + Most, 0.0);
+    }
   }
   RunLanes(PassKernel{ layers[layer] }, set, *this);
   if (layer == 0)
