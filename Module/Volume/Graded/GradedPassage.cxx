@@ -417,9 +417,9 @@ double GradedPassage::WeightOfWay(int i) const
  * True if it is certain that no weight falls below 0 before a time at which that of a face does.
  *
  * Without its terms from the third order on, a weight is above the smaller of its tangent and its
- * chord, which both begin at 0 or above; its rate is between that at the beginning and that at the
- * end. The sum of the sizes of those terms at the end, and of their rates, bounds what they change
- * on the way, and at the end itself, once more.
+ * chord, which both begin at 0 or above; its rate is between the rates at the beginning and at the
+ * end. The terms are largest at the end. The sum of their absolute values there bounds how much
+ * they change the weight before the end, and again at the end; their rates are bounded likewise.
  */
 bool GradedPassage::IsFirst(int face, double time) const
 {

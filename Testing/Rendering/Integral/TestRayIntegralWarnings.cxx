@@ -112,7 +112,7 @@ TEST(MeshWarnings, NoThinLayers)
   EXPECT_TRUE(UpdateAndListen(rays).empty());
 }
 
-/** Meshes of any size that single precision holds are measured, others are told. */
+/** Lengths are right in meshes of 1e-30 to 1e37; smaller and larger ones cause a warning. */
 TEST(MeshWarnings, SizesBeyondSinglePrecision)
 {
   const Grid unit = MakeLayers(2, 0.5);

@@ -199,7 +199,7 @@ void AddLights(vtkRenderer* renderer, LightKind kind)
   renderer->AddLight(light);
 }
 
-/** The cube, or what a clipping plane leaves of it. */
+/** The cube, or the part of it on the visible side of a clipping plane. */
 struct Box
 {
   Vector3 Lower{ -1.0, -1.0, -1.0 };

@@ -214,8 +214,8 @@ TEST(RefractionStackPlanes, RoundedPlanesAreNotExact)
 }
 
 //------------------------------------------------------------------------------
-// Places drawn beside their sight rays by an angle pass a test if the tolerance is larger. Drawn at
-// the axis, grazing, or behind the eye, they fail.
+// A place passes if the angle between its sight ray and the direction in which it is drawn is below
+// the tolerance. Places that are drawn at the axis, grazing, or behind the eye fail.
 TEST(RefractionStackPlanes, PlacesAreDrawnWithinTheTolerance)
 {
   const glm::dvec3 eye = Tilt * glm::dvec3(3.0, 80.0, -5.0);
