@@ -23,6 +23,9 @@ BACKENDS = {
 }
 # Phong coefficients of lit volumes and isosurfaces.
 MATERIAL = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.25, "specular_power": 25.0}
+# With shadows, which darken: a brighter material, and VolumetricScatteringBlending.
+SHADOWED_MATERIAL = {**MATERIAL, "ambient": 0.5, "diffuse": 1.0}
+SCATTERED_SHARE = 1.0
 ISOSURFACE_OPACITY = 0.4
 
 

@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
 from ..arguments import check_numbers, refuse
-from ..names import ISOSURFACE_OPACITY, MATERIAL
+from ..names import ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
 from .mapper import make_mapper
@@ -93,14 +93,14 @@ def _choose_limits(arguments, scalars):
             arguments["clim"] = tuple(map(float, scalars.limits))
 
 
-def _choose_look(arguments, blending, light):
+def _choose_look(arguments, blending, light, shadows):
     """Light, material and opacity for plotter.add_volume(), in arguments."""
     surfaces = blending == "isosurface"
     if light is None:
-        light = surfaces
+        light = surfaces or shadows > 0.0
     if light:
         arguments.setdefault("shade", True)
-        for name, value in MATERIAL.items():
+        for name, value in (SHADOWED_MATERIAL if shadows else MATERIAL).items():
             arguments.setdefault(name, value)
     if surfaces:
         arguments.setdefault("opacity", [ISOSURFACE_OPACITY] * 2)
@@ -120,6 +120,18 @@ def _check_finite(arguments, unit_distance):
         if numbers_of.dtype.kind == "f" and not numpy.isfinite(numbers_of).all():
             raise ValueError("%s must be finite numbers, not %r" % (
                 name, float(numbers_of[~numpy.isfinite(numbers_of)][0])))
+
+
+def _take_shadows(shadows, properties):
+    """The reach of shadows, which the mapper's properties get with the light that is scattered."""
+    if not isinstance(shadows, (bool, numbers.Real)):
+        refuse("shadows", "True, False, or a number from 0 to 1", shadows)
+    if not 0.0 <= shadows <= 1.0:
+        raise ValueError("shadows must be from 0 to 1, not %r" % shadows)
+    if shadows:
+        properties.setdefault("GlobalIlluminationReach", float(shadows))
+        properties.setdefault("VolumetricScatteringBlending", SCATTERED_SHARE)
+    return float(shadows)
 
 
 def _choose_blending(blending, isovalues, scalars):
@@ -171,8 +183,9 @@ def add_to(
     opacity_array: str | None = None, opacity_component: int | str | None = None,
     opacity_clim: Sequence[float] | None = None,
     blending: str | None = None, isovalues: int | Sequence[float] | None = None,
-    light: bool | None = None, opacity_unit_distance: float | None = None,
-    backend: str = "automatic", surfaces: Surfaces | None = None, indices: Indices = 1.333,
+    light: bool | None = None, shadows: bool | float = False,
+    opacity_unit_distance: float | None = None, backend: str = "automatic",
+    surfaces: Surfaces | None = None, indices: Indices = 1.333,
     preference: str = "point", categories: bool | int = False,
     scalar_bar_args: dict[str, Any] | None = None, show_scalar_bar: bool | None = None,
     render: bool = True, name: str | None = None, multi_colors: bool = False, **arguments: Any,
@@ -196,6 +209,10 @@ def add_to(
         blending="isosurface", which they select; default: 3.
     light: whether the volume is lit, with one material for all. Default: isosurfaces only.
         PyVista's shade, ambient, diffuse, specular and specular_power override it.
+    shadows: whether the volume casts shadows into itself, and scatters light; True, or the share of
+        the volume's size that shadows reach, from 0 to 1. The volume is then lit. Shadows are cast
+        again whenever a light moves: lights that follow the camera make turning slower. Default:
+        False.
     opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default:
         the mesh's diagonal divided by the mean number of cells along an axis. Over this length an
         image or rectilinear grid has the given opacity, another mesh 1 - exp(-opacity), as with
@@ -224,10 +241,10 @@ def add_to(
         return _add_blocks(plotter, mesh, scalars, name, dict(
             arguments, component=component, rgba=rgba, opacity_array=opacity_array,
             opacity_component=opacity_component, opacity_clim=opacity_clim, blending=blending,
-            isovalues=isovalues, light=light, opacity_unit_distance=opacity_unit_distance,
-            backend=backend, surfaces=surfaces, indices=indices, preference=preference,
-            categories=categories, scalar_bar_args=scalar_bar_args,
-            show_scalar_bar=show_scalar_bar, render=render))
+            isovalues=isovalues, light=light, shadows=shadows,
+            opacity_unit_distance=opacity_unit_distance, backend=backend, surfaces=surfaces,
+            indices=indices, preference=preference, categories=categories,
+            scalar_bar_args=scalar_bar_args, show_scalar_bar=show_scalar_bar, render=render))
     chosen = Scalars(mesh, scalars, preference, component, rgba)
     if opacity_array is not None:
         if rgba:
@@ -238,7 +255,7 @@ def add_to(
     properties = {key: arguments.pop(key) for key in list(arguments) if key[0].isupper()}
     check_color_map(arguments.get("cmap"))
     _choose_limits(arguments, chosen)
-    _choose_look(arguments, blending, light)
+    _choose_look(arguments, blending, light, _take_shadows(shadows, properties))
     mapper = make_mapper(chosen, blending, backend, properties)
     if opacity_unit_distance is None:
         opacity_unit_distance = _find_unit_distance(chosen.mesh, tuple(mapper.GetBounds()))

@@ -12,7 +12,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkVolume)
 
 from .. import vtkTetrahedraRayCastMapper
-from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL
+from ..names import BACKENDS, BLEND_MODES, ISOSURFACE_OPACITY, MATERIAL, SHADOWED_MATERIAL
 from .cells import drawn_leaves_of
 from .colors import COLOR_MAPS, fill_colors, find_colors, make_table
 from .curves import check_curve, fill_function, simplify
@@ -32,8 +32,7 @@ _CURVES = {"projection": [(0.0, 0.0), (1.0, 1.0)],
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 # Pixels from the left border of the bar to the right border of the window.
 BAR_ROOM = 100.0
-# With shadows: ambient coefficient; place, as that of a camera light, and intensity of the lamp.
-SHADOW_AMBIENT = 0.5
+# The lamp that casts shadows: its place, as that of a camera light, and its intensity.
 SHADOW_LAMP = (-1.2, 1.6, 1.0)
 SHADOW_INTENSITY = 2.2
 
@@ -332,7 +331,7 @@ class MeshScene:
         """
         self.mapper.SetGlobalIlluminationReach(reach)
         look = self.volume.GetProperty()
-        look.SetAmbient(SHADOW_AMBIENT if reach > 0.0 else MATERIAL["ambient"])
+        look.SetAmbient((SHADOWED_MATERIAL if reach > 0.0 else MATERIAL)["ambient"])
         self.renderer.RemoveAllLights()
         self.renderer.SetAutomaticLightCreation(reach <= 0.0)
         if reach > 0.0:

@@ -197,6 +197,39 @@ class TestBlending(unittest.TestCase):
                 self.assertEqual(look.ambient, ambient, named)
         plotter.close()
 
+    def test_shadows(self):
+        """A lamp above a cube of one dense medium lights its top, and less of it with a shorter
+        reach."""
+        cube = make_cube()
+        cube["one"] = numpy.ones(cube.n_points)
+        cube["one"][0] = 0.99  # a constant array has no range
+
+        def rows_of(**named):
+            plotter = pyvista.Plotter(off_screen=True, window_size=SIZE, lighting="none")
+            plotter.add_light(pyvista.Light(position=(0.5, 0.5, 9), focal_point=(0.5, 0.5, 0)))
+            plotter.set_background("black")
+            volume = meniscus.add_to(cube, plotter, "one", cmap="gray", clim=[0, 1],
+                                     opacity=[1.0, 1.0], opacity_unit_distance=0.2,
+                                     show_scalar_bar=False, **named)
+            plotter.view_xz()
+            picture = plotter.screenshot(return_img=True)[..., 0].astype(float)
+            plotter.close()
+            return volume, picture[picture.sum(1) > 0].mean(1)
+
+        volume, rows = rows_of(shadows=True)
+        self.assertTrue(volume.prop.shade)
+        self.assertEqual(volume.mapper.GetGlobalIlluminationReach(), 1.0)
+        self.assertEqual(volume.mapper.GetVolumetricScatteringBlending(), 1.0)
+        top, bottom = rows[len(rows) // 8], rows[-len(rows) // 8]
+        self.assertGreater(top, 1.3 * bottom)
+        volume, near = rows_of(shadows=0.1, VolumetricScatteringBlending=0.5)
+        self.assertEqual(volume.mapper.GetVolumetricScatteringBlending(), 0.5)
+        self.assertGreater(near[-len(near) // 8], 1.1 * bottom)
+        for wrong, kind in ((1.5, ValueError), (-1, ValueError), (float("nan"), ValueError),
+                            ("yes", TypeError)):
+            with self.assertRaisesRegex(kind, "shadows"):
+                meniscus.add_to(cube, make_plotter(), "one", shadows=wrong)
+
 
 class TestSeveralArrays(unittest.TestCase):
     def test_opacity_of_the_same_array(self):
