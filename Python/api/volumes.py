@@ -292,11 +292,36 @@ def add_to(
     return volume
 
 
+def _furnish(plotter, text, show_axes, show_bounds, show_grid):
+    """Adds what pyvista.plot() shows beside the mesh."""
+    if show_axes if show_axes is not None else plotter.theme.axes.show:
+        plotter.add_axes()
+    if text:
+        plotter.add_text(text)
+    if show_grid:
+        plotter.show_grid()
+    elif show_bounds:
+        plotter.show_bounds()
+
+
+def _place_camera(plotter, cpos, zoom, parallel_projection):
+    """Places the camera as pyvista.plot() does."""
+    plotter.camera_position = plotter.get_default_cam_pos() if cpos is None else cpos
+    plotter.camera_set = cpos is not None
+    if parallel_projection:
+        plotter.enable_parallel_projection()
+    if zoom is not None:
+        plotter.camera.zoom(zoom)
+
+
 def plot(
     mesh: Mesh, /, scalars: str | Array | None = None, *, off_screen: bool | None = None,
     window_size: Sequence[int] | None = None, background: Any = None, cpos: Any = None,
-    screenshot: Any = False, show_axes: bool | None = None, jupyter_backend: str | None = None,
-    return_img: bool = False, **arguments: Any,
+    zoom: float | str | None = None, parallel_projection: bool = False, text: str = "",
+    screenshot: Any = False, show_axes: bool | None = None, show_bounds: bool = False,
+    show_grid: bool = False, full_screen: bool | None = None, interactive: bool = True,
+    notebook: bool | None = None, theme: Any = None, jupyter_backend: str | None = None,
+    return_img: bool = False, return_cpos: bool = False, **arguments: Any,
 ) -> Any:
     """Shows a mesh as a volume in a window, or in a notebook.
 
@@ -305,6 +330,8 @@ def plot(
     window_size: width and height in pixels; default: PyVista's setting.
     background: colour; default: PyVista's theme.
     cpos: camera position as pyvista.plot() takes it, such as "xy".
+    zoom, parallel_projection, text, show_bounds, show_grid, full_screen, interactive, notebook,
+        theme, return_cpos: as in pyvista.plot().
     screenshot: file name of a picture, or True to return it.
     show_axes: whether axes are shown in a corner; default: PyVista's setting.
     jupyter_backend: in a notebook "trame" or "server" (pictures that the kernel draws, turned with
@@ -319,11 +346,14 @@ def plot(
     from .notebook import choose_backend
 
     backend = choose_backend(jupyter_backend)
-    plotter = pyvista.Plotter(off_screen=off_screen, window_size=window_size)
+    plotter = pyvista.Plotter(
+        off_screen=off_screen, window_size=window_size, notebook=notebook, theme=theme)
     if background is not None:
         plotter.set_background(background)
     add_to(mesh, plotter, scalars, **{"render": False, **arguments})
-    if show_axes if show_axes is not None else plotter.theme.axes.show:
-        plotter.add_axes()
-    return plotter.show(cpos=cpos, screenshot=screenshot, return_img=return_img,
-                        **({"jupyter_backend": backend} if plotter.notebook else {}))
+    _furnish(plotter, text, show_axes, show_bounds, show_grid)
+    _place_camera(plotter, cpos, zoom, parallel_projection)
+    return plotter.show(
+        screenshot=screenshot, full_screen=full_screen, interactive=interactive,
+        return_img=return_img, return_cpos=return_cpos,
+        **({"jupyter_backend": backend} if plotter.notebook else {}))

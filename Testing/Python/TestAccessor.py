@@ -197,6 +197,25 @@ class TestBlending(unittest.TestCase):
                 self.assertEqual(look.ambient, ambient, named)
         plotter.close()
 
+    def test_views(self):
+        """plot() takes pyvista.plot()'s arguments of the view."""
+        methods = accessor.MeniscusAccessor(make_cube())
+        named = {"off_screen": True, "window_size": SIZE, "screenshot": True, "opacity": [1, 1],
+                 "background": "black", "show_scalar_bar": False, "show_axes": False}
+
+        def seen_with(**view):
+            return numpy.asarray(methods.plot("y", **view, **named)).sum(2) > 0
+
+        flat = {"cpos": "xy", "parallel_projection": True}
+        self.assertAlmostEqual(
+            seen_with(zoom=0.5, **flat).sum() / seen_with(**flat).sum(), 0.25, delta=0.02)
+        plain = seen_with()
+        self.assertGreater(seen_with(zoom=1.5).sum(), 1.8 * plain.sum())
+        for view in ({"text": "A cube"}, {"show_bounds": True}, {"show_grid": True}):
+            self.assertTrue((seen_with(**view) != plain).any(), view)
+        camera = methods.plot("y", off_screen=True, cpos="xy", return_cpos=True)
+        numpy.testing.assert_allclose(tuple(camera)[2], (0, 1, 0))
+
     def test_shadows(self):
         """A lamp above a cube of one dense medium lights its top, and less of it with a shorter
         reach."""
