@@ -79,7 +79,8 @@ struct SolvedBlock
   KeptOutput Kept;
 
 private:
-  std::unique_ptr<CellImages> MakeImages(CurvedMembraneSolver& solver) const;
+  std::unique_ptr<CellImages> MakeImages(
+    CurvedMembraneSolver& solver, const ParallelPlanes* plane) const;
 };
 
 }
