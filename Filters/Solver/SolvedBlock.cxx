@@ -99,6 +99,20 @@ void SolvedBlock::MakeImages(RefractionScene& scene)
 }
 
 //------------------------------------------------------------------------------
+void SolvedBlock::PrepareCells(RefractionScene& scene) const
+{
+  const std::size_t count = this->Points.size() / 3;
+  for (std::size_t i = 0; i < count && !scene.GetPathSolver(); ++i)
+  {
+    if (this->Images->GetNumberOfImages(i) != 1)
+    {
+      scene.GetCurved().PrepareTree(FacetLoop);
+      return;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 const StackImages& SolvedBlock::GetStackImages() const
 {
   return static_cast<const StackImages&>(*this->Images);
