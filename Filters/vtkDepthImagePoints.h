@@ -16,8 +16,8 @@
  * finite and copies no arrays but colours.
  *
  * vtkTruePositionFilter with the camera's position as the eye moves the points to where they are.
- * Its SetDepth() says what a distance behind a refracting surface means: the apparent depth of
- * rendered virtual geometry, the optical length of a laser scan, or the length of the path.
+ * Its SetDepth() chooses the meaning of a distance behind a refracting surface: the apparent depth
+ * of rendered virtual geometry, the optical length of a laser scan, or the length of the path.
  *
  * @sa vtkTruePositionFilter
  */
@@ -48,7 +48,10 @@ public:
   };
 
   /** @{ */
-  /** Set/Get the camera. Its projection must be perspective. */
+  /**
+   * Set/Get the camera that made the image. Without a camera, the default, or with a parallel
+   * projection, the filter reports an error when it runs.
+   */
   void SetCamera(vtkCamera* camera);
   vtkCamera* GetCamera();
   /** @} */

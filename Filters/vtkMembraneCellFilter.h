@@ -20,8 +20,8 @@
  * - the cell array `FacetId` (vtkIdType): the cell of the first membrane;
  * - the cell array `Leg` (int): 1 behind the first interface, and so on;
  * - the cell array `IndexOfRefraction` (double): index of the cell's medium;
- * - the cell array `Orientation` (signed char): 1, or -1 if the rays cross in one direction, so
- * that the far side is mirrored: the membrane focuses.
+ * - the cell array `Orientation` (signed char): 1, or -1 if the rays cross in one direction because
+ *   the membrane focuses, so that the far side is mirrored.
  *
  * A facet has no cells if a corner faces away from the eye or a ray is totally reflected there.
  * Where a ray is totally reflected at a later interface, or misses it, the cells of that leg and of

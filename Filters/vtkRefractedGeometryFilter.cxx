@@ -277,6 +277,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   block.ClosesSeams = self->CloseSeams;
   block.Cells = meniscus::AllImages();
   block.Images->SetTolerance(tolerance);
+  block.PrepareCells(this->Scene);
   const auto loop = [this, self](std::size_t parts, const meniscus::RangeBody& body)
   { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); };
   const meniscus::ObjectTopology* topology = &block.Topology;

@@ -19,13 +19,13 @@
  *
  *     (1 - F) A' / A,
  *
- * with the cell's area A, the area A' of the part of the membrane that its light passes, projected
- * along the light, and the Fresnel reflectance F there (Eq. 2.6 of the thesis that
- * Documentation/refraction-method.md summarises). With the light in place of the eye, these parts
- * consist of the sight points of the cell's images, which vtkRefractedGeometryFilter computes.
- * Where the light is folded, a cell has several images, which are added. The sum over all cells is
- * therefore the light that the membrane transmits, whatever the size of the cells. A point has the
- * mean of its cells, weighted by area.
+ * with the cell's area A, the area A' of the part of the membrane through which the cell gets its
+ * light, projected along the direction of the light, and the Fresnel reflectance F there (Eq. 2.6
+ * of the thesis that Documentation/refraction-method.md summarises). With the light in place of the
+ * eye, these parts consist of the sight points of the cell's images, which
+ * vtkRefractedGeometryFilter computes. Where the light is folded, a cell has several images, which
+ * are added. The sum over all cells is therefore the light that the membrane transmits, whatever
+ * the size of the cells. A point has the mean of its cells, weighted by area.
  *
  * Port 1 is repeatable; see SetInterfaces() for several surfaces.
  *
@@ -145,9 +145,7 @@ public:
   int GetNumberOfMembranes();
   /** @} */
 
-  /**
-   * Modification time of this filter and of the interfaces.
-   */
+  /** Modification time of this filter and of the interfaces. */
   vtkMTimeType GetMTime() override;
 
   /**

@@ -54,7 +54,7 @@ public:
    * that were seen from several places, such as the cameras of photographs or the track of a
    * scanner. EyePosition is not used then. A point whose eye is not finite or lies on a surface
    * counts as one that is not finite. Points with the same eye should follow each other. An
-   * empty name, the default, stands for one eye.
+   * empty name, the default, means that all points have the eye EyePosition.
    */
   virtual void SetEyeArrayName(const std::string& name);
   virtual std::string GetEyeArrayName();
@@ -81,7 +81,8 @@ public:
    * list of one with default values.
    *
    * With several interfaces, the media, the sides and the depth of a seen point are defined by
-   * vtkRefractedGeometryFilter::SetInterfaces(). A ray must meet the interface behind a point, too.
+   * vtkRefractedGeometryFilter::SetInterfaces(). If there is an interface behind a point, the ray
+   * to the point must also meet that interface.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -100,7 +101,10 @@ public:
   int GetNumberOfMembranes();
   /** @} */
 
-  /** Number of patches built since construction: once per change of a surface's values. */
+  /**
+   * Number of times since construction that the patches of a surface were built: once per change of
+   * its points, triangles or normals.
+   */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
 
   /** Modification time of this filter and of the interfaces. */

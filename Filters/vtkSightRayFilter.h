@@ -6,8 +6,9 @@
  *
  * Ray diagrams: for each point of port 0 the sight ray from its eye to the place where the point is
  * seen, refracted at every surface of port 1, down to the place where the point is (see
- * vtkTruePositionFilter). Each leg of a ray is one line; consecutive legs share a point. Rays that
- * are totally reflected end at that surface, rays that miss a later surface, at the surface before.
+ * vtkTruePositionFilter). Each leg of a ray is one line; consecutive legs share a point. A ray
+ * that is totally reflected ends at that surface. A ray that misses a later surface ends at the
+ * surface before it.
  *
  * Arrays of the output:
  *
@@ -15,7 +16,7 @@
  * |-------------------|--------|---------------|--------------------------------------------------|
  * | OpticalPath       | points | double        | length of the path from the eye, times the       |
  * |                   |        |               | indices of refraction along it                   |
- * | PointId           | cells  | vtkIdType     | the point of the input                           |
+ * | PointId           | cells  | vtkIdType     | number of the point of the input                 |
  * | Leg               | cells  | int           | 0 from the eye to the first surface, and so on   |
  * | IndexOfRefraction | cells  | double        | index of the leg's medium                        |
  * | SeenState         | cells  | unsigned char | one of vtkTruePositionFilter::SeenStates         |

@@ -7,8 +7,8 @@
  * Each point of port 0 is an observation: any place on the sight ray on which an eye sees an object
  * point, such as a pixel's place on the image plane; its distance from the eye does not matter. The
  * point array EyeArrayName has the eye of each observation, the point array PointIdArrayName the
- * number of the object point that it sees, a whole number of any type. Observations of the cameras
- * of a rig are joined by vtkAppendPolyData.
+ * number of the object point that it sees, a whole number of any type. vtkAppendPolyData joins the
+ * observations of several cameras.
  *
  * The rays are refracted at all surfaces of port 1. The result is the point with the least sum of
  * squared distances from its rays, in the medium in which the rays come closest to each other. Eyes
@@ -19,9 +19,9 @@
  * | name               | type          | meaning                                                |
  * |--------------------|---------------|--------------------------------------------------------|
  * | PointId            | vtkIdType     | number of the object point                             |
- * | NumberOfRays       | int           | rays that were used; observations that are not finite, |
- * |                    |               | or whose eye cannot be used, have none; neither has an |
- * |                    |               | eye from which no ray passes the list of surfaces      |
+ * | NumberOfRays       | int           | rays that were used. An observation has no ray if it   |
+ * |                    |               | or its eye is not finite, if its eye is on a surface,  |
+ * |                    |               | or if no ray from its eye passes the list of surfaces  |
  * | Residual           | double        | root of the mean square distance of the rays           |
  * | RayAngle           | double        | largest angle between two rays at the point, in        |
  * |                    |               | degrees: small angles have large errors of distance    |

@@ -7,16 +7,18 @@
  * The inverse of vtkRefractedGeometryFilter, for measurements that are made through water or glass:
  * points from photographs, laser scans or depth images lie where they are seen, and the filter
  * moves them to where they are. Port 0 is any vtkPointSet, port 1 the membrane. Port 1 is
- * repeatable; see SetInterfaces() for several surfaces. An eye on the side of a surface that its
- * normals point away from is in the medium of the index InteriorIndexOfRefraction.
+ * repeatable; see SetInterfaces() for several surfaces. The normals of a surface point to the
+ * medium of the index ExteriorIndexOfRefraction; an eye on the other side is in the medium of the
+ * index InteriorIndexOfRefraction.
  *
  * The sight ray from the eye to a point is refracted by Snell's law where it first meets the
  * membrane, a curved surface through the vertices with their normals (CURVED of
- * vtkRefractedGeometryFilter). The point is moved to the refracted ray; SetDepth() says how far
- * behind the sight point. The default is n2 / n1 times the distance at which it is seen behind the
- * sight point, so that vtkRefractedGeometryFilter moves it back (Eq. 2.4 of the thesis "Refraction
- * by geometric transforms"). Laser scans need SetDepthToOptical(). Points that were triangulated
- * along straight rays have no depth of any of these kinds: use vtkTriangulatedPositionFilter.
+ * vtkRefractedGeometryFilter). The point is moved onto the refracted ray; SetDepth() chooses its
+ * distance behind the sight point. The default is n2 / n1 times the distance at which it is seen
+ * behind the sight point, so that vtkRefractedGeometryFilter moves it back (Eq. 2.4 of the thesis
+ * "Refraction by geometric transforms"). Laser scans need SetDepthToOptical(). Points that were
+ * triangulated along straight rays have no depth of any of these kinds: use
+ * vtkTriangulatedPositionFilter.
  *
  * The output has the structure and the arrays of the input, and the point arrays
  *

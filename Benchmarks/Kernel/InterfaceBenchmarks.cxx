@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times of refraction at wavy surfaces below each other; Arg is the number of surfaces. Rows named
 // ...AtMembrane measure the code for one membrane with the same arguments as a list with one
-// surface. The surfaces of ...Plane and ...Planes are flat.
+// surface; rows named ...ByList use a list of one where it decides. The surfaces of
+// ...Plane and ...Planes are flat.
 #include "KernelSurfaces.h"
 #include "MembraneMeshes.h"
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
+#include "Refraction/Stack/PlaneImages.h"
 #include "Refraction/Stack/StackInverse.h"
 #include "Refraction/Stack/StackSolver.h"
 #include "Refraction/StackImages/StackImages.h"
@@ -49,16 +51,33 @@ std::vector<Interface> MakeInterfaces(std::int64_t number, Shape shape = Shape::
   return interfaces;
 }
 
-/** Solver of the first surface alone. */
+/** Solver of the first surface alone, and as an exact plane, if it is one. */
 struct OneMembrane
 {
+  Interface First;
   CurvedMembraneSolver Solver;
+  RefractionStack Stack;
+  ParallelPlanes Plane;
 
   explicit OneMembrane(Shape shape = Shape::Waves)
+    : First(MakeInterfaces(1, shape).front())
   {
-    const Interface first = MakeInterfaces(1, shape).front();
-    this->Solver.SetSurface(first.Surface);
-    this->Solver.SetEye(Eye, first.Media.Exterior, first.Media.Interior);
+    this->Solver.SetSurface(this->First.Surface);
+    this->Stack.SetInterfaces({ this->First });
+    this->SetEye();
+    this->SetEyeOfPlane();
+  }
+
+  EyeStatus SetEye()
+  {
+    return this->Solver.SetEye(Eye, this->First.Media.Exterior, this->First.Media.Interior);
+  }
+
+  EyeStatus SetEyeOfPlane()
+  {
+    const EyeStatus status = this->Stack.SetEye(Eye);
+    this->Plane.Set(this->Stack);
+    return status;
   }
 };
 
@@ -135,6 +154,21 @@ void SolveAtPlane(benchmark::State& state)
   SolveAtShape(state, Shape::Planes);
 }
 
+void SolveAtPlaneByList(benchmark::State& state)
+{
+  const OneMembrane one(Shape::Planes);
+  const std::vector<double> points = MakeGridPoints();
+  std::vector<VirtualVertex> vertices(points.size() / 3);
+  std::vector<unsigned char> isOpen(vertices.size());
+  for (auto step : state)
+  {
+    std::fill(isOpen.begin(), isOpen.end(), 1);
+    benchmark::DoNotOptimize(meniscus::SolveAtPlane(
+      one.Plane, points.data(), 0, vertices.size(), vertices.data(), isOpen.data()));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices.size()));
+}
+
 void SolveThroughShapes(benchmark::State& state, Shape shape)
 {
   const Interfaces list(state.range(0), shape);
@@ -190,7 +224,17 @@ void SetEyeAtMembrane(benchmark::State& state)
   OneMembrane one;
   for (auto step : state)
   {
-    benchmark::DoNotOptimize(one.Solver.SetEye(Eye, 1.0, 1.2));
+    benchmark::DoNotOptimize(one.SetEye());
+  }
+}
+
+void SetEyeAtPlaneByList(benchmark::State& state)
+{
+  OneMembrane one(Shape::Planes);
+  for (auto step : state)
+  {
+    benchmark::DoNotOptimize(one.Solver.PlaceEye(Eye, 1.0, 1.2));
+    benchmark::DoNotOptimize(one.SetEyeOfPlane());
   }
 }
 
@@ -257,15 +301,62 @@ struct Square
   }
 };
 
-/** Images of the square's triangles. */
+/** Images of the square's triangles; at planes, with a new eye for each. */
+void MapTrianglesAt(benchmark::State& state, Shape shape, bool byList)
+{
+  OneMembrane one(shape);
+  one.Solver.PrepareField();
+  const Square square;
+  const std::size_t points = square.Points.size() / 3;
+  for (auto step : state)
+  {
+    if (byList)
+    {
+      one.Solver.PlaceEye(Eye, 1.0, 1.2);
+      one.SetEyeOfPlane();
+    }
+    else if (shape == Shape::Planes)
+    {
+      one.SetEye();
+    }
+    ObjectImages images(one.Solver, byList ? &one.Plane : nullptr);
+    images.SetPoints(square.Points.data(), points, false);
+    if (shape == Shape::Planes)
+    {
+      images.PrepareUnique(points, square.Names.size(), SerialLoop);
+    }
+    square.Map(images);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(square.Names.size()));
+}
+
 void MapTrianglesAtMembrane(benchmark::State& state)
 {
-  OneMembrane one;
+  MapTrianglesAt(state, Shape::Waves, false);
+}
+
+void MapTrianglesAtPlane(benchmark::State& state)
+{
+  MapTrianglesAt(state, Shape::Planes, false);
+}
+
+void MapTrianglesAtPlaneByList(benchmark::State& state)
+{
+  MapTrianglesAt(state, Shape::Planes, true);
+}
+
+void MapTrianglesThrough(benchmark::State& state, Shape shape)
+{
+  Interfaces list(state.range(0), shape);
   const Square square;
   for (auto step : state)
   {
-    ObjectImages images(one.Solver);
-    images.SetPoints(square.Points.data(), square.Points.size() / 3, false);
+    if (shape == Shape::Planes)
+    {
+      list.Solver.SetEye(Eye);
+    }
+    StackImages images(list.Solver);
+    images.SetPoints(square.Points.data(), square.Points.size() / 3);
     square.Map(images);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(square.Names.size()));
@@ -273,15 +364,12 @@ void MapTrianglesAtMembrane(benchmark::State& state)
 
 void MapTrianglesThroughInterfaces(benchmark::State& state)
 {
-  const Interfaces list(state.range(0));
-  const Square square;
-  for (auto step : state)
-  {
-    StackImages images(list.Solver);
-    images.SetPoints(square.Points.data(), square.Points.size() / 3);
-    square.Map(images);
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(square.Names.size()));
+  MapTrianglesThrough(state, Shape::Waves);
+}
+
+void MapTrianglesThroughPlanes(benchmark::State& state)
+{
+  MapTrianglesThrough(state, Shape::Planes);
 }
 
 /** View of 256 x 256 pixels of a mesh below the waves. */
@@ -328,12 +416,17 @@ BENCHMARK(SetEyeAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(SetEyeThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(SolveAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveThroughInterfaces)->Apply(ForOneToThree);
+BENCHMARK(SetEyeAtPlaneByList)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveAtPlane)->Unit(benchmark::kMillisecond);
+BENCHMARK(SolveAtPlaneByList)->Unit(benchmark::kMillisecond);
 BENCHMARK(SolveThroughPlanes)->Apply(ForOneToThree);
 BENCHMARK(FindAllImagesAtMembrane)->Unit(benchmark::kMillisecond);
 BENCHMARK(FindAllImagesThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(MapTrianglesAtMembrane)->Unit(benchmark::kMillisecond);
+BENCHMARK(MapTrianglesAtPlane)->Unit(benchmark::kMillisecond);
+BENCHMARK(MapTrianglesAtPlaneByList)->Unit(benchmark::kMillisecond);
 BENCHMARK(MapTrianglesThroughInterfaces)->Apply(ForOneToThree);
+BENCHMARK(MapTrianglesThroughPlanes)->Apply(ForOneToThree);
 BENCHMARK(TraceRaysThroughInterfaces)->Apply(ForOneToThree);
 BENCHMARK(FindTruePositionsThroughInterfaces)->Apply(ForOneToThree);
 

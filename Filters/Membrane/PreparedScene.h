@@ -70,6 +70,9 @@ struct PreparedScene
   std::vector<InterfaceMedia> Media;
   /** One surface of flat facets, one of curved patches, or a list. */
   std::variant<FlatMembraneSolver, CurvedMembraneSolver, StackSolver> Solver;
+  /** One refracting surface as a list, and as an exact plane in front of the eye; or empty. */
+  RefractionStack Path;
+  ParallelPlanes Plane;
   /** Read and written by the functions below only. */
   bool IsListed = false;
   bool IsBorrowed = false;

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
+#include "Refraction/Stack/PlaneImages.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include "vtkImplicitFunction.h"
@@ -327,9 +328,35 @@ void RefractionScene::TurnSurfaces()
 }
 
 //------------------------------------------------------------------------------
+/** Makes a list of one surface if the eye is in front of it and it is an exact plane. */
+bool RefractionScene::FindPlane(const CurvedMembraneSolver& curved)
+{
+  PreparedScene& prepared = *this->Prepared;
+  prepared.Plane.Clear();
+  if (this->View.Reflects || !curved.IsFlat())
+  {
+    return false;
+  }
+  this->PrepareCrossings();
+  prepared.Path.SetInterfaces(
+    { { prepared.Surfaces.front().Source.GetSurface(), this->View.Media.front() } });
+  if (prepared.Path.SetEye(this->GetEye()) == EyeStatus::Ready && prepared.Path.HasPassage() &&
+    prepared.Path.GetLinks().front().Passage.FromFront)
+  {
+    prepared.Plane.Set(prepared.Path);
+  }
+  if (!prepared.Plane.AreExact())
+  {
+    prepared.Plane.Clear();
+  }
+  return prepared.Plane.AreExact();
+}
+
+//------------------------------------------------------------------------------
 /** Fits the solver to the eye of the view. */
 EyeStatus RefractionScene::PlaceEye()
 {
+  this->Prepared->Plane.Clear();
   auto& solver = this->Prepared->Solver;
   const glm::dvec3 eye = this->GetEye();
   const InterfaceMedia& first = this->View.Media.front();
@@ -339,7 +366,9 @@ EyeStatus RefractionScene::PlaceEye()
   }
   if (auto* curved = std::get_if<CurvedMembraneSolver>(&solver))
   {
-    return curved->SetEye(eye, first.Exterior, first.Interior, FacetLoop, this->View.Reflects);
+    return this->FindPlane(*curved)
+      ? curved->PlaceEye(eye, first.Exterior, first.Interior)
+      : curved->SetEye(eye, first.Exterior, first.Interior, FacetLoop, this->View.Reflects);
   }
   return std::get<FlatMembraneSolver>(solver).SetEye(
     eye, first.Exterior, first.Interior, FacetLoop);
@@ -516,6 +545,10 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
   {
     return false;
   }
+  if (curved)
+  {
+    curved->PrepareTree(FacetLoop);
+  }
   const Membrane& membrane = this->GetFirstMembrane();
   const auto& facets = membrane.GetFacets();
   // Rounding of a sum of three products of coordinates, with planes that are computed from two
@@ -584,7 +617,12 @@ void RefractionScene::Solve(const double* points, std::size_t from, std::size_t 
   const auto& solver = this->Prepared->Solver;
   if (const auto* curved = std::get_if<CurvedMembraneSolver>(&solver))
   {
-    curved->Solve(points, from, to, vertices);
+    const ParallelPlanes* plane = this->GetPlane();
+    std::vector<unsigned char> isOpen(plane ? to : 0, 1);
+    if (!plane || SolveAtPlane(*plane, points, from, to, vertices, isOpen.data()))
+    {
+      curved->Solve(points, from, to, vertices, plane ? isOpen.data() : nullptr);
+    }
   }
   else if (const auto* flat = std::get_if<FlatMembraneSolver>(&solver))
   {

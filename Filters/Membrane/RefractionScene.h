@@ -145,6 +145,11 @@ public:
   {
     return std::get<CurvedMembraneSolver>(this->Prepared->Solver);
   }
+  /** The interface of GetCurved() as a list, if it is an exact plane before the eye; or null. */
+  const ParallelPlanes* GetPlane() const
+  {
+    return this->Prepared->Plane.IsEmpty() ? nullptr : &this->Prepared->Plane;
+  }
   /** Interfaces of a scene that is used for rays. */
   const RefractionStack& GetStack() const { return this->GetPathSolver()->GetStack(); }
 
@@ -197,6 +202,7 @@ private:
   bool IsOnWrongSide(std::size_t index, const glm::dvec3& eye) const;
   void TurnSurfaces();
   EyeStatus PlaceEye();
+  bool FindPlane(const CurvedMembraneSolver& curved);
   std::string DescribeMembrane(const CurvedMembraneSolver* curved);
   std::string DescribeList(const RefractionStack& stack);
   /** The solver's count, to which all of its users add. */

@@ -63,15 +63,17 @@ void SolvedBlock::PrepareFirst(const RefractionScene& scene)
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<CellImages> SolvedBlock::MakeImages(CurvedMembraneSolver& solver) const
+std::unique_ptr<CellImages> SolvedBlock::MakeImages(
+  CurvedMembraneSolver& solver, const ParallelPlanes* plane) const
 {
   const std::size_t count = this->Points.size() / 3;
   const bool mayCross = !solver.AreAllOnRaySide(this->Points.data(), count);
   if (mayCross)
   {
     solver.PrepareSides();
+    solver.PrepareTree(FacetLoop);
   }
-  auto images = std::make_unique<ObjectImages>(solver);
+  auto images = std::make_unique<ObjectImages>(solver, plane);
   images->SetPoints(this->Points.data(), count, mayCross);
   solver.PrepareField();
   images->PrepareUnique(
@@ -92,7 +94,21 @@ void SolvedBlock::MakeImages(RefractionScene& scene)
   }
   else
   {
-    this->Images = this->MakeImages(scene.GetCurved());
+    this->Images = this->MakeImages(scene.GetCurved(), scene.GetPlane());
+  }
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::PrepareCells(RefractionScene& scene) const
+{
+  const std::size_t count = this->Points.size() / 3;
+  for (std::size_t i = 0; i < count && !scene.GetPathSolver(); ++i)
+  {
+    if (this->Images->GetNumberOfImages(i) != 1)
+    {
+      scene.GetCurved().PrepareTree(FacetLoop);
+      return;
+    }
   }
 }
 

@@ -37,6 +37,8 @@ struct SolvedBlock
   /** Replaces `Images` by all images of the points, which have to be solved; without flat facets.
    */
   void MakeImages(RefractionScene& scene);
+  /** Prepares the mapping of cells on all threads, if a point has no image or several. */
+  void PrepareCells(RefractionScene& scene) const;
   /** `Images` of several interfaces. */
   const StackImages& GetStackImages() const;
   /** True if a chunk of CellImages::Chunk points in the order of solving has selected points. */
@@ -79,7 +81,8 @@ struct SolvedBlock
   KeptOutput Kept;
 
 private:
-  std::unique_ptr<CellImages> MakeImages(CurvedMembraneSolver& solver) const;
+  std::unique_ptr<CellImages> MakeImages(
+    CurvedMembraneSolver& solver, const ParallelPlanes* plane) const;
 };
 
 }

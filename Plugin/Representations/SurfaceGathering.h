@@ -6,15 +6,11 @@
 
 #include "InterfaceTable.h"
 
-/**
- * Declares in a class, after `private:`, what meniscusSurfaceGatheringMacro defines. The argument
- * is the method by which the superclass requests its inputs.
- */
-#define meniscusSurfaceGatheringDeclarations(className, requestExtent)                             \
+/** Members that the two declaring macros below share; begins and ends with private ones. */
+#define meniscusGatheringMembers(className, requestExtent)                                         \
 public:                                                                                            \
   static className* New();                                                                         \
   meniscusInterfaceTableDeclarations();                                                            \
-  void SetExactMembrane(vtkImplicitFunction* function);                                            \
                                                                                                    \
 protected:                                                                                         \
   className();                                                                                     \
@@ -29,6 +25,15 @@ private:                                                                        
   className(const className&) = delete;                                                            \
   void operator=(const className&) = delete;                                                       \
   meniscus::InterfaceTable Table
+
+/**
+ * Declares in a class, after `private:`, what meniscusSurfaceGatheringMacro defines. The argument
+ * is the method by which the superclass requests its inputs.
+ */
+#define meniscusSurfaceGatheringDeclarations(className, requestExtent)                             \
+public:                                                                                            \
+  void SetExactMembrane(vtkImplicitFunction* function);                                            \
+  meniscusGatheringMembers(className, requestExtent)
 
 /**
  * Defines the methods of a class whose surfaces are at an input port: every rank gathers them from
@@ -86,25 +91,10 @@ private:                                                                        
 /** Declares in a class, after `private:`, what meniscusBlockPortsMacro defines, and the rest. */
 #define meniscusBlockPortsDeclarations(className, requestExtent)                                   \
 public:                                                                                            \
-  static className* New();                                                                         \
-  meniscusInterfaceTableDeclarations();                                                            \
   int ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,                       \
     vtkInformationVector* outputs) override;                                                       \
-                                                                                                   \
-protected:                                                                                         \
-  className();                                                                                     \
-  ~className() override;                                                                           \
-  int FillInputPortInformation(int port, vtkInformation* info) override;                           \
   int FillOutputPortInformation(int port, vtkInformation* info) override;                          \
-  int requestExtent(vtkInformation* request, vtkInformationVector** inputs,                        \
-    vtkInformationVector* outputs) override;                                                       \
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,                          \
-    vtkInformationVector* outputs) override;                                                       \
-                                                                                                   \
-private:                                                                                           \
-  className(const className&) = delete;                                                            \
-  void operator=(const className&) = delete;                                                       \
-  meniscus::InterfaceTable Table
+  meniscusGatheringMembers(className, requestExtent)
 
 /**
  * Defines the methods, except the constructor, of a class whose first input may have blocks and

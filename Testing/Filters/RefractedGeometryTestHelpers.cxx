@@ -126,6 +126,22 @@ vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y)
 }
 
 //------------------------------------------------------------------------------
+void AddBumps(vtkPolyData* data, double up, int type)
+{
+  auto normals = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
+  normals->SetName("Bumps");
+  normals->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const auto angle = static_cast<double>(i);
+    const glm::dvec3 n =
+      glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * angle), up, 0.6 * std::cos(1.3 * angle)));
+    normals->InsertNextTuple(&n.x);
+  }
+  data->GetPointData()->SetNormals(normals);
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(vtkPolyData* geometry, vtkPolyData* membrane)
 {
   auto filter = vtkSmartPointer<vtkRefractedGeometryFilter>::New();

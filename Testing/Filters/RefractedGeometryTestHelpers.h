@@ -64,6 +64,12 @@ vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<Point>& points);
  */
 vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 
+/**
+ * Gives the points of `data` unit normals "Bumps" that differ from point to point, none of them
+ * along an axis. The smaller `up`, the more they lean.
+ */
+void AddBumps(vtkPolyData* data, double up = 1.0, int type = VTK_DOUBLE);
+
 /** A filter with FLAT_FACETS, FIRST_IMAGE and the eye at (20, 300, 10). */
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
   vtkPolyData* geometry, vtkPolyData* membrane);

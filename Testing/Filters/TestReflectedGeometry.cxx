@@ -199,16 +199,8 @@ TEST(ReflectedGeometryOutput, PlaneMirrorsReverseNormalsAndWinding)
   for (const int images : { Filter::FIRST_IMAGE, Filter::ALL_IMAGES })
   {
     const auto grid = MakeGrid(9, 60.0, 40.0);
-    vtkNew<vtkFloatArray> normals;
-    normals->SetName("Bumps");
-    normals->SetNumberOfComponents(3);
-    for (int i = 0; i < 81; ++i)
-    {
-      const glm::dvec3 n =
-        glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 1.0, 0.6 * std::cos(1.3 * i)));
-      normals->InsertNextTuple(&n.x);
-    }
-    grid->GetPointData()->SetNormals(normals);
+    AddBumps(grid, 1.0, VTK_FLOAT);
+    vtkDataArray* normals = grid->GetPointData()->GetNormals();
     const auto filter = MakeMirror(grid, MakeFlatMembrane());
     filter->SetImages(images);
     filter->Update();
@@ -272,16 +264,8 @@ TEST(ReflectedGeometryOutput, VirtualNormalsKeepTheDirectLight)
 {
   const HeightField waves{ HeightField::Shape::Waves, 200.0, 0.4, 0.02 * Pi, 1.0, 1.0, true };
   const auto grid = MakeGrid(9, 60.0, 40.0);
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  for (int i = 0; i < 81; ++i)
-  {
-    const glm::dvec3 n =
-      glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 0.8, 0.6 * std::cos(1.3 * i)));
-    normals->InsertNextTuple(&n.x);
-  }
-  grid->GetPointData()->SetNormals(normals);
+  AddBumps(grid, 0.8);
+  vtkDataArray* normals = grid->GetPointData()->GetNormals();
   const auto filter = MakeMirror(grid, MakeMembrane(waves.MakeMesh(64)));
   filter->SetImagesToFirstImage();
   filter->VirtualNormalsOn();

@@ -14,20 +14,11 @@ const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
-/** A grid with unit normals that differ from point to point, none of them along an axis. */
+/** A grid with normals. */
 vtkSmartPointer<vtkPolyData> MakeLitGrid(double y)
 {
   auto grid = MakeGrid(9, 80.0, y);
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetName("Bumps");
-  normals->SetNumberOfComponents(3);
-  for (int i = 0; i < 81; ++i)
-  {
-    const glm::dvec3 n =
-      glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 1.0, 0.6 * std::cos(1.3 * i)));
-    normals->InsertNextTuple(&n.x);
-  }
-  grid->GetPointData()->SetNormals(normals);
+  AddBumps(grid);
   return grid;
 }
 

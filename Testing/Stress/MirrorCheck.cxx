@@ -56,18 +56,6 @@ private:
   void CheckImage(int i, const glm::dvec3& point, const VirtualVertex& vertex);
   void CheckChains();
 
-  void Count(std::int64_t RefractionTally::*fault, int i, const char* text, double value)
-  {
-    ++(this->Tally.*fault);
-    if (this->Tally.First.empty())
-    {
-      std::ostringstream line;
-      line.precision(10);
-      line << "point " << i << ": " << text << ", " << value;
-      this->Tally.First = line.str();
-    }
-  }
-
   const MirrorCase& Test;
   StressRandom Random;
   CurvedMembraneSolver Mirror;
@@ -225,7 +213,7 @@ void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* p
   const VirtualVertex first = this->Mirror.SolvePoint(world, memory);
   if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
   {
-    this->Count(&RefractionTally::Failed, i, "no answer of a mirror", 0.0);
+    this->Tally.Count(&RefractionTally::Failed, i, "no answer of a mirror", 0.0);
     return;
   }
   const double same = Same * this->Tracer->GetSize(0) + 8.0 * this->Rounding;
@@ -243,7 +231,7 @@ void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* p
     this->CheckImage(i, rounded, first);
     if (isDecided && !isKnown(first.SightPoint))
     {
-      this->Count(
+      this->Tally.Count(
         &RefractionTally::Wrong, i, "first image of a mirror is not among all images", 0.0);
     }
   }
@@ -252,11 +240,12 @@ void MirrorChecker::CheckPoint(int i, const glm::dvec3& point, const PatchHit* p
     ++this->Tally.Images;
     if (!isKnown(planted->Position + this->Frame))
     {
-      this->Count(&RefractionTally::Missed, i, "missed image in a mirror; decided", isDecided);
+      this->Tally.Count(
+        &RefractionTally::Missed, i, "missed image in a mirror; decided", isDecided);
     }
     if (first.State != ImageState::Found)
     {
-      this->Count(&RefractionTally::Missed, i, "no first image in a mirror", 0.0);
+      this->Tally.Count(&RefractionTally::Missed, i, "no first image in a mirror", 0.0);
     }
   }
 }
@@ -273,7 +262,7 @@ void MirrorChecker::CheckImage(int i, const glm::dvec3& point, const VirtualVert
   const bool isFinite = std::isfinite(position.x + position.y + position.z + out + vertex.Depth);
   if (!isFinite || !(vertex.Reflectance >= 0.0 && vertex.Reflectance <= 1.0))
   {
-    this->Count(&RefractionTally::Wrong, i, "not a number in a mirror", vertex.Reflectance);
+    this->Tally.Count(&RefractionTally::Wrong, i, "not a number in a mirror", vertex.Reflectance);
     return;
   }
   if (vertex.Depth == 0.0)
@@ -293,7 +282,8 @@ void MirrorChecker::CheckImage(int i, const glm::dvec3& point, const VirtualVert
   {
     if (!this->Tracer->IsAtBorder(vertex.Facet, { 1.0 / 3.0, 1.0 / 3.0 }, 1.0))
     {
-      this->Count(&RefractionTally::False, i, "sight point is not on the mirror", vertex.Facet);
+      this->Tally.Count(
+        &RefractionTally::False, i, "sight point is not on the mirror", vertex.Facet);
     }
     return;
   }
@@ -304,7 +294,7 @@ void MirrorChecker::CheckImage(int i, const glm::dvec3& point, const VirtualVert
   if (!(residual <= tolerance) || !(glm::dot(a, place.Normal) < tolerance) ||
     !(-glm::dot(b, place.Normal) < tolerance))
   {
-    this->Count(&RefractionTally::False, i, "law of reflection is off by", residual);
+    this->Tally.Count(&RefractionTally::False, i, "law of reflection is off by", residual);
     return;
   }
   if (std::min(in, out) > size)
@@ -315,7 +305,8 @@ void MirrorChecker::CheckImage(int i, const glm::dvec3& point, const VirtualVert
   const double misplaced = glm::length(position - (sight + out * a));
   if (!(misplaced <= rounding) || !(std::fabs(vertex.Depth - out) <= rounding))
   {
-    this->Count(&RefractionTally::Wrong, i, "virtual vertex of a mirror is off by", misplaced);
+    this->Tally.Count(
+      &RefractionTally::Wrong, i, "virtual vertex of a mirror is off by", misplaced);
   }
 }
 
@@ -353,7 +344,7 @@ void MirrorChecker::CheckChains()
     const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
     if (!HasSameBits(serial[i], threaded[i]))
     {
-      this->Count(&RefractionTally::Wrong, static_cast<int>(i),
+      this->Tally.Count(&RefractionTally::Wrong, static_cast<int>(i),
         "other bits of a mirror on two threads", serial[i].Depth);
     }
     if (serial[i].State == ImageState::Found)
@@ -368,7 +359,7 @@ RefractionTally MirrorChecker::Run()
 {
   if (!this->SetUp())
   {
-    this->Count(&RefractionTally::Failed, 0, "mirror or eye refused", 0.0);
+    this->Tally.Count(&RefractionTally::Failed, 0, "mirror or eye refused", 0.0);
     return this->Tally;
   }
   for (int i = 0; i < PointsPerCase; ++i)

@@ -4,6 +4,8 @@
 
 #include "RefractionCase.h"
 
+#include <sstream>
+
 namespace meniscus::test
 {
 
@@ -40,6 +42,20 @@ struct RefractionTally
   double LargestRoundTrip = 0.0;
   /** First failure as text; empty if there is none. */
   std::string First;
+
+  /** Counts a fault at point `i`, and describes it if it is the first one. */
+  template <typename Value>
+  void Count(std::int64_t RefractionTally::*fault, int i, const char* text, const Value& value)
+  {
+    ++(this->*fault);
+    if (this->First.empty())
+    {
+      std::ostringstream line;
+      line.precision(10);
+      line << "point " << i << ": " << text << ", " << value;
+      this->First = line.str();
+    }
+  }
 
   void Add(const RefractionTally& other);
   bool IsGood() const

@@ -287,7 +287,7 @@ void StackChecker::CheckPoint(
   const StackVertex first = this->Solver.SolvePoint(world, memory);
   if (state == ImageState::NotFinite || first.State == ImageState::NotFinite)
   {
-    this->Count(&RefractionTally::Failed, i, "no answer", 0);
+    this->Tally.Count(&RefractionTally::Failed, i, "no answer", 0);
     return;
   }
   for (const StackPath& image : images)
@@ -312,7 +312,8 @@ void StackChecker::CheckPoint(
     this->CheckImage(i, rounded, path);
     if (isDecided && !isKnown(first.SightPoint - this->Frame, path.Count))
     {
-      this->Count(&RefractionTally::Wrong, i, "first image is not among all images", path.Count);
+      this->Tally.Count(
+        &RefractionTally::Wrong, i, "first image is not among all images", path.Count);
     }
   }
   if (planted)
@@ -320,13 +321,13 @@ void StackChecker::CheckPoint(
     ++this->Tally.Images;
     if (!isKnown(planted->Position, count))
     {
-      this->Count(&RefractionTally::Missed, i,
+      this->Tally.Count(&RefractionTally::Missed, i,
         isDecided ? "missed image behind interfaces" : "missed image, reported as undecided",
         count);
     }
     if (first.State != ImageState::Found)
     {
-      this->Count(&RefractionTally::Missed, i, "no first image behind interfaces", count);
+      this->Tally.Count(&RefractionTally::Missed, i, "no first image behind interfaces", count);
     }
   }
 }
@@ -387,7 +388,7 @@ void StackChecker::CheckChains()
           other->Legs.begin() + static_cast<std::ptrdiff_t>(components * i));
       if (!same)
       {
-        this->Count(&RefractionTally::Wrong, number,
+        this->Tally.Count(&RefractionTally::Wrong, number,
           other == &padded ? "other bits with equal indices" : "other bits on two threads", i);
       }
     }
@@ -409,7 +410,7 @@ RefractionTally StackChecker::Run()
 {
   if (!this->SetUp())
   {
-    this->Count(&RefractionTally::Failed, 0, "surface, list or eye refused", 0);
+    this->Tally.Count(&RefractionTally::Failed, 0, "surface, list or eye refused", 0);
     return this->Tally;
   }
   if (this->Layers.empty())
@@ -428,7 +429,7 @@ RefractionTally StackChecker::Run()
         path.IsCertain && path.End == PathEnd::Passed;
       if (passes)
       {
-        this->Count(&RefractionTally::Failed, 0, "the list begins elsewhere; interfaces",
+        this->Tally.Count(&RefractionTally::Failed, 0, "the list begins elsewhere; interfaces",
           this->Solver.GetStack().GetLinks().size());
         break;
       }

@@ -84,19 +84,6 @@ private:
     int i, const glm::dvec3& point, const StackPath& path, const StackVertex& vertex);
   void CheckChains();
 
-  template <typename Value>
-  void Count(std::int64_t RefractionTally::*fault, int i, const char* text, const Value& value)
-  {
-    ++(this->Tally.*fault);
-    if (this->Tally.First.empty())
-    {
-      std::ostringstream line;
-      line.precision(10);
-      line << "point " << i << ": " << text << ", " << value;
-      this->Tally.First = line.str();
-    }
-  }
-
   const StackCase& Test;
   StressRandom Random;
   std::vector<TracedSurface> Surfaces;

@@ -147,8 +147,8 @@ void StackChecker::CheckImage(int i, const glm::dvec3& point, const StackPath& p
   }
   if (!this->CheckNearest(point, path))
   {
-    this->Count(&RefractionTally::False, i, "crosses a surface earlier, or not at all; interfaces",
-      path.Count);
+    this->Tally.Count(&RefractionTally::False, i,
+      "crosses a surface earlier, or not at all; interfaces", path.Count);
     return;
   }
   this->CheckVertex(i, point, path, vertex);
@@ -170,7 +170,7 @@ bool StackChecker::CheckLaw(int i, const glm::dvec3& point, const StackPath& pat
     const double off = Rest * size + 4.0 * this->Rounding;
     if (!(glm::length(hit.Position - at.Ray.Origin) <= off) || !(hit.Inside > -SamePlace))
     {
-      this->Count(&RefractionTally::False, i, "sight point is not on the surface", k);
+      this->Tally.Count(&RefractionTally::False, i, "sight point is not on the surface", k);
       return false;
     }
     const glm::dvec3 next = k + 1 < path.Count ? path.Points[k + 1].Ray.Origin : point;
@@ -189,7 +189,7 @@ bool StackChecker::CheckLaw(int i, const glm::dvec3& point, const StackPath& pat
     if (!(residual <= tolerance) || !(glm::dot(a, hit.Normal) < tolerance) ||
       !(glm::dot(b, hit.Normal) < tolerance))
     {
-      this->Count(&RefractionTally::False, i, "Snell's law is off by", residual);
+      this->Tally.Count(&RefractionTally::False, i, "Snell's law is off by", residual);
       return false;
     }
     if (std::min(in, out) > size)
@@ -245,7 +245,8 @@ void StackChecker::CheckVertex(
     vertex.Transmittance >= 0.0 && vertex.Transmittance <= 1.0;
   if (!isFinite || !isInRange)
   {
-    this->Count(&RefractionTally::Wrong, i, "not a number, or a share beyond 0 and 1", path.Count);
+    this->Tally.Count(
+      &RefractionTally::Wrong, i, "not a number, or a share beyond 0 and 1", path.Count);
     return;
   }
   glm::dvec3 expected = point;
@@ -274,7 +275,7 @@ void StackChecker::CheckVertex(
     std::fabs(vertex.Depth - depth) <= rounding + rest;
   if (!isRight)
   {
-    this->Count(&RefractionTally::Wrong, i, "virtual vertex behind interfaces", path.Count);
+    this->Tally.Count(&RefractionTally::Wrong, i, "virtual vertex behind interfaces", path.Count);
   }
 }
 
@@ -359,7 +360,7 @@ void StackChecker::CheckWayBack(
   this->Tally.LargestRoundTrip = std::max(this->Tally.LargestRoundTrip, error / scene);
   if (back.State != SeenState::Refracted || !(error <= RoundTrip * scene + 100.0 * this->Rounding))
   {
-    this->Count(
+    this->Tally.Count(
       &RefractionTally::Wrong, i, "round trip is off, relative to the scene, by", error / scene);
   }
 }

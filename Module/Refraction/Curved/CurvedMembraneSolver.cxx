@@ -259,33 +259,65 @@ void CurvedMembraneSolver::Clear()
 EyeStatus CurvedMembraneSolver::SetEye(
   const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop, bool reflects)
 {
-  const EyeStatus status = CheckEye(eye, exterior, interior);
+  const EyeStatus status = this->PlaceEye(eye, exterior, interior);
   if (status != EyeStatus::Ready)
   {
     return status;
   }
-  this->Optics = { eye - this->GetMembrane().GetOrigin(), exterior, interior, reflects };
-  this->RayFrame = reflects ? HeightFrame(-this->Axis) : this->Frame;
-  this->Grids.clear();
   if (reflects)
   {
+    this->Optics.Reflects = true;
+    this->RayFrame = HeightFrame(-this->Axis);
     this->PrepareSides();
   }
-  std::atomic<bool> touched{ false };
-  this->Tree.Refit(
-    [this, &touched](std::int32_t facet)
+  this->PrepareTree(loop);
+  return this->Touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus CurvedMembraneSolver::PlaceEye(const glm::dvec3& eye, double exterior, double interior)
+{
+  const EyeStatus status = CheckEye(eye, exterior, interior);
+  if (status == EyeStatus::Ready)
+  {
+    this->Optics = { eye - this->GetMembrane().GetOrigin(), exterior, interior, false };
+    this->RayFrame = this->Frame;
+    this->Grids.clear();
+    this->TreeOnce = std::make_unique<std::once_flag>();
+  }
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::PrepareTree(const RangeLoop& loop) const
+{
+  std::call_once(*this->TreeOnce,
+    [this, &loop]
     {
-      const CurvedPatch patch = this->GetPatches().GetPatch(facet);
-      if (this->IsEyeOnPatch(patch))
-      {
-        touched = true;
-      }
-      return this->Optics.Reflects ? BoundReflectedRays(patch, this->Optics.Eye)
-                                   : BoundRefractedRays(patch, this->Optics.Eye,
-                                       this->Optics.Exterior / this->Optics.Interior);
-    },
-    loop);
-  return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
+      this->Touched = false;
+      this->Tree.Refit(
+        [this](std::int32_t facet)
+        {
+          const CurvedPatch patch = this->GetPatches().GetPatch(facet);
+          if (this->IsEyeOnPatch(patch))
+          {
+            this->Touched = true;
+          }
+          return this->Optics.Reflects ? BoundReflectedRays(patch, this->Optics.Eye)
+                                       : BoundRefractedRays(patch, this->Optics.Eye,
+                                           this->Optics.Exterior / this->Optics.Interior);
+        },
+        loop);
+    });
+}
+
+//------------------------------------------------------------------------------
+// Heights are sums of three products; the axis is a normalised sum.
+bool CurvedMembraneSolver::IsFlat() const
+{
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  return !this->Closed &&
+    this->Highest - this->Lowest <= rounding * this->GetMembrane().GetRadius();
 }
 
 //------------------------------------------------------------------------------
@@ -344,7 +376,7 @@ bool CurvedMembraneSolver::MayShow(
   const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
     std::copysign(half.z, this->Axis.z));
   return !this->IsInReach(middle) || (!this->Optics.Reflects && !this->IsBehindAll(middle + top)) ||
-    this->Tree.HasAny(middle, padding, chosen);
+    this->GetTree().HasAny(middle, padding, chosen);
 }
 
 //------------------------------------------------------------------------------
@@ -381,7 +413,7 @@ bool CurvedMembraneSolver::FindFirst(
   // The cheap attempt comes first: Newton's method from the middle of each patch that may show the
   // point.
   place.Facet = CurvedPatches::NoFacet;
-  this->Tree.Visit(local, 0.0,
+  this->GetTree().Visit(local, 0.0,
     [this, &equation, &place](std::int32_t facet)
     {
       const CurvedPatch patch = this->GetPatches().GetPatch(facet);
@@ -412,7 +444,7 @@ void CurvedMembraneSolver::FindPlaces(
 {
   places.clear();
   bool isComplete = true;
-  this->Tree.Visit(local, 0.0,
+  this->GetTree().Visit(local, 0.0,
     [this, &equation, &places, &isComplete](std::int32_t facet)
     {
       const CurvedPatch patch = this->GetPatches().GetPatch(facet);

@@ -27,6 +27,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace meniscus
@@ -62,17 +63,26 @@ public:
 
   const Membrane& GetMembrane() const { return this->Surface->GetMembrane(); }
   const CurvedPatches& GetPatches() const { return this->Surface->GetPatches(); }
-  /** Tree over the refracted rays of all facets. */
-  const RayTubeTree& GetTree() const { return this->Tree; }
+  /** Tree over the refracted rays of all facets, fitted to the eye at the first call. */
+  const RayTubeTree& GetTree() const
+  {
+    this->PrepareTree(SerialLoop);
+    return this->Tree;
+  }
+  void PrepareTree(const RangeLoop& loop) const;
 
   /**
-   * Fits the tree to an eye in world coordinates. Solving is allowed only if the result is `Ready`.
-   * With `reflects`, the membrane is a mirror: virtual points belong to points on the eye's side
-   * and are as far behind their sight points as the points are in front of them. The indices give
-   * the reflectance only.
+   * Sets an eye in world coordinates, and fits the tree to it. Solving is allowed only if the
+   * result is `Ready`. With `reflects`, the membrane is a mirror: virtual points belong to points
+   * on the eye's side and are as far behind their sight points as the points are in front of them.
+   * The indices give the reflectance only.
    */
   EyeStatus SetEye(const glm::dvec3& eye, double exterior, double interior,
     const RangeLoop& loop = SerialLoop, bool reflects = false);
+  /**
+   * Sets an eye that is not on the membrane, for a surface that refracts and hardly needs the tree.
+   */
+  EyeStatus PlaceEye(const glm::dvec3& eye, double exterior, double interior);
 
   /**
    * Finds one image of each of `points` (x, y, z each) in [begin, end) and writes it to the same
@@ -194,7 +204,7 @@ public:
   template <typename Visitor>
   void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
   {
-    VisitTree(this->Tree, local, padding, visit);
+    VisitTree(this->GetTree(), local, padding, visit);
   }
 
   /**
@@ -237,6 +247,8 @@ public:
     return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
   }
   bool IsClosed() const { return this->Closed; }
+  /** True if the membrane deviates from a plane by the rounding of its coordinates at most. */
+  bool IsFlat() const;
   bool IsInFront(const glm::dvec3& local) const;
   /**
    * True if `count` points (x, y, z each), in world coordinates, are certainly on the side of the
@@ -297,7 +309,10 @@ private:
 
   std::shared_ptr<const RefractingSurface> Surface = std::make_shared<RefractingSurface>();
   std::shared_ptr<RefractingSurface> Own; ///< surface of SetMembrane()
-  RayTubeTree Tree;
+  /** Fitted when it is needed. */
+  mutable RayTubeTree Tree;
+  mutable std::atomic<bool> Touched{ false }; ///< the eye of the tree is on a patch
+  std::unique_ptr<std::once_flag> TreeOnce = std::make_unique<std::once_flag>();
   std::int64_t TreeOf = -1; ///< topology of the surface that the tree was built for
   MembraneSides Sides;
   MembraneSides SidesAbove; ///< as Sides, but by patches above points

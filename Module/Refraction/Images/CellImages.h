@@ -43,6 +43,8 @@ struct CellReport
   }
 };
 
+class ParallelPlanes;
+class PlaneSights;
 struct Seam;
 
 /**
@@ -143,6 +145,13 @@ protected:
   void AddWhole(
     const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
   MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
+  /**
+   * Finds the cells in [begin, end) behind parallel planes, on one leg, whose points have one image
+   * each, and that are drawn within half of the tolerance of their sight rays at the middles of
+   * their sides and at their own.
+   */
+  std::vector<bool> FindWholeBehind(const ParallelPlanes& planes, const ObjectCells& cells,
+    std::size_t begin, std::size_t end) const;
   /** Closes the seams of the mapped polygons, seen from `eye` in world coordinates. */
   void CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells, std::size_t count,
     const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole, ImageMesh& pieces,
@@ -155,6 +164,12 @@ protected:
   std::vector<ImageState> States;
   std::vector<std::size_t> First; ///< by point, and one more: index of its first image
   std::vector<ImagePoint> Images;
+
+private:
+  std::size_t CountPlanesBefore(
+    const ParallelPlanes& planes, const std::int64_t* ids, std::size_t count) const;
+  void AddPlaces(const std::int64_t* ids, std::size_t count, std::size_t number,
+    std::size_t planesBefore, const glm::dvec3& eye, PlaneSights& sights) const;
 };
 
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/ObjectImages.h"
 
+#include "Refraction/Stack/PlaneImages.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -84,7 +86,7 @@ bool ObjectImages::IsProofWorthwhile(
 //------------------------------------------------------------------------------
 void ObjectImages::PrepareUnique(std::size_t wanted, std::size_t cells, const RangeLoop& loop)
 {
-  if (this->Geometry.IsClosed())
+  if (this->Geometry.IsClosed() || this->Plane)
   {
     return;
   }
@@ -103,7 +105,7 @@ bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
 {
   if (!this->Unique)
   {
-    return false;
+    return this->Plane != nullptr;
   }
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(std::numeric_limits<double>::lowest());
@@ -150,6 +152,10 @@ bool ObjectImages::IsUniqueTriangle(const std::array<glm::dvec3, 3>& corners, in
 bool ObjectImages::MayBeDivided(
   const std::int64_t* ids, const std::vector<std::int64_t>& triangles) const
 {
+  if (this->Plane)
+  {
+    return true;
+  }
   bool isUnique = this->Geometry.HasConvexField() && this->Unique;
   for (std::size_t k = 0; k + 2 < triangles.size() && isUnique; k += 3)
   {
@@ -216,7 +222,11 @@ void ObjectImages::SolveChunks(std::size_t begin, std::size_t end)
   std::transform(
     ways.begin(), ways.end(), isUnique.begin(), [](Way way) { return way == Way::Unique ? 1 : 0; });
   std::vector<VirtualVertex> unique(count);
-  this->Geometry.Solve(this->Points + 3 * begin, 0, count, unique.data(), isUnique.data());
+  const double* points = this->Points + 3 * begin;
+  if (!this->Plane || SolveAtPlane(*this->Plane, points, 0, count, unique.data(), isUnique.data()))
+  {
+    this->Geometry.Solve(points, 0, count, unique.data(), isUnique.data());
+  }
   std::vector<VirtualVertex> images;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -351,16 +361,18 @@ bool ObjectImages::IsSimple(
 }
 
 //------------------------------------------------------------------------------
-// Prepares the sides of polygons that may keep their points.
-void ObjectImages::PrepareSides(
-  const ObjectCells& cells, std::size_t begin, std::size_t end, EdgeSubdivision& division) const
+// Prepares the sides of polygons that may keep their points, unless it is known that they do.
+void ObjectImages::PrepareSides(const ObjectCells& cells, std::size_t begin, std::size_t end,
+  const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division) const
 {
   std::vector<std::array<ImagedPoint, 2>> sides;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
-    const std::size_t open = this->HaveOneRefractedImage(ids, count) ? count : 0;
+    const bool isOpen = !keepsPoints[static_cast<std::ptrdiff_t>(i - begin)] &&
+      this->HaveOneRefractedImage(ids, count);
+    const std::size_t open = isOpen ? count : 0;
     for (std::size_t k = 0; k < open; ++k)
     {
       sides.push_back({ this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[(k + 1) % count]) });
@@ -370,12 +382,22 @@ void ObjectImages::PrepareSides(
 }
 
 //------------------------------------------------------------------------------
+// Finds cells that keep their points at the cost of a few sight rays in lanes.
+std::vector<bool> ObjectImages::FindWhole(
+  const ObjectCells& cells, std::size_t begin, std::size_t end) const
+{
+  return this->Plane ? this->FindWholeBehind(*this->Plane, cells, begin, end)
+                     : std::vector<bool>(end - begin, false);
+}
+
+//------------------------------------------------------------------------------
 CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
   const PrimitiveMapper mapping(
     this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
+  const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -384,7 +406,8 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
-    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, false, division)))
+    if (keepsPoints[i - begin] || side == Side::InFront ||
+      (isOne && this->IsSimple(ids, count, false, division)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.Whole;
@@ -421,13 +444,15 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   const PrimitiveMapper mapping(
     this->Geometry, this->Tolerance, this->Nearest, this->Farthest, *this->Nodes);
   EdgeSubdivision division(this->Geometry, this->Tolerance);
+  const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
   std::vector<std::int64_t> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
     if ((i - begin) % PreparedCells == 0)
     {
-      this->PrepareSides(cells, i, std::min(i + PreparedCells, end), division);
+      this->PrepareSides(cells, i, std::min(i + PreparedCells, end),
+        keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division);
     }
     const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
     const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
@@ -440,7 +465,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       ++report.Without;
       continue;
     }
-    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
+    if (keepsPoints[i - begin] || side == Side::InFront ||
+      (isOne && this->IsSimple(ids, count, true, division)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.Whole;

@@ -17,6 +17,7 @@
 #include "Refraction/Images/PrimitiveMapper.h"
 #include "Refraction/Images/SeamClosure.h"
 #include "Refraction/Images/SharedNodes.h"
+#include "Refraction/Stack/ParallelPlanes.h"
 
 #include <array>
 #include <cstddef>
@@ -31,9 +32,14 @@ namespace meniscus
 class ObjectImages : public CellImages
 {
 public:
-  /** The eye and the membrane of `geometry` must not change afterwards. */
-  explicit ObjectImages(CurvedMembraneSolver& geometry)
+  /**
+   * The eye and the membrane of `geometry` must not change afterwards. `plane` is the membrane as a
+   * list of one, if it is an exact plane and the eye is in front of it; it must outlive this
+   * object.
+   */
+  explicit ObjectImages(CurvedMembraneSolver& geometry, const ParallelPlanes* plane = nullptr)
     : Geometry(geometry)
+    , Plane(plane)
   {
   }
 
@@ -51,7 +57,8 @@ public:
 
   /**
    * Determines where points have at most one image, if the expected saving for `wanted` points and
-   * for `cells` lines and polygons exceeds the cost and the membrane is not closed. Call the
+   * for `cells` lines and polygons exceeds the cost and the membrane is neither closed nor an exact
+   * plane, behind which a point has one image at most. Call the
    * geometry's PrepareField() before. Images of points are the same with and without it, up to
    * rounding; pieces of cells differ within the tolerance.
    */
@@ -97,7 +104,7 @@ private:
   bool MayBeDivided(const std::int64_t* ids, const std::vector<std::int64_t>& triangles) const;
   bool MayLineBeDivided(const std::int64_t* ids) const
   {
-    return this->Geometry.HasConvexField() && this->IsUnique(ids, 2);
+    return (this->Plane || this->Geometry.HasConvexField()) && this->IsUnique(ids, 2);
   }
   /** How the images of a point are found. */
   enum class Way : unsigned char
@@ -120,10 +127,11 @@ private:
     return this->FindSide(ids, count) == Side::Behind && this->HaveOneImage(ids, count) &&
       this->AreInRange(ids, count);
   }
-  void PrepareSides(
-    const ObjectCells& cells, std::size_t begin, std::size_t end, EdgeSubdivision& division) const;
+  void PrepareSides(const ObjectCells& cells, std::size_t begin, std::size_t end,
+    const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division) const;
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
+  std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
   void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
     const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
@@ -132,6 +140,7 @@ private:
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
 
   CurvedMembraneSolver& Geometry;
+  const ParallelPlanes* Plane;             ///< may be null
   const InjectivityGrid* Unique = nullptr; ///< null if there is no proof; the geometry's
   double Nearest = 0.0;
   double Farthest = 0.0;

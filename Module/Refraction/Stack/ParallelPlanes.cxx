@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/ParallelPlanes.h"
 
+#include "Refraction/Tubes/RayTubeTree.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -95,6 +97,7 @@ void ParallelPlanes::Set(const RefractionStack& stack)
   }
   this->Frame = HeightFrame((first.Passage.FromFront ? -1.0 : 1.0) *
     glm::normalize(membrane.GetNormals()[GetFirstVertex(membrane)]));
+  this->Stack = &stack;
   this->Eye = stack.GetEye();
   this->Exact = true;
   this->Slack = 0.0;
@@ -168,6 +171,13 @@ ParallelPlanes::Rectangle ParallelPlanes::FindInner(
 }
 
 //------------------------------------------------------------------------------
+bool ParallelPlanes::IsInReach(const glm::dvec3& point) const
+{
+  return RayTubeTree::IsInReach(
+    point, this->Stack->GetLinks().front().Surface->GetMembrane().GetRadius());
+}
+
+//------------------------------------------------------------------------------
 int ParallelPlanes::CountInFront(const glm::dvec3& point) const
 {
   const double depth = glm::dot(this->GetAxis(), point - this->Eye);
@@ -237,8 +247,7 @@ void ParallelPlanes::Refract(std::size_t plane, const glm::dvec3& direction, Ray
 }
 
 //------------------------------------------------------------------------------
-bool ParallelPlanes::FindPath(
-  const RefractionStack& stack, const glm::dvec3& point, std::size_t count, StackPath& path) const
+bool ParallelPlanes::FindPath(const glm::dvec3& point, std::size_t count, StackPath& path) const
 {
   const glm::dvec3 away = point - this->Eye;
   const glm::dvec3& axis = this->GetAxis();
@@ -251,13 +260,13 @@ bool ParallelPlanes::FindPath(
   // The ray in a layer, with a part of 1 along the axis.
   const auto getWay = [&axis, &layers, t, &side](std::size_t layer)
   { return axis + t * LateralSum::GetScale(layers[layer].Squared, t) * side; };
-  path.Forget(stack.GetLinks().size());
+  path.Forget(this->Stack->GetLinks().size());
   path.Count = 0;
   RayJet ray;
   ray.Origin = this->Eye;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const RefractionStack::Link& link = stack.GetLinks()[i];
+    const RefractionStack::Link& link = this->Stack->GetLinks()[i];
     const double thickness = layers[i].End - layers[i].Begin;
     const glm::dvec3 way = getWay(i);
     const glm::dvec3 place = ray.Origin + thickness * way;

@@ -23,13 +23,22 @@ namespace meniscus
 class ParallelPlanes
 {
 public:
-  /** Sets the planes; none if the stack has other surfaces or another order along its axis. */
+  /**
+   * Sets the planes of a stack, which must outlive this object or its next change; none if the
+   * stack has other surfaces or another order along its axis.
+   */
   void Set(const RefractionStack& stack);
   void Clear() { this->Layers.clear(); }
 
   bool IsEmpty() const { return this->Layers.empty(); }
 
+  /** The stack that the planes are of, unless there are none. */
+  const RefractionStack& GetStack() const { return *this->Stack; }
+
   std::size_t GetNumberOfPlanes() const { return this->IsEmpty() ? 0 : this->Layers.size() - 1; }
+
+  /** True if a point, relative to the stack's origin, is finite and not too far to be solved. */
+  bool IsInReach(const glm::dvec3& point) const;
 
   /** True if the surfaces deviate from planes by rounding in double precision only. */
   bool AreExact() const { return !this->IsEmpty() && this->Exact; }
@@ -74,12 +83,11 @@ public:
   glm::dvec3 FindSight(const glm::dvec3& point, std::size_t count) const;
 
   /**
-   * Path to a point behind `count` planes, at least one, of the stack that these planes are of. Its
-   * places are exact within rounding of their coordinates, at any slant of the rays between.
-   * Returns false if it misses one of the planes.
+   * Path to a point behind `count` planes, at least one. Its places are exact within rounding of
+   * their coordinates, at any slant of the rays between. Returns false if it misses one of the
+   * planes.
    */
-  bool FindPath(const RefractionStack& stack, const glm::dvec3& point, std::size_t count,
-    StackPath& path) const;
+  bool FindPath(const glm::dvec3& point, std::size_t count, StackPath& path) const;
 
 private:
   struct Rectangle
@@ -95,6 +103,7 @@ private:
   double FindTangent(double depth, double straight, std::size_t count) const;
   void Refract(std::size_t plane, const glm::dvec3& direction, RayJet& ray) const;
 
+  const RefractionStack* Stack = nullptr;
   glm::dvec3 Eye{ 0.0 };
   HeightFrame Frame;
   std::vector<std::vector<PlaneLayer>> Layers; ///< by the number of planes, from 0 to all

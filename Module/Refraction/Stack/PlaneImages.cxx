@@ -48,9 +48,10 @@ struct PlaneImages::PlaceKernel
 bool PlaneImages::Add(const glm::dvec3& point, std::size_t number)
 {
   const HeightFrame& frame = this->Planes.GetFrame();
-  const glm::dvec3 away = point - this->Stack.GetOrigin() - this->Stack.GetEye();
+  const glm::dvec3 local = point - this->Stack.GetOrigin();
+  const glm::dvec3 away = local - this->Stack.GetEye();
   const double depth = frame.GetHeight(away);
-  if (!this->Planes.IsBehindAll(depth))
+  if (!this->Planes.IsBehindAll(depth) || !this->Planes.IsInReach(local))
   {
     return false;
   }
@@ -262,9 +263,13 @@ Outside PlaneImages::Facet::FindOutside(const glm::dvec2& place) const
 }
 
 //------------------------------------------------------------------------------
-// Writes the lengths of the legs behind a plane.
+// Writes the lengths of the legs behind a plane, if they are wanted.
 void PlaneImages::WriteLegs(std::size_t plane, const ImageOutput& output) const
 {
+  if (!output.Legs)
+  {
+    return;
+  }
   // Interfaces behind the eye come first.
   const std::size_t behindEye = output.LegsPerPoint - this->Stack.GetLinks().size();
   for (int lane = 0; lane < this->Lanes.Count; ++lane)
@@ -300,6 +305,10 @@ void PlaneImages::WriteVertices(const ImageOutput& output) const
     vertex.Facet = this->FirstFacet[lane];
     vertex.State = ImageState::Found;
     vertex.Orientation = 1;
+    if (!output.Details)
+    {
+      continue;
+    }
     StackDetail& detail = output.Details[this->Numbers[lane]];
     detail.LastSightPoint =
       lastFoot + this->Lanes.Last[0][lane] * frame.First + this->Lanes.Last[1][lane] * frame.Second;
@@ -324,9 +333,68 @@ void PlaneImages::WriteWithout(
   }
   output.Vertices[number] = VirtualVertex();
   output.Vertices[number].Position = point;
+  if (!output.Details)
+  {
+    return;
+  }
   output.Details[number] = StackDetail();
   double* const legs = output.Legs + output.LegsPerPoint * number;
   std::fill(legs, legs + output.LegsPerPoint, 0.0);
+}
+
+//------------------------------------------------------------------------------
+void SolveBehindPlanes(const ParallelPlanes& planes, const double* points, std::size_t begin,
+  std::size_t end, const ImageOutput& output, std::vector<std::size_t>& others)
+{
+  PlaneImages images(planes);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double* p = points + 3 * i;
+    if (!images.Add({ p[0], p[1], p[2] }, i))
+    {
+      others.push_back(i);
+    }
+    else if (images.IsFull())
+    {
+      images.Solve(output, others);
+    }
+  }
+  images.Solve(output, others);
+}
+
+//------------------------------------------------------------------------------
+bool SolveAtPlane(const ParallelPlanes& plane, const double* points, std::size_t begin,
+  std::size_t end, VirtualVertex* vertices, unsigned char* isOpen)
+{
+  PlaneImages images(plane);
+  const ImageOutput output{ vertices, nullptr, nullptr, 1 };
+  std::vector<std::size_t> others;
+  bool isAnyOpen = false;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const glm::dvec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    const glm::dvec3 local = point - plane.GetStack().GetOrigin();
+    const bool isBehind = isOpen[i] && images.Add(point, i);
+    const bool isInFront =
+      isOpen[i] && !isBehind && plane.IsInReach(local) && plane.CountInFront(local) == 0;
+    if (isInFront)
+    {
+      vertices[i] = VirtualVertex();
+      vertices[i].Position = point;
+    }
+    isOpen[i] = isOpen[i] && !isBehind && !isInFront ? 1 : 0;
+    isAnyOpen = isAnyOpen || isOpen[i];
+    if (images.IsFull())
+    {
+      images.Solve(output, others);
+    }
+  }
+  images.Solve(output, others);
+  for (const std::size_t i : others)
+  {
+    isOpen[i] = 1;
+  }
+  return isAnyOpen || !others.empty();
 }
 
 }

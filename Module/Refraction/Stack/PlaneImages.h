@@ -22,9 +22,9 @@ namespace meniscus
 class PlaneImages
 {
 public:
-  /** All references must outlive this object. */
-  PlaneImages(const RefractionStack& stack, const ParallelPlanes& planes)
-    : Stack(stack)
+  /** `planes` must be exact and outlive this object. */
+  explicit PlaneImages(const ParallelPlanes& planes)
+    : Stack(planes.GetStack())
     , Planes(planes)
   {
   }
@@ -32,9 +32,13 @@ public:
   /** Number of points that may be added. */
   static constexpr std::size_t Most = PlaneLanes::Most;
 
-  /** Adds a point in world coordinates with its number in the output, if it is behind the planes.
+  /**
+   * Adds a point in world coordinates with its number in the output, if it is behind the planes and
+   * in the solvers' reach.
    */
   bool Add(const glm::dvec3& point, std::size_t number);
+
+  bool IsFull() const { return this->Lanes.Count == PlaneLanes::Most; }
 
   /**
    * Writes the images of the points that have been added, and removes the points. The numbers of
@@ -93,5 +97,21 @@ private:
   struct BeginKernel;
   struct PlaceKernel;
 };
+
+/**
+ * Solves those of the points in [begin, end) that exact parallel planes decide: points behind all
+ * of them. The numbers of the others are appended to `others`.
+ */
+void SolveBehindPlanes(const ParallelPlanes& planes, const double* points, std::size_t begin,
+  std::size_t end, const ImageOutput& output, std::vector<std::size_t>& others);
+
+/**
+ * Finds the refracted images of points (x, y, z each) in [begin, end) at one exact plane, as
+ * CurvedMembraneSolver::Solve does. Points with 0 in `isOpen` are left out; the others get 0 there
+ * unless they are on the plane, or their rays meet its border, within rounding. Returns true if any
+ * points are left.
+ */
+bool SolveAtPlane(const ParallelPlanes& plane, const double* points, std::size_t begin,
+  std::size_t end, VirtualVertex* vertices, unsigned char* isOpen);
 
 }

@@ -179,18 +179,15 @@ void StackSolver::SolveChain(
 void StackSolver::SolveBehindPlanes(const double* points, std::size_t begin, std::size_t end,
   const ImageOutput& output, std::vector<std::size_t>& others) const
 {
-  static_assert(Chain <= PlaneImages::Most);
-  PlaneImages planes(this->Stack, this->Planes);
-  const bool isExact = this->Planes.AreExact();
+  if (this->Planes.AreExact())
+  {
+    meniscus::SolveBehindPlanes(this->Planes, points, begin, end, output, others);
+    return;
+  }
   for (std::size_t i = begin; i < end; ++i)
   {
-    const glm::dvec3 point = GetPoint(points, i);
-    if (!isExact || !this->IsInReach(point - this->Stack.GetOrigin()) || !planes.Add(point, i))
-    {
-      others.push_back(i);
-    }
+    others.push_back(i);
   }
-  planes.Solve(output, others);
 }
 
 //------------------------------------------------------------------------------
@@ -328,8 +325,7 @@ bool StackSolver::FindBehindPlanes(const glm::dvec3& local, StackPath& path) con
   const StackTarget target{ local, static_cast<std::size_t>(inFront) };
   if (this->Planes.AreExact())
   {
-    return this->Planes.FindPath(this->Stack, local, target.Count, path) &&
-      GoesOn(this->Stack, target, path);
+    return this->Planes.FindPath(local, target.Count, path) && GoesOn(this->Stack, target, path);
   }
   SurfaceCrossing crossing;
   path.Forget(this->Stack.GetLinks().size());

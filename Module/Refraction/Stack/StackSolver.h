@@ -52,8 +52,8 @@ struct StackDetail
 struct ImageOutput
 {
   VirtualVertex* Vertices;
-  StackDetail* Details;
-  double* Legs;             ///< one per interface and point
+  StackDetail* Details;     ///< null if they are not wanted
+  double* Legs;             ///< one per interface and point; null with null details
   std::size_t LegsPerPoint; ///< number of interfaces, including interfaces behind the eye
 };
 

@@ -144,75 +144,17 @@ bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
 }
 
 //------------------------------------------------------------------------------
-// True if a cell is behind parallel planes, on one leg.
-bool StackImages::AreBehindPlanes(const std::int64_t* ids, std::size_t count) const
-{
-  const ParallelPlanes& planes = this->Solver.GetPlanes();
-  if (planes.IsEmpty() || count == 0 ||
-    this->GetNumberOfImages(static_cast<std::size_t>(ids[0])) != 1)
-  {
-    return false;
-  }
-  const std::int32_t passed = this->GetFirstImage(ids[0]).Passed;
-  return passed > 0 &&
-    std::all_of(ids, ids + count,
-      [this, &planes, passed](std::int64_t id)
-      {
-        return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
-          this->GetFirstImage(id).Passed == passed &&
-          planes.CountInFront(this->GetPoint(id) - this->Solver.GetStack().GetOrigin()) == passed;
-      });
-}
-
-//------------------------------------------------------------------------------
-// Adds the places of a cell that tell whether its image is straight: the middles of its sides and
-// its own middle.
-void StackImages::AddPlaces(
-  const std::int64_t* ids, std::size_t count, std::size_t number, PlaneSights& sights) const
-{
-  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
-  const auto passed = static_cast<std::size_t>(this->GetFirstImage(ids[0]).Passed);
-  glm::dvec3 sum(0.0);
-  glm::dvec3 sumOfImages(0.0);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::int64_t next = ids[(i + 1) % count];
-    const glm::dvec3 point = this->GetPoint(ids[i]);
-    const glm::dvec3& seen = this->GetFirstImage(ids[i]).Vertex.Position;
-    sights.Add(number, passed, 0.5 * (point + this->GetPoint(next)) - eye,
-      0.5 * (seen + this->GetFirstImage(next).Vertex.Position) - eye);
-    sum += point;
-    sumOfImages += seen;
-  }
-  const double inverse = 1.0 / static_cast<double>(count);
-  sights.Add(number, passed, inverse * sum - eye, inverse * sumOfImages - eye);
-}
-
-//------------------------------------------------------------------------------
 // Finds cells that are drawn whole without tracing rays: those in front of all surfaces, and those
-// behind parallel planes that are drawn within half of the tolerance of their sight rays, as other
-// whole cells.
+// behind parallel planes.
 std::vector<bool> StackImages::FindWhole(
   const ObjectCells& cells, std::size_t begin, std::size_t end) const
 {
-  std::vector<bool> isWhole(end - begin, false);
-  std::vector<std::size_t> failed;
-  PlaneSights sights(this->Solver.GetPlanes(), 0.5 * this->Tolerance, failed);
+  std::vector<bool> isWhole = this->FindWholeBehind(this->Solver.GetPlanes(), cells, begin, end);
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
-    const bool isBehind = this->AreBehindPlanes(ids, count);
-    if (isBehind)
-    {
-      this->AddPlaces(ids, count, i - begin, sights);
-    }
-    isWhole[i - begin] = isBehind || this->AreInFront(ids, count);
-  }
-  sights.Finish();
-  for (const std::size_t number : failed)
-  {
-    isWhole[number] = false;
+    isWhole[i - begin] = isWhole[i - begin] ||
+      this->AreInFront(cells.Connectivity + cells.Offsets[i],
+        static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]));
   }
   return isWhole;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "Refraction/Images/CellImages.h"
-#include "Refraction/Stack/PlaneSights.h"
 #include "Refraction/StackImages/StackMapper.h"
 
 #include <cstddef>
@@ -72,9 +71,6 @@ private:
   void MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
     const glm::dvec3& eye, ImagePoint& point) const;
   std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
-  void AddPlaces(
-    const std::int64_t* ids, std::size_t count, std::size_t number, PlaneSights& sights) const;
-  bool AreBehindPlanes(const std::int64_t* ids, std::size_t count) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
 
   const StackSolver& Solver;

@@ -36,6 +36,40 @@ inline void SetStack(StackSolver& solver, const std::vector<Interface>& list, co
   ASSERT_EQ(solver.SetEye(eye), EyeStatus::Ready);
 }
 
+/** Distance of a line from a point. */
+inline double GetDistance(
+  const glm::dvec3& point, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+  return glm::length(glm::cross(point - origin, glm::normalize(direction)));
+}
+
+/**
+ * Sine of the angle, in the first of some layers of thickness d and index n, of the ray that spans
+ * the distance r along them: sum d tan t = r is monotone, so bisection to the last bit.
+ */
+inline double BisectSine(
+  const std::vector<double>& thickness, const std::vector<double>& index, double r)
+{
+  double low = 0.0;
+  double high = 1.0;
+  for (const double n : index)
+  {
+    high = std::min(high, n / index[0]);
+  }
+  for (int i = 0; i < 200; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    double reached = 0.0;
+    for (std::size_t k = 0; k < index.size(); ++k)
+    {
+      const double sine = middle * index[0] / index[k];
+      reached += thickness[k] * sine / std::sqrt((1.0 - sine) * (1.0 + sine));
+    }
+    (reached < r ? low : high) = middle;
+  }
+  return low;
+}
+
 /** Image of a point without a point before it. */
 inline StackVertex SolveAlone(const StackSolver& solver, const glm::dvec3& point)
 {

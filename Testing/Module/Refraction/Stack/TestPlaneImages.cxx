@@ -79,25 +79,15 @@ void ExpectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance)
 // Solves for the tangent in the first layer by bisection: lateral distances are monotone.
 double BisectTangent(const std::vector<PlaneLayer>& layers, double depth, double distance)
 {
-  double low = 0.0;
-  double high = 1.0;
+  std::vector<double> thickness;
+  std::vector<double> index;
   for (const PlaneLayer& layer : layers)
   {
-    high = std::min(high, layer.Index / layers[0].Index); // of the sine
+    thickness.push_back(std::min(layer.End, depth) - layer.Begin);
+    index.push_back(layer.Index);
   }
-  for (int i = 0; i < 200; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    double reached = 0.0;
-    for (const PlaneLayer& layer : layers)
-    {
-      const double sine = middle * layers[0].Index / layer.Index;
-      reached +=
-        (std::min(layer.End, depth) - layer.Begin) * sine / std::sqrt((1.0 - sine) * (1.0 + sine));
-    }
-    (reached < distance ? low : high) = middle;
-  }
-  return low / std::sqrt((1.0 - low) * (1.0 + low));
+  const double sine = BisectSine(thickness, index, distance);
+  return sine / std::sqrt((1.0 - sine) * (1.0 + sine));
 }
 
 }
