@@ -19,12 +19,12 @@ foreach (room
     Volume/Optics
     Volume/Mesh
     Volume/Division
-    Volume/Graded
     Volume/Packet/Data
     Volume/Rays
     Volume/Packet/Models
     Volume/Packet/Walk
     Volume/Packet/Kernels
+    Volume/Graded
     Volume/Entries
     Volume/Refracted
     Volume/Caster

@@ -3,23 +3,28 @@
 #include "vtkTetrahedraMirage.h"
 
 #include "Filters/Common/Accessors.h"
+#include "Filters/Common/NamedArray.h"
 #include "Filters/Common/Statistics.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
+#include "Rendering/Integral/BentVolume.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Rendering/Integral/SeenObjects.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
 #include "vtkDataSet.h"
+#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkScalarsToColors.h"
 #include "vtkTable.h"
+#include "vtkVolumeProperty.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -43,6 +48,9 @@ public:
     return double(std::count_if(this->Sights.begin(), this->Sights.end(), isCounted));
   }
 
+  /** Scalars of the volume, and their data sets, during an update. */
+  meniscus::InputBlocks VolumeScalars;
+  meniscus::BentVolume Volume;
   meniscus::SeenObjects Objects;
   std::vector<meniscus::OpaqueSight> Sights;
   std::vector<glm::dvec3> Eyes;
@@ -53,7 +61,10 @@ public:
 vtkStandardNewMacro(vtkTetrahedraMirage);
 meniscusStatisticsMacro(vtkTetrahedraMirage);
 meniscusSetClampMacro(vtkTetrahedraMirage, Ambient, double, 0.0, 1.0);
+meniscusSetClampMacro(
+  vtkTetrahedraMirage, OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
 meniscusObjectMacro(vtkTetrahedraMirage, LookupTable, vtkScalarsToColors, LookupTable);
+meniscusObjectMacro(vtkTetrahedraMirage, VolumeProperty, vtkVolumeProperty, VolumeProperty);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraMirage::vtkTetrahedraMirage()
@@ -63,7 +74,10 @@ vtkTetrahedraMirage::vtkTetrahedraMirage()
 }
 
 //------------------------------------------------------------------------------
-vtkTetrahedraMirage::~vtkTetrahedraMirage() = default;
+vtkTetrahedraMirage::~vtkTetrahedraMirage()
+{
+  this->SetVolumeArrayName(nullptr);
+}
 
 //------------------------------------------------------------------------------
 const std::vector<meniscus::Statistic<vtkTetrahedraMirage>>&
@@ -112,8 +126,9 @@ void vtkTetrahedraMirage::SetObjectData(vtkDataSet* objects)
 //------------------------------------------------------------------------------
 vtkMTimeType vtkTetrahedraMirage::GetMTime()
 {
-  const vtkMTimeType time = this->Superclass::GetMTime();
-  return this->LookupTable ? std::max(time, this->LookupTable->GetMTime()) : time;
+  vtkMTimeType time = this->Superclass::GetMTime();
+  time = this->LookupTable ? std::max(time, this->LookupTable->GetMTime()) : time;
+  return this->VolumeProperty ? std::max(time, this->VolumeProperty->GetMTime()) : time;
 }
 
 //------------------------------------------------------------------------------
@@ -122,6 +137,7 @@ int vtkTetrahedraMirage::FillInputPortInformation(int port, vtkInformation* info
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
   return this->Superclass::FillInputPortInformation(port, info);
@@ -138,16 +154,61 @@ int vtkTetrahedraMirage::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+/** Finds the scalars of the volume. Returns false after an error, which has been reported. */
+bool vtkTetrahedraMirage::CollectVolume(vtkDataObject* mesh)
+{
+  this->Medium->SetScalars(nullptr);
+  if (!this->VolumeProperty)
+  {
+    return true;
+  }
+  meniscus::InputBlocks& scalars = this->Internals->VolumeScalars;
+  const bool isNamed = this->VolumeArrayName && *this->VolumeArrayName;
+  const meniscus::InputReport report = isNamed
+    ? meniscus::CollectNamedArray(mesh, this->VolumeArrayName, 0, scalars)
+    : meniscus::CollectInputBlocks(
+        mesh, meniscus::SelectPointValues(this->GetInputArrayInformation(0)), scalars);
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  if (!scalars.Parts.empty())
+  {
+    this->Medium->SetScalars(&scalars);
+  }
+  return this->TellError(report.Error.empty() ? "" : "Volume: " + report.Error);
+}
+
+//------------------------------------------------------------------------------
+/** Reads scalars and property of the volume. Returns false after an error. */
+bool vtkTetrahedraMirage::ReadVolume()
+{
+  if (!this->VolumeProperty)
+  {
+    return true;
+  }
+  const meniscus::InputReport report =
+    this->Internals->Volume.Update(this->Internals->VolumeScalars, this->VolumeProperty,
+      this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, *this->Medium);
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  return this->TellError(report.Error);
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
 {
   meniscus::SeenObjects& read = this->Internals->Objects;
-  read.Read(objects, this->Medium->GetMesh());
+  vtkNew<vtkPolyData> nothing;
+  read.Read(objects ? objects : nothing.GetPointer(), this->Medium->GetMesh());
   if (read.GetNumberOfBrokenCells() > 0)
   {
     vtkWarningMacro(<< read.GetNumberOfBrokenCells()
                     << " polygons with a point that is not finite or is missing are left out.");
   }
-  else if (read.GetTriangles().IsEmpty())
+  else if (objects && read.GetTriangles().IsEmpty())
   {
     vtkWarningMacro(<< "The objects have no polygons; the picture shows the background alone.");
   }
@@ -167,10 +228,15 @@ bool vtkTetrahedraMirage::TraceRays()
   internals.Sights.assign(width * height, {});
   internals.Eyes.assign(width * height, {});
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
-  const bool isWatched = isStraight || internals.Objects.MayBeInMesh();
-  const std::vector<std::uint8_t> cells = isWatched
+  const bool hasVolume = this->VolumeProperty != nullptr;
+  const bool isWatched = isStraight || hasVolume || internals.Objects.MayBeInMesh();
+  std::vector<std::uint8_t> cells = isWatched
     ? internals.Objects.GetTriangles().FindCells(this->Medium->GetMesh(), meniscus::ThreadedLoop)
     : std::vector<std::uint8_t>();
+  if (hasVolume)
+  {
+    internals.Volume.MarkCells(cells);
+  }
   const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   const auto traceBlock = [&](std::size_t firstRow, std::size_t endRow)
   {
@@ -187,7 +253,8 @@ bool vtkTetrahedraMirage::TraceRays()
       [width, first](int column, int row)
       { return static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column) - first; });
     meniscus::SeeTriangles(walk, internals.Objects.GetTriangles(), isWatched ? &cells : nullptr,
-      ofBlock, ofRows[firstRow], sights, raster.IsUsable() ? &faces : nullptr);
+      ofBlock, ofRows[firstRow], sights, raster.IsUsable() ? &faces : nullptr,
+      hasVolume ? &internals.Volume.GetMedium() : nullptr);
     for (std::size_t i = 0; isStraight && i < ofBlock.size(); ++i)
     {
       // Without the turn that stands for the bending.
@@ -221,6 +288,17 @@ void vtkTetrahedraMirage::WriteArrays(vtkImageData* output)
   shading.Ambient = this->Ambient;
   shading.Background = glm::make_vec3(this->BackgroundColor);
   this->Internals->Objects.Write(this->Internals->Sights, this->Internals->Eyes, shading, output);
+  if (this->VolumeProperty)
+  {
+    auto* colors = meniscus::AddPointArray<vtkFloatArray>(output, "RGBA", 4);
+    for (std::size_t i = 0; i < this->Internals->Sights.size(); ++i)
+    {
+      float values[4];
+      std::copy_n(this->Internals->Sights[i].Light.Values, 4, values);
+      values[3] = 1.0f - values[3];
+      colors->SetTypedTuple(static_cast<vtkIdType>(i), values);
+    }
+  }
   output->GetPointData()->SetActiveScalars("Color");
   this->UpdateProgress(1.0);
 }
@@ -234,10 +312,15 @@ int vtkTetrahedraMirage::RequestData(
   const double* settings[2] = { this->LightDirection, this->BackgroundColor };
   const bool isFinite = std::all_of(settings, settings + 2,
     [](const double* values) { return std::isfinite(values[0] + values[1] + values[2]); });
+  vtkDataSet* objects = vtkDataSet::GetData(inputs[1]);
+  const bool hasSubject = objects || this->VolumeProperty;
   if (this->TellError(isFinite ? "" : "A setting is not finite") &&
-    this->UpdateView(vtkDataObject::GetData(inputs[0]), meniscus::ShareOfMedium))
+    this->TellError(hasSubject ? "" : "There are neither objects nor a volume property") &&
+    this->CollectVolume(vtkDataObject::GetData(inputs[0])) &&
+    this->UpdateView(vtkDataObject::GetData(inputs[0]), meniscus::ShareOfMedium) &&
+    this->ReadVolume())
   {
-    this->ReadObjects(vtkDataSet::GetData(inputs[1]));
+    this->ReadObjects(objects);
     if (this->TraceRays())
     {
       this->WriteArrays(output);
@@ -252,6 +335,13 @@ void vtkTetrahedraMirage::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "LookupTable: " << this->LookupTable << "\n";
+  os << indent << "VolumeProperty: " << this->VolumeProperty << "\n";
+  os << indent << "VolumeArrayName: " << (this->VolumeArrayName ? this->VolumeArrayName : "(none)")
+     << "\n";
+  os << indent << "OpacityModel: "
+     << (this->OpacityModel == OPACITY_PER_UNIT_DISTANCE ? "OPACITY_PER_UNIT_DISTANCE"
+                                                         : "ATTENUATION_COEFFICIENT")
+     << "\n";
   os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
      << ", " << this->LightDirection[2] << ")\n";
   os << indent << "Ambient: " << this->Ambient << "\n";

@@ -10,12 +10,19 @@
  * window nor OpenGL. Mesh, rays and image are those of vtkBentRayAlgorithm; with BendRays off, the
  * picture is that without a medium.
  *
- * Input port 1 has the objects: a vtkDataSet, of whose polygons both sides are seen; of a grid its
- * outer faces. Lines and vertices are not seen. Objects are coloured by the active scalars of their
- * cells or, without any, of their points, as by vtkMapper: unsigned char values are colours, and
- * others are mapped by LookupTable. Objects without scalars are white. Polygons are flat: their
- * colour is multiplied by Ambient + (1 - Ambient) times the cosine of the angle between their
- * normal and the light of LightDirection.
+ * Input port 1 has the objects, which are optional with a volume: a vtkDataSet, of whose polygons
+ * both sides are seen; of a grid its outer faces. Lines and vertices are not seen. Objects are
+ * coloured by the active scalars of their cells or, without any, of their points, as by vtkMapper:
+ * unsigned char values are colours, and others are mapped by LookupTable. Objects without scalars
+ * are white. Polygons are flat: their colour is multiplied by Ambient + (1 - Ambient) times the
+ * cosine of the angle between their normal and the light of LightDirection.
+ *
+ * With a VolumeProperty, the medium itself is seen as well: smoke, glowing gas. Its array
+ * VolumeArrayName, mapped by the property's functions of component 0, is drawn as by composite
+ * blending of vtkTetrahedraRayCastMapper, but along the bent rays and up to the objects, which it
+ * hides by its opacity. A cell with a value of that array that is not finite is transparent; it
+ * bends light all the same. Shading, gradient opacity and other blend modes have no effect. Arcs
+ * are cut where needed, so that the scalar is off by no more than 2^-23 of its range.
  *
  * The output has ImageSize points, one per pixel, and these point arrays. Brackets name the values
  * of pixels that show no object:
@@ -25,12 +32,19 @@
  * - `Position`, 3 double: place of the object that is seen, where it is [NaN];
  * - `Depth`, float: straight distance of that place from the eye, or from the plane that parallel
  *   rays begin on [NaN];
- * - `Direction`, 3 float: unit vector of the ray where it ends, for a picture of things far away.
+ * - `Direction`, 3 float: unit vector of the ray where it ends, for a picture of things far away;
+ * - `RGBA`, 4 float, with a VolumeProperty: premultiplied colour and opacity of the medium in front
+ *   of the object, or on the whole ray.
+ *
+ * `Color` has the medium over the object or the background; the other arrays are those of the
+ * object, also where the medium hides it.
  *
  * **Bad input.** Warnings: objects without polygons, which show the background alone; points that
  * are not finite, whose polygons are left out; rays that were stopped. GetStatistics() counts them,
  * and the pixels that see the back of a polygon, which all do if the eye is in a closed object. An
- * eye in the mesh is fine.
+ * eye in the mesh is fine. Errors, with an empty output, besides those of the base class: neither
+ * objects nor a volume property; a volume without its array, or with one in other data sets than
+ * the index; a property whose numbers permit no picture.
  *
  * Rays are traced in parallel by vtkSMPTools; results do not depend on the number of threads.
  *
@@ -46,6 +60,7 @@
 class vtkDataSet;
 class vtkScalarsToColors;
 class vtkTable;
+class vtkVolumeProperty;
 
 class VTKMENISCUS_EXPORT vtkTetrahedraMirage : public vtkBentRayAlgorithm
 {
@@ -103,6 +118,43 @@ public:
 
   /** @{ */
   /**
+   * Set/Get the property by which the medium is seen: its opacity and colour functions, and
+   * ScalarOpacityUnitDistance. Null, the default, stands for a medium that is clear.
+   */
+  void SetVolumeProperty(vtkVolumeProperty* property);
+  vtkVolumeProperty* GetVolumeProperty();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the name of the array that the property maps, of the mesh's points or, if they have
+   * none of that name, of its cells; of several components the first one counts. Default is none,
+   * as with an empty name: the array of the medium, which SetInputArrayToProcess() chooses.
+   */
+  vtkSetStringMacro(VolumeArrayName);
+  vtkGetStringMacro(VolumeArrayName);
+  /** @} */
+
+  /** Meanings of opacity, as in vtkTetrahedraRayCastMapper. */
+  enum
+  {
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
+  };
+
+  /** @{ */
+  /** Set/Get the meaning of the property's opacity. Default is ATTENUATION_COEFFICIENT. */
+  virtual void SetOpacityModel(int model);
+  vtkGetMacro(OpacityModel, int);
+  void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
+  void SetOpacityModelToOpacityPerUnitDistance()
+  {
+    this->SetOpacityModel(OPACITY_PER_UNIT_DISTANCE);
+  }
+  /** @} */
+
+  /** @{ */
+  /**
    * Counters by name: a table with one row each and the columns Name, Meaning and Value, which
    * belongs to this object and is filled anew by each call; and the value of one name, such as
    * "NumberOfStoppedRays". An unknown name is an error, and the value is not a number.
@@ -111,7 +163,7 @@ public:
   double GetStatistic(const char* name);
   /** @} */
 
-  /** Includes the times of the camera and of the lookup table. */
+  /** Includes the times of the camera, of the lookup table and of the volume property. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -130,6 +182,8 @@ private:
 
   class vtkInternals;
 
+  bool CollectVolume(vtkDataObject* mesh);
+  bool ReadVolume();
   void ReadObjects(vtkDataSet* objects);
   bool TraceRays();
   void WriteArrays(vtkImageData* output);
@@ -138,6 +192,9 @@ private:
   double Ambient = 0.3;
   double BackgroundColor[3] = { 0.0, 0.0, 0.0 };
   vtkSmartPointer<vtkScalarsToColors> LookupTable;
+  vtkSmartPointer<vtkVolumeProperty> VolumeProperty;
+  char* VolumeArrayName = nullptr;
+  int OpacityModel = ATTENUATION_COEFFICIENT;
   std::unique_ptr<vtkInternals> Internals;
 };
 

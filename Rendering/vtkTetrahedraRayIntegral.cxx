@@ -60,26 +60,6 @@ std::string DescribeExcess(const meniscus::IntegralChoice& choice, const int siz
   return text.str();
 }
 
-/** Collects an array of points or, if the points have none of that name, of cells. */
-meniscus::InputReport CollectNamed(
-  vtkDataObject* input, const char* name, int component, meniscus::InputBlocks& blocks)
-{
-  meniscus::ScalarSelection selection;
-  selection.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
-  selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
-  selection.ArrayName = name;
-  selection.Component = component;
-  const meniscus::InputReport ofPoints = meniscus::CollectInputBlocks(input, selection, blocks);
-  if (ofPoints.Error.empty())
-  {
-    return ofPoints;
-  }
-  selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
-  const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
-  // If there is no such array of cells, the error about the array of points says more.
-  return ofCells.Error.empty() ? ofCells : ofPoints;
-}
-
 /**
  * Collects the scalars that SetInputArrayToProcess() describes. A component of -1 stands for the
  * length of the tuple.
@@ -102,7 +82,7 @@ meniscus::InputReport FindScalars(
   selection.ArrayName = wanted->Get(vtkDataObject::FIELD_NAME());
   if (!ofPoints && !ofCells)
   {
-    return CollectNamed(input, selection.ArrayName, selection.Component, blocks);
+    return meniscus::CollectNamedArray(input, selection.ArrayName, selection.Component, blocks);
   }
   selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
   selection.ScalarMode =
@@ -328,12 +308,13 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
 {
   const bool withArrays = request.Choice.NeedsBinArrays();
   if (withArrays &&
-    !this->Tell(CollectNamed(input, this->AttenuationArrayName, 0, request.Attenuation)))
+    !this->Tell(
+      meniscus::CollectNamedArray(input, this->AttenuationArrayName, 0, request.Attenuation)))
   {
     return false;
   }
   if (withArrays && HasText(this->EmissionArrayName) &&
-    !this->Tell(CollectNamed(input, this->EmissionArrayName, 0, request.Emission)))
+    !this->Tell(meniscus::CollectNamedArray(input, this->EmissionArrayName, 0, request.Emission)))
   {
     return false;
   }

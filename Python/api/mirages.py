@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPointSet
 
-from ..arguments import check_dataset, check_numbers
+from ..arguments import check_dataset, check_name, check_names, check_numbers
 from ..data import run
 from ..media import cast, connect_medium
 from ..names import set_properties
@@ -17,6 +17,8 @@ from .surfaces import surface_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from vtkmodules.vtkRenderingCore import vtkVolumeProperty
 
     from .types import Mesh, Surface
 
@@ -27,12 +29,14 @@ _IMAGES = {
     "position": "Position",
     "depth": "Depth",
     "direction": "Direction",
+    "rgba": "RGBA",
 }
 
 
 def mirage(
-    mesh: Mesh, /, objects: Surface, scalars: str | None = None,
+    mesh: Mesh, /, objects: Surface | None, scalars: str | None = None,
     image: str | Sequence[str] = "color", *, quantity: str = "density",
+    volume: vtkVolumeProperty | None = None, volume_scalars: str | None = None,
     size: Sequence[int] = (256, 256), direction: Sequence[float] = (0.0, 0.0, -1.0),
     up: Sequence[float] = (0.0, 1.0, 0.0), camera: Any = None, **properties: Any,
 ) -> Any:
@@ -40,13 +44,16 @@ def mirage(
 
     mesh: a dataset or all blocks of a pyvista.MultiBlock.
     objects: a dataset, whose active scalars are its colours; all blocks of a pyvista.MultiBlock; or
-        a pair of arrays (points, triangles), of the shapes (n, 3) and (m, 3).
+        a pair of arrays (points, triangles), of the shapes (n, 3) and (m, 3). None, with a volume,
+        for no objects.
     scalars: name of an array of the mesh's points; default: the active scalars.
     image: "color" (default; red, green, blue), "seen" (0 background, 1 object, 2 a ray that stayed
         in the mesh), "cell_id" of the objects (-1 for none), "position" of the seen place (NaN for
-        none), "depth" (its distance, NaN for none) and "direction" of the ray at its end; or a list
-        of them.
+        none), "depth" (its distance, NaN for none), "direction" of the ray at its end and, with a
+        volume, "rgba", its premultiplied colour and opacity; or a list of them.
     quantity: meaning of the scalars, "density" of a gas or "refractive_index".
+    volume: property by which the mesh itself is seen along the bent rays, such as smoke or flames.
+    volume_scalars: name of the array of points or cells that it maps; default: that of scalars.
     size: width and height of the image in pixels.
     direction, up: of parallel rays through the mesh's bounds, and the direction that is upward in
         the image; any lengths.
@@ -58,11 +65,16 @@ def mirage(
     For several images, a dictionary by name. Lengths are in the mesh's unit. Raises ValueError for
     names that do not exist and input that cannot be used.
     """
+    check_name("volume_scalars", volume_scalars)
+    if volume is None and (volume_scalars or "rgba" in check_names("image", image)):
+        raise ValueError('volume_scalars and the image "rgba" need a volume')
     rays = vtkTetrahedraMirage()
     connect_medium(rays, 0, "mesh", mesh, scalars, quantity)
+    rays.SetVolumeProperty(volume)
+    rays.SetVolumeArrayName(volume_scalars)
     if hasattr(objects, "GetOutputPort"):
         rays.SetObjectConnection(objects.GetOutputPort())
-    else:
+    elif objects is not None:
         rays.SetObjectData(objects if isinstance(objects, vtkDataSet) else surface_of(objects))
     return cast(rays, image, _IMAGES, size, direction, up, camera, properties)
 

@@ -246,6 +246,26 @@ InputReport CollectInputBlocks(
 }
 
 //------------------------------------------------------------------------------
+InputReport CollectNamedArray(
+  vtkDataObject* input, const char* name, int component, InputBlocks& parts)
+{
+  ScalarSelection selection;
+  selection.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+  selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
+  selection.ArrayName = name;
+  selection.Component = component;
+  const InputReport ofPoints = CollectInputBlocks(input, selection, parts);
+  if (ofPoints.Error.empty())
+  {
+    return ofPoints;
+  }
+  selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
+  const InputReport ofCells = CollectInputBlocks(input, selection, parts);
+  // If there is no such array of cells, the error about the array of points says more.
+  return ofCells.Error.empty() ? ofCells : ofPoints;
+}
+
+//------------------------------------------------------------------------------
 InputBlocks CollectGrids(vtkDataObject* input)
 {
   std::vector<vtkDataSet*> grids;

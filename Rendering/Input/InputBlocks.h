@@ -74,6 +74,13 @@ InputReport CollectInputBlocks(
   vtkDataObject* input, const ScalarSelection& selection, InputBlocks& parts);
 
 /**
+ * Finds an array of points by its name or, if the points have none, of cells.
+ * @param component as in ScalarSelection.
+ */
+InputReport CollectNamedArray(
+  vtkDataObject* input, const char* name, int component, InputBlocks& parts);
+
+/**
  * Data sets with cells that can be drawn, without scalars: the input itself or the leaves of a
  * composite one. Surfaces (vtkPolyData) and data sets whose arrays contradict each other are left
  * out.

@@ -14,11 +14,9 @@
 
 namespace meniscus
 {
-namespace
-{
 
-/** Values at the points by a filter's choice. */
-ScalarSelection SelectValues(vtkInformation* wanted)
+//------------------------------------------------------------------------------
+ScalarSelection SelectPointValues(vtkInformation* wanted)
 {
   ScalarSelection selection;
   selection.Component = 0;
@@ -32,17 +30,21 @@ ScalarSelection SelectValues(vtkInformation* wanted)
   return selection;
 }
 
-}
-
 //------------------------------------------------------------------------------
 InputReport BentMedium::Update(vtkDataObject* input, vtkInformation* wanted,
   const MediumQuantity& quantity, const std::function<bool(double)>& goOn)
 {
   InputBlocks blocks;
-  InputReport report = CollectInputBlocks(input, SelectValues(wanted), blocks);
+  InputReport report = CollectInputBlocks(input, SelectPointValues(wanted), blocks);
   if (report.Error.empty() && blocks.Parts.empty())
   {
     report.Error = "The input has no cells";
+  }
+  else if (report.Error.empty() && this->Scalars && !HaveSameGrids(*this->Scalars, blocks))
+  {
+    report.Error =
+      "The scalars of the volume and the values of the medium are not in the same data "
+      "sets";
   }
   if (!report.Error.empty())
   {
@@ -52,7 +54,9 @@ InputReport BentMedium::Update(vtkDataObject* input, vtkInformation* wanted,
   division.Fields = blocks;
   division.Component = 0;
   this->Input.SetHasSingleDepths(false);
-  const InputReport ofMesh = this->Input.UpdateMesh(blocks, goOn, division);
+  InputBlocks meshOf = blocks;
+  meshOf.Place = this->Scalars ? this->Scalars->Place : blocks.Place;
+  const InputReport ofMesh = this->Input.UpdateMesh(meshOf, goOn, division);
   report.Error = ofMesh.Error;
   report.Warning += ofMesh.Warning;
   if (!report.Error.empty() || !goOn(1.0))

@@ -41,9 +41,18 @@ struct MediumQuantity
   }
 };
 
+/** The point array of a filter's choice, by default the active scalars; the first component. */
+ScalarSelection SelectPointValues(vtkInformation* wanted);
+
 class BentMedium
 {
 public:
+  /**
+   * Sets scalars that the next Update() puts into the input besides the indices; null for none.
+   * They must exist during it. Other data sets than those of the indices are an error.
+   */
+  void SetScalars(const InputBlocks* scalars) { this->Scalars = scalars; }
+
   /**
    * Reads mesh and indices, where they have changed.
    * @param wanted the filter's choice of a point array, by default the active scalars.
@@ -53,6 +62,9 @@ public:
   InputReport Update(vtkDataObject* input, vtkInformation* wanted, const MediumQuantity& quantity,
     const std::function<bool(double)>& goOn);
 
+  /** Tables of the input, with a mesh whose vertices and cells have the same numbers. */
+  VolumeInput& GetInput() { return this->Input; }
+  const VolumeInput& GetInput() const { return this->Input; }
   /** The mesh, in which cells without an index are inactive. */
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
   /** Is bumped when indices are read. */
@@ -66,6 +78,7 @@ public:
 private:
   std::string ReadIndices(const InputBlocks& blocks, const MediumQuantity& quantity);
 
+  const InputBlocks* Scalars = nullptr;
   VolumeInput Input;
   ContentWatch ValueWatch;
   TableVersions MeshVersions;

@@ -182,8 +182,10 @@ void SeenObjects::Write(const std::vector<OpaqueSight>& sights, const std::vecto
     const auto number = static_cast<vtkIdType>(i);
     const OpaqueSight& sight = sights[i];
     const bool isSeen = sight.Hit.Triangle >= 0;
-    const glm::dvec3 color =
+    const glm::dvec3 behind =
       isSeen ? this->ColorOf(sight.Hit, colors, shading) : shading.Background;
+    const float* const light = sight.Light.Values;
+    const glm::dvec3 color = glm::dvec3(light[0], light[1], light[2]) + double{ light[3] } * behind;
     const glm::dvec3 place = isSeen ? this->PlaceOf(sight.Hit) : glm::dvec3(NoValue);
     for (int k = 0; k < 3; ++k)
     {

@@ -14,8 +14,10 @@ import meniscus
 import numpy
 from meniscus.viewer.colors import COLOR_MAPS, fill_colors, find_colors, list_colors, make_table
 from TestRayIntegral import make_block
+from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource
-from vtkmodules.vtkRenderingCore import vtkCamera, vtkColorTransferFunction
+from vtkmodules.vtkRenderingCore import (
+    vtkCamera, vtkColorTransferFunction, vtkVolumeProperty)
 
 INDEX = 1.333
 # Water in the plane z = 0, wound towards positive z.
@@ -252,6 +254,36 @@ class TestRays(unittest.TestCase):
                 meniscus.mirage(self.block, wall, "density", **wrong)
         with self.assertRaisesRegex(TypeError, "A surface is a dataset"):
             meniscus.mirage(self.block, 3, "density")
+
+    def test_mirage_of_a_volume(self):
+        """A block that attenuates by its density, 1 + z over [0, 3], and emits white light."""
+        look = vtkVolumeProperty()
+        opacity = vtkPiecewiseFunction()
+        opacity.AddPoint(0.0, 0.0)
+        opacity.AddPoint(10.0, 1.0)
+        look.SetScalarOpacity(opacity)
+        colors = vtkColorTransferFunction()
+        colors.AddRGBPoint(0.0, 1.0, 1.0, 1.0)
+        look.SetColor(colors)
+        options = {"size": (6, 3), "volume": look, "GladstoneDale": 0.0}
+        found = meniscus.mirage(self.block, None, "density", ["rgba", "color"],
+                                volume_scalars="density", BackgroundColor=(1, 1, 0), **options)
+        share = 1 - numpy.exp(-0.75)
+        numpy.testing.assert_allclose(found["rgba"], numpy.full((3, 6, 4), share), atol=2e-5)
+        self.assertEqual(found["rgba"].dtype, numpy.float32)
+        numpy.testing.assert_array_equal(found["color"][1, 3], [255, 255, round(255 * share)])
+        # A wall at half of the way.
+        wall = vtkPlaneSource()
+        wall.SetOrigin(-1, -1, 1.5)
+        wall.SetPoint1(3, -1, 1.5)
+        wall.SetPoint2(-1, 4, 1.5)
+        half = meniscus.mirage(self.block, wall, "density", "rgba", **options)
+        numpy.testing.assert_allclose(half, 1 - numpy.exp(-0.4875), atol=2e-5)
+        for wrong in ({"volume_scalars": "soot"}, {"volume": None}):
+            with self.assertRaises(ValueError):
+                meniscus.mirage(self.block, wall, "density", "rgba", **{**options, **wrong})
+        with self.assertRaises(ValueError):
+            meniscus.mirage(self.block, None, "density")
 
     def test_apparent(self):
         """An eye 1 before the block and a point 1 behind it: the direction in which it is seen

@@ -81,9 +81,12 @@ private:
         row.Values + GradedCellRow::Gradients, 9, std::numeric_limits<double>::quiet_NaN());
       return row;
     }();
-    return this->Watch && (*this->Watch->Cells)[static_cast<std::size_t>(cell)]
-      ? none.Values
-      : this->Walk.Medium.Table->GetRow(cell).Values;
+    return this->IsWatched(cell) ? none.Values : this->Walk.Medium.Table->GetRow(cell).Values;
+  }
+
+  bool IsWatched(std::int64_t cell) const
+  {
+    return this->Watch && (*this->Watch->Cells)[static_cast<std::size_t>(cell)] != 0;
   }
 
   /** Begins to load a row that the next step needs. */
@@ -144,7 +147,10 @@ private:
     return this->Settle(lane);
   }
 
-  /** Takes a step of the ray alone. Returns false if the ray has ended. */
+  /**
+   * Takes a step of the ray alone, and those through watched cells that follow. Returns false if
+   * the ray has ended.
+   */
   bool GoOn(int lane)
   {
     this->Take(lane);
@@ -159,7 +165,7 @@ private:
         this->Walk.Finish(path);
         return false;
       }
-    } while (isSearching && path.IsShort);
+    } while ((isSearching && path.IsShort) || this->IsWatched(path.Cell));
     shortSteps = path.IsShort ? shortSteps + 1.0 : 0.0;
     return this->Settle(lane);
   }

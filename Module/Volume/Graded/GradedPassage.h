@@ -92,6 +92,9 @@ public:
   const glm::dvec3& GetMomentum() const { return this->EndMomentum; }
   /** Way there from the beginning. */
   const glm::dvec3& GetWay() const { return this->EndWay; }
+  const GradedCell& GetCell() const { return this->Cell; }
+  /** At least the norm of the force's derivative; 0 for a parabola. */
+  double GetForceNorm() const { return this->Norm; }
   /** At least the size of the force within a time, at most that of the exit that was found. */
   double GetLargestForce(double time) const;
   /** Integral of n^2 along the way there, from its value at the beginning. */

@@ -54,6 +54,23 @@ public:
     const double time = (to - from) * this->Time;
     return 0.125 * this->LargestForce * time * time;
   }
+  const GradedCell& GetCell() const { return this->Way.GetCell(); }
+  /** Time of the whole arc. */
+  double GetTime() const { return this->Time; }
+  /** At least the size of the force on the arc. */
+  double GetLargestForce() const { return this->LargestForce; }
+  /** At least the norm of the force's derivative by the place. */
+  double GetForceNorm() const { return this->Way.GetForceNorm(); }
+  /** Barycentric weights at a share of the time. */
+  std::array<double, 4> WeightsAt(double share)
+  {
+    if (share == 0.0 || share == 1.0)
+    {
+      return share == 0.0 ? this->BeginWeights : this->EndWeights;
+    }
+    this->Way.MoveTo(share * this->Time);
+    return this->Way.GetWeights(-1);
+  }
   /** Place at a share of the time, from 0 to 1. */
   glm::dvec3 At(double share)
   {
@@ -64,7 +81,10 @@ public:
     this->Way.MoveTo(share * this->Time);
     return this->Begin + this->Way.GetWay();
   }
-  /** Direction there, of any length. It is against that of the ray in an inverted cell. */
+  /**
+   * Direction there: the derivative of the place by the time, of the length n, or 1 for a straight
+   * ray. It is against that of the ray in an inverted cell.
+   */
   glm::dvec3 DirectionAt(double share)
   {
     this->Way.MoveTo(share * this->Time);

@@ -160,7 +160,8 @@ bool OpaqueTriangles::MeetPart(
     }
     const double share =
       glm::dot(hit.Place - chord.Begin, chord.Way) / glm::dot(chord.Way, chord.Way);
-    const glm::dvec3 along = glm::normalize(arc.DirectionAt(glm::mix(from, to, share)));
+    hit.Share = glm::clamp(glm::mix(from, to, share), 0.0, 1.0);
+    const glm::dvec3 along = glm::normalize(arc.DirectionAt(hit.Share));
     hit.Direction = glm::dot(along, chord.Way) < 0.0 ? -along : along;
     return true;
   }
@@ -211,7 +212,7 @@ std::vector<std::uint8_t> OpaqueTriangles::FindCells(
         {
           corners[i] = mesh.GetPosition(cells[c].Vertices[i]);
         }
-        found[c] = this->MayBeIn(corners) ? 1 : 0;
+        found[c] = this->MayBeIn(corners) ? MayHaveTriangle : 0;
       }
     });
   return found;
@@ -290,37 +291,76 @@ bool OpaqueTriangles::MeetLine(const Chord& chord, OpaqueHit& hit) const
   return nearest < std::numeric_limits<double>::infinity();
 }
 
-//------------------------------------------------------------------------------
-void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
-  const std::vector<std::uint8_t>* cells, const std::vector<GradedRay>& rays,
+namespace
+{
+
+/** Ends a ray at the first triangle, and collects the light of a medium in front of it. */
+class LightVisitor : public OpaqueVisitor
+{
+public:
+  LightVisitor(const OpaqueTriangles& triangles, const std::vector<std::uint8_t>& cells,
+    VolumeLight& light, std::size_t ray)
+    : OpaqueVisitor(triangles)
+    , Cells(cells)
+    , Light(light)
+    , Ray(ray)
+  {
+  }
+
+  bool VisitArc(GradedArc& arc) override
+  {
+    const std::uint8_t flags = this->Cells[static_cast<std::size_t>(arc.Cell)];
+    const bool goesOn = (flags & MayHaveTriangle) == 0 || this->OpaqueVisitor::VisitArc(arc);
+    if ((flags & HasLight) != 0)
+    {
+      this->Light.Add(this->Ray, arc, goesOn ? 1.0 : this->Hit.Share);
+    }
+    return goesOn;
+  }
+
+private:
+  const std::vector<std::uint8_t>& Cells;
+  VolumeLight& Light;
+  std::size_t Ray;
+};
+
+void Settle(const GradedRayResult& ray, OpaqueSight& sight)
+{
+  const bool isHit = sight.Hit.Triangle >= 0;
+  sight.Direction = isHit ? sight.Hit.Direction : ray.Direction;
+  sight.IsStopped =
+    !isHit && (ray.State == GradedRayState::Trapped || ray.State == GradedRayState::Lost);
+}
+
+/** Follows rays, each with a visitor of its own. */
+template <typename Visitor>
+void FollowWatched(const GradedRayWalk& walk, const std::vector<std::uint8_t>& cells,
+  const std::vector<GradedRay>& rays, std::vector<Visitor>& visitors,
   GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces)
 {
-  const auto settle = [](const GradedRayResult& ray, OpaqueSight& sight)
+  GradedWatch watch;
+  watch.Cells = &cells;
+  for (Visitor& visitor : visitors)
   {
-    const bool isHit = sight.Hit.Triangle >= 0;
-    sight.Direction = isHit ? sight.Hit.Direction : ray.Direction;
-    sight.IsStopped =
-      !isHit && (ray.State == GradedRayState::Trapped || ray.State == GradedRayState::Lost);
-  };
-  std::vector<GradedRayResult> ends(rays.size());
-  if (cells)
-  {
-    std::vector<OpaqueVisitor> visitors(rays.size(), OpaqueVisitor(triangles));
-    GradedWatch watch;
-    watch.Cells = cells;
-    for (OpaqueVisitor& visitor : visitors)
-    {
-      watch.Visitors.push_back(&visitor);
-    }
-    walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces, &watch);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-    {
-      results[i] = OpaqueSight();
-      results[i].Hit = visitors[i].Hit;
-      settle(ends[i], results[i]);
-    }
-    return;
+    watch.Visitors.push_back(&visitor);
   }
+  std::vector<GradedRayResult> ends(rays.size());
+  walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces, &watch);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    results[i] = OpaqueSight();
+    results[i].Hit = visitors[i].Hit;
+    Settle(ends[i], results[i]);
+  }
+}
+
+/** Follows rays outside of whose mesh the triangles are. */
+void FollowUnwatched(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
+  const std::vector<GradedRay>& rays, GradedRayStatistics& statistics, OpaqueSight* results,
+  const EntryFaces* faces)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<GradedRayResult> ends(rays.size());
   walk.WalkAll(rays, statistics, ends.data(), BestInstructionSet(), faces);
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
@@ -328,16 +368,48 @@ void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
     results[i] = OpaqueSight();
     OpaqueHit& hit = results[i].Hit;
     const bool misses = ray.State == GradedRayState::Missed;
-    const double length =
-      misses ? std::numeric_limits<double>::infinity() : glm::length(ray.Entry - rays[i].Origin);
+    const double length = misses ? infinity : glm::length(ray.Entry - rays[i].Origin);
     if (!triangles.Meet(
           GradedLeg{ rays[i].Origin, glm::normalize(rays[i].Direction), length }, hit) &&
       ray.State == GradedRayState::Left)
     {
-      triangles.Meet(
-        GradedLeg{ ray.Exit, ray.Direction, std::numeric_limits<double>::infinity() }, hit);
+      triangles.Meet(GradedLeg{ ray.Exit, ray.Direction, infinity }, hit);
     }
-    settle(ray, results[i]);
+    Settle(ray, results[i]);
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
+  const std::vector<std::uint8_t>* cells, const std::vector<GradedRay>& rays,
+  GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces,
+  const EmittingMedium* medium)
+{
+  if (cells && medium)
+  {
+    VolumeLight light(*medium, rays.size());
+    std::vector<LightVisitor> visitors;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+    {
+      visitors.emplace_back(triangles, *cells, light, i);
+    }
+    FollowWatched(walk, *cells, rays, visitors, statistics, results, faces);
+    const std::vector<KeptLight>& lights = light.Finish();
+    for (std::size_t i = 0; i < rays.size(); ++i)
+    {
+      results[i].Light = lights[i];
+    }
+  }
+  else if (cells)
+  {
+    std::vector<OpaqueVisitor> visitors(rays.size(), OpaqueVisitor(triangles));
+    FollowWatched(walk, *cells, rays, visitors, statistics, results, faces);
+  }
+  else
+  {
+    FollowUnwatched(walk, triangles, rays, statistics, results, faces);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "Refraction/Tubes/BoxTree.h"
 #include "Volume/Graded/GradedPiece.h"
 #include "Volume/Graded/GradedRayWalk.h"
+#include "Volume/Graded/VolumeLight.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
 #include <glm/vec3.hpp>
@@ -29,6 +30,8 @@ struct OpaqueHit
   std::array<double, 3> Weights{};
   /** True if the ray meets the side about which the corners turn to the left. */
   bool IsFront = false;
+  /** Share of the time of the arc on which it is met, from 0 to 1; 0 outside of the mesh. */
+  double Share = 0.0;
 };
 
 /**
@@ -54,7 +57,7 @@ public:
   bool Meet(const GradedLeg& leg, OpaqueHit& hit) const;
   bool Meet(GradedArc& arc, OpaqueHit& hit) const;
 
-  /** By cell of a mesh, whether a triangle may be in it: 1 or 0. */
+  /** By cell of a mesh, whether a triangle may be in it: MayHaveTriangle or 0. */
   std::vector<std::uint8_t> FindCells(
     const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop) const;
 
@@ -80,18 +83,31 @@ struct OpaqueSight
   glm::dvec3 Direction{ 0.0 };
   /** True if the ray stayed in the mesh and was stopped or lost. */
   bool IsStopped = false;
+  /** Light of the medium in front of it. */
+  KeptLight Light;
+};
+
+/** Flags of the cells in which rays are watched. */
+enum WatchedCell : std::uint8_t
+{
+  /** A triangle may be in the cell: OpaqueTriangles::FindCells(). */
+  MayHaveTriangle = 1,
+  /** Something is seen of an emitting medium, and its scalars are finite. */
+  HasLight = 2
 };
 
 /**
  * Follows rays until they meet a triangle.
- * @param cells of OpaqueTriangles::FindCells(); null if no triangle is in the box around the mesh,
- *   where rays need not be watched.
+ * @param cells flags of WatchedCell; null if no triangle is in the box around the mesh and there is
+ *   no medium that emits light, where rays need not be watched.
  * @param results one per ray; replaced.
  * @param faces as for GradedRayWalk::WalkAll().
+ * @param medium that emits and absorbs light in front of the triangles; null for none.
  */
 void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
   const std::vector<std::uint8_t>* cells, const std::vector<GradedRay>& rays,
-  GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces = nullptr);
+  GradedRayStatistics& statistics, OpaqueSight* results, const EntryFaces* faces = nullptr,
+  const EmittingMedium* medium = nullptr);
 
 /** Ends a ray at the first triangle. */
 class OpaqueVisitor : public GradedRayVisitor

@@ -1,24 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of objects through a medium that bends light, and objects where they are seen.
-#include "HardMeshes.h"
-#include "RayCastScene.h"
+#include "MirageScene.h"
 
 #include <vtkApparentGeometryFilter.h>
-#include <vtkTetrahedraMirage.h>
-
-#include <glm/gtc/type_ptr.hpp>
 
 using namespace meniscus::test;
 
 namespace
 {
-
-using Filter = vtkSmartPointer<vtkTetrahedraMirage>;
-using Object = vtkSmartPointer<vtkPolyData>;
-
-constexpr int Size = 40;
-const double NaN = std::numeric_limits<double>::quiet_NaN();
 
 /** Air over a road: n^2 rises with the height, 100 units from one end to the other. */
 constexpr double Base = 1.6;
@@ -45,18 +35,6 @@ glm::dvec3 FollowParabola(const glm::dvec3& direction, double z)
   return place + std::min(z + Half, 0.0) / end.z * end;
 }
 
-Object MakePlane(double z, double half)
-{
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-half, -half, z);
-  plane->SetPoint1(half, -half, z);
-  plane->SetPoint2(-half, half, z);
-  plane->SetResolution(7, 5);
-  plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  plane->Update();
-  return plane->GetOutput();
-}
-
 Object MakeSphere(const glm::dvec3& middle, double radius)
 {
   vtkNew<vtkSphereSource> sphere;
@@ -67,43 +45,6 @@ Object MakeSphere(const glm::dvec3& middle, double radius)
   sphere->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   sphere->Update();
   return sphere->GetOutput();
-}
-
-Filter MakeFilter(vtkDataObject* mesh, vtkDataSet* objects)
-{
-  auto filter = Filter::New();
-  filter->SetInputDataObject(mesh);
-  filter->SetObjectData(objects);
-  filter->SetQuantityToRefractiveIndex();
-  filter->SetImageSize(Size, Size);
-  return filter;
-}
-
-vtkSmartPointer<vtkCamera> MakeCamera(
-  const glm::dvec3& eye, const glm::dvec3& focus, double tangent)
-{
-  auto camera = vtkSmartPointer<vtkCamera>::New();
-  camera->SetPosition(eye.x, eye.y, eye.z);
-  camera->SetFocalPoint(focus.x, focus.y, focus.z);
-  camera->SetViewAngle(2.0 * std::atan(tangent) * 180.0 / M_PI);
-  return camera;
-}
-
-vtkDataArray* ArrayOf(vtkTetrahedraMirage* filter, const char* name)
-{
-  return filter->GetOutput()->GetPointData()->GetArray(name);
-}
-
-double ValueAt(vtkTetrahedraMirage* filter, const char* name, vtkIdType pixel, int part = 0)
-{
-  return ArrayOf(filter, name)->GetComponent(pixel, part);
-}
-
-glm::dvec3 VectorAt(vtkTetrahedraMirage* filter, const char* name, vtkIdType pixel)
-{
-  glm::dvec3 value;
-  ArrayOf(filter, name)->GetTuple(pixel, glm::value_ptr(value));
-  return value;
 }
 
 /** Expects equal arrays, numbers that are NaN alike, within a tolerance. */

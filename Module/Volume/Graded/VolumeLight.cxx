@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Graded/VolumeLight.h"
+
+#include "Volume/Graded/GradedCell.h"
+#include "Volume/Packet/Kernels/KeptValues.h"
+#include "Volume/Packet/Kernels/PacketKernels.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Segments that are kept before they are integrated: 4 MiB. */
+constexpr std::size_t MostRecords = std::size_t{ 1 } << 18;
+
+/**
+ * Largest (a^2 + N) T^2 of a segment: its square is 470 times 2^-24. It keeps a T, and so the
+ * change of n, below 0.073 times the smallest n.
+ */
+constexpr double LargestTurn = 5.29e-3;
+
+/** Least ratio of the smallest n of such a segment to that at its beginning: 1 / 1.073. */
+constexpr double LeastRatio = 0.93;
+
+/** Squared ratio of the largest n of such a segment to the smallest one: 1.146^2. */
+constexpr double SquaredRatio = 1.32;
+
+/**
+ * Shortest segment as a share of an arc's time. Only where n is next to 0, and the ray turns at
+ * once, would a shorter one be needed.
+ */
+constexpr double ShortestShare = 1.0 / 4096.0;
+
+/** Transmittance at which a ray ends: that of a mapper that ends no ray early. */
+constexpr float LeastTransmittance = 1.0e-30f;
+
+/**
+ * Longest time of a segment by the two bounds of the header.
+ * @param index n at its beginning.
+ * @param gradient size of the scalar's gradient.
+ */
+double LongestTime(const GradedArc& arc, double index, double gradient)
+{
+  const double force = arc.GetLargestForce();
+  const double turn = force / (LeastRatio * index);
+  return std::min(std::sqrt(LargestTurn / (turn * turn + arc.GetForceNorm())),
+    std::sqrt(8.0 * VolumeLight::LargestScalarError / (SquaredRatio * gradient * force)));
+}
+
+/** End of the segment that begins at a share of an arc's time, of equal ones up to an end. */
+double NextShare(double from, double end, double longest)
+{
+  const double parts = std::ceil((end - from) / longest);
+  return parts > 1.0 ? std::min(end, from + std::max((end - from) / parts, ShortestShare)) : end;
+}
+
+}
+
+/** Segments ray by ray, for the rays that have some. */
+struct VolumeLight::SortedRecords
+{
+  std::vector<MediumSegment> Segments;
+  std::vector<std::size_t> Rays;
+  std::vector<std::int32_t> Ends;
+
+  SortedRecords(const std::vector<Record>& records, std::size_t rays)
+    : Segments(records.size())
+  {
+    std::vector<std::int32_t> next(rays, 0);
+    for (const Record& record : records)
+    {
+      ++next[static_cast<std::size_t>(record.Ray)];
+    }
+    std::int32_t sum = 0;
+    for (std::size_t ray = 0; ray < rays; ++ray)
+    {
+      const std::int32_t count = next[ray];
+      next[ray] = sum;
+      sum += count;
+      if (count > 0)
+      {
+        this->Rays.push_back(ray);
+        this->Ends.push_back(sum);
+      }
+    }
+    for (const Record& record : records)
+    {
+      const std::int32_t place = next[static_cast<std::size_t>(record.Ray)]++;
+      this->Segments[static_cast<std::size_t>(place)] = record.Segment;
+    }
+  }
+};
+
+//------------------------------------------------------------------------------
+VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays, InstructionSet set)
+  : Medium(medium)
+  , Set(set)
+  , Lights(rays)
+{
+}
+
+//------------------------------------------------------------------------------
+void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
+{
+  const auto number = static_cast<std::size_t>(arc.Cell);
+  const GradedCell& cell = arc.GetCell();
+  if (cell.IsInverted)
+  {
+    return;
+  }
+  const bool ofCells = this->Medium.HasCellScalars;
+  const auto& vertices = this->Medium.Mesh->GetCells()[number].Vertices;
+  std::array<double, 4> scalars;
+  for (std::size_t i = 0; i < scalars.size(); ++i)
+  {
+    scalars[i] = (*this->Medium.Scalars)[ofCells ? number : static_cast<std::size_t>(vertices[i])];
+  }
+  const auto scalarAt = [&scalars](const std::array<double, 4>& w)
+  { return (w[0] * scalars[0] + w[1] * scalars[1]) + (w[2] * scalars[2] + w[3] * scalars[3]); };
+  const double gradient = ofCells ? 0.0 : glm::length(cell.AddGradients(scalars));
+  const double time = arc.GetTime();
+  const double sixth = this->Medium.Mesh->GetRadius() * time / 6.0;
+  double from = 0.0;
+  double scalar = scalarAt(arc.BeginWeights);
+  double index = glm::length(arc.DirectionAt(0.0));
+  while (from < end)
+  {
+    const double to = NextShare(from, end, LongestTime(arc, index, gradient) / time);
+    const double middle = glm::length(arc.DirectionAt(0.5 * (from + to)));
+    const double indexTo = glm::length(arc.DirectionAt(to));
+    const double scalarTo = scalarAt(arc.WeightsAt(to));
+    const double length = (to - from) * sixth * (index + 4.0 * middle + indexTo);
+    this->Records.push_back({ static_cast<std::int32_t>(ray),
+      { static_cast<float>(scalar), static_cast<float>(scalarTo), static_cast<float>(length) } });
+    from = to;
+    scalar = scalarTo;
+    index = indexTo;
+  }
+  if (this->Records.size() >= MostRecords)
+  {
+    this->Integrate();
+  }
+}
+
+//------------------------------------------------------------------------------
+const std::vector<KeptLight>& VolumeLight::Finish()
+{
+  this->Integrate();
+  return this->Lights;
+}
+
+//------------------------------------------------------------------------------
+/** Integrates the segments that wait. */
+void VolumeLight::Integrate()
+{
+  const SortedRecords sorted(this->Records, this->Lights.size());
+  this->Records.clear();
+  const std::size_t rays = sorted.Rays.size();
+  constexpr std::size_t numbers = std::size(KeptLight().Values);
+  std::vector<float> values(numbers * rays);
+  PacketJob job{};
+  job.Blending = BlendMode::Composite;
+  job.Intervals = this->Medium.Intervals->data();
+  job.NumberOfIntervals = static_cast<std::int32_t>(this->Medium.Intervals->size());
+  job.TerminationTransmittance = LeastTransmittance;
+  MediumSegmentList list{};
+  list.Segments = sorted.Segments.data();
+  list.Ends = sorted.Ends.data();
+  list.NumberOfRays = static_cast<std::int32_t>(rays);
+  list.Values = values.data();
+  IntegrateSegments(job, list, this->Set);
+  for (std::size_t i = 0; i < rays; ++i)
+  {
+    KeptLight behind;
+    std::copy_n(&values[numbers * i], numbers, behind.Values);
+    JoinValues(job.Blending, behind.Values, this->Lights[sorted.Rays[i]].Values);
+  }
+}
+
+}
