@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types of arguments: a wrong one is a TypeError that names the argument."""
+"""Types and values of arguments: a wrong type is a TypeError, a wrong value a ValueError, both with
+the argument's name."""
+import math
 import numbers
 import os
 
@@ -14,6 +16,10 @@ def refuse(argument, expected, value):
         hint = " (bytes.decode() makes a str of bytes)"
     elif expected.startswith("a dataset") and isinstance(value, (str, os.PathLike)):
         hint = " (pyvista.read() reads a file)"
+    elif expected.startswith("a dataset") and hasattr(value, "read"):
+        hint = " (its read() returns one)"
+    elif expected.startswith("a dataset") and hasattr(value, "GetOutputDataObject"):
+        hint = " (its GetOutput() returns one)"
     raise TypeError("%s must be %s, not %s%s" % (argument, expected, type(value).__name__, hint))
 
 
@@ -50,6 +56,49 @@ def check_numbers(argument, value, count, kind=numbers.Real):
     if len(found) != count or not all(isinstance(each, kind) for each in found):
         refuse(argument, "%d %s" % (
             count, "whole numbers" if kind is numbers.Integral else "numbers"), value)
+
+
+def check_finite(argument, values):
+    """Numbers of an array or another collection that must be finite."""
+    for each in values:
+        if not math.isfinite(each):
+            raise ValueError("%s must be finite numbers, not %r" % (argument, float(each)))
+
+
+def take_number(argument, value, least=-math.inf, above=-math.inf, most=math.inf):
+    """A finite number of any type, at least `least`, larger than `above` and at most `most`, as a
+    float."""
+    try:
+        number = None if isinstance(value, (bytes, str)) else float(value)
+    except (TypeError, ValueError):
+        number = None
+    if number is None:
+        refuse(argument, "a number", value)
+    if not (math.isfinite(number) and least <= number <= most and number > above):
+        limits = [text % limit for text, limit in (
+            ("at least %g", least), ("above %g", above), ("at most %g", most))
+            if math.isfinite(limit)]
+        raise ValueError("%s must be a finite number%s, not %r" % (
+            argument, " " + " and ".join(limits) if limits else "", number))
+    return number
+
+
+def check_count(argument, value):
+    """A whole number of at least 1."""
+    if not isinstance(value, numbers.Integral):
+        refuse(argument, "a whole number", value)
+    if value < 1:
+        raise ValueError("%s must be at least 1, not %d" % (argument, value))
+
+
+def take_range(argument, value):
+    """Two finite numbers, the lower one first, as floats."""
+    check_numbers(argument, value, 2)
+    low, high = map(float, value)
+    check_finite(argument, (low, high))
+    if low > high:
+        raise ValueError("%s must have its lower end first, not %r" % (argument, (low, high)))
+    return low, high
 
 
 def check_dataset(argument, value):

@@ -63,7 +63,7 @@ def check_component(name, count, component):
     if component is None and count == 1:
         return
     problem = ("has %d components" % count if component is None
-               else "has no component %r" % component)
+               else "has no component %r" % (component,))
     raise ValueError('The array \'%s\' %s; choose one with component=%s or "magnitude"' % (
         name, problem, ", ".join(map(str, range(count)))))
 

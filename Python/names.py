@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names of the settings of vtkTetrahedraRayCastMapper, the material of lit volumes, and properties
 of VTK's objects by name."""
+import math
+
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkRenderingVolume import vtkVolumeMapper
 
@@ -39,7 +41,7 @@ def choose(kind, name, known):
 
 def set_properties(target, properties):
     """Calls SetX(value) of a vtkAlgorithm for each X=value of a dictionary; a name X that it has
-    not is an AttributeError that lists those that it has."""
+    not is an AttributeError that lists those that it has, and NaN a ValueError."""
     for name, value in properties.items():
         setter = getattr(target, "Set" + name, None)
         if setter is None:
@@ -48,4 +50,7 @@ def set_properties(target, properties):
             known = sorted(each for each in setters if each.split("To")[0] == each)
             raise AttributeError("There is no property '%s'; known are %s" % (
                 name, ", ".join(known)))
+        values = value if isinstance(value, (tuple, list)) else [value]
+        if any(isinstance(each, float) and math.isnan(each) for each in values):
+            raise ValueError("%s must not be NaN" % name)
         setter(value)

@@ -3,10 +3,12 @@
 """VTK's volume mappers of unstructured meshes and ours, on one mesh."""
 from __future__ import annotations
 
+import numbers
 from typing import TYPE_CHECKING, Any
 
 import pyvista
 
+from ..arguments import check_count, check_numbers
 from ..names import choose
 from ..rivals import MAPPERS, Comparison, compare_mappers, join_tetrahedra
 from .scalars import Scalars
@@ -38,8 +40,8 @@ def compare(
     """
     for name in mappers:
         choose("mapper", name, MAPPERS)
-    if frames < 1:
-        raise ValueError("There must be at least one frame")
+    check_count("frames", frames)
+    check_numbers("size", size, 2, numbers.Integral)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     try:
         plotter.set_background("black")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..arguments import check_names
+from ..arguments import check_names, take_number
 from ..integrals import ARRAYS, ray_integral
 from ..names import choose
 
@@ -26,6 +26,10 @@ def _measure(mesh, arrays, scalars, component, size, direction, up, camera, surf
         named.update(Direction=direction, ViewUp=up)
     return ray_integral(mesh, arrays, scalars=scalars, component=component, size=size,
                         camera=camera, surfaces=surfaces, indices=indices, **named)
+
+
+def _is_list(value):
+    return hasattr(value, "__len__") and not isinstance(value, (bytes, str))
 
 
 def integral(
@@ -83,14 +87,15 @@ def radiograph(
     Returns numpy.float32 of the shape (height, width), or (height, width, energies) for several
     coefficients, with rows from below. Raises ValueError for input that cannot be used.
     """
-    several = hasattr(attenuation, "__len__")
+    several = _is_list(attenuation)
     coefficients: Any = attenuation if several else [attenuation]
-    intensities: Any = intensity if hasattr(intensity, "__len__") else [intensity] * len(
-        coefficients)
+    intensities: Any = intensity if _is_list(intensity) else [intensity] * len(coefficients)
+    coefficients = [take_number("attenuation", each) for each in coefficients]
+    intensities = [take_number("intensity", each, least=0.0) for each in intensities]
     if not len(coefficients) or len(intensities) != len(coefficients):
         raise ValueError("There must be one attenuation coefficient or more, and as many "
                          "intensities or one")
-    bins = [(float(mu), 0.0, float(each)) for mu, each in zip(coefficients, intensities)]
+    bins = [(mu, 0.0, each) for mu, each in zip(coefficients, intensities)]
     found = _measure(mesh, ["EnergyBins"], scalars, component, size, direction, up, camera, None,
                      1.333, bins=bins, **properties)["EnergyBins"]
     return found.reshape(*found.shape[:2], len(bins)) if several else found

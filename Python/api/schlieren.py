@@ -10,7 +10,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
-from ..arguments import check_names
+from ..arguments import check_count, check_finite, check_names, check_numbers
 from ..media import cast, connect_medium
 from ..vtkMeniscus import vtkTetrahedraSchlieren
 
@@ -120,10 +120,13 @@ def zernike(path: Any, terms: int = 15, *, pupil: Sequence[float] | None = None)
     path = numpy.asarray(path, dtype=float)
     if path.ndim != 2:
         raise ValueError("A wave front has two dimensions, not %d" % path.ndim)
-    if terms < 1:
-        raise ValueError("The number of terms must be at least 1, not %d" % terms)
+    check_count("terms", terms)
     rows, columns = path.shape
-    column, row, reach = pupil or ((columns - 1) / 2, (rows - 1) / 2, min(columns, rows) / 2)
+    if pupil is None:
+        pupil = (columns - 1) / 2, (rows - 1) / 2, min(columns, rows) / 2
+    check_numbers("pupil", pupil, 3)
+    check_finite("pupil", pupil)
+    column, row, reach = pupil
     if not reach > 0:
         raise ValueError("The radius of the pupil must be positive, not %g" % reach)
     y, x = numpy.mgrid[:rows, :columns]

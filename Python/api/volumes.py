@@ -12,7 +12,8 @@ import pyvista
 from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
-from ..arguments import check_numbers, refuse
+from ..arguments import (
+    check_count, check_finite, check_numbers, refuse, take_number, take_range)
 from ..names import ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
@@ -84,8 +85,6 @@ def _add_bar(plotter, title, scalar_bar_args, show_scalar_bar):
 
 def _choose_limits(arguments, scalars):
     """Range of the colours for plotter.add_volume(), in arguments."""
-    if hasattr(arguments.get("clim"), "__len__"):
-        arguments["clim"] = tuple(arguments["clim"])  # PyVista 0.44 takes no arrays
     if arguments.get("clim", arguments.get("rng")) is None:
         if arguments.get("log_scale"):
             arguments["clim"] = scalars.get_positive_range()
@@ -106,32 +105,57 @@ def _choose_look(arguments, blending, light, shadows):
         arguments.setdefault("opacity", [ISOSURFACE_OPACITY] * 2)
 
 
-def _check_finite(arguments, unit_distance):
+def _check_numbers(arguments, unit_distance):
     """Raises a ValueError for numbers that PyVista and VTK take without a word, and that leave
-    nothing to be seen."""
-    if unit_distance is not None and not 0.0 < unit_distance < math.inf:
-        raise ValueError("opacity_unit_distance must be a finite length above 0, not %r"
-                         % unit_distance)
-    for name in ("clim", "rng", "opacity"):
-        value = arguments.get(name)
-        if value is None or isinstance(value, str) or not hasattr(value, "__len__"):
-            continue
-        numbers_of = numpy.asarray(value)
-        if numbers_of.dtype.kind == "f" and not numpy.isfinite(numbers_of).all():
-            raise ValueError("%s must be finite numbers, not %r" % (
-                name, float(numbers_of[~numpy.isfinite(numbers_of)][0])))
+    nothing to be seen, or something else."""
+    if unit_distance is not None:
+        take_number("opacity_unit_distance", unit_distance, above=0.0)
+    for name in MATERIAL:
+        if arguments.get(name) is not None:
+            arguments[name] = take_number(name, arguments[name], least=0.0)
+    for name in ("clim", "rng"):
+        _check_limits(name, arguments)
+    if arguments.get("n_colors") is not None:
+        check_count("n_colors", arguments["n_colors"])
+    _check_opacity(arguments.get("opacity"))
+    matrix = arguments.get("user_matrix")
+    if isinstance(matrix, numpy.ndarray) and matrix.dtype.kind == "f":
+        check_finite("user_matrix", matrix.ravel())
+
+
+def _check_opacity(opacity):
+    """The name of a function, a number, or a list of them."""
+    if opacity is None or isinstance(opacity, str):
+        return
+    values = None if isinstance(opacity, (bytes, dict)) else numpy.asarray(opacity)
+    if values is None or values.dtype.kind not in "biuf" or values.ndim > 1 or not values.size:
+        refuse("opacity", "the name of a function, a number or a list of numbers", opacity)
+    check_finite("opacity", values.ravel())
+    if (values < 0).any():
+        raise ValueError("opacity must be numbers of at least 0, not %r" % float(values.min()))
+
+
+def _check_limits(name, arguments):
+    """Makes a pair of the range of the colours, which one number stands for as well."""
+    value = arguments.get(name)
+    if value is None:
+        return
+    if not hasattr(value, "__len__"):
+        value = take_number(name, value, least=0.0)
+        value = -value, value
+    arguments[name] = take_range(name, value)
+    if arguments.get("log_scale") and arguments[name][1] <= 0.0:
+        raise ValueError("%s must have an upper end above 0 for log_scale, not %r" % (
+            name, arguments[name]))
 
 
 def _take_shadows(shadows, properties):
     """The reach of shadows, which the mapper's properties get with the light that is scattered."""
-    if not isinstance(shadows, (bool, numbers.Real)):
-        refuse("shadows", "True, False, or a number from 0 to 1", shadows)
-    if not 0.0 <= shadows <= 1.0:
-        raise ValueError("shadows must be from 0 to 1, not %r" % shadows)
-    if shadows:
-        properties.setdefault("GlobalIlluminationReach", float(shadows))
+    reach = take_number("shadows", shadows, least=0.0, most=1.0)
+    if reach > 0.0:
+        properties.setdefault("GlobalIlluminationReach", reach)
         properties.setdefault("VolumetricScatteringBlending", SCATTERED_SHARE)
-    return float(shadows)
+    return reach
 
 
 def _choose_blending(blending, isovalues, scalars):
@@ -142,6 +166,8 @@ def _choose_blending(blending, isovalues, scalars):
         refuse("blending", "the name of a blend mode", blending)
     if blending == "isosurfaces":
         blending = "isosurface"
+    if isovalues is not None:
+        _check_isovalues(isovalues)
     if isovalues is not None and blending != "isosurface":
         raise ValueError("isovalues are those of blending=\"isosurface\", not of '%s'" % blending)
     if scalars.is_mixed and blending not in ("composite", 0):
@@ -149,17 +175,24 @@ def _choose_blending(blending, isovalues, scalars):
     return blending
 
 
-def _set_isovalues(look, isovalues, limits):
-    """isovalues: values, or the number of values at equal distances inside limits."""
+def _check_isovalues(isovalues):
+    """Values, or their number."""
     if isinstance(isovalues, (bytes, str)):
         refuse("isovalues", "a whole number, or a list of values", isovalues)
     if not hasattr(isovalues, "__len__"):
         if not isinstance(isovalues, numbers.Integral):
             refuse("isovalues", "a whole number, or a list of values", isovalues)
-        if isovalues < 1:
-            raise ValueError("The number of isovalues must be at least 1")
-        isovalues = numpy.linspace(*limits, isovalues + 2)[1:-1]
+        check_count("isovalues", isovalues)
+        return
     check_numbers("isovalues", isovalues, len(isovalues))
+    check_count("The number of isovalues", len(isovalues))
+    check_finite("isovalues", isovalues)
+
+
+def _set_isovalues(look, isovalues, limits):
+    """isovalues: values, or the number of values at equal distances inside limits."""
+    if not hasattr(isovalues, "__len__"):
+        isovalues = numpy.linspace(*limits, isovalues + 2)[1:-1]
     contours = look.GetIsoSurfaceValues()
     contours.SetNumberOfContours(len(isovalues))
     for index, value in enumerate(isovalues):
@@ -170,7 +203,7 @@ def _wrap(mesh):
     """A mesh of any library as PyVista's."""
     try:
         wrapped = pyvista.wrap(mesh)
-    except NotImplementedError:
+    except (NotImplementedError, TypeError):
         wrapped = None
     if wrapped is None:
         refuse("mesh", "a dataset", mesh)
@@ -230,9 +263,9 @@ def add_to(
         opacity depend on the logarithm of the value; without clim, from the least value above 0 on.
 
     Raises ValueError for a mesh without volume, for several components without a choice, for
-    scalars that are missing or not finite, for a unit distance, limits or opacities that are not
-    finite, and for names of modes and colour maps that do not exist (the message lists those that
-    do); KeyError for the name of an array that does not exist.
+    scalars that are missing or not finite, for numbers that are not finite or out of range, limits
+    whose upper end comes first, and for names of modes and colour maps that do not exist (the
+    message lists those that do); KeyError for the name of an array that does not exist.
     """
     source, mesh = mesh, _wrap(mesh)
     if not hasattr(plotter, "add_volume"):
@@ -245,13 +278,21 @@ def add_to(
             opacity_unit_distance=opacity_unit_distance, backend=backend, surfaces=surfaces,
             indices=indices, preference=preference, categories=categories,
             scalar_bar_args=scalar_bar_args, show_scalar_bar=show_scalar_bar, render=render))
-    chosen = Scalars(mesh, scalars, preference, component, rgba)
-    if opacity_array is not None:
-        if rgba:
-            raise ValueError("rgba=True has an opacity of its own; leave opacity_array out")
-        chosen.add_opacity(opacity_array, opacity_component, opacity_clim)
+    if opacity_array is not None and rgba:
+        raise ValueError("rgba=True has an opacity of its own; leave opacity_array out")
+
+    def choose(mesh):
+        chosen = Scalars(mesh, scalars, preference, component, rgba)
+        if opacity_array is not None:
+            chosen.add_opacity(opacity_array, opacity_component, opacity_clim)
+        return chosen
+
+    chosen = choose(mesh)
+    chosen.follow(mesh, choose, plotter)
+    if not isinstance(categories, bool):
+        check_count("categories", categories)
     blending = _choose_blending(blending, isovalues, chosen)
-    _check_finite(arguments, opacity_unit_distance)
+    _check_numbers(arguments, opacity_unit_distance)
     properties = {key: arguments.pop(key) for key in list(arguments) if key[0].isupper()}
     check_color_map(arguments.get("cmap"))
     _choose_limits(arguments, chosen)
@@ -345,6 +386,8 @@ def plot(
     """
     from .notebook import choose_backend
 
+    if window_size is not None:
+        check_numbers("window_size", window_size, 2, numbers.Integral)
     backend = choose_backend(jupyter_backend)
     plotter = pyvista.Plotter(
         off_screen=off_screen, window_size=window_size, notebook=notebook, theme=theme)

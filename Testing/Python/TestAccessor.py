@@ -283,6 +283,27 @@ class TestSeveralArrays(unittest.TestCase):
         self.assertAlmostEqual(volume.prop.GetScalarOpacity().GetValue(1.0), 0.5, delta=0.01)
         plotter.close()
 
+    def test_changed_arrays(self):
+        """The picture follows the mesh, as with one array."""
+        cube = make_cube()
+        cube["colors"] = (255 * numpy.stack([cube["x"], cube["y"], cube["x"]], 1)).astype("uint8")
+        for scalars, changed, named in (("y", "x", {"opacity_array": "x", "clim": (0, 1)}),
+                                        ("colors", "colors", {"rgba": True}),
+                                        ("y", "y", {"clim": (0, 1)})):
+            named = {"show_scalar_bar": False, "opacity_unit_distance": 0.2, **named}
+            for mesh in (cube.copy(), halves_of(cube)):
+                plotter = make_plotter()
+                meniscus.add_to(mesh, plotter, scalars, **named)
+                before = plotter.screenshot(return_img=True)[:, :, :3].astype(int)
+                blocks = [mesh] if isinstance(mesh, pyvista.UnstructuredGrid) else [*mesh][::2]
+                for block in blocks:
+                    block[changed] = cube[changed].max() - block[changed]
+                plotter.render()
+                after = plotter.screenshot(return_img=True)[:, :, :3].astype(int)
+                plotter.close()
+                self.assertGreater(abs(after - before).max(), 20)
+                self.assertLessEqual(abs(after - picture_of(mesh, scalars, **named)).max(), 1)
+
     def test_component_for_opacity(self):
         plotter = make_plotter()
         volume = meniscus.add_to(make_cube(), plotter, "y", opacity_array="U",

@@ -347,6 +347,11 @@ class TestRays(unittest.TestCase):
         for wrong in ({"terms": 0}, {"pupil": (5, 5, 1.0)}, {"pupil": (5, 5, 0.0)}):
             with self.assertRaises(ValueError):
                 meniscus.zernike(wave, **wrong)
+        for name, wrong in (("terms", 2.5), ("terms", "x"), ("pupil", 0), ("pupil", (5, 5))):
+            with self.assertRaisesRegex(TypeError, "^%s must be " % name):
+                meniscus.zernike(wave, **{name: wrong})
+        with self.assertRaisesRegex(ValueError, "^pupil must be finite"):
+            meniscus.zernike(wave, pupil=(5.0, float("nan"), 4.0))
         with self.assertRaisesRegex(ValueError, "two dimensions"):
             meniscus.zernike(wave[0])
 
@@ -361,6 +366,13 @@ class TestRays(unittest.TestCase):
         for attenuation, intensity in (([], 1.0), ([0.1, 0.2], [1.0])):
             with self.assertRaisesRegex(ValueError, "as many intensities or one"):
                 meniscus.radiograph(self.block, "density", attenuation, intensity=intensity)
+        for name, wrong in (("attenuation", float("nan")), ("attenuation", [0.1, float("inf")]),
+                            ("intensity", float("nan")), ("intensity", -1.0)):
+            with self.assertRaisesRegex(ValueError, "^%s must be a finite number" % name):
+                meniscus.radiograph(self.block, "density", **{name: wrong})
+        for name, wrong in (("attenuation", "x"), ("intensity", b"x"), ("intensity", ["x"])):
+            with self.assertRaisesRegex(TypeError, "^%s must be a number" % name):
+                meniscus.radiograph(self.block, "density", **{name: wrong})
 
 
 class TestArguments(unittest.TestCase):

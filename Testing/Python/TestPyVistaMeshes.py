@@ -188,12 +188,47 @@ class TestArguments(unittest.TestCase):
         self.addCleanup(plotter.close)
         nan, infinity = float("nan"), float("inf")
         for argument, values in {"opacity_unit_distance": (0, -1.0, nan, infinity),
-                                 "clim": ((0.0, nan), [-infinity, 1.0]),
+                                 "clim": ((0.0, nan), [-infinity, 1.0], nan, -1.0),
+                                 "rng": ((nan, 1.0),),
                                  "opacity": ([0.0, nan, 1.0], numpy.array([0.1, infinity])),
+                                 "user_matrix": (numpy.full((4, 4), nan),),
+                                 "isovalues": ([0.5, nan],),
+                                 **{name: (nan, -infinity, -0.1) for name in (
+                                     "ambient", "diffuse", "specular", "specular_power")},
                                  }.items():
             for value in values:
                 with self.assertRaisesRegex(ValueError, "^%s must be .*finite" % argument):
                     add_volume(plotter, cube, "y", **{argument: value})
+
+    def test_numbers_out_of_range(self):
+        """A range of which the upper end comes first leaves VTK's table as it was."""
+        cube, nan = make_cube(), float("nan")
+        plotter = pyvista.Plotter(off_screen=True)
+        self.addCleanup(plotter.close)
+        for named, message in (
+                ({"clim": (1.0, 0.0)}, "^clim must have its lower end first"),
+                ({"rng": [1, 0]}, "^rng must have its lower end first"),
+                ({"clim": (1.0, 0.1), "log_scale": True}, "^clim must have its lower end first"),
+                ({"clim": (-1.0, 0.0), "log_scale": True}, "^clim must have an upper end above 0"),
+                ({"opacity_array": "y", "opacity_clim": (1.0, 0.0)}, "^opacity_clim must have "),
+                ({"opacity": [-0.5, 1.0]}, "^opacity must be numbers of at least 0, not -0.5"),
+                ({"n_colors": 0}, "^n_colors must be at least 1, not 0"),
+                ({"categories": -1}, "^categories must be at least 1, not -1"),
+                ({"isovalues": []}, "isovalues must be at least 1"),
+                ({"EarlyTerminationOpacity": nan}, "^EarlyTerminationOpacity must not be NaN")):
+            with self.assertRaisesRegex(ValueError, message):
+                add_volume(plotter, cube, "y", **named)
+        for named in ({"clim": "x"}, {"clim": (0.0,)}, {"clim": (0.0, "x")}, {"ambient": "x"},
+                      {"ambient": [0.1, 0.2]}, {"opacity_unit_distance": "1"}, {"opacity": b"x"},
+                      {"opacity": [[0, 1]]}, {"n_colors": 2.5}, {"categories": "x"},
+                      {"opacity_array": "y", "opacity_clim": 1.0}):
+            with self.assertRaisesRegex(TypeError, "^%s must be " % list(named)[-1]):
+                add_volume(plotter, cube, "y", **named)
+        self.assertEqual(len(plotter.actors), 0)
+        look = add_volume(plotter, cube, "y", clim=2, ambient=numpy.float32(0.5),
+                          diffuse=numpy.array(0.25), shade=True).prop
+        self.assertEqual((look.ambient, look.diffuse), (0.5, 0.25))
+        self.assertEqual(tuple(plotter.mapper.scalar_range), (-2.0, 2.0))
 
     def test_values_that_are_too_near(self):
         cube = make_cube()
