@@ -28,7 +28,7 @@ enum class RayCastBackendNumber
   Native = 2,
   Compute = 3,
   /** All backends of RegisterRayCastBackend(). */
-  Registered = 4
+  Registered = 1000
 };
 
 /** A backend as the registry keeps it. */
