@@ -134,7 +134,7 @@ public:
   void AddVolume(vtkActor* membrane, vtkVolume* volume);
   /** @{ */
   /**
-   * Remove an object or a volume that was added, or all of them; a membrane without any is no
+   * Remove an object or a volume that was added, or all of them. A membrane that has neither is no
    * longer drawn. Get the number of objects and volumes.
    */
   void RemoveRefraction(vtkProp3D* object);
@@ -179,8 +179,8 @@ public:
   /**
    * Set/Get the attenuation coefficients of the medium behind the membranes for red, green and
    * blue, per world length, >= 0, for the model EXPONENTIAL. Default is (0, 0, 0), a clear medium.
-   * Numbers without a meaning are an error of Render(), which then draws a clear medium; so for
-   * MediumColor and MediumRange.
+   * If AttenuationCoefficients, MediumColor or MediumRange is out of its range or not finite,
+   * Render() reports an error and draws a clear medium.
    */
   vtkSetVector3Macro(AttenuationCoefficients, double);
   vtkGetVector3Macro(AttenuationCoefficients, double);
@@ -253,11 +253,11 @@ public:
    * with a warning; GetNumberOfSkippedLights() counts them in each drawing of a membrane.
    *
    * The rays of lights in front of a flat membrane are refracted by Snell's law, and have the flux
-   * that it transmits: Fresnel's loss and the change of a beam's width. Of a light at infinity at
-   * the angle of incidence i, the share (1 - F) cos i / cos r arrives across the refracted rays,
-   * which have the angle r. Behind several flat interfaces, F is the reflectance of all of them,
-   * and lights are refracted as if the media between were not there, which is exact for parallel
-   * planes and lights at infinity.
+   * that it transmits: Fresnel's loss and the change of a beam's width. A light at infinity at the
+   * angle of incidence i gives an area across the refracted rays, whose angle is r, the share
+   * (1 - F) cos i / cos r of its irradiance. Behind several flat interfaces, F is the reflectance
+   * of all of them, and lights are refracted as if the media between were not there, which is exact
+   * for parallel planes and lights at infinity.
    *
    * Through a membrane that is not flat, or a list with such a surface, a vtkRefractedLightFilter
    * computes the light of scene lights in front of it on each object: the pattern of waves, with
@@ -338,7 +338,7 @@ public:
     std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
   bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
     vtkOpenGLVertexArrayObject* vao = nullptr) override;
-  /** Last time that the shader code of an object changed. */
+  /** Time of the last change of an object's shader code. */
   vtkMTimeType GetShaderStageMTime() override;
   /** @} */
 

@@ -309,7 +309,7 @@ public:
     OPENGL = 1,
     NATIVE = 2,
     COMPUTE = 3,
-    REGISTERED = 4 ///< registered from outside; a value of GetActiveBackend() only
+    REGISTERED = 1000 ///< registered from outside; a value of GetActiveBackend() only
   };
 
   /** @{ */

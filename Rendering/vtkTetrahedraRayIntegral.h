@@ -4,7 +4,7 @@
  * @class   vtkTetrahedraRayIntegral
  * @brief   integrals along rays through a mesh, as an image of numbers
  *
- * Casts one ray per pixel through a mesh and writes what it measures as float arrays of a
+ * Casts one ray per pixel through a mesh and writes its measurements as float arrays of a
  * vtkImageData. It needs neither a window nor OpenGL. The rays are cast as by the native backend of
  * vtkTetrahedraRayCastMapper: the scalar is linear in each tetrahedron (constant for cell data),
  * and there is no sampling distance.
@@ -12,8 +12,8 @@
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
  * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
  * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
- * else of the cells. Path lengths and first and last depths need none: without active scalars every
- * cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ * else of the cells. Path lengths and first and last depths need no scalar: without active scalars
+ * every cell counts. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
  * floats with one tuple per pixel, are switched on by name (GetArraySelection()). In brackets, the
@@ -33,11 +33,11 @@
  * also where it is refracted: from the camera's position (with parallel projection, from the plane
  * through it), or from the rectangle, in front of which they are negative. Rays of a camera begin
  * at its position; parallel rays extend beyond the rectangle on both sides. The camera's clipping
- * range does not count.
+ * range has no effect.
  *
- * A cell with a scalar that is not finite does not count, as in the mapper
- * (the statistic "NumberOfTransparentCells"). If only arrays of energy bins are wanted, attenuation
- * takes the place of the scalar.
+ * A cell with a scalar that is not finite is left out, as in the mapper; the statistic
+ * "NumberOfTransparentCells" counts such cells. If only arrays of energy bins are wanted,
+ * attenuation takes the place of the scalar.
  *
  * **Energy bins.** A bin has the intensity I0 behind the mesh. The image has I0 exp(-integral of
  * mu) plus the emission e of the mesh, attenuated on its way to the viewer. mu and e are
@@ -239,8 +239,8 @@ public:
   /** @{ */
   /**
    * Set/Get the property of RGBA, OpticalDepth and events, which need one. RGBA is the mapper's
-   * composite blending without light: Shade and gradient opacity have no effect, also for the
-   * others, and the functions of component 0 are used. Default is none.
+   * composite blending without light. For all three, Shade and gradient opacity have no effect, and
+   * the functions of component 0 are used. Default is none.
    */
   void SetVolumeProperty(vtkVolumeProperty* property);
   vtkVolumeProperty* GetVolumeProperty();
@@ -293,8 +293,8 @@ public:
   /**
    * Set/Get the name of a point or cell array of the input with one component per bin: attenuation
    * coefficients per length, not negative. Point data is used if there are both. A value that is
-   * not finite lets the cell pass without effect on its bin. Default is none, as
-   * with an empty name: BinAttenuation counts.
+   * not finite lets the cell pass without effect on its bin. The default, none, and
+   * an empty name stand for BinAttenuation.
    */
   vtkSetStringMacro(AttenuationArrayName);
   vtkGetStringMacro(AttenuationArrayName);
@@ -353,7 +353,7 @@ public:
   double GetStatistic(const char* name);
   /** @} */
 
-  /** Includes the times of camera, property, interfaces and array selection. */
+  /** Modification time of this filter, its camera, property, interfaces and array selection. */
   vtkMTimeType GetMTime() override;
 
 protected:

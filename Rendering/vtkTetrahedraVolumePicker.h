@@ -17,10 +17,10 @@
  * - average: the first place with a scalar, for all three;
  * - additive: as composite blending with the same functions.
  *
- * Opacity is the picture's: the opacity functions of the scalar or of its components, and gradient
- * opacity. The volume's matrix, the mapper's clipping planes, the camera's clipping range and the
- * mapper's refracting surfaces count; behind such surfaces the true place is picked. Early
- * termination and pre-integration do not count.
+ * Opacity is computed as in the picture, by the opacity functions of the scalar or of its
+ * components and by gradient opacity. The volume's matrix, the mapper's clipping planes, the
+ * camera's clipping range and the mapper's refracting surfaces are taken into account; behind such
+ * surfaces the true place is picked. Early termination and pre-integration have no effect.
  *
  * Place chooses the place that the getters without an argument return. Of several volumes, the
  * picker takes the volume whose place has the smallest depth. Volumes of other mappers and other
@@ -82,7 +82,7 @@ public:
   /** @{ */
   /**
    * Set/Get whether the ray ends at the opaque geometry of the last frame, whose depth is read from
-   * the window; without a frame this has no effect. Default is off.
+   * the window. Before the first frame it has no effect. Default is off.
    */
   vtkSetMacro(UseOpaqueDepth, vtkTypeBool);
   vtkGetMacro(UseOpaqueDepth, vtkTypeBool);

@@ -122,8 +122,8 @@ struct RayCastRays
   RayCastAffineMap Direction;
   double NearDepth = 0.0;
   /**
-   * A window depth w < 1 ends the ray at depth (d * Numerator[0] + Numerator[1]) / (d *
-   * Denominator[0] + Denominator[1]), d = 2 w - 1; one of 1, at FarDepth.
+   * A window depth w < 1 ends the ray at the depth (N[0] d + N[1]) / (D[0] d + D[1]) with d = 2 w -
+   * 1, N = DepthNumerator and D = DepthDenominator; a window depth of 1 ends it at FarDepth.
    */
   double DepthNumerator[2];
   double DepthDenominator[2];
@@ -166,7 +166,7 @@ public:
   /** Window that is drawn to; its OpenGL context is current. */
   vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
 
-  /** Everything there is, for the library's own backends. */
+  /** All tables and settings, for the library's own backends. */
   RayCastTables& Tables;
   const RayCastFrame& Frame;
 
@@ -205,9 +205,9 @@ public:
   }
 
   /**
-   * Depths for which the image was made that the target still holds, or for which it was begun, if
-   * the frame at hand differs from that one in the depths only; else null. A backend may leave
-   * pixels as they are whose depths are the same.
+   * The depths of the image that the target still holds, complete or begun, if the frame at hand
+   * differs from the frame of that image in the depths only; otherwise null. A backend may leave
+   * pixels with equal depths as they are.
    */
   virtual const std::vector<float>* GetDepthsOfImage() { return nullptr; }
 
@@ -251,7 +251,7 @@ class VTKMENISCUS_EXPORT RayCastBackend : public RayCastResources
 public:
   /** Returns why the frame cannot be drawn, for the user to read; "" if it can be. */
   virtual std::string CanDraw(const RayCastRequest& request) = 0;
-  /** Whether the mapper's AUTOMATIC may choose this backend for the frame if it can draw it. */
+  /** Returns true if the mapper's AUTOMATIC may choose this backend, if it can draw the frame. */
   virtual bool IsAutomatic(const RayCastRequest& request)
   {
     static_cast<void>(request);
@@ -271,7 +271,7 @@ public:
     static_cast<void>(request);
     return false;
   }
-  /** Makes the objects it needs from tables that changed. Called before Cast(). */
+  /** Updates the backend's own objects from tables that changed. Called before Cast(). */
   virtual std::string Update(const RayCastRequest& request)
   {
     static_cast<void>(request);
@@ -282,8 +282,8 @@ public:
   /** Statistics of the last frame, on demand: reading them back may take as long as a frame. */
   virtual RayCastStatistics GetStatistics() { return RayCastStatistics(); }
   /**
-   * Whether the statistics count overlaps and cost nothing: then they are asked for after every
-   * frame, to warn of overlapping cells.
+   * Returns true if the statistics count overlaps and cost nothing. They are then asked for after
+   * every frame, to warn of overlapping cells.
    */
   virtual bool CountsOverlaps() const { return false; }
 };

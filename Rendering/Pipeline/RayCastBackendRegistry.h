@@ -27,8 +27,8 @@ enum class RayCastBackendNumber
   OpenGL = 1,
   Native = 2,
   Compute = 3,
-  /** Every one that is not of the library. */
-  Registered = 4
+  /** All backends of RegisterRayCastBackend(). */
+  Registered = 1000
 };
 
 /** A backend as the registry keeps it. */
@@ -45,9 +45,14 @@ struct RayCastBackendEntry
 
   /** Name for vtkTetrahedraRayCastMapper::SetBackendName(). */
   std::string Name;
+  /** Function that makes the backend of a mapper. */
   RayCastBackendFactory Make;
-  /** Backend asked next where this one was asked for and cannot draw; empty: as AUTOMATIC. */
+  /**
+   * Name of the backend that draws a frame which this one was asked for and cannot draw. Empty, the
+   * default, stands for the order of AUTOMATIC.
+   */
   std::string Fallback;
+  /** Value of vtkTetrahedraRayCastMapper::GetActiveBackend() after a frame of this backend. */
   RayCastBackendNumber Number;
 };
 
@@ -59,9 +64,9 @@ struct RayCastBackendEntry
 VTKMENISCUS_EXPORT bool RegisterRayCastBackend(const RayCastBackendEntry& entry);
 
 /**
- * Removes a backend that was added; the library's backends stay. Returns whether it was there.
+ * Removes a backend that was added; the library's backends stay. Returns true if it was there.
  * Mappers that made such a backend keep it, unused, until they are destroyed: the code of the
- * backend must stay loaded as long.
+ * backend must stay loaded until then.
  */
 VTKMENISCUS_EXPORT bool UnregisterRayCastBackend(const std::string& name);
 

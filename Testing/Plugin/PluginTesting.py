@@ -6,6 +6,7 @@ import sys
 import traceback
 
 from paraview import simple
+from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 if not hasattr(simple, "GenerateSurfaceNormals"):
@@ -59,6 +60,19 @@ def mapper_of(display):
     """The mapper behind the representation Volume (Exact)."""
     representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
     return representation.GetActiveVolumeMapper()
+
+
+def listen(display, event):
+    """The texts of an event of the representation from now on, and a function that ends this."""
+    told = []
+
+    def note(caller, event, text):
+        told.append(text)
+
+    note.CallDataType = VTK_STRING
+    representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
+    tag = representation.AddObserver(event, note)
+    return told, lambda: representation.RemoveObserver(tag)
 
 
 def make_view():

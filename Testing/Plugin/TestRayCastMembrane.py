@@ -8,7 +8,6 @@ import os
 import PluginTesting
 from PluginTesting import covered, screenshot
 from paraview import simple
-from vtkmodules.util.vtkConstants import VTK_STRING
 
 EYE = [6, -9, 40]
 VALUE = 200.0
@@ -125,20 +124,13 @@ def check_empty(view, display, straight):
     """A membrane without cells, as a clip may produce, causes a warning; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
                              ContourBy=["POINTS", "RTData"], Isosurfaces=[1e9])
-    told = []
-
-    def listen(caller, event, text):
-        told.append(text)
-
-    listen.CallDataType = VTK_STRING
-    representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
-    tag = representation.AddObserver("WarningEvent", listen)
+    told, stop = PluginTesting.listen(display, "WarningEvent")
     display.Membrane = nothing
     assert screenshot(view, "MembraneEmpty") == straight
     assert len(told) == 1 and "The membrane has no cells; rays are straight." in told[0], told
     display.Membrane = None
     assert screenshot(view, "MembraneEmptyNone") == straight and len(told) == 1, told
-    representation.RemoveObserver(tag)
+    stop()
 
 
 def check_keyframes(view, display, plane, straight):

@@ -5,7 +5,6 @@ where the filter Refracted Geometry puts its contour; rows that do not fit are a
 import PluginTesting
 from PluginTesting import covered, screenshot
 from paraview import simple
-from vtkmodules.util.vtkConstants import VTK_STRING
 
 EYE = [6, -9, 40]
 VALUE = 200.0
@@ -92,14 +91,7 @@ def check_ball(view, display, grid):
 
 def check_faults(view, display, straight):
     """Rows that name another surface: an error, and straight rays."""
-    told = []
-
-    def listen(caller, event, text):
-        told.append(text)
-
-    listen.CallDataType = VTK_STRING
-    representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
-    tag = representation.AddObserver("ErrorEvent", listen)
+    told, stop = PluginTesting.listen(display, "ErrorEvent")
     display.Interfaces = [0, 1.0, 1.5, 4, 1.5, 1.333]
     assert screenshot(view, "StacksFault") == straight
     assert told and "names surface 4; there are 1" in told[0], told
@@ -107,7 +99,7 @@ def check_faults(view, display, straight):
     display.Membrane = None
     display.Interfaces = PANE
     assert screenshot(view, "StacksNone") == straight and not told, told
-    representation.RemoveObserver(tag)
+    stop()
 
 
 def test():

@@ -183,10 +183,22 @@ class TestLevels(unittest.TestCase):
         self.assertEqual((found.low, found.high), (-1.0, 1.0))
 
 
-class TestCommand(unittest.TestCase):
+class FolderCase(unittest.TestCase):
+    """Tests with a temporary folder for their files."""
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    @classmethod
+    def name(cls, file):
+        return os.path.join(cls.folder.name, file)
+
+
+class TestCommand(FolderCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         block = make_block({"r": radius, "z": lambda x, y, z: z})
         cls.mesh = write(vtkXMLUnstructuredGridWriter(), block, cls.name("mesh.vtu"))
         moved = make_block({"r": lambda x, y, z: radius(x - 0.7, y, z), "z": lambda x, y, z: z})
@@ -197,14 +209,6 @@ class TestCommand(unittest.TestCase):
         water.SetPoint2(3, 1.5, -3)
         water.Update()
         cls.water = write(vtkXMLPolyDataWriter(), water.GetOutput(), cls.name("water.vtp"))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def name(cls, file):
-        return os.path.join(cls.folder.name, file)
 
     def run_command(self, *arguments):
         """Exit status and standard error, without what VTK 9.6 does that NumPy 2.5 deprecates:

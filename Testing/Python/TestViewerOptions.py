@@ -9,7 +9,6 @@ import re
 import socket
 import subprocess
 import sys
-import tempfile
 import unittest
 import warnings
 from unittest import mock
@@ -24,7 +23,7 @@ from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkImageData, vtkUnstructu
 from vtkmodules.vtkIOImage import vtkMetaImageWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from TestViewer import make_block, radius, read_picture, write
+from TestViewer import FolderCase, make_block, radius, read_picture, write
 
 try:
     import tomllib  # noqa: F401
@@ -40,20 +39,12 @@ PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Doc
                     "command.md")
 
 
-class Case(unittest.TestCase):
+class Case(FolderCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
+        super().setUpClass()
         block = make_block({"r": radius, "z": lambda x, y, z: z, "v": lambda x, y, z: x})
         cls.mesh = write(vtkXMLUnstructuredGridWriter(), block, cls.name("mesh.vtu"))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def name(cls, file):
-        return os.path.join(cls.folder.name, file)
 
     def run_command(self, *arguments):
         """Exit status, standard output and standard error."""

@@ -3,7 +3,6 @@
 """The window of the command `meniscus`: the curve of opacity under the mouse, outline, axes, edges,
 files that change."""
 import os
-import tempfile
 import unittest
 
 from meniscus.viewer import curves
@@ -17,7 +16,7 @@ from vtkmodules.vtkChartsCore import vtkAxis
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from TestViewer import make_block, radius, write
+from TestViewer import FolderCase, make_block, radius, write
 
 SIZE = (400, 300)
 
@@ -51,15 +50,11 @@ class TestCurves(unittest.TestCase):
         self.assertEqual(curves.check_curve([(2, -1), (0, 0.5)]), [(0.0, 0.5), (1.0, 0.0)])
 
 
-class TestWindow(unittest.TestCase):
+class TestWindow(FolderCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
+        super().setUpClass()
         cls.mesh = cls.write_block("mesh.vtu", radius)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     @classmethod
     def write_block(cls, name, field):
@@ -67,7 +62,7 @@ class TestWindow(unittest.TestCase):
 
     @classmethod
     def write(cls, name, mesh):
-        return write(vtkXMLUnstructuredGridWriter(), mesh, os.path.join(cls.folder.name, name))
+        return write(vtkXMLUnstructuredGridWriter(), mesh, cls.name(name))
 
     @staticmethod
     def read(name):

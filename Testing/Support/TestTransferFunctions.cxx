@@ -176,6 +176,16 @@ vtkSmartPointer<vtkColorTransferFunction> MakeColors(const ColorNodes& nodes)
 }
 
 //------------------------------------------------------------------------------
+void SetMaterial(vtkVolumeProperty* property, bool shade)
+{
+  property->SetShade(shade);
+  property->SetAmbient(0.2);
+  property->SetDiffuse(0.6);
+  property->SetSpecular(0.4);
+  property->SetSpecularPower(12.0);
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkVolumeProperty> MakeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance)
 {

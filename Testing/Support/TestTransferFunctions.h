@@ -23,6 +23,9 @@ enum class FunctionKind
 vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   FunctionKind kind, const double range[2], double diagonal);
 
+/** Gives a property a material that shows all three terms of Phong's model. */
+void SetMaterial(vtkVolumeProperty* property, bool shade = true);
+
 /** Scalar and opacity, or scalar and colour. */
 using OpacityNodes = std::vector<std::array<double, 2>>;
 using ColorNodes = std::vector<std::array<double, 4>>;

@@ -190,6 +190,10 @@ MeshArrays ToArrays(vtkUnstructuredGrid* grid, bool onCells)
   }
   vtkDataArray* values =
     onCells ? grid->GetCellData()->GetScalars() : grid->GetPointData()->GetScalars();
+  if (!values)
+  {
+    return mesh;
+  }
   mesh.Components = values->GetNumberOfComponents();
   for (const auto& [i, c] : Product(Below<vtkIdType>(values->GetNumberOfTuples()), mesh.Components))
   {

@@ -43,11 +43,6 @@ PointField RandomField(bool linear, RandomNumbers& random)
   }
 }
 
-MeshArrays FromGrid(vtkUnstructuredGrid* grid)
-{
-  return ToArrays(grid);
-}
-
 MeshArrays RandomPoints(RandomNumbers& random)
 {
   vtkNew<vtkPoints> points;
@@ -63,22 +58,9 @@ MeshArrays RandomPoints(RandomNumbers& random)
   vtkNew<vtkDelaunay3D> delaunay;
   delaunay->SetInputData(cloud);
   delaunay->Update();
-  MeshArrays mesh;
-  vtkUnstructuredGrid* grid = delaunay->GetOutput();
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    const double* x = grid->GetPoint(i);
-    mesh.Points.emplace_back(x[0], x[1], x[2]);
-  }
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    grid->GetCellPoints(c, ids);
-    if (grid->GetCellType(c) == VTK_TETRA)
-    {
-      mesh.Cells.push_back({ VTK_TETRA, { ids->begin(), ids->end() } });
-    }
-  }
+  MeshArrays mesh = ToArrays(delaunay->GetOutput());
+  const auto isFlat = [](const auto& cell) { return cell.Type != VTK_TETRA; };
+  mesh.Cells.erase(std::remove_if(mesh.Cells.begin(), mesh.Cells.end(), isFlat), mesh.Cells.end());
   return mesh;
 }
 
@@ -206,7 +188,7 @@ MeshArrays Graded(RandomNumbers& random)
   const int n = 4 + random.Below(5);
   const Grid grid = MakeBlock(n, ConstantField(0.0));
   Jitter(grid, 0.15 / n, static_cast<unsigned int>(random.Bits()));
-  MeshArrays mesh = FromGrid(grid);
+  MeshArrays mesh = ToArrays(grid);
   // The size of the first of n cells is n^-power of the domain: down to 1 / 30,000.
   const double power = random.Uniform(1.5, std::log(3e4) / std::log(n));
   for (glm::dvec3& p : mesh.Points)
@@ -225,13 +207,13 @@ MeshArrays Slivers(RandomNumbers& random)
   const int n = 3 + random.Below(4);
   if (random.Below(2))
   {
-    return FromGrid(MakeLayeredBlock(n, std::pow(10.0, random.Uniform(-4.0, -1.0))));
+    return ToArrays(MakeLayeredBlock(n, std::pow(10.0, random.Uniform(-4.0, -1.0))));
   }
   const Grid grid = MakeBlock(n, ConstantField(0.0));
   Jitter(grid, 0.2 / n, static_cast<unsigned int>(random.Bits()));
   const int axis = random.Below(3);
   const double factor = std::pow(10.0, random.Uniform(-4.0, -1.0));
-  MeshArrays mesh = FromGrid(grid);
+  MeshArrays mesh = ToArrays(grid);
   for (glm::dvec3& p : mesh.Points)
   {
     p[axis] *= factor;
@@ -245,7 +227,7 @@ MeshArrays GetParts(RandomNumbers& random)
   const int n = 5 + random.Below(4);
   const Grid grid = MakeBlock(n, ConstantField(0.0), regions[random.Below(4)]);
   Jitter(grid, 0.2 / n, static_cast<unsigned int>(random.Bits()));
-  return FromGrid(grid);
+  return ToArrays(grid);
 }
 
 // Moves the centre of the bounds to the origin and scales the longest side to 2.

@@ -132,6 +132,20 @@ Ray ClipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces)
 }
 
 //------------------------------------------------------------------------------
+Ray ClipToCube(const Ray& ray)
+{
+  Ray clipped = ray;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double a = (-1.0 - ray.Origin[axis]) / ray.Direction[axis];
+    const double b = (1.0 - ray.Origin[axis]) / ray.Direction[axis];
+    clipped.Begin = std::max(clipped.Begin, std::min(a, b));
+    clipped.End = std::min(clipped.End, std::max(a, b));
+  }
+  return clipped;
+}
+
+//------------------------------------------------------------------------------
 ReferenceGradients::ReferenceGradients(const ReferenceMesh& mesh, bool smooth)
   : Mesh(mesh)
 {

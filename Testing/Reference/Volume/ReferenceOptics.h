@@ -39,6 +39,8 @@ struct HalfSpace
 
 /** The part of a ray inside half spaces; Begin >= End if there is none. */
 Ray ClipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
+/** The same for the cube [-1, 1]^3. */
+Ray ClipToCube(const Ray& ray);
 
 struct Light
 {

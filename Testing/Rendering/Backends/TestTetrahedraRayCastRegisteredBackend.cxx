@@ -3,6 +3,7 @@
 // A backend registered from outside the library, with installed headers only, against the analytic
 // length of each ray within a box. Documentation/extending.md follows it.
 #include "RayCastScene.h"
+#include "ReferenceOptics.h"
 
 #include <RayCastBackend.h>
 #include <RayCastBackendRegistry.h>
@@ -204,17 +205,9 @@ double LengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWor
   double d[4];
   inverse->MultiplyPoint(origin, o);
   inverse->MultiplyPoint(direction, d);
-  double first = 0.0;
-  double last = 1e30;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double a = (-1.0 - o[axis]) / d[axis];
-    const double b = (1.0 - o[axis]) / d[axis];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-  const Vector world{ ray.Direction[0], ray.Direction[1], ray.Direction[2] };
-  return std::max(last - first, 0.0) * std::sqrt(Dot(world, world));
+  const meniscus::reference::Ray inside =
+    meniscus::reference::ClipToCube({ { o[0], o[1], o[2] }, { d[0], d[1], d[2] }, 0.0, 1e30 });
+  return std::max(inside.End - inside.Begin, 0.0) * vtkMath::Norm(ray.Direction.data());
 }
 
 /** A box of 6 * 3^3 tetrahedra, and the backend registered as long as the test runs. */

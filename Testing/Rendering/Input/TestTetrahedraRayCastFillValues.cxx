@@ -56,11 +56,7 @@ Grid MakeFilled(const Fill& fill)
 vtkSmartPointer<vtkVolumeProperty> MakeFunction(bool shade)
 {
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
-  property->SetShade(shade);
-  property->SetAmbient(0.2);
-  property->SetDiffuse(0.6);
-  property->SetSpecular(0.4);
-  property->SetSpecularPower(12.0);
+  SetMaterial(property, shade);
   property->GetIsoSurfaceValues()->SetValue(0, 0.45);
   property->GetIsoSurfaceValues()->SetValue(1, -0.3);
   return property;

@@ -30,16 +30,8 @@ void Clip(RayCastScene& scene, const std::vector<HalfSpace>& halfSpaces)
 // Length of a ray in the box [-1, 1]^3.
 double LengthInBox(const Ray& ray)
 {
-  double begin = ray.Begin;
-  double end = ray.End;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double a = (-1.0 - ray.Origin[axis]) / ray.Direction[axis];
-    const double b = (1.0 - ray.Origin[axis]) / ray.Direction[axis];
-    begin = std::max(begin, std::min(a, b));
-    end = std::min(end, std::max(a, b));
-  }
-  return std::max(0.0, end - begin) * vtkMath::Norm(ray.Direction.data());
+  const Ray inside = ClipToCube(ray);
+  return std::max(0.0, inside.End - inside.Begin) * vtkMath::Norm(ray.Direction.data());
 }
 
 void ExpectReference(

@@ -43,11 +43,7 @@ TracedComparison CompareLit(vtkUnstructuredGrid* grid, int view, double density)
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   const auto property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(grid->GetBounds()));
   property->SetScalarOpacityUnitDistance(property->GetScalarOpacityUnitDistance() / density);
-  property->ShadeOn();
-  property->SetAmbient(0.2);
-  property->SetDiffuse(0.6);
-  property->SetSpecular(0.4);
-  property->SetSpecularPower(12.0);
+  SetMaterial(property);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   vtkNew<vtkLight> light;

@@ -54,31 +54,19 @@ TEST(TetrahedraRayCastProjections, LinearFieldInABox)
       scene,
       [&](const Ray& ray)
       {
-        double begin = ray.Begin;
-        double end = ray.End;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          const double a = (-1.0 - ray.Origin[axis]) / ray.Direction[axis];
-          const double b = (1.0 - ray.Origin[axis]) / ray.Direction[axis];
-          begin = std::max(begin, std::min(a, b));
-          end = std::min(end, std::max(a, b));
-        }
+        const auto [origin, direction, begin, end] = ClipToCube(ray);
         if (begin >= end)
         {
           return std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
         }
-        const auto at = [&](double t) {
-          return field(
-            ray.Origin[0] + t * ray.Direction[0], ray.Origin[1] + t * ray.Direction[1], 0.0);
-        };
-        const double s0 = at(begin);
-        const double s1 = at(end);
+        const double s0 =
+          field(origin[0] + begin * direction[0], origin[1] + begin * direction[1], 0.0);
+        const double s1 =
+          field(origin[0] + end * direction[0], origin[1] + end * direction[1], 0.0);
         double shown = 0.5 * (s0 + s1);
         if (mode.Truth == Projection::Additive)
         {
-          const double length = (end - begin) *
-            std::sqrt(ray.Direction[0] * ray.Direction[0] + ray.Direction[1] * ray.Direction[1] +
-              ray.Direction[2] * ray.Direction[2]);
+          const double length = (end - begin) * vtkMath::Norm(direction.data());
           shown = std::min(1.0, length / 3.0 * (s0 * s0 + s0 * s1 + s1 * s1) / 3.0);
           return std::array<double, 4>{ shown, shown, shown, 1.0 };
         }

@@ -47,11 +47,7 @@ void AddLights(vtkRenderer* renderer)
 vtkSmartPointer<vtkVolumeProperty> SurfaceProperty(bool shade)
 {
   auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
-  property->SetShade(shade);
-  property->SetAmbient(0.2);
-  property->SetDiffuse(0.6);
-  property->SetSpecular(0.4);
-  property->SetSpecularPower(12.0);
+  SetMaterial(property, shade);
   const double values[5] = { 0.45, -0.3, 0.1, 0.1, 55.0 };
   for (int i = 0; i < 5; ++i)
   {

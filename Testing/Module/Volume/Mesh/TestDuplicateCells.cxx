@@ -47,6 +47,20 @@ MeshArrays WithCopiedPoints(const MeshArrays& arrays)
   return copied;
 }
 
+/** Expects the picture of a cube that is filled once, seen along an axis. */
+void ExpectFilledOnce(PictureScene& scene)
+{
+  scene.Scalars.assign(static_cast<std::size_t>(scene.Mesh.GetNumberOfVertices()), 0.5f);
+  scene.Intervals = ConstantFunction(0.7);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
+  const Picture picture = CastPicture(scene, 48, InstructionSet::Portable);
+  EXPECT_EQ(picture.Statistics.Lost, 0);
+  for (const auto& [row, column] : Product(Numbers(5, 43), Numbers(5, 43)))
+  {
+    ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
+  }
+}
+
 }
 
 TEST(DuplicateCells, TwoCellsGivenTwiceAreLinkedAsTwo)
@@ -139,15 +153,7 @@ TEST(DuplicateCells, CubeGivenRepeatedlyHidesWhatItsLengthSays)
   {
     PictureScene scene;
     ASSERT_EQ(scene.Mesh.Build(Doubled(KuhnGrid(4), seed).View()), MeshStatus::Ok);
-    scene.Scalars.assign(static_cast<std::size_t>(scene.Mesh.GetNumberOfVertices()), 0.5f);
-    scene.Intervals = ConstantFunction(0.7);
-    scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
-    const Picture picture = CastPicture(scene, 48, InstructionSet::Portable);
-    EXPECT_EQ(picture.Statistics.Lost, 0);
-    for (const auto& [row, column] : Product(Numbers(5, 43), Numbers(5, 43)))
-    {
-      ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
-    }
+    ExpectFilledOnce(scene);
   }
 }
 
@@ -186,13 +192,5 @@ TEST(DuplicateCells, CubeFilledTwiceWithDifferentCellsDoesNotVanish)
   PictureScene scene;
   ASSERT_EQ(scene.Mesh.Build(arrays.View()), MeshStatus::Ok);
   EXPECT_GT(scene.Mesh.GetNumberOfCutLinks(), 0);
-  scene.Scalars.assign(8, 0.5f);
-  scene.Intervals = ConstantFunction(0.7);
-  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
-  const Picture picture = CastPicture(scene, 48, InstructionSet::Portable);
-  EXPECT_EQ(picture.Statistics.Lost, 0);
-  for (const auto& [row, column] : Product(Numbers(5, 43), Numbers(5, 43)))
-  {
-    ASSERT_NEAR(picture.Alpha(column, row), -std::expm1(-0.7), 1e-6) << column << " " << row;
-  }
+  ExpectFilledOnce(scene);
 }
