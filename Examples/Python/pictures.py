@@ -14,8 +14,8 @@ import os
 import types
 
 from gallery import (
-    cells, common, glass, lenses, mirage, opacity, pools, rivals, rooms, shadows, solids, steps,
-    through, tunnel, volumes)
+    cells, common, fire, glass, lenses, mirage, opacity, pools, rivals, rooms, shadows, solids,
+    steps, through, tunnel, volumes)
 
 PICTURES = {
     "readme-rivals": rivals.draw_rivals,
@@ -26,6 +26,7 @@ PICTURES = {
     "gallery-glass": glass.draw_glass,
     "gallery-schlieren": tunnel.draw_schlieren,
     "gallery-mirage": mirage.draw_mirage,
+    "gallery-fire": fire.draw_fire,
     "gallery-luneburg": lenses.draw_luneburg,
     "true-cells": cells.draw_hexahedra,
     "gallery-radiograph": volumes.draw_radiograph,

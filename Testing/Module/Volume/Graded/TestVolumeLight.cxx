@@ -76,6 +76,35 @@ public:
     return sights;
   }
 
+  /** Scalar of the cell in which a place is, looked for in a cell first. */
+  double ScalarAt(const glm::dvec3& place, std::size_t& cell) const
+  {
+    const glm::dvec3 p = (place - this->Mesh.GetCenter()) / this->Mesh.GetRadius();
+    const auto& cells = this->Mesh.GetCells();
+    double best = -1.0;
+    double scalar = 0.0;
+    for (std::size_t i = 0; i <= cells.size() && best < -1.0e-12; ++i)
+    {
+      const std::size_t c = i == 0 ? cell : i - 1;
+      const auto& v = cells[c].Vertices;
+      const glm::dvec3 first = this->Mesh.GetPosition(v[0]);
+      const glm::dvec3 rest =
+        glm::inverse(glm::dmat3(this->Mesh.GetPosition(v[1]) - first,
+          this->Mesh.GetPosition(v[2]) - first, this->Mesh.GetPosition(v[3]) - first)) *
+        (p - first);
+      const double w0 = 1.0 - rest.x - rest.y - rest.z;
+      const double least = std::min(w0, std::min(rest.x, std::min(rest.y, rest.z)));
+      if (least > best)
+      {
+        best = least;
+        cell = c;
+        scalar = w0 * this->Scalars[v[0]] + rest.x * this->Scalars[v[1]] +
+          rest.y * this->Scalars[v[2]] + rest.z * this->Scalars[v[3]];
+      }
+    }
+    return scalar;
+  }
+
   EmittingMedium Light;
   std::vector<float> Scalars;
   std::vector<PacketInterval> Intervals;
@@ -204,6 +233,30 @@ TEST(VolumeLight, LayersAlongParabolas)
       ExpectLight(sight.Light,
         ReferenceLight([&ray](double s) { return ray.At(s); }, ray.Time, SlantedScalar, Layers));
     }
+  }
+}
+
+// Random scalars at the vertices of cells of random shapes.
+TEST(VolumeLight, NoiseAlongParabolas)
+{
+  RandomNumbers random(9);
+  MeshArrays arrays = KuhnGrid(5);
+  JitterInside(arrays, 0.06, random);
+  for (double& coordinate : arrays.Points)
+  {
+    coordinate = 2.0 * coordinate - 1.0;
+  }
+  LitScene scene(
+    arrays, LinearIndex, [&random](const glm::dvec3&) { return random.Uniform(-1.0, 1.0); },
+    Layers);
+  for (int i = 0; i < 10; ++i)
+  {
+    const ParabolaRay ray(random);
+    const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
+    std::size_t cell = 0;
+    ExpectLight(sight.Light,
+      ReferenceLight([&ray](double s) { return ray.At(s); }, ray.Time,
+        [&](const glm::dvec3& p) { return scene.ScalarAt(p, cell); }, Layers));
   }
 }
 
