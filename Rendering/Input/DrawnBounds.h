@@ -8,6 +8,9 @@
 #include "Volume/Mesh/PointBox.h"
 
 #include <cstdint>
+#include <vector>
+
+class vtkDataSet;
 
 namespace meniscus
 {
@@ -33,5 +36,11 @@ private:
   PointBox Box;
   std::int64_t Builds = 0;
 };
+
+/**
+ * For each point of all data sets, 1 if a cell that is drawn uses it and 0 otherwise.
+ * @pre DescribeFault() finds nothing.
+ */
+std::vector<std::uint8_t> MarkDrawnPoints(const std::vector<vtkDataSet*>& grids);
 
 }
