@@ -16,10 +16,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <sstream>
 #include <vector>
 
 namespace meniscus
@@ -324,6 +326,26 @@ const PointBox& DrawnBounds::Update(const InputBlocks& input, InputDigests& dige
   this->Box = Enclose(boxes);
   ++this->Builds;
   return this->Box;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeSmallBox(const PointBox& box)
+{
+  // vtkCamera keeps 1e-20 between eye and focal point, and vtkRenderer::ResetCameraClippingRange()
+  // a gap of 0.176 of that in front of the near plane. vtkRenderer::ResetCamera() puts the farthest
+  // point of a box at (1 + 1 / sin 15 degrees) = 4.86 times its radius.
+  constexpr double leastRadius = 0.176 * 1e-20 / 4.86;
+  const glm::dvec3 half = box.GetHalfSize();
+  // std::hypot() does not square the numbers to 0.
+  const double radius = std::hypot(half.x, half.y, half.z);
+  if (radius == 0.0 || radius >= leastRadius)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << "The mesh has a radius of " << radius << ". VTK's cameras see nothing below "
+       << leastRadius << ": scale the mesh by a filter, or its volume by SetScale().";
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
