@@ -50,6 +50,7 @@ public:
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
   bool WarnedLights = false;
+  bool WarnedSize = false;
   /** Fallbacks that were reported: the backends that refused, and the backend that drew instead. */
   std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;

@@ -95,6 +95,9 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
   {
     return this->Bounds;
   }
+  // Told here, because renderers ask for bounds first, and do not render what no camera sees.
+  const std::string tooSmall = meniscus::DescribeSmallBox(ofInput);
+  this->WarnOnce(!tooSmall.empty(), this->Internals->WarnedSize, tooSmall.c_str());
   vtkBoundingBox box(ofInput.Lower.x, ofInput.Upper.x, ofInput.Lower.y, ofInput.Upper.y,
     ofInput.Lower.z, ofInput.Upper.z);
   for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
@@ -525,7 +528,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
     internals.WarnedComponents,
     "Independent components have no common gradient, which could light them or change their "
     "opacity; rendering without. A GlobalIlluminationReach above 0 lights them.");
-  meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
+  const std::string ofPlanes =
+    meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients = frame.Optics.UsesGradients() && frame.Optics.HasGradients() &&
     this->Gradients == VERTEX_GRADIENTS;
   this->PrepareIllumination(renderer, volume, frame);
@@ -534,7 +538,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
   {
     frame.Optics.Medium = internals.Medium;
   }
-  return meniscus::DescribeUnlit(frame.Optics);
+  return ofPlanes.empty() ? meniscus::DescribeUnlit(frame.Optics) : ofPlanes;
 }
 
 //------------------------------------------------------------------------------

@@ -18,10 +18,10 @@
  * tetrahedra follow the cells' shape functions, also of Lagrange and Bezier cells. Other cells are
  * left out with a warning. Any mesh is accepted: non-convex, disconnected, cyclic, with inverted
  * cells, cells of zero volume, duplicate points and faces of more than two cells. Cells that
- * vtkGhostType marks as duplicate or hidden are left out. Cells with a point index out of range, a
- * repeated point, a point that is not finite, a number of points that their type does not have, or
- * faces that are incomplete are left out and counted. Cells with a scalar that is not finite, their
- * own or a vertex's, are transparent and counted.
+ * vtkGhostType marks as duplicate, hidden or refined are left out. Cells with a point index out of
+ * range, a repeated point, a point that is not finite, a number of points that their type does not
+ * have, or faces that are incomplete are left out and counted. Cells with a scalar that is not
+ * finite, their own or a vertex's, are transparent and counted.
  *
  * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an

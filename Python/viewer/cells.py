@@ -14,7 +14,8 @@ from .files import ReadingError
 
 _STRUCTURED = (vtkImageData, vtkRectilinearGrid, vtkStructuredGrid)
 # Cells with one of these bits in the array vtkGhostType are not drawn.
-_LEFT_OUT = vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
+_LEFT_OUT = (vtkDataSetAttributes.DUPLICATECELL | vtkDataSetAttributes.HIDDENCELL
+             | vtkDataSetAttributes.REFINEDCELL)
 _FACE = "a face of a polyhedron"
 
 
@@ -77,17 +78,47 @@ def has_solid_cells(leaf):
     return any(_is_solid(kind) for kind in kinds_in(types_of(leaf)))
 
 
+def _corners_in(grid, values):
+    """Values of the points of structured data with solid cells at the 8 corners of each cell: an
+    iterable of arrays with the shape of the cells."""
+    across, along, up = grid.GetDimensions()
+    values = values.reshape(up, along, across)
+    return (values[z:up - 1 + z, y:along - 1 + y, x:across - 1 + x]
+            for z in (0, 1) for y in (0, 1) for x in (0, 1))
+
+
+def _has_flags(leaf):
+    """Whether cells may be left out by flags of theirs, or by those of points of structured
+    data."""
+    return bool(leaf.GetCellGhostArray() or (
+        isinstance(leaf, _STRUCTURED) and leaf.GetPointGhostArray()))
+
+
 def drawn_cells_of(leaf):
-    """True for each cell with a volume that is neither hidden nor the duplicate of a cell of
-    another data set."""
+    """True for each cell with a volume that is neither hidden, by itself or a point of structured
+    data, nor shown by a cell of another data set."""
     drawn = solid_cells_of(leaf)
+    if not drawn.any() or not _has_flags(leaf):
+        return drawn
     ghosts = leaf.GetCellGhostArray()
-    return drawn & (vtk_to_numpy(ghosts) & _LEFT_OUT == 0) if ghosts else drawn
+    if ghosts:
+        drawn &= vtk_to_numpy(ghosts) & _LEFT_OUT == 0
+    ghosts = leaf.GetPointGhostArray()
+    if ghosts and isinstance(leaf, _STRUCTURED):
+        for flags in _corners_in(leaf, vtk_to_numpy(ghosts)):
+            drawn &= flags.ravel() & vtkDataSetAttributes.HIDDENPOINT == 0
+    return drawn
 
 
 def drawn_points_of(leaf):
-    """True for each point of a cell that is drawn; of structured data, for all points."""
+    """True for each point of a cell that is drawn."""
     points = leaf.GetNumberOfPoints()
+    if isinstance(leaf, _STRUCTURED) and has_solid_cells(leaf) and _has_flags(leaf):
+        drawn = numpy.full(points, False)
+        cells = drawn_cells_of(leaf)
+        for corners in _corners_in(leaf, drawn):
+            corners |= cells.reshape(corners.shape)
+        return drawn
     if not isinstance(leaf, vtkUnstructuredGrid):
         return numpy.full(points, True)
     ids = vtk_to_numpy(leaf.GetCells().GetConnectivityArray())
@@ -101,7 +132,7 @@ def drawn_points_of(leaf):
 def drawn_leaves_of(data):
     """The data sets with at least one cell that is drawn."""
     return [leaf for leaf in leaves_of(data)
-            if (drawn_cells_of(leaf).any() if leaf.GetCellGhostArray() else has_solid_cells(leaf))]
+            if (drawn_cells_of(leaf).any() if _has_flags(leaf) else has_solid_cells(leaf))]
 
 
 def _count_types(leaves):
@@ -219,5 +250,5 @@ def check_drawable(data):
         raise ReadingError("The mesh has no cells with a volume; its cells are: "
                            + _count_types(leaves))
     if not drawn_leaves_of(data):
-        raise ReadingError("All cells with a volume are hidden or duplicates, by the array "
-                           "vtkGhostType")
+        raise ReadingError("All cells with a volume are hidden, refined or duplicates, by the "
+                           "array vtkGhostType")

@@ -270,7 +270,9 @@ bool CellReader::HasOnlyTetrahedra() const
 //------------------------------------------------------------------------------
 unsigned char CellReader::GetLeftOutFlags()
 {
-  return vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+  // Finer blocks of an AMR data set show refined cells.
+  return vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL |
+    vtkDataSetAttributes::REFINEDCELL;
 }
 
 //------------------------------------------------------------------------------

@@ -101,7 +101,7 @@ public:
   {
     return this->Types ? this->Types[cell] : this->ComputeType(cell);
   }
-  /** True for duplicate, hidden and blanked cells. */
+  /** True for duplicate, hidden and refined cells. */
   bool IsLeftOut(vtkIdType cell) const;
   /**
    * True if all cells are tetrahedra of four points each, whatever their type, one after another in

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 
 namespace meniscus
 {
@@ -186,6 +187,14 @@ void GridShapeFunctions::Evaluate(const glm::dvec3& place)
     case VTK_PYRAMID:
       vtkPyramid::InterpolationFunctions(at, this->Weights.data());
       break;
+    case VTK_BEZIER_WEDGE:
+    {
+      // VTK evaluates all of them in one triangle, which it keeps in a static variable.
+      static std::mutex mutex;
+      const std::lock_guard<std::mutex> guard(mutex);
+      this->Generic->InterpolateFunctions(at, this->Weights.data());
+      break;
+    }
     default:
       this->Generic->InterpolateFunctions(at, this->Weights.data());
       break;

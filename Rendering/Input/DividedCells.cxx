@@ -6,6 +6,7 @@
 #include "Rendering/Input/CellPieces.h"
 #include "Rendering/Input/CellShapes.h"
 #include "Rendering/Input/ConcatenatedArray.h"
+#include "Rendering/Input/DrawnBounds.h"
 #include "Rendering/Input/GridLayout.h"
 #include "Rendering/Input/PointsSource.h"
 #include "Rendering/Input/TetrahedraSource.h"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -28,16 +30,15 @@ namespace meniscus
 namespace
 {
 
-/** Box around the points that are finite. */
-PointBox BoxOf(const PointFields& fields)
+/** Box around the points that are drawn, which are finite. */
+PointBox BoxOf(const PointFields& fields, const std::vector<std::uint8_t>& drawn)
 {
   PointBox box;
-  for (std::int64_t p = 0; p < fields.NumberOfPoints; ++p)
+  for (std::size_t p = 0; p < drawn.size(); ++p)
   {
-    const glm::dvec3 at = fields.Points[static_cast<std::size_t>(p)];
-    if (IsFinite(at))
+    if (drawn[p] != 0)
     {
-      box.Add(at);
+      box.Add(fields.Points[p]);
     }
   }
   return box;
@@ -93,8 +94,9 @@ PointFields FieldsOf(
   return fields;
 }
 
-/** Smallest and largest value that are finite. */
-ScalarRange RangeOf(const PointFields& fields, std::size_t field)
+/** Smallest and largest value of the points that are drawn, of those that are finite. */
+ScalarRange RangeOf(
+  const PointFields& fields, std::size_t field, const std::vector<std::uint8_t>& drawn)
 {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -105,7 +107,7 @@ ScalarRange RangeOf(const PointFields& fields, std::size_t field)
     {
       value = std::hypot(value, fields.Values[i][p]);
     }
-    if (std::isfinite(value))
+    if (drawn[p] != 0 && std::isfinite(value))
     {
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
@@ -131,7 +133,9 @@ DivisionMeasure MeasureFor(const DivisionRequest& request, const PointFields& fi
   // A pixel of a mesh that is 1024 pixels long has the error of a step of 256.
   constexpr double displacement = 4.0;
   DivisionMeasure measure;
-  const PointBox box = BoxOf(fields);
+  // The error is that of the picture, in which other points and their values have no part.
+  const std::vector<std::uint8_t> drawn = MarkDrawnPoints(GetGrids(request.Fields));
+  const PointBox box = BoxOf(fields, drawn);
   const double diagonal = box.IsEmpty() ? 0.0 : glm::length(box.Upper - box.Lower);
   const glm::dvec3 farthest =
     box.IsEmpty() ? glm::dvec3(0.0) : glm::max(glm::abs(box.Lower), glm::abs(box.Upper));
@@ -141,7 +145,7 @@ DivisionMeasure MeasureFor(const DivisionRequest& request, const PointFields& fi
   measure.HasSurfaces = request.Picture.Use == ScalarUse::Surfaces;
   for (std::size_t field = 0; field < fields.GetNumberOfFields(); ++field)
   {
-    const ScalarRange range = RangeOf(fields, field);
+    const ScalarRange range = RangeOf(fields, field, drawn);
     measure.OfValues[field] =
       request.Picture.MakeScale(request.UnitLength * diagonal, range.Highest - range.Lowest);
     measure.ValueRounding[field] =

@@ -13,10 +13,15 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
+#include <sstream>
 #include <vector>
 
 namespace meniscus
@@ -24,46 +29,53 @@ namespace meniscus
 namespace
 {
 
-/** Adds the points of cells to a box. */
-class CellBox
+/** True if four of the points of a list differ: a cell of fewer has no volume. */
+bool HasFourPoints(const std::vector<std::int64_t>& points)
+{
+  std::array<std::int64_t, 4> found{};
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < points.size() && different < found.size(); ++i)
+  {
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(different);
+    if (std::find(found.begin(), end, points[i]) == end)
+    {
+      found[different++] = points[i];
+    }
+  }
+  return different == found.size();
+}
+
+/** Reader of the cells of a data set that are drawn. */
+class DrawnCells
 {
 public:
-  CellBox(const CellReader& cells, const PointsView& points)
+  /** @param points of the data set. Both arguments must outlive this object. */
+  DrawnCells(const CellReader& cells, const PointsView& points)
     : Cells(cells)
     , Points(points)
   {
   }
 
-  void Add(vtkIdType cell)
+  /** Reads the points of a cell. Returns false if it is not drawn. */
+  bool Read(vtkIdType cell)
   {
     const int type = this->Cells.GetType(cell);
-    if (!HasVolume(type) || this->Cells.IsLeftOut(cell))
-    {
-      return;
-    }
-    PointBox ofCell;
-    bool isFinite = true;
-    const auto add = [this, &ofCell, &isFinite](std::int64_t point)
-    {
-      const glm::dvec3 at = this->Points[static_cast<std::size_t>(point)];
-      isFinite = isFinite && IsFinite(at);
-      ofCell.Add(at);
-    };
-    if (type == VTK_POLYHEDRON ? !this->AddFaces(cell, add) : !this->AddPoints(cell, add))
-    {
-      return;
-    }
-    if (isFinite)
-    {
-      this->Box.Add(ofCell);
-    }
+    this->OfCell.clear();
+    return HasVolume(type) && !this->Cells.IsLeftOut(cell) &&
+      (type == VTK_POLYHEDRON ? this->ReadFaces(cell) : this->ReadPoints(cell)) &&
+      HasFourPoints(this->OfCell) &&
+      std::all_of(this->OfCell.begin(), this->OfCell.end(),
+        [this](std::int64_t point) { return IsFinite(this->PlaceOf(point)); });
+  }
+  /** Points of the cell; those of faces more than once. */
+  const std::vector<std::int64_t>& GetPoints() const { return this->OfCell; }
+  glm::dvec3 PlaceOf(std::int64_t point) const
+  {
+    return this->Points[static_cast<std::size_t>(point)];
   }
 
-  const PointBox& GetBox() const { return this->Box; }
-
 private:
-  template <typename Body>
-  bool AddPoints(vtkIdType cell, Body&& add)
+  bool ReadPoints(vtkIdType cell)
   {
     if (!this->Cells.ReadPoints(cell, this->Ids, this->Unusable))
     {
@@ -71,13 +83,12 @@ private:
     }
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfIds(); ++i)
     {
-      add(this->Ids->GetId(i));
+      this->OfCell.push_back(this->Ids->GetId(i));
     }
     return true;
   }
 
-  template <typename Body>
-  bool AddFaces(vtkIdType cell, Body&& add)
+  bool ReadFaces(vtkIdType cell)
   {
     std::size_t numberOfFaces = 0;
     if (!this->Cells.ReadFaces(cell, this->Faces, numberOfFaces, this->Unusable))
@@ -87,26 +98,29 @@ private:
     const std::int64_t* face = this->Faces.data();
     for (std::size_t f = 0; f < numberOfFaces; ++f, face += 1 + face[0])
     {
-      for (std::int64_t k = 1; k <= face[0]; ++k)
-      {
-        add(face[k]);
-      }
+      this->OfCell.insert(this->OfCell.end(), face + 1, face + 1 + face[0]);
     }
     return true;
   }
 
   const CellReader& Cells;
   const PointsView& Points;
-  PointBox Box;
+  std::vector<std::int64_t> OfCell;
   UnusableCells Unusable;
   vtkNew<vtkIdList> Ids;
   std::vector<std::int64_t> Faces;
 };
 
+RangeLoop LoopFor(vtkDataSet* grid)
+{
+  return IsThreadSafe(grid) ? RangeLoop(ThreadedLoop) : RangeLoop(SerialLoop);
+}
+
 /** Marks of a point: bits 0 to 5 are set if it is the point that Extremes found for a side. */
 constexpr std::uint8_t AllSides = (1 << 6) - 1;
 constexpr std::uint8_t NotFinite = 1 << 6;
-constexpr std::uint8_t OutOfRange = 1 << 7;
+/** A point that does not exist, or that a tetrahedron has twice. */
+constexpr std::uint8_t NotUsable = 1 << 7;
 
 /** Box around finite points, and a point in each of its sides: lower and upper, by axis. */
 struct Extremes
@@ -172,19 +186,27 @@ PointBox MarkPoints(const PointsView& points, std::vector<std::uint8_t>& marks)
   return all.Box;
 }
 
-/** Marks of all listed points together. */
+/** Marks of the points of all tetrahedra together, and NotUsable for one of fewer points. */
 template <typename Id>
-std::uint8_t JoinMarks(const Id* ids, std::size_t count, const std::vector<std::uint8_t>& marks)
+std::uint8_t JoinMarks(
+  const Id* ids, std::size_t tetrahedra, const std::vector<std::uint8_t>& marks)
 {
-  std::vector<std::uint8_t> parts(NumberOfBlocks(count));
-  ForEachBlock(count, ThreadedLoop,
+  std::vector<std::uint8_t> parts(NumberOfBlocks(tetrahedra));
+  ForEachBlock(tetrahedra, ThreadedLoop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       std::uint8_t part = 0;
-      for (std::size_t i = first; i < last; ++i)
+      for (std::size_t t = first; t < last; ++t)
       {
-        const auto id = static_cast<std::size_t>(ids[i]);
-        part |= id < marks.size() ? marks[id] : OutOfRange; // negative numbers are large here
+        const Id* at = ids + 4 * t;
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          const auto id = static_cast<std::size_t>(at[i]);
+          part |= id < marks.size() ? marks[id] : NotUsable; // negative numbers are large here
+        }
+        const bool isRepeated = (at[0] == at[1]) | (at[0] == at[2]) | (at[0] == at[3]) |
+          (at[1] == at[2]) | (at[1] == at[3]) | (at[2] == at[3]);
+        part |= isRepeated ? NotUsable : 0;
       }
       parts[block] = part;
     });
@@ -211,18 +233,18 @@ PointBox BoxOfListed(const IdView& ids, const PointsView& points)
 }
 
 /**
- * Box around the points that are listed. Returns false if one of them does not exist or is not
- * finite. Mostly the points at the sides of the box around all points are listed: finding that
- * takes a third of the time of a box around each cell.
+ * Box around the points of tetrahedra. Returns false if one of them does not exist, is not finite,
+ * or is there twice in one tetrahedron. Mostly the points at the sides of the box around all points
+ * are listed: finding that takes a third of the time of a box around each cell.
  */
 bool EncloseListed(const IdView& ids, const PointsSource& points, PointBox& box)
 {
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(points.GetNumberOfPoints()), 0);
   box = MarkPoints(points.GetView(), marks);
-  const auto size = static_cast<std::size_t>(ids.GetSize());
+  const auto size = static_cast<std::size_t>(ids.GetSize()) / 4;
   const std::uint8_t found =
     ids.GetInts() ? JoinMarks(ids.GetInts(), size, marks) : JoinMarks(ids.GetLongs(), size, marks);
-  if (found & (NotFinite | OutOfRange))
+  if (found & (NotFinite | NotUsable))
   {
     return false;
   }
@@ -244,7 +266,8 @@ PointBox BoxOf(vtkDataSet* grid)
   // Objects that VTK creates on first access must exist before several threads access them.
   const bool isVolume = HasVolume(grid->GetCellType(0));
   const CellReader cells(grid);
-  if (HasOneType(grid) && !cells.GetGhosts())
+  // Flags of points hide cells of structured data.
+  if (HasOneType(grid) && !cells.GetGhosts() && !grid->GetPointGhostArray())
   {
     double bounds[6];
     grid->GetBounds(bounds);
@@ -263,16 +286,21 @@ PointBox BoxOf(vtkDataSet* grid)
     return ofTetrahedra;
   }
   std::vector<PointBox> boxes(NumberOfBlocks(static_cast<std::size_t>(size)));
-  ForEachBlock(static_cast<std::size_t>(size),
-    IsThreadSafe(grid) ? RangeLoop(ThreadedLoop) : RangeLoop(SerialLoop),
+  ForEachBlock(static_cast<std::size_t>(size), LoopFor(grid),
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      CellBox ofBlock(cells, points.GetView());
+      DrawnCells drawn(cells, points.GetView());
       for (std::size_t c = first; c < last; ++c)
       {
-        ofBlock.Add(static_cast<vtkIdType>(c));
+        if (!drawn.Read(static_cast<vtkIdType>(c)))
+        {
+          continue;
+        }
+        for (const std::int64_t point : drawn.GetPoints())
+        {
+          boxes[block].Add(drawn.PlaceOf(point));
+        }
       }
-      boxes[block] = ofBlock.GetBox();
     });
   return Enclose(boxes);
 }
@@ -298,6 +326,65 @@ const PointBox& DrawnBounds::Update(const InputBlocks& input, InputDigests& dige
   this->Box = Enclose(boxes);
   ++this->Builds;
   return this->Box;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeSmallBox(const PointBox& box)
+{
+  // vtkCamera keeps 1e-20 between eye and focal point, and vtkRenderer::ResetCameraClippingRange()
+  // a gap of 0.176 of that in front of the near plane. vtkRenderer::ResetCamera() puts the farthest
+  // point of a box at (1 + 1 / sin 15 degrees) = 4.86 times its radius.
+  constexpr double leastRadius = 0.176 * 1e-20 / 4.86;
+  const glm::dvec3 half = box.GetHalfSize();
+  // std::hypot() does not square the numbers to 0.
+  const double radius = std::hypot(half.x, half.y, half.z);
+  if (radius == 0.0 || radius >= leastRadius)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << "The mesh has a radius of " << radius << ". VTK's cameras see nothing below "
+       << leastRadius << ": scale the mesh by a filter, or its volume by SetScale().";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::uint8_t> MarkDrawnPoints(const std::vector<vtkDataSet*>& grids)
+{
+  std::vector<std::uint8_t> all;
+  for (vtkDataSet* grid : grids)
+  {
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfPoints());
+    const std::unique_ptr<std::atomic<std::uint8_t>[]> marks(new std::atomic<std::uint8_t>[size]());
+    const PointsSource points({ grid }, ThreadedLoop);
+    if (grid->GetNumberOfCells() > 0)
+    {
+      // Objects that VTK creates on first access must exist before several threads access them.
+      grid->GetCellType(0);
+    }
+    const CellReader cells(grid);
+    ForEachBlock(static_cast<std::size_t>(grid->GetNumberOfCells()), LoopFor(grid),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        DrawnCells drawn(cells, points.GetView());
+        for (std::size_t c = first; c < last; ++c)
+        {
+          if (!drawn.Read(static_cast<vtkIdType>(c)))
+          {
+            continue;
+          }
+          for (const std::int64_t point : drawn.GetPoints())
+          {
+            marks[static_cast<std::size_t>(point)].store(1, std::memory_order_relaxed);
+          }
+        }
+      });
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      all.push_back(marks[p].load(std::memory_order_relaxed));
+    }
+  }
+  return all;
 }
 
 }

@@ -8,6 +8,10 @@
 #include "Volume/Mesh/PointBox.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkDataSet;
 
 namespace meniscus
 {
@@ -33,5 +37,14 @@ private:
   PointBox Box;
   std::int64_t Builds = 0;
 };
+
+/** Warning that VTK's cameras do not see what is as small as a box; empty if they see it. */
+std::string DescribeSmallBox(const PointBox& box);
+
+/**
+ * For each point of all data sets, 1 if a cell that is drawn uses it and 0 otherwise.
+ * @pre DescribeFault() finds nothing.
+ */
+std::vector<std::uint8_t> MarkDrawnPoints(const std::vector<vtkDataSet*>& grids);
 
 }

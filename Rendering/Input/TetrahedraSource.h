@@ -31,8 +31,8 @@ enum class CellPoints
 /**
  * Cells of data sets as tetrahedra: a view of the stored cells if the input is one
  * vtkUnstructuredGrid of tetrahedra, otherwise arrays of its own. Points and cells of several data
- * sets are numbered consecutively. Duplicate, hidden and blanked cells (vtkGhostType) are left out.
- * The data sets must outlive this object.
+ * sets are numbered consecutively. Duplicate, hidden, refined and blanked cells (vtkGhostType) are
+ * left out. The data sets must outlive this object.
  */
 class TetrahedraSource
 {

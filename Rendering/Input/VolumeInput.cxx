@@ -301,7 +301,9 @@ std::string VolumeInput::DescribeImprecise() const
   // to 16 radii to be finite: a ray is at most twice as long, and its eye some radii away.
   constexpr double least = 16777216.0 * std::numeric_limits<float>::min();
   constexpr double most = std::numeric_limits<float>::max() / 16.0;
-  const double radius = this->Mesh.GetRadius();
+  // A radius is a root of squares, which may be 0 where half of the size is not.
+  const glm::dvec3& half = this->Mesh.GetHalfSize();
+  const double radius = std::max({ this->Mesh.GetRadius(), half.x, half.y, half.z });
   const std::int64_t cells = this->Mesh.GetNumberOfImpreciseCells();
   std::ostringstream text;
   if (this->Mesh.GetNumberOfCells() > 0 && radius != 0.0 && !(radius >= least && radius <= most))

@@ -187,7 +187,7 @@ std::string DescribeUnlit(const RayCastOptics& optics)
 }
 
 //------------------------------------------------------------------------------
-void GatherClippingPlanes(
+std::string GatherClippingPlanes(
   vtkPlaneCollection* planes, const ViewContext& place, RayCastOptics& optics)
 {
   for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
@@ -197,9 +197,14 @@ void GatherClippingPlanes(
     glm::dvec3 origin;
     plane->GetNormal(&normal[0]);
     plane->GetOrigin(&origin[0]);
+    if (!IsFinite(normal) || !IsFinite(origin))
+    {
+      return "the origin or the normal of clipping plane " + std::to_string(i) + " is not finite";
+    }
     optics.ClippingPlanes.push_back(
       ComputeClippingPlane(place.Frame, normal, glm::dot(normal, place.CenterInWorld - origin)));
   }
+  return std::string();
 }
 
 }

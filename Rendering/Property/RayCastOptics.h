@@ -127,8 +127,11 @@ std::string DescribeUnlit(const RayCastOptics& optics);
 /** True if a property uses a gradient opacity function. */
 bool UsesGradientOpacity(vtkVolumeProperty* property);
 
-/** Sets the clipping planes of a mapper, in world coordinates; null for none. */
-void GatherClippingPlanes(
+/**
+ * Sets the clipping planes of a mapper, in world coordinates; null for none. Returns an error,
+ * empty if there is none.
+ */
+std::string GatherClippingPlanes(
   vtkPlaneCollection* planes, const ViewContext& place, RayCastOptics& optics);
 
 }

@@ -22,6 +22,7 @@ except ImportError:
 import numpy
 from meniscus.pyvista import add_volume, refracted
 from vtkmodules.vtkCommonCore import vtkVersion
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 
 SIZE = 120
 CELLS = 8
@@ -150,6 +151,29 @@ class TestComponents(unittest.TestCase):
                 plotter.close()
             numpy.testing.assert_array_equal(picture_of(cube, "U", component=component),
                                              picture_of(cube, str(component)))
+
+
+class TestHiddenCells(unittest.TestCase):
+    def test_values_of_hidden_points(self):
+        """Fill values of hidden points and of refined cells have no part in range and bounds."""
+        image = pyvista.ImageData(dimensions=(CELLS + 1,) * 3, spacing=(1 / CELLS,) * 3)
+        x = image.points[:, 0].astype(float)
+        image["x"] = numpy.where(x == 0, 1e20, x)
+        by_points = image.cast_to_structured_grid()
+        by_points.point_data["vtkGhostType"] = numpy.where(
+            x == 0, vtkDataSetAttributes.HIDDENPOINT, 0).astype(numpy.uint8)
+        centers = image.cell_centers().points[:, 0]
+        refined = numpy.where(centers < 1 / CELLS, vtkDataSetAttributes.REFINEDCELL, 0)
+        meshes = [by_points]
+        for mesh in (image.cast_to_structured_grid(), image.cast_to_unstructured_grid()):
+            mesh.cell_data["vtkGhostType"] = refined.astype(numpy.uint8)
+            meshes.append(mesh)
+        for mesh in meshes:
+            plotter = pyvista.Plotter(off_screen=True)
+            volume = add_volume(plotter, mesh, "x")
+            self.assertEqual(tuple(volume.mapper.scalar_range), (1 / CELLS, 1.0))
+            numpy.testing.assert_allclose(volume.GetBounds(), (1 / CELLS, 1, 0, 1, 0, 1))
+            plotter.close()
 
 
 class TestArguments(unittest.TestCase):

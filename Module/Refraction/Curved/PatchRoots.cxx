@@ -27,11 +27,6 @@ constexpr int DeepestLevel = 14;
 // digits.
 constexpr int LastLevel = 40;
 
-// Longest side, in units of its height, above which a triangle is slender. Quarters are as slender:
-// those that are as wide as their distance from eye or point are more, by this factor. Triangles of
-// usual meshes are below.
-constexpr double LargestSlenderness = 8.0;
-
 // Isolated roots take at most a dozen divisions each, a few more near a caustic. A ring of roots
 // would need a division of every triangle that it crosses, on every level. Triangles that are wider
 // than their distance from eye or point are few on each level, and do not count.
@@ -85,15 +80,13 @@ void PatchRoots::Find()
   this->Count = 0;
   this->Divisions = 0;
   this->Complete = true;
-  const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
-  const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
-  const glm::dvec3 normal = glm::cross(first, second);
-  this->Area = glm::length(normal);
-  if (this->Area == 0.0)
+  this->Shape = FacetShape(this->Patch);
+  if (this->Shape.GetArea() == 0.0)
   {
     return;
   }
-  this->Plane = { first, glm::cross(normal / this->Area, first) };
+  const glm::dvec3& first = this->Shape.GetFirst();
+  this->Plane = { first, glm::cross(this->Shape.GetNormal() / this->Shape.GetArea(), first) };
   for (std::size_t i = 0; i < 3; ++i)
   {
     this->Evaluate(whole, i);
@@ -106,42 +99,8 @@ void PatchRoots::Find()
   {
     this->Evaluate(whole, i);
   }
-  const std::array<double, 3> sides = this->MeasureSides(whole);
-  this->Size = *std::max_element(sides.begin(), sides.end());
-  whole.Size = this->Size;
-  this->Slender = this->Size * this->Size > LargestSlenderness * this->Area;
+  whole.Size = this->Shape.GetSize();
   this->Search(whole);
-}
-
-//------------------------------------------------------------------------------
-// Lengths of the sides of the flat triangle, opposite to its corners.
-std::array<double, 3> PatchRoots::MeasureSides(const Triangle& triangle) const
-{
-  const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
-  const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
-  std::array<double, 3> sides;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec2 side = triangle.B[(k + 2) % 3] - triangle.B[(k + 1) % 3];
-    sides[k] = glm::length(side.x * first + side.y * second);
-  }
-  return sides;
-}
-
-//------------------------------------------------------------------------------
-// If the triangle is slender, `corner` is the one opposite to its longest side.
-bool PatchRoots::IsSlender(const Triangle& triangle, std::size_t& corner) const
-{
-  if (!this->Slender)
-  {
-    return false;
-  }
-  const std::array<double, 3> sides = this->MeasureSides(triangle);
-  const auto longest = std::max_element(sides.begin(), sides.end());
-  corner = static_cast<std::size_t>(longest - sides.begin());
-  const double area =
-    this->Area * std::fabs(Cross(triangle.B[1] - triangle.B[0], triangle.B[2] - triangle.B[0]));
-  return *longest * *longest > LargestSlenderness * area;
 }
 
 //------------------------------------------------------------------------------
@@ -224,8 +183,8 @@ PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle, double cone)
 bool PatchRoots::IsDeepest(const Triangle& triangle) const
 {
   const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
-  return triangle.Size <= std::ldexp(this->Size, -DeepestLevel) &&
-    (triangle.Size <= std::ldexp(this->Size, -LastLevel) ||
+  return triangle.Size <= std::ldexp(this->Shape.GetSize(), -DeepestLevel) &&
+    (triangle.Size <= std::ldexp(this->Shape.GetSize(), -LastLevel) ||
       std::ldexp(triangle.Size, DeepestLevel) <= nearest);
 }
 
@@ -302,7 +261,7 @@ void PatchRoots::Divide(const Triangle& triangle)
   const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
   this->Divisions += triangle.Size <= nearest ? 1 : 0;
   std::size_t corner = 0;
-  if (this->IsSlender(triangle, corner))
+  if (this->Shape.IsSlender({ triangle.B[0], triangle.B[1], triangle.B[2] }, corner))
   {
     this->Halve(triangle, corner);
   }
@@ -337,8 +296,7 @@ void PatchRoots::Halve(const Triangle& t, std::size_t corner)
     child.B[isFirst ? 4 : 5] = middle;
     this->Evaluate(child, 3);
     this->Evaluate(child, isFirst ? 4 : 5);
-    const std::array<double, 3> sides = this->MeasureSides(child);
-    child.Size = *std::max_element(sides.begin(), sides.end());
+    child.Size = this->Shape.MeasureSize({ child.B[0], child.B[1], child.B[2] });
     this->Search(child);
   }
 }
@@ -382,7 +340,7 @@ void PatchRoots::Quarter(const Triangle& t)
 void PatchRoots::Add(const SightRoot& root)
 {
   const double nearest = std::sqrt(this->Equation.GetSquaredDistance(root.At.Position));
-  const double same = SameRoot * std::min(1.0, nearest / this->Size);
+  const double same = SameRoot * std::min(1.0, nearest / this->Shape.GetSize());
   for (const SightRoot& other : *this)
   {
     if (std::max(std::fabs(root.B.x - other.B.x), std::fabs(root.B.y - other.B.y)) < same)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Refraction/Curved/FacetShape.h"
 #include "Refraction/Sight/SightEquation.h"
 
 #include <array>
@@ -84,8 +85,6 @@ private:
   void Divide(const Triangle& triangle);
   void Quarter(const Triangle& triangle);
   void Halve(const Triangle& triangle, std::size_t corner);
-  std::array<double, 3> MeasureSides(const Triangle& triangle) const;
-  bool IsSlender(const Triangle& triangle, std::size_t& corner) const;
   bool TakeRoot(const Triangle& triangle);
   void Evaluate(Triangle& triangle, std::size_t place) const;
   double BoundCone(const Triangle& triangle) const;
@@ -95,9 +94,7 @@ private:
   const SightEquation& Equation;
   const CurvedPatch& Patch;
   SightEquation::Plane Plane;
-  double Size = 0.0; ///< longest side of the facet
-  double Area = 0.0; ///< twice the area of the facet
-  bool Slender = false;
+  FacetShape Shape;
   std::array<SightRoot, Capacity> Roots;
   std::size_t Count = 0;
   int Divisions = 0;

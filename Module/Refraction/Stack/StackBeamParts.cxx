@@ -86,6 +86,20 @@ int BeamDivision::CountCoarseLevels(
 }
 
 //------------------------------------------------------------------------------
+int BeamDivision::CountLevels(const FacetShape& facet, const PatchTriangle& corners)
+{
+  return static_cast<int>(std::lround(std::log2(facet.GetSize() / facet.MeasureSize(corners))));
+}
+
+//------------------------------------------------------------------------------
+double BeamDivision::GetExtent(const PatchTriangle& corners)
+{
+  const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+  const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+  return std::max(high.x - low.x, high.y - low.y);
+}
+
+//------------------------------------------------------------------------------
 bool BoundBeamMap(
   const std::array<glm::dvec3, 6>& f, double least, double higherDegree, AxisBox& box)
 {
@@ -118,7 +132,7 @@ public:
     , Result(result)
     , Links(result.Links)
     , Patch(stack.GetLinks().front().Surface->GetPatches().GetPatch(result.Facet))
-    , Size(this->Patch.GetSize())
+    , Shape(this->Patch)
   {
   }
 
@@ -185,12 +199,10 @@ private:
 
   bool HasSmallFootprint(const Part& part, std::size_t leg) const
   {
+    const double extent = BeamDivision::GetExtent(this->GetCorners(part));
     return std::all_of(part.Samples.begin(), part.Samples.end(),
-      [this, &part, leg](std::int32_t sample)
-      {
-        return std::ldexp(this->Result.GetRay(sample, leg).Footprint, -int{ part.Depth }) <=
-          LargestFootprint;
-      });
+      [this, extent, leg](std::int32_t sample)
+      { return extent * this->Result.GetRay(sample, leg).Footprint <= LargestFootprint; });
   }
 
   // Bounds of the rays of a part, all of whose six rays pass. Returns false if they are a guess.
@@ -247,7 +259,7 @@ private:
     const PatchTriangle corners = this->GetCorners(part);
     const int near = BeamDivision::CountNearLevels(
       this->Stack, this->Patch, (corners[0] + corners[1] + corners[2]) / 3.0);
-    return BeamDivision::CountCoarseLevels(this->Stack, this->Size, near, count) +
+    return BeamDivision::CountCoarseLevels(this->Stack, this->Shape.GetSize(), near, count) +
       (this->CountPassing(part, count) == 0 ? BeamDivision::DeepestBlind
                                             : BeamDivision::DeepestLevel);
   }
@@ -270,30 +282,54 @@ private:
     return this->CountPassing(part, count) > 0 || this->BoundByIntervals(part, count).IsValid();
   }
 
+  // Children with the samples at their corners: quarters, or halves of a slender part.
+  std::vector<Part> MakeChildren(const Part& part) const
+  {
+    const std::array<std::int32_t, 6>& s = part.Samples;
+    std::vector<Part> children;
+    std::size_t corner = 0;
+    if (this->Shape.IsSlender(this->GetCorners(part), corner))
+    {
+      const std::int32_t middle = s[corner + 3];
+      children.resize(2);
+      children[0].Samples = { s[corner], s[(corner + 1) % 3], middle, 0, 0, 0 };
+      children[1].Samples = { s[corner], middle, s[(corner + 2) % 3], 0, 0, 0 };
+      for (Part& half : children)
+      {
+        half.Depth =
+          static_cast<std::uint8_t>(BeamDivision::CountLevels(this->Shape, this->GetCorners(half)));
+      }
+      return children;
+    }
+    children.resize(4);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      children[k].Samples = { s[k], s[(k + 2) % 3 + 3], s[(k + 1) % 3 + 3], 0, 0, 0 };
+    }
+    children[3].Samples = { s[3], s[4], s[5], 0, 0, 0 };
+    for (Part& quarter : children)
+    {
+      quarter.Depth = static_cast<std::uint8_t>(part.Depth + 1);
+    }
+    return children;
+  }
+
   void Divide(std::size_t index)
   {
     ++this->Divisions;
     const Part part = this->Result.Parts[index];
-    const std::array<std::int32_t, 6>& s = part.Samples;
-    std::array<Part, 4> quarters;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      quarters[k].Samples = { s[k], s[(k + 2) % 3 + 3], s[(k + 1) % 3 + 3], 0, 0, 0 };
-    }
-    quarters[3].Samples = { s[3], s[4], s[5], 0, 0, 0 };
     const std::size_t first = this->Result.Parts.size();
-    for (Part& quarter : quarters)
+    for (Part& child : this->MakeChildren(part))
     {
-      quarter.Depth = static_cast<std::uint8_t>(part.Depth + 1);
       for (std::size_t k = 0; k < 3; ++k)
       {
-        quarter.Samples[k + 3] =
-          this->GetMiddle(quarter.Samples[(k + 1) % 3], quarter.Samples[(k + 2) % 3]);
+        child.Samples[k + 3] =
+          this->GetMiddle(child.Samples[(k + 1) % 3], child.Samples[(k + 2) % 3]);
       }
       // Behind the first interfaces the whole part is searched.
-      if (this->MayPass(quarter, part.Resolved + 1u))
+      if (this->MayPass(child, part.Resolved + 1u))
       {
-        this->Result.Parts.push_back(quarter);
+        this->Result.Parts.push_back(child);
       }
     }
     this->Result.Parts[index].FirstChild = static_cast<std::int32_t>(first);
@@ -320,7 +356,8 @@ private:
       return this->BoundByIntervals(part, leg + 1);
     }
     // A search tries the rays that pass, as far as Newton's method may lead from them.
-    const double reach = std::ldexp(BeamDivision::FarthestRoot, -int{ part.Depth });
+    const double reach =
+      BeamDivision::FarthestRoot * BeamDivision::GetExtent(this->GetCorners(part));
     for (const std::int32_t sample : part.Samples)
     {
       if (this->Result.GetPassed(sample) > leg)
@@ -362,7 +399,7 @@ private:
   StackBeamParts& Result;
   std::size_t Links;
   CurvedPatch Patch;
-  double Size;              ///< of the patch
+  FacetShape Shape;
   std::vector<RayJet> Jets; ///< per sample and interface
   std::vector<bool> IsCut;  ///< per part
   std::unordered_map<std::uint64_t, std::int32_t> Middles;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Refraction/Curved/FacetShape.h"
 #include "Refraction/Stack/RefractionStack.h"
 #include "Refraction/Stack/StackTubes.h"
 #include "Refraction/Tubes/BoxTree.h"
@@ -43,7 +44,7 @@ struct BeamDivision
    */
   static constexpr int MostNearLevels = 26;
 
-  /** Largest number of divisions down to a part. */
+  /** Largest number of levels down to a part. */
   static constexpr int MostLevels = MostNearLevels + MostCoarseLevels + DeepestLevel;
 
   /**
@@ -74,6 +75,10 @@ struct BeamDivision
   /** Then levels down to one that is no wider than the smallest of the next surfaces either. */
   static int CountCoarseLevels(
     const RefractionStack& stack, double size, int near, std::size_t interfaces);
+  /** Levels down to a triangle in a facet: halvings of the facet's size, rounded. */
+  static int CountLevels(const FacetShape& facet, const PatchTriangle& corners);
+  /** Largest difference between coordinates of corners of a triangle: 2^-n after n quarterings. */
+  static double GetExtent(const PatchTriangle& corners);
 };
 
 /** Places of six rays in a patch: corners, then the middles of the opposite edges. */
@@ -167,8 +172,9 @@ void StackBeamParts::Visit(
 {
   const std::size_t leg = count - 1;
   const AxisBox box{ point - slack, point + slack };
-  // A part has at most four children, each of which leaves at most three more on the stack.
-  std::array<std::int32_t, 3 * BeamDivision::MostLevels + 4> open;
+  // A level is a division in four, which leaves three more on the stack, or at most three divisions
+  // of slender parts in two, which leave one each. The size of a part is rounded to levels.
+  std::array<std::int32_t, 3 * (BeamDivision::MostLevels + 1) + 4> open;
   std::size_t depth = 0;
   open[depth++] = 0;
   while (depth > 0)

@@ -36,7 +36,7 @@ void StackSearch::Begin(std::int32_t facet)
   this->Facet = facet;
   this->Divisions = this->Images ? this->Divisions : 0;
   this->Patch = this->Stack.GetLinks()[0].Surface->GetPatches().GetPatch(facet);
-  this->Size = this->Patch.GetSize();
+  this->Shape = FacetShape(this->Patch);
   this->CoarseLevels = this->CountCoarseLevels(0);
 }
 
@@ -122,7 +122,8 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
 //------------------------------------------------------------------------------
 int StackSearch::CountCoarseLevels(int near) const
 {
-  return BeamDivision::CountCoarseLevels(this->Stack, this->Size, near, this->Target.Count);
+  return BeamDivision::CountCoarseLevels(
+    this->Stack, this->Shape.GetSize(), near, this->Target.Count);
 }
 
 //------------------------------------------------------------------------------
@@ -198,8 +199,8 @@ StackSearch::Shot StackSearch::Judge(const Part& part, const StackPath& path) co
 void StackSearch::Add(const StackPath& path)
 {
   const PathPoint& first = path.Points[0];
-  const double same =
-    SameRoot * std::min(this->Size, glm::length(first.Ray.Origin - this->Stack.GetEye()));
+  const double same = SameRoot *
+    std::min(this->Shape.GetSize(), glm::length(first.Ray.Origin - this->Stack.GetEye()));
   const bool isKnown = std::any_of(this->Images->begin(), this->Images->end(),
     [&first, same](const StackPath& other)
     { return glm::length(other.Points[0].Ray.Origin - first.Ray.Origin) < same; });
@@ -268,11 +269,10 @@ bool StackSearch::SearchWhole(
     reach = std::max(reach, glm::length(a));
   }
   // Six rays do not represent the rays between them if the beam meets many patches.
-  const double footprint =
-    std::ldexp(std::max_element(part.begin(), part.end(),
-                 [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })
-                 ->Footprint,
-      -depth);
+  const double footprint = BeamDivision::GetExtent(CornersOf(part)) *
+    std::max_element(part.begin(), part.end(),
+      [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })
+      ->Footprint;
   const bool isLast = this->IsDeepest(part, depth);
   const bool isDeepest = isLast || this->Divisions >= MostDivisions;
   if (footprint > LargestFootprint && !isDeepest)
@@ -338,7 +338,7 @@ bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
   }
   // Larger parts that are left may have any number of images.
   this->Complete = this->Complete && (!this->Images || isDeepest);
-  const double size = std::ldexp(1.0, -depth);
+  const double size = BeamDivision::GetExtent(CornersOf(part));
   for (const Sample& sample : part)
   {
     if (sample.IsValid && GetLargest(sample.Move) < BeamDivision::FarthestRoot * size)
@@ -355,18 +355,37 @@ bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 }
 
 //------------------------------------------------------------------------------
-bool StackSearch::Divide(const Part& part, int depth, StackPath& path)
+PatchTriangle StackSearch::CornersOf(const Part& part)
 {
-  return this->SearchQuarters(part, { true, true, true, true }, depth, path);
+  return { part[0].B, part[1].B, part[2].B };
 }
 
 //------------------------------------------------------------------------------
-// As Divide, but without the quarters that interval arithmetic excludes, whose rays are not traced.
+bool StackSearch::Divide(const Part& part, int depth, StackPath& path)
+{
+  std::size_t corner = 0;
+  return this->Shape.IsSlender(CornersOf(part), corner)
+    ? this->SearchHalves(part, corner, { true, true }, path)
+    : this->SearchQuarters(part, { true, true, true, true }, depth, path);
+}
+
+//------------------------------------------------------------------------------
+// As Divide, but without the parts that interval arithmetic excludes, whose rays are not traced.
 bool StackSearch::DivideWhere(const Part& part, int depth, StackPath& path)
 {
   const auto mayShow = [this](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return this->Beams.MayShow(this->Target, this->Facet, { a, b, c });
   };
+  std::size_t corner = 0;
+  if (this->Shape.IsSlender(CornersOf(part), corner))
+  {
+    const glm::dvec2& from = part[corner].B;
+    const glm::dvec2& middle = part[corner + 3].B;
+    return this->SearchHalves(part, corner,
+      { mayShow(from, part[(corner + 1) % 3].B, middle),
+        mayShow(from, middle, part[(corner + 2) % 3].B) },
+      path);
+  }
   std::array<bool, 4> quarters;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -374,6 +393,40 @@ bool StackSearch::DivideWhere(const Part& part, int depth, StackPath& path)
   }
   quarters[3] = mayShow(part[3].B, part[4].B, part[5].B);
   return this->SearchQuarters(part, quarters, depth, path);
+}
+
+//------------------------------------------------------------------------------
+// Searches those halves of a part that are marked, on both sides of the line from a corner to the
+// middle of the opposite edge.
+bool StackSearch::SearchHalves(
+  const Part& part, std::size_t corner, const std::array<bool, 2>& halves, StackPath& path)
+{
+  ++this->Divisions;
+  if (!halves[0] && !halves[1])
+  {
+    return false;
+  }
+  const std::size_t i = (corner + 1) % 3;
+  const std::size_t j = (corner + 2) % 3;
+  const Sample& middle = part[corner + 3];
+  const Sample inside = this->Evaluate(0.5 * (part[corner].B + middle.B), path);
+  for (const bool isFirst : { true, false })
+  {
+    if (!halves[isFirst ? 0 : 1])
+    {
+      continue;
+    }
+    const Sample& end = part[isFirst ? i : j];
+    const Sample between = this->Evaluate(0.5 * (end.B + middle.B), path);
+    const Part half = isFirst ? Part{ part[corner], end, middle, between, inside, part[j + 3] }
+                              : Part{ part[corner], middle, end, between, part[i + 3], inside };
+    const int depth = BeamDivision::CountLevels(this->Shape, CornersOf(half));
+    if (this->SearchPart(half, depth, path))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------

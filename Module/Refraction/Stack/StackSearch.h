@@ -82,6 +82,9 @@ private:
   bool DivideWhere(const Part& part, int depth, StackPath& path);
   bool SearchQuarters(
     const Part& part, const std::array<bool, 4>& quarters, int depth, StackPath& path);
+  bool SearchHalves(
+    const Part& part, std::size_t corner, const std::array<bool, 2>& halves, StackPath& path);
+  static PatchTriangle CornersOf(const Part& part);
   static bool MeetPlane(const Part& part, TriangleMap& places);
   glm::dvec2 GuessRoot(const Part& part, const TriangleMap& places) const;
   bool SearchWhole(const Part& part, const TriangleMap& places, int depth, StackPath& path);
@@ -99,7 +102,7 @@ private:
   std::vector<StackPath>* Images = nullptr; ///< null in a search for one image
   std::int32_t Facet = CurvedPatches::NoFacet;
   CurvedPatch Patch; ///< of the facet
-  double Size = 0.0; ///< of the patch
+  FacetShape Shape;
   int Divisions = 0;
   /** Levels after which a part far from the eye is no wider than the smallest later surface. */
   int CoarseLevels = 0;

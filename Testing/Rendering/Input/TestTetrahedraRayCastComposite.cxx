@@ -370,6 +370,30 @@ TEST(TetrahedraRayCastComposite, BlankedAndGhostCellsAreLeftOut)
   EXPECT_EQ(ghosts.GetRayCaster()->GetNumberOfActiveCells(), 6 * 64);
 }
 
+/** The levels of an AMR data set: a block, and a finer one over an eighth of it. */
+TEST(TetrahedraRayCastComposite, RefinedCellsAreShownByTheFinerBlock)
+{
+  const Field field = MakeLinear();
+  const auto coarse = MakeImage(4, field);
+  vtkUnsignedCharArray* flags = coarse->AllocateCellGhostArray();
+  for (vtkIdType c = 0; c < 64; ++c)
+  {
+    const bool isRefined = c % 4 < 2 && c / 4 % 4 < 2 && c / 16 < 2;
+    flags->SetValue(c, isRefined ? vtkDataSetAttributes::REFINEDCELL : 0);
+  }
+  vtkNew<vtkImageData> fine;
+  fine->SetDimensions(5, 5, 5);
+  fine->SetOrigin(-1.0, -1.0, -1.0);
+  fine->SetSpacing(0.25, 0.25, 0.25);
+  AddScalars(fine, field);
+  vtkNew<vtkMultiBlockDataSet> levels;
+  levels->SetBlock(0, coarse);
+  levels->SetBlock(1, fine);
+  AnyScene scene(levels);
+  ExpectSamePicture(scene.MakePicture(), PictureOf(MakeImage(4, field)), "levels");
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 6 * (64 - 8 + 64));
+}
+
 TEST(TetrahedraRayCastComposite, MeshesBeyond32BitsAreRefusedWithNumbers)
 {
   // 6 * 449^3 tetrahedra; the scalars are never read.

@@ -129,14 +129,19 @@ double CellIntegrator::DepthInside(const WorldRay& ray, double s)
   {
     case VTK_HEXAHEDRON:
     case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
     case VTK_TRIQUADRATIC_HEXAHEDRON:
     case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
     case VTK_PYRAMID:
     case VTK_QUADRATIC_PYRAMID:
       return std::min({ depth, 1.0 - p.x, 1.0 - p.y, 1.0 - p.z });
     case VTK_WEDGE:
     case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
     case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
       return std::min({ depth, 1.0 - p.x - p.y, 1.0 - p.z });
     default:
       return std::min(depth, 1.0 - p.x - p.y - p.z);

@@ -3,6 +3,7 @@
 // Bounds are those of the cells that are drawn: of the mapper, for cameras, and of fitted rays.
 #include "IntegralScene.h"
 
+#include <vtkStructuredGrid.h>
 #include <vtkUniformGrid.h>
 
 using namespace meniscus::test;
@@ -118,6 +119,27 @@ std::vector<BoundsCase> MakeCases()
       AddFarCell(grid, VTK_TETRA, 4);
       AddFlags(grid, vtkDataSetAttributes::DUPLICATECELL);
     });
+  add("refined cell",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      AddFlags(grid, vtkDataSetAttributes::REFINEDCELL);
+    });
+  add("tetrahedron with a repeated point",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
+      ids->SetTuple1(ids->GetNumberOfTuples() - 1, grid->GetNumberOfPoints() - 2);
+    });
+  add("pyramid of three points",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TRIANGLE, 3);
+      const vtkIdType last = grid->GetNumberOfPoints() - 1;
+      const vtkIdType ids[5] = { last, last - 1, last - 2, last - 2, last };
+      grid->InsertNextCell(VTK_PYRAMID, 5, ids);
+    });
   add("too few points", [](vtkUnstructuredGrid* grid) { AddFarCell(grid, VTK_HEXAHEDRON, 4); });
   add("point that is not finite",
     [](vtkUnstructuredGrid* grid)
@@ -146,6 +168,28 @@ std::vector<BoundsCase> MakeCases()
   image->BlankCell(2);
   image->BlankCell(5);
   cases.push_back({ "blanked cells of an image", image });
+  for (const int first : { 0, 2 })
+  {
+    auto points = vtkSmartPointer<vtkStructuredGrid>::New();
+    points->SetDimensions(4, 2, 2);
+    vtkNew<vtkPoints> places;
+    vtkNew<vtkDoubleArray> constant;
+    constant->SetName(ScalarName);
+    for (int i = 0; i < 16; ++i)
+    {
+      const int column = i % 4 - (first == 0 ? 1 : 0);
+      places->InsertNextPoint(
+        Place[0] + 5.0 * column, Place[1] + 10.0 * (i / 4 % 2), Place[2] + 10.0 * (i / 8));
+      constant->InsertNextValue(1.0);
+    }
+    points->SetPoints(places);
+    points->GetPointData()->SetScalars(constant);
+    for (vtkIdType i = first == 0 ? 0 : 3; i < 16; i += 4)
+    {
+      points->BlankPoint(i);
+    }
+    cases.push_back({ "blanked points", points });
+  }
   return cases;
 }
 

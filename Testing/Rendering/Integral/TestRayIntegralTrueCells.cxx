@@ -206,6 +206,44 @@ TEST(TrueCells, SmoothFieldsTakeFewPieces)
   EXPECT_LT(adaptive, fixed);
 }
 
+/** Points and cells that are not drawn, far away or with fill values, change no error. */
+TEST(TrueCells, OnlyWhatIsDrawnIsTheMeasure)
+{
+  const CellCase& shape = CellCases[4];
+  const auto divide = [](vtkUnstructuredGrid* grid)
+  {
+    const Filter rays = MakeCoarse(grid, 8);
+    rays->Update();
+    return std::make_pair(
+      rays->GetStatistic("NumberOfTetrahedra"), rays->GetStatistic("DivisionError"));
+  };
+  const auto expected = divide(MakeCell(shape, 0.05, 3));
+  EXPECT_GT(expected.first, 100.0);
+  for (const bool isFar : { true, false })
+  {
+    for (const bool hasCell : { false, true })
+    {
+      SCOPED_TRACE(::testing::Message() << "far " << isFar << ", cell " << hasCell);
+      const Grid grid = MakeCell(shape, 0.05, 3);
+      vtkIdType ids[4];
+      for (int i = 0; i < 4; ++i)
+      {
+        const double at = isFar ? 1e6 : 0.1;
+        ids[i] = grid->GetPoints()->InsertNextPoint(
+          at + (i == 1 ? 0.1 : 0.0), at + (i == 2 ? 0.1 : 0.0), at + (i == 3 ? 0.1 : 0.0));
+        vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars())
+          ->InsertNextValue(isFar ? 2.0 : 1e9);
+      }
+      if (hasCell)
+      {
+        grid->InsertNextCell(VTK_TETRA, 4, ids);
+        grid->AllocateCellGhostArray()->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
+      }
+      EXPECT_EQ(divide(grid), expected);
+    }
+  }
+}
+
 TEST(TrueCells, NeighboursOfAllTypesDoNotCrack)
 {
   for (const bool quadratic : { false, true })

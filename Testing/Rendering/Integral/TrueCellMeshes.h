@@ -26,7 +26,12 @@ constexpr CellCase CellCases[] = { { "hexahedron", VTK_HEXAHEDRON, 8 }, { "wedge
   { "quadratic pyramid", VTK_QUADRATIC_PYRAMID, 13 },
   { "Lagrange tetrahedron of order 3", VTK_LAGRANGE_TETRAHEDRON, 20, 0.01 },
   { "Lagrange hexahedron of order 3", VTK_LAGRANGE_HEXAHEDRON, 64, 0.003 },
-  { "Bezier tetrahedron of order 3", VTK_BEZIER_TETRAHEDRON, 20, 0.005 } };
+  { "Bezier tetrahedron of order 3", VTK_BEZIER_TETRAHEDRON, 20, 0.005 },
+  { "quadratic-linear wedge", VTK_QUADRATIC_LINEAR_WEDGE, 12 },
+  { "biquadratic hexahedron", VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 24 },
+  { "Lagrange wedge of order 2", VTK_LAGRANGE_WEDGE, 18, 0.01 },
+  { "Bezier hexahedron of order 2", VTK_BEZIER_HEXAHEDRON, 27, 0.005 },
+  { "Bezier wedge of order 2", VTK_BEZIER_WEDGE, 18, 0.005 } };
 
 /**
  * A cell in about [-0.5, 0.7]^3, whose points are displaced at random by up to `displacement` along

@@ -257,6 +257,38 @@ TEST(TetrahedraRayCastBadInput, FlattenedMesh)
   EXPECT_TRUE(Render(scene).PictureIsTheCube);
 }
 
+/** VTK's cameras see nothing that is much smaller than 1e-20: told once, and cured by a scale. */
+TEST(TetrahedraRayCastBadInput, MeshesThatAreTooSmallForCameras)
+{
+  for (const double size : { 1e-20, 1e-23, 1e-30, 1e-100, 1e-200 })
+  {
+    SCOPED_TRACE(size);
+    const Grid grid = MakeBlock(3, LinearField(1.0, 0.0, 0.0));
+    TransformPoints(grid, { 0.0, 0.0, 0.0 }, size);
+    vtkNew<vtkTetrahedraRayCastMapper> mapper;
+    const auto told = ObserveErrors(mapper);
+    mapper->SetInputData(grid);
+    for (int i = 0; i < 2; ++i)
+    {
+      EXPECT_DOUBLE_EQ(mapper->GetBounds()[1], size);
+      ASSERT_EQ(told->Warnings.size(), size < 1e-20 ? 1u : 0u) << told->GetText();
+    }
+    EXPECT_TRUE(told->Warnings.empty() || HasText(told->Warnings[0], "VTK's cameras see nothing"));
+  }
+  // Seen as one of size 1.
+  std::vector<FloatImage> images;
+  for (const double size : { 1.0, 1e-30 })
+  {
+    const Grid grid = MakeBlock(3, LinearField(1.0, 0.0, 0.0));
+    TransformPoints(grid, { 0.0, 0.0, 0.0 }, size);
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    scene.GetVolume()->SetScale(1.0 / size);
+    LookAt(scene.GetRenderer(), Bounds, 25.0, 15.0);
+    images.push_back(scene.RenderFloat());
+  }
+  ExpectSamePicture(images[1], images[0], "scaled");
+}
+
 TEST(TetrahedraRayCastBadInput, CellGivenTwice)
 {
   // The same cell twice covers the same space: it counts once, and the repetition is reported.

@@ -322,3 +322,22 @@ TEST(TetrahedraRayCastBadNumbers, UnitDistance)
     EXPECT_TRUE(projected.Told->Errors.empty());
   }
 }
+
+TEST(TetrahedraRayCastBadNumbers, ClippingPlanes)
+{
+  const Grid grid = MakeBlock(2, ConstantField(0.5));
+  for (const bool isOrigin : { true, false })
+  {
+    vtkNew<vtkPlane> good;
+    vtkNew<vtkPlane> bad;
+    isOrigin ? bad->SetOrigin(NaN, 0.0, 0.0) : bad->SetNormal(1.0, Infinity, 0.0);
+    RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+    scene.GetRayCaster()->AddClippingPlane(good);
+    scene.GetRayCaster()->AddClippingPlane(bad);
+    vtkNew<ErrorObserver> told;
+    told->Observe(scene.GetRayCaster());
+    const ByteImage image = scene.RenderBytes();
+    EXPECT_TRUE(HasText(told->GetText(), "clipping plane 1 is not finite"));
+    EXPECT_EQ(*std::max_element(image.Rgb.begin(), image.Rgb.end()), 0);
+  }
+}
