@@ -99,7 +99,7 @@ private:
 };
 
 /**
- * Solves those of the points in [begin, end) that exact parallel planes decide: points behind all
+ * Solves the points in [begin, end) that exact parallel planes decide, which are points behind all
  * of them. The numbers of the others are appended to `others`.
  */
 void SolveBehindPlanes(const ParallelPlanes& planes, const double* points, std::size_t begin,
