@@ -3,6 +3,7 @@
 #include "Volume/Rays/ProjectedFaces.h"
 #include "Volume/Packet/Data/PacketRays.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -58,8 +59,7 @@ double AreaError(const ProjectedFaces::Vertex& p, const ProjectedFaces::Vertex& 
 {
   const glm::dvec2 toP(At(p.U, pixel), At(p.V, pixel));
   const glm::dvec2 toQ(At(q.U, pixel), At(q.V, pixel));
-  const double edges =
-    std::hypot(toP.x, toP.y) + std::hypot(toQ.x, toQ.y) + std::hypot(toP.x - toQ.x, toP.y - toQ.y);
+  const double edges = glm::length(toP) + glm::length(toQ) + glm::length(toP - toQ);
   return 1.42 * error * edges + 6.0 * error * error;
 }
 

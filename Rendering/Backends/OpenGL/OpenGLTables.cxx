@@ -222,13 +222,14 @@ std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
     return "a mesh with " + std::to_string(tree.GetFaces().size()) +
       " boundary faces exceeds the limit of 8388608";
   }
-  std::vector<float> nodes;
-  nodes.reserve(8 * tree.GetNodes().size());
+  std::vector<float> nodes(8 * tree.GetNodes().size());
+  float* value = nodes.data();
   for (const auto& node : tree.GetNodes())
   {
-    nodes.insert(nodes.end(),
-      { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
-        node.Half.y, node.Half.z, static_cast<float>(node.Face) });
+    const float values[8] = { node.Center.x, node.Center.y, node.Center.z,
+      static_cast<float>(node.Skip), node.Half.x, node.Half.y, node.Half.z,
+      static_cast<float>(node.Face) };
+    value = std::copy_n(values, 8, value);
   }
   std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
   if (!this->Count(this->TreeNodes, error).empty())
@@ -322,12 +323,19 @@ std::string OpenGLTables::UploadCellScalars(const std::vector<float>& scalars)
 //------------------------------------------------------------------------------
 std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
 {
-  std::vector<float> values;
-  values.reserve(4 * vectors.size());
-  for (const glm::vec3& v : vectors)
-  {
-    values.insert(values.end(), { v.x, v.y, v.z, 0.0f });
-  }
+  std::vector<float> values(4 * vectors.size());
+  ForEachBlock(vectors.size(), ThreadedLoop,
+    [&vectors, &values](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const glm::vec3& vector = vectors[v];
+        float* const value = &values[4 * v];
+        value[0] = vector.x;
+        value[1] = vector.y;
+        value[2] = vector.z;
+      }
+    });
   return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
 }
 
