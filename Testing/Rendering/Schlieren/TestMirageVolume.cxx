@@ -271,6 +271,22 @@ TEST(MirageVolume, OddVolumesAreWarnings)
   ExpectStraight(filter, "no functions");
 }
 
+TEST(MirageVolume, NeedsNoObjects)
+{
+  const Grid grid = MakeSmoke(4, ConstantField(1.2));
+  Filter filter = MakeVolume(grid, MakePlain(0.5, { 1, 1, 1 }));
+  filter->SetObjectData(nullptr);
+  auto observer = ObserveErrors(filter);
+  filter->Update();
+  EXPECT_EQ(observer->Errors.size() + observer->Warnings.size(), 0u) << observer->GetText();
+  ExpectStraight(filter, "no objects");
+  filter->SetVolumeProperty(nullptr);
+  filter->Update();
+  ASSERT_EQ(observer->Errors.size(), 1u);
+  EXPECT_TRUE(HasText(observer->Errors[0], "neither objects nor a volume"));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
 TEST(MirageVolume, BadVolumesAreErrors)
 {
   const auto plain = MakePlain(1.0, { 1, 1, 1 });
@@ -296,6 +312,37 @@ TEST(MirageVolume, BadVolumesAreErrors)
     ASSERT_EQ(observer->Errors.size(), 1u) << i << observer->GetText();
     EXPECT_TRUE(HasText(observer->Errors[0], texts[i])) << observer->Errors[0];
     EXPECT_EQ(filters[i]->GetOutput()->GetNumberOfPoints(), 0);
+  }
+}
+
+// An abort while the mesh is read, and while rays are followed; then the whole picture.
+TEST(MirageVolume, AbortEmptiesTheOutput)
+{
+  const Grid grid = MakeSmoke(4, ConstantField(1.2));
+  for (const double most : { 0.0, 0.5 })
+  {
+    Filter filter = MakeVolume(grid, MakePlain(0.5, { 1, 1, 1 }));
+    filter->SetImageSize(Size, 200);
+    vtkNew<vtkCallbackCommand> abort;
+    double limit = most;
+    abort->SetClientData(&limit);
+    abort->SetCallback(
+      [](vtkObject* caller, unsigned long, void* data, void*)
+      {
+        auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+        if (algorithm->GetProgress() > *static_cast<double*>(data))
+        {
+          algorithm->SetAbortExecute(1);
+        }
+      });
+    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, abort);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    filter->RemoveObserver(tag);
+    filter->SetAbortExecute(0);
+    filter->Modified();
+    filter->Update();
+    ExpectStraight(filter, "after an abort");
   }
 }
 
