@@ -138,6 +138,11 @@ Number SmallerOf(Number a, Number b)
   return Choose(a < b, a, b);
 }
 
+Number LargerOf(Number a, Number b)
+{
+  return Choose(a > b, a, b);
+}
+
 /** One vector per lane. */
 struct Vector
 {
@@ -438,7 +443,7 @@ void LaneStep::Finish(GradedLanes& lanes, int i) const
     5040.0 * GradedLanes::LargestRest * length;
   // The weight of the exit falls all the way (GradedPassage::IsFirst).
   const Number endRate = Product(exit.Gradient, this->EndMomentum);
-  const Number fall = 1.2 * reach * exponent;
+  const Number leastRate = -1.2 * reach * exponent;
   constexpr double glideHeight = GradedPassage::GlideHeight;
   constexpr double share = GradedPassage::LongestShare;
   const Mask isLong = (square * this->SquaredMomentum > share * share * this->SquaredSize) |
@@ -450,7 +455,7 @@ void LaneStep::Finish(GradedLanes& lanes, int i) const
   const Mask isFirst = (SmallerOf(SmallerOf(least.X, least.Y), least.Z) > higher) &
     (SizeOf(excess) < GradedPassage::LastChange);
   const Mask isRoot = (SizeOf(this->Change) <= GradedPassage::LastChange * t) &
-    (t * SmallerOf(-exit.Rate, -endRate) > fall);
+    (t * LargerOf(exit.Rate, endRate) < leastRate);
   const Mask mayGoOn = (run <= GradedLanes::MostShortSteps) & (stepsLeft > 0.0);
   const Mask isDone = (isFirst & isRoot) & (isExact & mayGoOn);
 

@@ -29,7 +29,7 @@ namespace meniscus
 struct alignas(64) GradedLanes
 {
   /** Largest number of lanes. Arrays, rows and numbers between the parts of a step fit into L1. */
-  static constexpr int Size = 48;
+  static constexpr int Size = 64;
   /** Terms of the series up to this order are summed. */
   static constexpr int Order = 5;
   /**
