@@ -43,6 +43,14 @@ struct Polygon
   std::array<glm::dvec2, 8> Corners;
   int Size = 0;
 
+  /** Rounding bends the sides of polygons that are huge: corners beyond the most are left out. */
+  void Append(const glm::dvec2& corner)
+  {
+    if (this->Size < static_cast<int>(this->Corners.size()))
+    {
+      this->Corners[this->Size++] = corner;
+    }
+  }
   /** Keeps the part in which sign * coordinate <= sign * limit. */
   Polygon Cut(int axis, double limit, double sign) const
   {
@@ -55,13 +63,13 @@ struct Polygon
       const double atB = sign * (b[axis] - limit);
       if (atA <= 0.0)
       {
-        result.Corners[result.Size++] = a;
+        result.Append(a);
       }
       if ((atA < 0.0 && atB > 0.0) || (atA > 0.0 && atB < 0.0))
       {
         glm::dvec2 place = a + atA / (atA - atB) * (b - a);
         place[axis] = limit;
-        result.Corners[result.Size++] = place;
+        result.Append(place);
       }
     }
     return result;
@@ -199,6 +207,10 @@ double KnifeEdge::Transmit(const glm::dvec2& deflection) const
 //------------------------------------------------------------------------------
 double Interferometer::Interfere(double pathDifference, const glm::dvec2& place) const
 {
+  if (pathDifference == 0.0 && this->Fringes == glm::dvec2(0.0))
+  {
+    return 1.0;
+  }
   const double waves = pathDifference / this->Wavelength + glm::dot(this->Fringes, place);
   const double part = waves - std::floor(waves);
   return part == 0.0 ? 1.0 : SquaredCosine(part);

@@ -238,6 +238,25 @@ TEST(Shadowgraph, IrradianceIsTheInverseOfTheJacobian)
   EXPECT_NEAR(off, 0.0, 1.0e-9);
 }
 
+// Rounding bends the sides of quadrangles far beyond the image.
+TEST(Shadowgraph, LightOfHugeQuadranglesIsBounded)
+{
+  RandomNumbers random(3);
+  for (const double scale : { 1.0e3, 1.0e9, 1.0e12, 1.0e15 })
+  {
+    for (int round = 0; round < 20; ++round)
+    {
+      const auto landings = Land(12, 9,
+        [&](const glm::dvec2& p)
+        { return p + scale * glm::dvec2(random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0)); });
+      double off = 0.0;
+      const auto image = ComputeShadowgraph(landings, 12, 9, off);
+      EXPECT_GE(*std::min_element(image.begin(), image.end()), 0.0);
+      EXPECT_LE(SumOf(image), 12.0 * 9.0);
+    }
+  }
+}
+
 TEST(Shadowgraph, DegenerateLightIsCounted)
 {
   double off = 0.0;
