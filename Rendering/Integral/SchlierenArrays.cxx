@@ -81,39 +81,13 @@ public:
     this->Warped = instruments.Background ? add("Background", 1) : nullptr;
   }
 
-  /** Writes the values of a pixel, and notes where its light lands. */
-  void Write(std::size_t number, GradedRayState state, const LightBehind& light)
+  /** Writes the values of a row of pixels. */
+  void WriteRow(std::size_t row, const LightOfImage& light)
   {
-    const glm::dvec2 pixel(
-      static_cast<double>(number % this->Width), static_cast<double>(number / this->Width));
-    glm::dvec2 deflection(0.0);
-    glm::dvec2 landing = pixel;
-    glm::dvec2 seen = pixel;
-    double path = 0.0;
-    if (state == GradedRayState::Left)
+    for (std::size_t column = 0; column < this->Width; ++column)
     {
-      path = this->Radius * (light.OpticalPath - this->Settings.ReferenceIndex * light.Length);
-    }
-    if (state == GradedRayState::Left && !std::isnan(light.Slope.x))
-    {
-      deflection = light.Slope - this->Rays.GetImage().GetSlope(pixel);
-      landing = this->Shadow.Meet(light);
-      seen = this->Background.Meet(light);
-    }
-    else if (state != GradedRayState::Missed)
-    {
-      landing = glm::dvec2(NaN);
-    }
-    this->Irradiance.Landings[number] = landing;
-    SetPair(this->Deflections, number, deflection);
-    SetPair(this->Shifts, number, seen - pixel);
-    this->Paths[number] = static_cast<float>(path);
-    this->Fringes[number] =
-      static_cast<float>(this->Settings.Meter.Interfere(path, (pixel + 0.5) / this->Size));
-    if (this->Warped)
-    {
-      this->Warped[number] = static_cast<float>(SamplePicture(this->Seen.Values, this->Seen.Width,
-        this->Seen.Height, (seen + 0.5) * this->PerPixel - 0.5));
+      const std::size_t number = row * this->Width + column;
+      this->Write(number, glm::dvec2(column, row), light.States[number], light.Behind[number]);
     }
   }
 
@@ -154,6 +128,41 @@ public:
   }
 
 private:
+  /** Writes the values of a pixel, and notes where its light lands. */
+  void Write(
+    std::size_t number, const glm::dvec2& pixel, GradedRayState state, const LightBehind& light)
+  {
+    glm::dvec2 deflection(0.0);
+    glm::dvec2 landing = pixel;
+    glm::dvec2 seen = pixel;
+    double path = 0.0;
+    if (state == GradedRayState::Left)
+    {
+      path = this->Radius * (light.OpticalPath - this->Settings.ReferenceIndex * light.Length);
+    }
+    if (state == GradedRayState::Left && !std::isnan(light.Slope.x))
+    {
+      deflection = light.Slope - this->Rays.GetImage().GetSlope(pixel);
+      landing = this->Shadow.Meet(light);
+      seen = this->Background.Meet(light);
+    }
+    else if (state != GradedRayState::Missed)
+    {
+      landing = glm::dvec2(NaN);
+    }
+    this->Irradiance.Landings[number] = landing;
+    SetPair(this->Deflections, number, deflection);
+    SetPair(this->Shifts, number, seen - pixel);
+    this->Paths[number] = static_cast<float>(path);
+    this->Fringes[number] =
+      static_cast<float>(this->Settings.Meter.Interfere(path, (pixel + 0.5) / this->Size));
+    if (this->Warped)
+    {
+      this->Warped[number] = static_cast<float>(SamplePicture(this->Seen.Values, this->Seen.Width,
+        this->Seen.Height, (seen + 0.5) * this->PerPixel - 0.5));
+    }
+  }
+
   static void SetPair(float* array, std::size_t number, const glm::dvec2& values)
   {
     array[2 * number] = static_cast<float>(values.x);
@@ -229,12 +238,13 @@ bool WriteImages(const SchlierenRays& rays, const LightOfImage& light, const Tet
   const Instruments& instruments, Shadowgraph& shadows, vtkImageData* output)
 {
   PixelWriter writer(rays, mesh, instruments, shadows, output);
-  PointLoop(light.States.size(),
+  const auto height = static_cast<std::size_t>(output->GetDimensions()[1]);
+  ThreadedLoop(height,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t row = begin; row < end; ++row)
       {
-        writer.Write(i, light.States[i], light.Behind[i]);
+        writer.WriteRow(row, light);
       }
     });
   writer.WriteShadows();
