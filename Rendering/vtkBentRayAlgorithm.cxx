@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkSMPTools.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -22,10 +23,11 @@
 namespace
 {
 
-/** Rows of the image that are cast between two reports of the progress. */
-constexpr std::size_t RowsPerReport = 32;
-/** Rows of a block of rays. */
-constexpr std::size_t RowsPerBlock = 8;
+/** Rows of a block of rays. Higher blocks share fewer cells with the next one. */
+constexpr std::size_t RowsPerBlock = 16;
+/** Blocks between two reports of the progress, for each thread: threads wait for each other then.
+ */
+constexpr std::size_t BlocksPerThread = 4;
 
 }
 
@@ -84,9 +86,12 @@ bool vtkBentRayAlgorithm::RunRows(
   const std::function<void(std::size_t, std::size_t)>& body, double from, double share)
 {
   const auto height = static_cast<std::size_t>(this->ImageSize[1]);
-  for (std::size_t first = 0; first < height; first += RowsPerReport)
+  const auto threads =
+    static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
+  const std::size_t rowsPerReport = RowsPerBlock * BlocksPerThread * threads;
+  for (std::size_t first = 0; first < height; first += rowsPerReport)
   {
-    const std::size_t rows = std::min(RowsPerReport, height - first);
+    const std::size_t rows = std::min(rowsPerReport, height - first);
     meniscus::ThreadedLoop((rows + RowsPerBlock - 1) / RowsPerBlock,
       [&](std::size_t begin, std::size_t end)
       {

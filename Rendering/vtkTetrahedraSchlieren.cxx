@@ -49,7 +49,7 @@ struct RayKey
 
 }
 
-/** The rays of the last image. */
+/** The light of the last image. */
 class vtkTetrahedraSchlieren::vtkInternals
 {
 public:
@@ -57,7 +57,8 @@ public:
 
   /** Not equal to any key before the first cast and after one that was not finished. */
   RayKey CastFor;
-  std::vector<meniscus::GradedRayResult> Rays;
+  meniscus::LightOfImage Light;
+  meniscus::Shadowgraph Shadows;
   meniscus::GradedRayStatistics Statistics;
   std::int64_t Casts = 0;
   vtkNew<vtkTable> StatisticsTable;
@@ -160,7 +161,8 @@ bool vtkTetrahedraSchlieren::UpdateRays()
   const meniscus::SchlierenRays rays(view, this->GetImageSize());
   const auto width = static_cast<std::size_t>(key.Size.x);
   const auto height = static_cast<std::size_t>(key.Size.y);
-  internals.Rays.assign(width * height, {});
+  internals.Light.States.assign(width * height, meniscus::GradedRayState::Missed);
+  internals.Light.Behind.resize(width * height);
   const meniscus::EntryRaster raster = this->Medium->DrawBoundary(rays.GetImage());
   std::vector<meniscus::GradedRayStatistics> ofRows(height);
   // The rays of a block of pixels, which are in the same cells, go on at the same time.
@@ -169,11 +171,13 @@ bool vtkTetrahedraSchlieren::UpdateRays()
     const std::size_t rows = endRow - firstRow;
     const auto numberOf = [rows, firstRow](int column, int row)
     { return static_cast<std::size_t>(column) * rows + static_cast<std::size_t>(row) - firstRow; };
+    const auto pixelOf = [rows, firstRow](std::size_t number)
+    { return glm::dvec2(number / rows, firstRow + number % rows); };
     meniscus::EntryFaces faces;
     std::vector<std::size_t> numbers;
     if (raster.IsUsable())
     {
-      // The other rays miss the mesh, as those of internals.Rays at first.
+      // The other rays miss the mesh.
       faces = raster.Collect({ 0, firstRow }, { width, endRow }, numberOf);
       numbers = faces.KeepRaysWithFaces();
     }
@@ -186,8 +190,7 @@ bool vtkTetrahedraSchlieren::UpdateRays()
     ofBlock.reserve(numbers.size());
     for (const std::size_t number : numbers)
     {
-      const glm::dvec2 pixel(
-        static_cast<double>(number / rows), static_cast<double>(firstRow + number % rows));
+      const glm::dvec2 pixel = pixelOf(number);
       ofBlock.push_back({ rays.GetOrigin(pixel), rays.GetDirection(pixel) });
     }
     std::vector<meniscus::GradedRayResult> results(ofBlock.size());
@@ -195,7 +198,10 @@ bool vtkTetrahedraSchlieren::UpdateRays()
       raster.IsUsable() ? &faces : nullptr);
     for (std::size_t i = 0; i < results.size(); ++i)
     {
-      internals.Rays[(firstRow + numbers[i] % rows) * width + numbers[i] / rows] = results[i];
+      const std::size_t number = numbers[i];
+      const std::size_t pixel = (firstRow + number % rows) * width + number / rows;
+      internals.Light.States[pixel] = results[i].State;
+      internals.Light.Behind[pixel] = rays.Measure(pixelOf(number), results[i]);
     }
   };
   if (!this->RunRows(castBlock, meniscus::ShareOfMedium, meniscus::ShareOfRays))
@@ -230,7 +236,8 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
   instruments.Meter = { this->Wavelength, glm::dvec2(this->Fringes[0], this->Fringes[1]) };
   instruments.Background = background;
   const meniscus::SchlierenRays rays(this->View->Rays, this->GetImageSize());
-  if (!meniscus::WriteImages(rays, internals.Rays, this->Medium->GetMesh(), instruments, output))
+  if (!meniscus::WriteImages(
+        rays, internals.Light, this->Medium->GetMesh(), instruments, internals.Shadows, output))
   {
     vtkWarningMacro(<< "The knife edge cuts off all light, of all pixels; KnifeCutOff is "
                     << this->KnifeCutOff << ".");

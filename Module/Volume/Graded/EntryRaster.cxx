@@ -86,6 +86,7 @@ std::vector<std::size_t> EntryFaces::KeepRaysWithFaces()
 EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
   const RayImage& image, const RangeLoop& loop)
   : Image(image)
+  , Axis(image.GetAxis())
   , Faces(tree.GetFaces().size())
 {
   loop(this->Faces.size(),
@@ -93,7 +94,7 @@ EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        this->Faces[i] = this->Draw(tree.GetFaces()[i], mesh, image);
+        this->Faces[i] = this->Draw(tree.GetFaces()[i], mesh);
       }
     });
   this->Usable = std::none_of(this->Faces.begin(), this->Faces.end(),
@@ -101,19 +102,19 @@ EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
   if (this->Usable)
   {
     this->FillTiles();
+    this->GroupEntries();
   }
 }
 
 //------------------------------------------------------------------------------
-EntryRaster::Drawn EntryRaster::Draw(
-  const BoundaryFace& face, const TetrahedralMesh& mesh, const RayImage& image) const
+EntryRaster::Drawn EntryRaster::Draw(const BoundaryFace& face, const TetrahedralMesh& mesh) const
 {
   Drawn drawn;
   std::array<glm::dvec3, 3> places;
   for (std::size_t i = 0; i < 3; ++i)
   {
     places[i] = mesh.GetPosition(face.Vertices[i]);
-    drawn.Corners[i] = image.Project(places[i]);
+    drawn.Corners[i] = this->Image.Project(places[i]);
     if (std::isnan(drawn.Corners[i].x + drawn.Corners[i].y))
     {
       drawn.Least = drawn.Most = glm::dvec2(std::nan(""));
@@ -129,12 +130,12 @@ EntryRaster::Drawn EntryRaster::Draw(
   constexpr double least = 0x1p-16;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const glm::dvec3 direction = image.GetDirection(corners[i]);
+    const glm::dvec3 direction = this->Image.GetDirection(corners[i]);
     const double across = glm::dot(normal, direction);
     const double size = std::sqrt(glm::dot(normal, normal) * glm::dot(direction, direction));
     drawn.IsEntry |= !(across > least * size);
     drawn.IsNearlyEntry |= !(across > (LargestTurn + least) * size);
-    const double depth = glm::dot(image.Axis, places[i]);
+    const double depth = glm::dot(this->Axis, places[i]);
     drawn.Depth = i == 0 ? depth : std::max(drawn.Depth, depth);
   }
   return drawn;
@@ -144,7 +145,7 @@ EntryRaster::Drawn EntryRaster::Draw(
 void EntryRaster::FillTiles()
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const glm::ivec2 tiles(glm::ceil(glm::dvec2(this->Image.Width, this->Image.Height) / TileSize));
+  const glm::ivec2 tiles(glm::ceil(glm::dvec2(this->Image.GetSize()) / TileSize));
   this->TilesPerRow = tiles.x;
   this->DepthsOfTiles.assign(
     static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), -infinity);
@@ -171,10 +172,24 @@ void EntryRaster::FillTiles()
 }
 
 //------------------------------------------------------------------------------
-bool EntryRaster::IsNearRay(const glm::dvec2& pixel, const glm::dvec3& direction) const
+void EntryRaster::GroupEntries()
 {
-  const glm::dvec3 turn = glm::normalize(this->Image.GetDirection(pixel)) - direction;
-  return glm::dot(turn, turn) < LargestTurn * LargestTurn;
+  const int rows = static_cast<int>(this->DepthsOfTiles.size()) / this->TilesPerRow;
+  const auto rowOf = [rows](double pixel)
+  { return static_cast<int>(std::clamp(pixel / TileSize, 0.0, rows - 1.0)); };
+  this->EntriesOfRows.Set(static_cast<std::size_t>(rows),
+    [this, &rowOf](const auto& visit)
+    {
+      for (std::size_t i = 0; i < this->Faces.size(); ++i)
+      {
+        const Drawn& face = this->Faces[i];
+        const int last = rowOf(face.Most.y);
+        for (int row = rowOf(face.Least.y); face.IsEntry && row <= last; ++row)
+        {
+          visit(static_cast<std::size_t>(row), static_cast<std::int32_t>(i));
+        }
+      }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -185,8 +200,8 @@ bool EntryRaster::MayEnterAfter(const glm::dvec3& place, const glm::dvec3& direc
   // Far more than the rounding of a depth, and than the distance at which a face still counts that
   // is behind the place.
   constexpr double depthError = 0x1p-40;
-  const double depth = glm::dot(this->Image.Axis, place);
-  const double rate = glm::dot(this->Image.Axis, direction);
+  const double depth = glm::dot(this->Axis, place);
+  const double rate = glm::dot(this->Axis, direction);
   if (!(rate > 0.0))
   {
     return true;
@@ -200,7 +215,8 @@ bool EntryRaster::MayEnterAfter(const glm::dvec3& place, const glm::dvec3& direc
     this->TilesPerRow > 0 ? static_cast<int>(this->DepthsOfTiles.size()) / this->TilesPerRow : 0;
   const bool isInImage =
     least.x >= 0.0 && least.y >= 0.0 && most.x < this->TilesPerRow && most.y < rows;
-  if (!isInImage || !this->IsNearRay(first, direction) || !this->IsNearRay(last, direction))
+  if (!isInImage || !this->Image.IsNearRay(first, direction, LargestTurn) ||
+    !this->Image.IsNearRay(last, direction, LargestTurn))
   {
     return true;
   }
@@ -234,14 +250,9 @@ EntryFaces EntryRaster::Collect(const glm::ivec2& first, const glm::ivec2& end,
   found.Heads.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), -1);
   const glm::dvec2 least(first);
   const glm::dvec2 most(end - 1);
-  for (std::size_t i = 0; i < this->Faces.size(); ++i)
+  const auto draw = [&](std::int32_t number)
   {
-    const Drawn& face = this->Faces[i];
-    if (!face.IsEntry || face.Most.y < least.y || face.Least.y > most.y || face.Most.x < least.x ||
-      face.Least.x > most.x)
-    {
-      continue;
-    }
+    const Drawn& face = this->Faces[static_cast<std::size_t>(number)];
     const Sides sides(face.Corners);
     const glm::ivec2 begin(glm::ceil(glm::max(face.Least, least)));
     const glm::ivec2 last(glm::floor(glm::min(face.Most, most)));
@@ -252,9 +263,26 @@ EntryFaces EntryRaster::Collect(const glm::ivec2& first, const glm::ivec2& end,
         if (sides.Have(glm::dvec2(column, row)))
         {
           std::int32_t& head = found.Heads[numberOf(column, row)];
-          found.Entries.push_back({ static_cast<std::int32_t>(i), head });
+          found.Entries.push_back({ number, head });
           head = static_cast<std::int32_t>(found.Entries.size() - 1);
         }
+      }
+    }
+  };
+  const auto firstTile = static_cast<std::size_t>(least.y / TileSize);
+  const auto endTile = std::min(
+    static_cast<std::size_t>(most.y / TileSize) + 1, this->EntriesOfRows.GetNumberOfGroups());
+  for (std::size_t tile = firstTile; tile < endTile; ++tile)
+  {
+    for (const std::int32_t number : this->EntriesOfRows[tile])
+    {
+      const Drawn& face = this->Faces[static_cast<std::size_t>(number)];
+      // A face in several rows of tiles is drawn with the first of them.
+      const bool isDrawn = tile > firstTile && face.Least.y < TileSize * static_cast<double>(tile);
+      if (!isDrawn && face.Most.y >= least.y && face.Least.y <= most.y && face.Most.x >= least.x &&
+        face.Least.x <= most.x)
+      {
+        draw(number);
       }
     }
   }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Common/GroupedItems.h"
 #include "Common/RangeLoop.h"
+#include "Volume/Graded/RayImage.h"
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 
@@ -17,22 +19,6 @@
 
 namespace meniscus
 {
-
-/** Rays of an image: parallel ones, or those of one eye. Pixels are numbered from 0 on. */
-struct RayImage
-{
-  int Width = 0;
-  int Height = 0;
-  /**
-   * Pixel of the ray through a place, with an error of up to 2^-22; NaN if the error may be larger
-   * or the place is not before the beginnings of the rays.
-   */
-  std::function<glm::dvec2(const glm::dvec3&)> Project;
-  /** Direction of a pixel's ray, of any length; an affine function. */
-  std::function<glm::dvec3(const glm::dvec2&)> GetDirection;
-  /** Direction in which depths are measured; all rays go forward along it. */
-  glm::dvec3 Axis{ 0.0 };
-};
 
 class EntryRaster;
 
@@ -105,13 +91,15 @@ private:
     /** True if a ray that is turned by less than LargestTurn may enter. */
     bool IsNearlyEntry = false;
   };
-  Drawn Draw(const BoundaryFace& face, const TetrahedralMesh& mesh, const RayImage& image) const;
-
+  Drawn Draw(const BoundaryFace& face, const TetrahedralMesh& mesh) const;
   void FillTiles();
-  bool IsNearRay(const glm::dvec2& pixel, const glm::dvec3& direction) const;
+  void GroupEntries();
 
   RayImage Image;
+  glm::dvec3 Axis;
   std::vector<Drawn> Faces;
+  /** Faces that are entries, by rows of tiles. */
+  GroupedItems EntriesOfRows;
   bool Usable = true;
   /** Largest depth of the faces that nearly are entries, by tiles of the image, and of all faces.
    */

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 
@@ -30,10 +32,11 @@ GradedCellRow MakeRow(
   GradedCellRow row{};
   row.Links = ofMesh.Links;
   double* const values = row.Values;
+  double norm = 0.0;
+  double largestGradient = 0.0;
   for (int i = 0; i < 4; ++i)
   {
-    values[Row::LargestGradient] =
-      std::max(values[Row::LargestGradient], SizeOf(cell.Gradients[i]));
+    largestGradient = std::max(largestGradient, SizeOf(cell.Gradients[i]));
   }
   for (int i = 0; i < 9; ++i)
   {
@@ -51,7 +54,7 @@ GradedCellRow MakeRow(
     std::copy(std::begin(entries), std::end(entries), values + Row::Derivative);
     for (int axis = 0; axis < 3; ++axis)
     {
-      values[Row::Norm] = std::max(values[Row::Norm], SizeOf(derivative[axis]));
+      norm = std::max(norm, SizeOf(derivative[axis]));
     }
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -59,9 +62,27 @@ GradedCellRow MakeRow(
     values[Row::Force + axis] = force[axis];
   }
   values[Row::SquaredSize] = cell.SquaredSize;
+  values[Row::NormAndLargestGradient] = Row::PackUpwards(norm, largestGradient);
   return row;
 }
 
+}
+
+//------------------------------------------------------------------------------
+double GradedCellRow::PackUpwards(double first, double second)
+{
+  constexpr int half = 32;
+  const auto upperOf = [](double value)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(bits));
+    constexpr std::uint64_t lower = (std::uint64_t{ 1 } << half) - 1;
+    return (bits + lower) >> half;
+  };
+  const std::uint64_t bits = upperOf(first) << half | upperOf(second);
+  double packed = 0.0;
+  std::memcpy(&packed, &bits, sizeof(packed));
+  return packed;
 }
 
 //------------------------------------------------------------------------------

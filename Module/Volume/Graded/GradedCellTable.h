@@ -29,21 +29,27 @@ struct alignas(64) GradedCellRow
     Derivative = 12,
     /** Squared length of the longest of the edges at the first vertex. */
     SquaredSize = 18,
-    /** Largest sum of the sizes of a gradient's components. */
-    LargestGradient = 19,
-    /** Largest sum of the sizes of the components of a column of the derivative. */
-    Norm = 20,
-    /** Number of columns. */
-    End = 21,
-    /** A multiple of four. */
-    Size = 24
+    /**
+     * Two bounds, by PackUpwards(): the largest sum of the sizes of the components of a column of
+     * the derivative, and the largest sum of the sizes of a gradient's components.
+     */
+    NormAndLargestGradient = 19,
+    /** Number of columns, a multiple of four. */
+    Size = 20
   };
 
-  double Values[End];
-  /** TetrahedralMesh::Cell::Links, in the columns from End on. */
+  double Values[Size];
+  /** TetrahedralMesh::Cell::Links. */
   std::array<std::int32_t, 4> Links;
+
+  /**
+   * Two numbers >= 0 in the place of one, each rounded up to 21 binary digits: in the upper half
+   * those of the first one, followed by what counts as 0, and in the lower half those of the
+   * second one.
+   */
+  static double PackUpwards(double first, double second);
 };
-static_assert(sizeof(GradedCellRow) == GradedCellRow::Size * sizeof(double), "columns in a row");
+static_assert(sizeof(GradedCellRow) == 192, "three lines of a cache");
 
 /**
  * Rows of all active cells of a mesh in a field. Flat and inverted cells have none: rays pass them

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace meniscus
 {
@@ -33,6 +34,8 @@ static_assert(GradedLanes::Size % Width == 0, "no lane is left over");
 /** One number per lane, in the vector types of GCC and Clang, and the results of comparisons. */
 using Number = double __attribute__((vector_size(8 * Width)));
 using Mask = std::int64_t __attribute__((vector_size(8 * Width)));
+/** One whole number per lane. */
+using Whole = std::int32_t __attribute__((vector_size(4 * Width)));
 
 Number Splat(double value)
 {
@@ -51,14 +54,22 @@ Number Load(const double* from)
   return result;
 }
 
+/** Whole numbers, as numbers. */
+Number Load(const std::int32_t* from)
+{
+  Whole result;
+  std::memcpy(&result, from, sizeof(result));
+  return __builtin_convertvector(result, Number);
+}
+
 /** Four numbers of each lane's row of the table, from the k-th on. */
-void LoadOfRows(const double* const* rows, int k, Number* columns)
+void LoadOfRows(const GradedCellRow* const* rows, int k, Number* columns)
 {
 #if defined(__AVX512F__)
   const auto pair = [rows, k](int i)
   {
-    return _mm512_insertf64x4(
-      _mm512_castpd256_pd512(_mm256_load_pd(rows[i] + k)), _mm256_load_pd(rows[i + 4] + k), 1);
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(rows[i]->Values + k)),
+      _mm256_load_pd(rows[i + 4]->Values + k), 1);
   };
   const __m512d first[2] = { pair(0), pair(2) };
   const __m512d second[2] = { pair(1), pair(3) };
@@ -75,8 +86,8 @@ void LoadOfRows(const double* const* rows, int k, Number* columns)
 #elif defined(__AVX__)
   const auto pair = [rows](int i, int column)
   {
-    return _mm256_insertf128_pd(
-      _mm256_castpd128_pd256(_mm_load_pd(rows[i] + column)), _mm_load_pd(rows[i + 2] + column), 1);
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(rows[i]->Values + column)),
+      _mm_load_pd(rows[i + 2]->Values + column), 1);
   };
   for (int half = 0; half < 4; half += 2)
   {
@@ -88,7 +99,7 @@ void LoadOfRows(const double* const* rows, int k, Number* columns)
 #else
   for (int i = 0; i < 4; ++i)
   {
-    columns[i] = Number{ rows[0][k + i], rows[1][k + i] };
+    columns[i] = Number{ rows[0]->Values[k + i], rows[1]->Values[k + i] };
   }
 #endif
 }
@@ -98,14 +109,38 @@ void Store(double* to, Number value)
   std::memcpy(to, &value, sizeof(value));
 }
 
+void Store(std::int32_t* to, Number value)
+{
+  const Whole whole = __builtin_convertvector(value, Whole);
+  std::memcpy(to, &whole, sizeof(whole));
+}
+
 Number SizeOf(Number x)
 {
-  return Choose(x < 0.0, -x, x);
+  return reinterpret_cast<Number>(
+    reinterpret_cast<Mask>(x) & (Mask{} + std::numeric_limits<std::int64_t>::max()));
+}
+
+/** The first of two numbers that are packed by GradedCellRow::PackUpwards(). */
+Number FirstOfPair(Number packed)
+{
+  return reinterpret_cast<Number>(
+    reinterpret_cast<Mask>(packed) & (Mask{} - (std::int64_t{ 1 } << 32)));
+}
+
+Number SecondOfPair(Number packed)
+{
+  return reinterpret_cast<Number>(reinterpret_cast<Mask>(packed) << 32);
 }
 
 Number SmallerOf(Number a, Number b)
 {
   return Choose(a < b, a, b);
+}
+
+Number LargerOf(Number a, Number b)
+{
+  return Choose(a > b, a, b);
 }
 
 /** One vector per lane. */
@@ -149,7 +184,7 @@ using Row = GradedCellRow;
 /** Coefficients of the lanes' cells. */
 struct Coefficients
 {
-  void Read(const double* const* rows)
+  void Read(const GradedCellRow* const* rows)
   {
     static_assert(Row::Size % 4 == 0, "whole blocks of four");
     for (int k = 0; k < Row::Size; k += 4)
@@ -180,34 +215,49 @@ private:
 /** The face by which a straight way leaves the cell. */
 struct Exit
 {
-  void Try(double face, Number weight, Number rate, Vector gradient)
+  /** That of two faces which is reached first; any of them if none is reached. */
+  static Exit FirstOf(const Exit& a, const Exit& b)
   {
-    const Mask isNearer = -rate * this->Weight > weight * this->Fall;
-    this->Face = Choose(isNearer, Splat(face), this->Face);
-    this->Weight = Choose(isNearer, weight, this->Weight);
-    this->Fall = Choose(isNearer, -rate, this->Fall);
-    this->Gradient = Choose(isNearer, gradient, this->Gradient);
+    const Mask isSecond = b.Rate * a.Weight < b.Weight * a.Rate;
+    return { Choose(isSecond, b.Face, a.Face), Choose(isSecond, b.Weight, a.Weight),
+      Choose(isSecond, b.Rate, a.Rate), Choose(isSecond, b.Gradient, a.Gradient) };
   }
 
-  Number Face = Splat(-1.0);
-  /**
-   * Weight at the beginning and rate of its fall: the time is their quotient, infinite at first.
-   */
-  Number Weight = Splat(1.0);
-  Number Fall = Splat(0.0);
-  Vector Gradient = { Splat(0.0), Splat(0.0), Splat(0.0) };
+  Number Face;
+  /** Weight at the beginning and its rate: if that is negative, the time is their quotient. */
+  Number Weight;
+  Number Rate;
+  Vector Gradient;
 };
 
-/** The series of a ray in its cell without its first term, the momentum. */
+/** Powers of a time over their factorials, from the first on. */
+struct Powers
+{
+  explicit Powers(Number t)
+    : First(t)
+    , Second(0.5 * t * t)
+    , Third((1.0 / 3.0) * t * this->Second)
+    , Fourth(0.25 * t * this->Third)
+    , Fifth(0.2 * t * this->Fourth)
+  {
+  }
+
+  Number First;
+  Number Second;
+  Number Third;
+  Number Fourth;
+  Number Fifth;
+};
+
+/** Derivatives of the momentum of a ray in its cell by the time, from the first on. */
 struct Series
 {
   void Read(const Coefficients& cell, Vector place, Vector momentum)
   {
     this->Force = cell.GetVector(Row::Force) + cell.Derive(place);
-    this->Second = 0.5 * this->Force;
-    this->Third = (1.0 / 6.0) * cell.Derive(momentum);
-    this->Fourth = (1.0 / 12.0) * cell.Derive(this->Second);
-    this->Fifth = (1.0 / 20.0) * cell.Derive(this->Third);
+    this->Second = cell.Derive(momentum);
+    this->Third = cell.Derive(this->Force);
+    this->Fourth = cell.Derive(this->Second);
   }
 
   /**
@@ -216,47 +266,51 @@ struct Series
    */
   Number Solve(const Exit& exit, Number& t) const
   {
-    const Number c2 = Product(exit.Gradient, this->Second);
-    const Number c3 = Product(exit.Gradient, this->Third);
-    const Number c4 = Product(exit.Gradient, this->Fourth);
-    const Number c5 = Product(exit.Gradient, this->Fifth);
-    const Number perFall = 1.0 / exit.Fall;
+    const Number d2 = Product(exit.Gradient, this->Force);
+    const Number c2 = 0.5 * d2;
+    const Number c3 = (1.0 / 6.0) * Product(exit.Gradient, this->Second);
+    const Number c4 = (1.0 / 24.0) * Product(exit.Gradient, this->Third);
+    const Number c5 = (1.0 / 120.0) * Product(exit.Gradient, this->Fourth);
+    const Number perFall = -1.0 / exit.Rate;
     const Number straight = exit.Weight * perFall;
     const Number bend = straight * perFall * (c2 + straight * c3);
     t = straight * (1.0 + bend * (1.0 + 2.0 * bend));
     const Number square = t * t;
     const Number curve = t * ((c2 + t * c3) + square * (c4 + t * c5));
-    const Number slope = t * ((2.0 * c2 + t * (3.0 * c3)) + square * (4.0 * c4 + t * (5.0 * c5)));
-    const Number change = (exit.Weight + t * (curve - exit.Fall)) / (slope - exit.Fall);
+    const Number slope = t * ((d2 + t * (3.0 * c3)) + square * (4.0 * c4 + t * (5.0 * c5)));
+    const Number change = (exit.Weight + t * (curve + exit.Rate)) / (slope + exit.Rate);
     t = t - change;
     return change;
   }
   /** Place from the beginning. */
-  Vector GetWay(Vector momentum, Number t) const
+  Vector GetWay(Vector momentum, const Powers& t) const
   {
-    return t *
-      (momentum + t * (this->Second + t * (this->Third + t * (this->Fourth + t * this->Fifth))));
+    return t.First * momentum +
+      (t.Second * this->Force +
+        (t.Third * this->Second + (t.Fourth * this->Third + t.Fifth * this->Fourth)));
   }
-  Vector GetMomentum(Vector momentum, Number t) const
+  Vector GetMomentum(Vector momentum, const Powers& t) const
   {
     return momentum +
-      t *
-      (this->Force + t * (3.0 * this->Third + t * (4.0 * this->Fourth + t * (5.0 * this->Fifth))));
+      (t.First * this->Force +
+        (t.Second * this->Second + (t.Third * this->Third + t.Fourth * this->Fourth)));
   }
-  /** Integral of the place without its fifth term, which does not change the integral of n^2. */
-  Vector Integrate(Vector momentum, Number t) const
+  /**
+   * Product of the force and the integral of the place, without the fifth term, which does not
+   * change the integral of n^2.
+   */
+  Number IntegrateAlongForce(Vector momentum, Number squaredForce, const Powers& t) const
   {
-    return t * t *
-      (0.5 * momentum +
-        t *
-          (Splat(1.0 / 3.0) * this->Second + t * (0.25 * this->Third + t * (0.2 * this->Fourth))));
+    return t.Second * Product(this->Force, momentum) +
+      (t.Third * squaredForce +
+        (t.Fourth * Product(this->Force, this->Second) +
+          t.Fifth * Product(this->Force, this->Third)));
   }
 
   Vector Force;
   Vector Second;
   Vector Third;
   Vector Fourth;
-  Vector Fifth;
 };
 
 /** Where a ray is in its cell at the beginning of a step. */
@@ -269,10 +323,10 @@ struct Begin
     const Number entry = Load(lanes.Entry + i);
     const Vector w = LoadVector(lanes.Weights, i);
     const Number zero = Splat(0.0);
-    this->Weights[0] = Choose(entry == 0.0, zero, w.X);
-    this->Weights[1] = Choose(entry == 1.0, zero, Choose(entry < 1.0, w.X, w.Y));
-    this->Weights[2] = Choose(entry == 2.0, zero, Choose(entry < 2.0, w.Y, w.Z));
-    this->Weights[3] = Choose(entry == 3.0, zero, w.Z);
+    this->Weights[0] = Choose(entry > 0.0, w.X, zero);
+    this->Weights[1] = Choose(entry > 1.0, w.Y, Choose(entry > 0.0, zero, w.X));
+    this->Weights[2] = Choose(entry > 2.0, w.Z, Choose(entry > 1.0, zero, w.Y));
+    this->Weights[3] = Choose(entry > 2.0, zero, w.Z);
     for (int k = 0; k < 3; ++k)
     {
       this->Rates[k + 1] = Product(cell.GetGradient(k), this->Momentum);
@@ -282,14 +336,12 @@ struct Begin
 
   Exit FindExit(const Coefficients& cell) const
   {
-    Exit exit;
-    exit.Try(0.0, this->Weights[0], this->Rates[0],
-      -1.0 * (cell.GetGradient(0) + cell.GetGradient(1) + cell.GetGradient(2)));
-    for (int k = 1; k < 4; ++k)
-    {
-      exit.Try(k, this->Weights[k], this->Rates[k], cell.GetGradient(k - 1));
-    }
-    return exit;
+    const auto exitBy = [this](int face, Vector gradient) {
+      return Exit{ Splat(face), this->Weights[face], this->Rates[face], gradient };
+    };
+    const Vector first = -1.0 * (cell.GetGradient(0) + cell.GetGradient(1) + cell.GetGradient(2));
+    return Exit::FirstOf(Exit::FirstOf(exitBy(0, first), exitBy(1, cell.GetGradient(0))),
+      Exit::FirstOf(exitBy(2, cell.GetGradient(1)), exitBy(3, cell.GetGradient(2))));
   }
 
   Vector Place;
@@ -298,92 +350,122 @@ struct Begin
   Number Rates[4];
 };
 
-/** A step of lanes in three parts, so that those of several lanes are computed side by side. */
+/** Those of the numbers of four faces that are not one face's, in their order. */
+Vector OthersThan(Number face, const Number (&ofFaces)[4])
+{
+  return { Choose(face > 0.0, ofFaces[0], ofFaces[1]), Choose(face > 1.0, ofFaces[1], ofFaces[2]),
+    Choose(face > 2.0, ofFaces[2], ofFaces[3]) };
+}
+
+/** A step of lanes in parts, so that those of several lanes are computed side by side. */
 struct LaneStep
 {
   void FindExit(const GradedLanes& lanes, int i);
   void FindTime() { this->Change = this->Way.Solve(this->End, this->Time); }
+  void Move();
   void Finish(GradedLanes& lanes, int i) const;
 
-  Coefficients Cell;
+  /** Coefficients of the cell that count at the end. */
+  Vector Gradients[3];
+  Number SquaredSize;
+  Number Bounds;
   Begin Start;
   Exit End;
   Series Way;
   Number Time;
   Number Change;
+  /** Way to the end, the momentum there, and the integral of n^2. */
+  Vector EndWay;
+  Vector EndMomentum;
+  Number Path;
+  /** Squares of the momentum and of the force at the beginning. */
+  Number SquaredMomentum;
+  Number SquaredForce;
 };
 
 void LaneStep::FindExit(const GradedLanes& lanes, int i)
 {
-  this->Cell.Read(lanes.Rows + i);
-  this->Start.Read(lanes, this->Cell, i);
-  this->End = this->Start.FindExit(this->Cell);
-  this->Way.Read(this->Cell, this->Start.Place, this->Start.Momentum);
+  Coefficients cell;
+  cell.Read(lanes.Rows + i);
+  this->Start.Read(lanes, cell, i);
+  this->End = this->Start.FindExit(cell);
+  this->Way.Read(cell, this->Start.Place, this->Start.Momentum);
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Gradients[k] = cell.GetGradient(k);
+  }
+  this->SquaredSize = cell[Row::SquaredSize];
+  this->Bounds = cell[Row::NormAndLargestGradient];
+}
+
+void LaneStep::Move()
+{
+  const Vector momentum = this->Start.Momentum;
+  const Powers t(this->Time);
+  this->EndWay = this->Way.GetWay(momentum, t);
+  this->EndMomentum = this->Way.GetMomentum(momentum, t);
+  this->SquaredMomentum = Product(momentum, momentum);
+  this->SquaredForce = Product(this->Way.Force, this->Way.Force);
+  this->Path = 0.5 *
+    (this->SquaredMomentum * t.First +
+      this->Way.IntegrateAlongForce(momentum, this->SquaredForce, t) +
+      Product(this->EndMomentum, this->EndWay));
 }
 
 void LaneStep::Finish(GradedLanes& lanes, int i) const
 {
-  const Coefficients& cell = this->Cell;
   const Begin& begin = this->Start;
   const Exit& exit = this->End;
-  const Series& series = this->Way;
   const Number t = this->Time;
-  const Number change = this->Change;
-  const Vector way = series.GetWay(begin.Momentum, t);
-  const Vector end = series.GetMomentum(begin.Momentum, t);
+  const Number square = t * t;
 
   // Bounds, in sums of the sizes of components. The higher terms are at most 1 / 6 of the exponent
   // times (1 + exponent / 20 + ...).
-  const Number exponent = cell[Row::Norm] * t * t;
+  const Number exponent = FirstOfPair(this->Bounds) * square;
   const Number length = begin.Momentum.Size() * t;
-  const Number bend = series.Force.Size() * t * t;
-  const Number higher =
-    2.0 * cell[Row::LargestGradient] * (length + bend) * (0.2 * exponent + GradedPassage::Rounding);
-  Number ends[4] = { Splat(0.0), Product(cell.GetGradient(0), way),
-    Product(cell.GetGradient(1), way), Product(cell.GetGradient(2), way) };
+  const Number bend = this->Way.Force.Size() * square;
+  const Number reach = SecondOfPair(this->Bounds) * (length + bend);
+  const Number higher = reach * (0.4 * exponent + 2.0 * GradedPassage::Rounding);
+  Number ends[4] = { Splat(0.0), Product(this->Gradients[0], this->EndWay),
+    Product(this->Gradients[1], this->EndWay), Product(this->Gradients[2], this->EndWay) };
   ends[0] = -(ends[1] + ends[2] + ends[3]);
-  Number least = Splat(1.0);
-  Number excess = Splat(-1.0);
+  Number above[4];
   for (int k = 0; k < 4; ++k)
   {
-    const Mask isExit = exit.Face == double(k);
     ends[k] = begin.Weights[k] + ends[k];
-    const Number above = SmallerOf(ends[k], begin.Weights[k] + t * begin.Rates[k]);
-    least = Choose(isExit, least, SmallerOf(least, above - higher));
-    ends[k] = Choose(isExit, Splat(0.0), ends[k]);
-    excess = excess + ends[k];
+    above[k] = SmallerOf(ends[k], begin.Weights[k] + t * begin.Rates[k]);
   }
+  const Vector kept = OthersThan(exit.Face, ends);
+  const Vector least = OthersThan(exit.Face, above);
+  const Number excess = (kept.X + kept.Y) + (kept.Z - 1.0);
   // The sixth term is exponent^2 / 360 of the second, the seventh exponent^3 / 5040 of the first.
   const Mask isExact = exponent * exponent * (exponent * length + 7.0 * bend) <=
     5040.0 * GradedLanes::LargestRest * length;
   // The weight of the exit falls all the way (GradedPassage::IsFirst).
-  const Number endFall = -Product(exit.Gradient, end);
-  const Mask isRoot = (SizeOf(change) <= GradedPassage::LastChange * t) &
-    (t * SmallerOf(exit.Fall, endFall) >
-      1.2 * cell[Row::LargestGradient] * (length + bend) * exponent);
-  const Number square = Product(begin.Momentum, begin.Momentum);
+  const Number endRate = Product(exit.Gradient, this->EndMomentum);
+  const Number leastRate = -1.2 * reach * exponent;
   constexpr double glideHeight = GradedPassage::GlideHeight;
   constexpr double share = GradedPassage::LongestShare;
-  const Mask isLong = (t * t * square > share * share * cell[Row::SquaredSize]) |
-    (t * t * t * t * Product(series.Force, series.Force) > 64.0 * glideHeight * glideHeight);
+  const Mask isLong = (square * this->SquaredMomentum > share * share * this->SquaredSize) |
+    (square * square * this->SquaredForce > 64.0 * glideHeight * glideHeight);
   const Number shortSteps = Load(lanes.ShortSteps + i);
   const Number run = Choose(isLong, Splat(0.0), shortSteps + 1.0);
-  const Number steps = Load(lanes.Steps + i);
-  const Mask isDone = (least > 0.0) & isExact & isRoot & (t > 0.0) &
-    (SizeOf(excess) < GradedPassage::LastChange) & (run <= GradedLanes::MostShortSteps) &
-    (steps < Load(lanes.LastStep + i));
+  const Number stepsLeft = Load(lanes.StepsLeft + i);
+  // Numbers that are not finite make the excess one of them.
+  const Mask isFirst = (SmallerOf(SmallerOf(least.X, least.Y), least.Z) > higher) &
+    (SizeOf(excess) < GradedPassage::LastChange);
+  const Mask isRoot = (SizeOf(this->Change) <= GradedPassage::LastChange * t) &
+    (t * LargerOf(exit.Rate, endRate) < leastRate);
+  const Mask mayGoOn = (run <= GradedLanes::MostShortSteps) & (stepsLeft > 0.0);
+  const Mask isDone = (isFirst & isRoot) & (isExact & mayGoOn);
 
-  const Vector mean = series.Integrate(begin.Momentum, t);
-  const Number path = 0.5 * (square * t + Product(series.Force, mean) + Product(end, way));
-  const Number scale = 1.0 - excess;
-  const Vector kept = { Choose(exit.Face <= 0.0, ends[1], ends[0]),
-    Choose(exit.Face <= 1.0, ends[2], ends[1]), Choose(exit.Face <= 2.0, ends[3], ends[2]) };
-  StoreVector(lanes.Place, i, Choose(isDone, begin.Place + way, begin.Place));
-  StoreVector(lanes.Momentum, i, Choose(isDone, end, begin.Momentum));
-  StoreVector(lanes.Weights, i, Choose(isDone, scale * kept, LoadVector(lanes.Weights, i)));
-  const Number before = Load(lanes.OpticalPath + i);
-  Store(lanes.OpticalPath + i, Choose(isDone, before + path, before));
-  Store(lanes.Steps + i, Choose(isDone, steps + 1.0, steps));
+  StoreVector(lanes.Place, i, Choose(isDone, begin.Place + this->EndWay, begin.Place));
+  StoreVector(lanes.Momentum, i, Choose(isDone, this->EndMomentum, begin.Momentum));
+  StoreVector(
+    lanes.Weights, i, Choose(isDone, (1.0 - excess) * kept, LoadVector(lanes.Weights, i)));
+  const Number path = Load(lanes.OpticalPath + i);
+  Store(lanes.OpticalPath + i, Choose(isDone, path + this->Path, path));
+  Store(lanes.StepsLeft + i, Choose(isDone, stepsLeft - 1.0, stepsLeft));
   Store(lanes.ShortSteps + i, Choose(isDone, run, shortSteps));
   Store(lanes.Exit + i, Choose(isDone, exit.Face, Splat(-1.0)));
 }
@@ -400,6 +482,10 @@ void StepAll(GradedLanes& lanes)
   for (int group = 0; group < groups; ++group)
   {
     steps[group].FindTime();
+  }
+  for (int group = 0; group < groups; ++group)
+  {
+    steps[group].Move();
   }
   for (int group = 0; group < groups; ++group)
   {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace meniscus
 {
@@ -34,29 +35,27 @@ public:
 
   void Run(InstructionSet set)
   {
-    const GradedCellTable& table = *this->Walk.Medium.Table;
-    std::fill_n(this->Lanes.Rows, GradedLanes::Size, table.GetRow(0).Values);
+    const GradedCellRow* const rows = &this->Walk.Medium.Table->GetRow(0);
+    const std::uint8_t* const watched = this->Watch ? this->Watch->Cells->data() : nullptr;
+    std::fill_n(this->Lanes.Rows, GradedLanes::Size, rows);
     while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
     {
       ++this->Lanes.Count;
     }
     while (this->Lanes.Count > 0)
     {
-      for (int lane = 0; lane < this->Lanes.Count; ++lane)
-      {
-        this->Lanes.Rows[lane] = this->RowOf(this->Cells[lane]);
-      }
       StepLanes(this->Lanes, set);
       for (int lane = 0; lane < this->Lanes.Count; ++lane)
       {
-        const int exit = static_cast<int>(this->Lanes.Exit[lane]);
-        const std::int32_t link =
-          exit < 0 ? TetrahedralMesh::NoNeighbor : table.GetRow(this->Cells[lane]).Links[exit];
-        if (link >= 0)
+        const std::int32_t exit = this->Lanes.Exit[lane];
+        const std::int32_t link = this->Lanes.Rows[lane]->Links[exit & 3];
+        if (exit >= 0 && link >= 0)
         {
-          Fetch(table.GetRow(link / 4));
-          this->Cells[lane] = link / 4;
-          this->Lanes.Entry[lane] = link % 4;
+          const std::int32_t cell = link >> 2;
+          Fetch(rows[cell]);
+          this->Cells[lane] = cell;
+          this->Lanes.Entry[lane] = link & 3;
+          this->Lanes.Rows[lane] = watched && watched[cell] ? &GetImpassableRow() : rows + cell;
           continue;
         }
         if (!(exit >= 0 ? this->Leave(lane, exit) : this->GoOn(lane)) && !this->BeginNext(lane))
@@ -71,8 +70,8 @@ public:
   }
 
 private:
-  /** Row of the table for a step; in a watched cell one of a cell that lanes cannot pass. */
-  const double* RowOf(std::int32_t cell) const
+  /** Row of a cell that lanes cannot pass, which watched cells have. */
+  static const GradedCellRow& GetImpassableRow()
   {
     static const GradedCellRow none = []
     {
@@ -81,7 +80,7 @@ private:
         row.Values + GradedCellRow::Gradients, 9, std::numeric_limits<double>::quiet_NaN());
       return row;
     }();
-    return this->IsWatched(cell) ? none.Values : this->Walk.Medium.Table->GetRow(cell).Values;
+    return none;
   }
 
   bool IsWatched(std::int64_t cell) const
@@ -93,7 +92,7 @@ private:
   static void Fetch(const GradedCellRow& row)
   {
     constexpr int perLine = 8;
-    for (int column = 0; column < GradedCellRow::End; column += perLine)
+    for (int column = 0; column < GradedCellRow::Size; column += perLine)
     {
       __builtin_prefetch(row.Values + column);
     }
@@ -192,9 +191,11 @@ private:
     }
     lanes.Entry[lane] = path.Place.Entry;
     lanes.OpticalPath[lane] = 0.0;
-    lanes.Steps[lane] = 0.0;
-    lanes.LastStep[lane] = static_cast<double>(this->Walk.MaximumNumberOfSteps - path.Steps);
+    lanes.StepsLeft[lane] = static_cast<double>(this->Walk.MaximumNumberOfSteps - path.Steps);
     this->Cells[lane] = static_cast<std::int32_t>(path.Cell);
+    lanes.Rows[lane] = this->IsWatched(path.Cell) ? &GetImpassableRow()
+                                                  : &this->Walk.Medium.Table->GetRow(path.Cell);
+    Fetch(*lanes.Rows[lane]);
     return true;
   }
 
@@ -203,13 +204,15 @@ private:
   {
     Path& path = this->Paths[lane];
     const GradedLanes& lanes = this->Lanes;
-    if (lanes.Steps[lane] == 0.0)
+    const std::int64_t steps = this->Walk.MaximumNumberOfSteps - path.Steps -
+      static_cast<std::int64_t>(lanes.StepsLeft[lane]);
+    if (steps == 0)
     {
       return;
     }
     path.ForgetZigzag();
     path.Cell = this->Cells[lane];
-    path.Place.Entry = static_cast<int>(lanes.Entry[lane]);
+    path.Place.Entry = lanes.Entry[lane];
     path.Place.Weights.fill(0.0);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -217,8 +220,8 @@ private:
       path.Place.Weights[axis + (axis >= path.Place.Entry ? 1 : 0)] = lanes.Weights[axis][lane];
     }
     path.Result->OpticalPath += lanes.OpticalPath[lane];
-    path.Steps += static_cast<std::int64_t>(lanes.Steps[lane]);
-    this->Statistics.LaneSteps += static_cast<std::int64_t>(lanes.Steps[lane]);
+    path.Steps += steps;
+    this->Statistics.LaneSteps += steps;
   }
 
   void MoveLane(int from, int to)
@@ -234,12 +237,14 @@ private:
       lanes.Momentum[axis][to] = lanes.Momentum[axis][from];
       lanes.Weights[axis][to] = lanes.Weights[axis][from];
     }
-    for (double* const values :
-      { lanes.Entry, lanes.OpticalPath, lanes.Steps, lanes.ShortSteps, lanes.LastStep, lanes.Exit })
+    for (double* const values : { lanes.OpticalPath, lanes.StepsLeft, lanes.ShortSteps })
     {
       values[to] = values[from];
     }
-    this->Paths[to] = this->Paths[from];
+    lanes.Entry[to] = lanes.Entry[from];
+    lanes.Exit[to] = lanes.Exit[from];
+    lanes.Rows[to] = lanes.Rows[from];
+    std::swap(this->Paths[to], this->Paths[from]);
     this->Cells[to] = this->Cells[from];
   }
 

@@ -5,6 +5,8 @@
 #include "Simd/InstructionSets.h"
 #include "Volume/Graded/GradedCellTable.h"
 
+#include <cstdint>
+
 namespace meniscus
 {
 
@@ -24,10 +26,10 @@ namespace meniscus
  * its chord, both of which begin at 0 or above. So it is if tangent and weight at the end exceed
  * twice the sum of all higher terms.
  */
-struct GradedLanes
+struct alignas(64) GradedLanes
 {
   /** Largest number of lanes. Arrays, rows and numbers between the parts of a step fit into L1. */
-  static constexpr int Size = 32;
+  static constexpr int Size = 64;
   /** Terms of the series up to this order are summed. */
   static constexpr int Order = 5;
   /**
@@ -42,27 +44,27 @@ struct GradedLanes
    */
   static constexpr double MostShortSteps = 64.0;
 
-  /** Lanes in use; see RunLanes(). */
-  int Count = 0;
-
-  /** GradedCellRow of each lane's cell; of any cell behind the lanes in use. */
-  const double* Rows[Size];
+  /** Row of each lane's cell; of any cell behind the lanes in use. */
+  const GradedCellRow* Rows[Size];
   /** Place relative to the mesh's centre and momentum. */
   double Place[3][Size];
   double Momentum[3][Size];
   /** Face by which the ray has come, 0 to 3, and the weights of its vertices, ascending. */
-  double Entry[Size];
+  std::int32_t Entry[Size];
   double Weights[3][Size];
-  /** Integral of n^2 along the steps of the lane, and their number. */
+  /** Integral of n^2 along the steps of the lane. */
   double OpticalPath[Size];
-  double Steps[Size];
+  /** Number of steps after which the lane stays. */
+  double StepsLeft[Size];
   /** Number of short steps in a row, up to now. */
   double ShortSteps[Size];
-  /** Number of steps after which the lane stays. */
-  double LastStep[Size];
   /** Face by which the ray has left its cell, 0 to 3; -1 if the lane has stayed. */
-  double Exit[Size];
+  std::int32_t Exit[Size];
+
+  /** Lanes in use, from the first one on. It stands last, so that all arrays fill whole lines. */
+  int Count = 0;
 };
+static_assert(GradedLanes::Size % 16 == 0, "arrays fill lines of 64 bytes");
 
 /** @pre GetInstructionSets() has the set */
 void StepLanes(GradedLanes& lanes, InstructionSet set);

@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -53,17 +52,8 @@ struct GradedRayWalk::Path
   glm::dvec3 PassageBegin{ 0.0 };
   /** Index of refraction on the way to the next entry. */
   double IndexBefore = 1.0;
-  /** Faces by which the ray has entered without moving on since. */
-  std::vector<std::int32_t> Touched;
-  /** Largest error of the distances at which it has done so. */
+  /** Largest error of the distances at which it has entered by the faces that it touches. */
   double TouchError = 0.0;
-  /**
-   * Faces by which the ray has entered since it last left a fold, and those before. Light goes
-   * backwards in inverted cells: a ray that leaves after one may be in front of the faces that it
-   * has entered by, and passes over them. A straight ray crosses each face once.
-   */
-  std::vector<std::int32_t> Entered;
-  std::vector<std::int32_t> Passed;
   /** True if the last step is short enough for a zigzag. */
   bool IsShort = false;
   /** Short steps in a row, and the cell that was remembered last in their course. */
@@ -73,16 +63,33 @@ struct GradedRayWalk::Path
   int Constraints = 0;
   /** Constraints that were tried last since the last step that was not short; 0 for none. */
   int LastConstraints = 0;
+  /** Faces by which the ray has entered without moving on since. */
+  std::vector<std::int32_t> Touched;
+  /**
+   * Faces by which the ray has entered since it last left a fold, and those before. Light goes
+   * backwards in inverted cells: a ray that leaves after one may be in front of the faces that it
+   * has entered by, and passes over them. A straight ray crosses each face once.
+   */
+  std::vector<std::int32_t> Entered;
+  std::vector<std::int32_t> Passed;
 
   /** Makes this the state of a ray that has not begun; keeps the memory of its lists. */
   void Restart()
   {
-    Path fresh;
-    fresh.Touched.swap(this->Touched);
-    fresh.Entered.swap(this->Entered);
-    fresh.Touched.clear();
-    fresh.Entered.clear();
-    *this = std::move(fresh);
+    this->HasPassedFold = false;
+    this->IsFolded = false;
+    this->IsEnded = false;
+    this->Steps = 0;
+    this->Deflection = glm::dvec3(0.0);
+    this->Limit = std::numeric_limits<double>::infinity();
+    this->HasEntered = false;
+    this->TouchError = 0.0;
+    this->IsShort = false;
+    this->Constraints = 0;
+    this->ForgetZigzag();
+    this->Touched.clear();
+    this->Entered.clear();
+    this->Passed.clear();
   }
   void PassOverEntries()
   {

@@ -397,7 +397,9 @@ bool GradedRayWalk::LeaveMesh(int face, Path& path) const
 {
   GradedRayResult& result = *path.Result;
   const double outside = this->Medium.OutsideIndex;
-  path.IndexBefore = outside > 0.0 ? outside : std::sqrt(this->SquaredIndexAt(path));
+  path.IndexBefore = outside > 0.0 ? outside
+    : this->Medium.IsStraight      ? std::sqrt(this->SquaredIndexAt(path))
+                                   : glm::length(path.Momentum);
   if (outside > 0.0 && !this->Medium.IsStraight &&
     !Refract(this->OutwardNormal(path.Cell, face), outside * outside, 1.0, path.Momentum))
   {

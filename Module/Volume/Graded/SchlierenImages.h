@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include <cstdint>
+#include <array>
 #include <vector>
 
 namespace meniscus
@@ -53,13 +53,52 @@ struct Interferometer
  * Irradiance on a screen, 1 without a medium. The light of each pixel goes to the quadrangle
  * between the landing points at its corners, which are means of the landing points of the pixels
  * around. Where quadrangles overlap, behind a caustic, their light adds up. No light is lost but
- * beyond the edges of the image.
- * @param landings place of each pixel's ray on the screen in pixels, (0, 0) for the centre of the
- *   first one; NaN for a ray that does not land, whose light is missing.
- * @param offScreen replaced by the light that falls beyond the image, in pixels.
+ * beyond the edges of the image. Memory is kept for the next image.
  */
-std::vector<double> ComputeShadowgraph(const std::vector<glm::dvec2>& landings, int width,
-  int height, const RangeLoop& loop, double& offScreen);
+class Shadowgraph
+{
+public:
+  /**
+   * Place of each pixel's ray on the screen in pixels, (0, 0) for the centre of the first one; NaN
+   * for a ray that does not land, whose light is missing. To be set before Compute().
+   */
+  std::vector<glm::dvec2> Landings;
+
+  void Compute(int width, int height, const RangeLoop& loop);
+  /** One value per pixel, row by row. */
+  const std::vector<double>& GetIrradiance() const { return this->Irradiance; }
+  /** Light that falls beyond the image, in pixels. */
+  double GetLightOffScreen() const { return this->LightOffScreen; }
+
+private:
+  class Band;
+  void FindCorners(int row);
+  glm::dvec2 FindCorner(int column, int row) const;
+  void FindDensities(int row);
+  void FindReach(int row);
+  void FillBand(int number);
+  void AddRow(int row, Band& band) const;
+  std::array<glm::dvec2, 4> GetQuadrangle(int column, int row) const;
+  const glm::dvec2& CornerAt(int column, int row) const;
+  const double* DensitiesOf(int row) const;
+
+  int Width = 0;
+  int Height = 0;
+  /** Landing points of the corners between pixels, of (Width + 1) * (Height + 1). */
+  std::vector<glm::dvec2> Corners;
+  /**
+   * Light per area in the quadrangle of each pixel, negative for one that is turned over; 0 for a
+   * pixel without light, and for the quadrangles that are spread one by one: those that are not
+   * convex, and those without an area that divides.
+   */
+  std::vector<double> Densities;
+  /** Columns of the quadrangles of each row that are spread one by one. */
+  std::vector<std::vector<int>> Alone;
+  /** Least and largest row on the screen that the light of each row of pixels reaches. */
+  std::vector<glm::dvec2> Reaches;
+  std::vector<double> Irradiance;
+  double LightOffScreen = 0.0;
+};
 
 /**
  * Value of a picture at a place in pixels, linearly interpolated; beyond its edges, the value at

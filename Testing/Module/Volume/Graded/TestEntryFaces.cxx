@@ -48,8 +48,21 @@ struct Camera
   }
   RayImage GetImage() const
   {
-    return { Pixels, Pixels, [this](const glm::dvec3& place) { return this->Project(place); },
-      [this](const glm::dvec2& pixel) { return this->GetDirection(pixel); }, this->Axes[2] };
+    const double depth = glm::dot(this->Axes[2], this->Eye);
+    const AffinePixelMap across{ glm::dvec2(0.0), glm::dvec2(this->Step, 0.0),
+      glm::dvec2(0.0, this->Step) };
+    RayFrame frame;
+    frame.RowX = this->Axes[0];
+    frame.RowY = this->Axes[1];
+    frame.RowDepth = this->Axes[2];
+    frame.Origin = across;
+    if (!this->IsParallel)
+    {
+      frame.Slope = across;
+      frame.Origin.PerColumn *= -depth;
+      frame.Origin.PerRow *= -depth;
+    }
+    return RayImage(frame, depth, glm::ivec2(Pixels));
   }
 
 private:
@@ -198,6 +211,34 @@ TEST(EntryFaces, MostRaysDoNotEnterAgain)
     }
     EXPECT_GT(ruledOut, Pixels * Pixels / 8) << hasHole;
     EXPECT_GT(entered, hasHole ? 4 : -1);
+  }
+}
+
+TEST(RayImage, HasRaysAndPixelsOfACamera)
+{
+  for (const bool isParallel : { true, false })
+  {
+    const Camera camera({ 0.3, -0.4, 0.8 }, 3.0, isParallel);
+    const RayImage image = camera.GetImage();
+    for (const auto& [row, column] : Product(Pixels, Pixels))
+    {
+      const glm::dvec2 pixel(column, row);
+      const GradedRay ray = camera.GetRay(pixel);
+      const glm::dvec3 turned = glm::normalize(ray.Direction + glm::dvec3(0.02, 0.0, 0.0));
+      const double turn = glm::length(turned - glm::normalize(ray.Direction));
+      EXPECT_NEAR(glm::length(image.GetOrigin(pixel) - ray.Origin), 0.0, 1.0e-14);
+      EXPECT_NEAR(glm::length(image.GetDirection(pixel) - ray.Direction), 0.0, 1.0e-14);
+      EXPECT_TRUE(image.IsNearRay(pixel, turned, 1.01 * turn));
+      EXPECT_FALSE(image.IsNearRay(pixel, turned, 0.99 * turn));
+      EXPECT_FALSE(image.IsNearRay(pixel, -turned, 0.5));
+      for (const double way : { 2.1, 3.7 })
+      {
+        const glm::dvec3 place = ray.Origin + way * ray.Direction;
+        EXPECT_NEAR(glm::length(image.Project(place) - pixel), 0.0, 1.0e-12);
+        EXPECT_NEAR(glm::length(camera.Project(place) - pixel), 0.0, 1.0e-12);
+      }
+      EXPECT_TRUE(std::isnan(image.Project(ray.Origin - 0.1 * ray.Direction).x));
+    }
   }
 }
 
