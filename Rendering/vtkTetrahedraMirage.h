@@ -22,7 +22,8 @@
  * blending of vtkTetrahedraRayCastMapper, but along the bent rays and up to the objects, which it
  * hides by its opacity. A cell with a value of that array that is not finite is transparent; it
  * bends light all the same. Shading, gradient opacity and other blend modes have no effect. Arcs
- * are cut where needed, so that the scalar is off by no more than 2^-23 of its range.
+ * are cut where needed: their bend changes a colour by less than 1e-5, or the scalar by no more
+ * than 2^-23 of its range.
  *
  * The output has ImageSize points, one per pixel, and these point arrays. Brackets name the values
  * of pixels that show no object:

@@ -39,20 +39,48 @@ constexpr double SquaredRatio = 1.32;
  */
 constexpr double ShortestShare = 1.0 / 4096.0;
 
+/** Step of the search for the number of an arc's segments, of which there are few too many so. */
+constexpr double Growth = 1.19;
+
 /** Transmittance at which a ray ends: that of a mapper that ends no ray early. */
 constexpr float LeastTransmittance = 1.0e-30f;
 
 /**
- * Longest time of a segment by the two bounds of the header.
+ * Longest time of a segment by the bound of its length.
  * @param index n at its beginning.
- * @param gradient size of the scalar's gradient.
  */
-double LongestTime(const GradedArc& arc, double index, double gradient)
+double LongestTime(const GradedArc& arc, double index)
 {
-  const double force = arc.GetLargestForce();
-  const double turn = force / (LeastRatio * index);
-  return std::min(std::sqrt(LargestTurn / (turn * turn + arc.GetForceNorm())),
-    std::sqrt(8.0 * VolumeLight::LargestScalarError / (SquaredRatio * gradient * force)));
+  const double turn = arc.GetLargestForce() / (LeastRatio * index);
+  return std::sqrt(LargestTurn / (turn * turn + arc.GetForceNorm()));
+}
+
+TransferFunctionPoint PointOf(const PacketInterval& interval, float scalar)
+{
+  const double offset = double{ scalar } - interval.Lower;
+  const double attenuation = interval.Attenuation + offset * interval.AttenuationSlope;
+  TransferFunctionPoint point{ scalar, std::max(0.0, attenuation), glm::dvec3(0.0) };
+  for (int k = 0; k < 3; ++k)
+  {
+    point.Color[k] = interval.Color[k] + offset * interval.ColorSlope[k];
+  }
+  return point;
+}
+
+/** Scale of the errors that a medium shows, for normalised scalars. */
+ErrorScale MakeErrorScale(const EmittingMedium& medium)
+{
+  PictureFunction function;
+  function.Use = ScalarUse::Medium;
+  const std::vector<PacketInterval>& intervals = *medium.Intervals;
+  // The outermost intervals are constant and without end.
+  for (std::size_t i = 1; i < intervals.size(); ++i)
+  {
+    const PacketInterval& below = intervals[i - 1];
+    function.Points.push_back(PointOf(below, below.Upper));
+    function.Points.push_back(PointOf(intervals[i], intervals[i].Lower));
+  }
+  return function.MakeScale(2.0 * medium.Mesh->GetRadius(), 2.0);
 }
 
 /** End of the segment that begins at a share of an arc's time, of equal ones up to an end. */
@@ -102,9 +130,29 @@ struct VolumeLight::SortedRecords
 //------------------------------------------------------------------------------
 VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays, InstructionSet set)
   : Medium(medium)
+  , Scale(MakeErrorScale(medium))
   , Set(set)
   , Lights(rays)
 {
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Number of parts of equal time of an arc for the bound of the scalar, not a whole one.
+ * @param lower, upper least and largest scalar at its ends.
+ * @param error of the scalar if the arc is not divided.
+ */
+double VolumeLight::CountParts(double lower, double upper, double error) const
+{
+  double parts = 1.0;
+  double ofPart = error;
+  while (ofPart > LargestScalarError &&
+    this->Scale.Bound(lower - error, upper + error, ofPart) > LargestPictureError)
+  {
+    parts *= Growth;
+    ofPart /= Growth * Growth;
+  }
+  return parts;
 }
 
 //------------------------------------------------------------------------------
@@ -130,10 +178,14 @@ void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
   const double sixth = this->Medium.Mesh->GetRadius() * time / 6.0;
   double from = 0.0;
   double scalar = scalarAt(arc.BeginWeights);
+  const double last = scalarAt(arc.EndWeights);
+  const double share = 1.0 /
+    this->CountParts(std::min(scalar, last), std::max(scalar, last),
+      0.125 * SquaredRatio * gradient * arc.GetLargestForce() * time * time);
   double index = glm::length(arc.DirectionAt(0.0));
   while (from < end)
   {
-    const double to = NextShare(from, end, LongestTime(arc, index, gradient) / time);
+    const double to = NextShare(from, end, std::min(share, LongestTime(arc, index) / time));
     const double middle = glm::length(arc.DirectionAt(0.5 * (from + to)));
     const double indexTo = glm::length(arc.DirectionAt(to));
     const double scalarTo = scalarAt(arc.WeightsAt(to));
