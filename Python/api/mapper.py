@@ -13,7 +13,6 @@ class TetrahedraRayCastMapper(vtkTetrahedraRayCastMapper):
 
     def __init__(self):
         self.source = None  # the mesh that add_to() was given, of which the input may be a copy
-        self.mixer = None  # the algorithm that makes the input of it, if there is one
         self._lookup_table = None
         self._scalar_range = (0.0, 1.0)
 

@@ -2,16 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of a mesh that are drawn: one, colours, or one for colours and one for opacity."""
 import warnings
-import weakref
 
 import numpy
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from ..arguments import check_name, check_values, refuse, take_range
-from ..data import check_component, leaves_of, replace_leaves, with_array
+from ..data import check_component, replace_leaves, with_array
 from ..viewer.cells import check_drawable, drawn_cells_of, drawn_leaves_of, drawn_points_of
 from ..viewer.files import ReadingError
 from ..viewer.shown import choose_of_range
@@ -28,28 +26,6 @@ def copy_with(mesh, name, in_points, leaves, arrays):
     return copy if isinstance(mesh, vtkCompositeDataSet) else pyvista.wrap(copy)
 
 
-class _Mixer(VTKPythonAlgorithmBase):
-    """Source of a mesh with the components that are drawn at once, mixed again when the mesh
-    changes. mix(mesh): returns the mesh with that array."""
-
-    def __init__(self, mesh, mix):
-        super().__init__(nInputPorts=1, nOutputPorts=1, inputType="vtkDataObject",
-                         outputType=mesh.GetClassName())
-        self.mix = mix
-        self.SetInputDataObject(mesh)
-
-    def RequestData(self, request, inputs, outputs):
-        mesh = pyvista.wrap(vtkDataObject.GetData(inputs[0]))
-        vtkDataObject.GetData(outputs).ShallowCopy(self.mix(mesh))
-        return 1
-
-    def look_at_blocks(self):
-        """Mixes again if a block has changed, which its pipeline does not see."""
-        leaves = leaves_of(self.GetInputDataObject(0, 0))
-        if any(leaf.GetMTime() > self.GetMTime() for leaf in leaves):
-            self.Modified()
-
-
 class Scalars:
     """The array of a mesh or of all its blocks that is drawn.
 
@@ -62,7 +38,6 @@ class Scalars:
 
     limits = opacity_limits = None
     is_mixed = False
-    _mixer = None
 
     def __init__(self, mesh, scalars, preference, component, rgba=False):
         check_values("scalars", scalars)
@@ -201,29 +176,9 @@ class Scalars:
         self.mesh = copy_with(self.mesh, _MIXED, True, self.leaves, arrays)
         self.is_mixed = True
 
-    def follow(self, mesh, choose, plotter):
-        """Mixes components again when a mesh changes. choose(mesh): returns Scalars. plotter: that
-        of the volume."""
-        if not self.is_mixed:
-            return
-        self._mixer = _Mixer(mesh, lambda changed: choose(changed).mesh)
-        # The observer outlives the volume, and must not keep its mesh.
-        reference = weakref.ref(self._mixer)
-
-        def look(*_):
-            mixer = reference()
-            if mixer:
-                mixer.look_at_blocks()
-
-        plotter.renderer.AddObserver("StartEvent", look)
-
     def select_in(self, mapper):
         """Sets the input and the array of a mapper."""
-        if self._mixer:
-            mapper.mixer = self._mixer
-            mapper.SetInputConnection(self._mixer.GetOutputPort())
-        else:
-            mapper.SetInputData(self.mesh)
+        mapper.SetInputData(self.mesh)
         if self.in_points:
             mapper.SetScalarModeToUsePointFieldData()
         else:

@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
 from ..arguments import (
     check_count, check_finite, check_numbers, refuse, take_number, take_range)
+from ..data import leaves_of
 from ..names import ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
@@ -81,6 +82,29 @@ def _add_bar(plotter, title, scalar_bar_args, show_scalar_bar):
         if title is not None:
             arguments.setdefault("title", title)
         plotter.add_scalar_bar(**arguments)
+
+
+def _time_of(mesh):
+    """Time of the last change of a mesh; a MultiBlock does not know those of its blocks."""
+    return max([mesh.GetMTime()] + [leaf.GetMTime() for leaf in leaves_of(mesh)])
+
+
+def _follow_mesh(renderer, mapper, mesh, choose):
+    """Mixes the components that a mapper draws again, before a frame, when the mesh has changed.
+    choose(mesh): returns Scalars."""
+    last = _time_of(mesh)
+
+    def look(caller, _event):
+        nonlocal last
+        volumes = caller.GetVolumes()
+        if not any(volumes.GetItemAsObject(index).GetMapper() is mapper
+                   for index in range(volumes.GetNumberOfItems())):
+            caller.RemoveObserver(tag)  # the volume has gone, and the mesh may go
+        elif _time_of(mesh) > last:
+            last = _time_of(mesh)
+            mapper.SetInputData(choose(mesh).mesh)
+
+    tag = renderer.AddObserver("StartEvent", look)
 
 
 def _choose_limits(arguments, scalars):
@@ -288,7 +312,6 @@ def add_to(
         return chosen
 
     chosen = choose(mesh)
-    chosen.follow(mesh, choose, plotter)
     if not isinstance(categories, bool):
         check_count("categories", categories)
     blending = _choose_blending(blending, isovalues, chosen)
@@ -324,6 +347,7 @@ def add_to(
         follow_table(look, table)
     if chosen.is_mixed:
         look.SetIndependentComponents(False)
+        _follow_mesh(plotter.renderer, mapper, mesh, choose)
     if blending == "isosurface":
         _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range)
     if not rgba:
