@@ -90,6 +90,12 @@ RayVertex b;
 RayVertex c;
 ivec3 corners;       // indices of these vertices
 int apex;            // vertex of the cell opposite the face entered by
+// Surfaces in a cell need its fourth vertex, which the face that the ray leaves it by lacks.
+#define KEEPS_DROPPED (SHADING && (CELL_SCALARS || (VERTEX_LIGHT && !MEDIUM_LIGHT)))
+#if KEEPS_DROPPED
+int dropped;
+RayVertex droppedVertex;
+#endif
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
@@ -323,9 +329,13 @@ bool stepThroughCell(Ahead ahead, out int link)
   bool dropC = leftOfA && !leftOfB;
   bool dropA = !dropC && leftOfB && !leftOfC;
   bool dropB = !dropC && !dropA;
-  int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
-  int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
-    int(corners.z < dropped);
+  int lacking = dropA ? corners.x : (dropB ? corners.y : corners.z);
+  int rank = int(number < lacking) + int(corners.x < lacking) + int(corners.y < lacking) +
+    int(corners.z < lacking);
+#if KEEPS_DROPPED
+  dropped = lacking;
+  droppedVertex = dropA ? a : (dropB ? b : c);
+#endif
 #if COMPACT_CELLS
   link = cellValue(CELL_SIZE * cell + FIRST_LINK + rank);
 #else
