@@ -187,14 +187,9 @@ bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar)
   bool early = exitDepth > endDepth;
   float length = late || early ? float(to - from) : crossing;
 #if CELL_SCALARS
-  // One scalar for the whole cell. Isosurfaces also use the jump to it, unless the ray begins
-  // behind that.
+  // One scalar for the whole cell.
   segmentEnd = texelFetch(cellScalars, cell).r;
-#if SEES_JUMPS
-  segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
-#else
   segmentStart = segmentEnd;
-#endif
 #else
   float perDepth = (exitScalar - faceScalar) * perCrossing;
   segmentStart = late ? faceScalar + float(from - faceDepth) * perDepth : faceScalar;
@@ -217,7 +212,13 @@ bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar)
 #endif
   faceDepth = exitDepth;
   depthNow = max(depthNow, exitDepth);
+#if CELL_SCALARS && SEES_JUMPS
+  // Cells that the ray passes in a point count: a displaced ray meets their faces. The depth of a
+  // face is off by up to 4 * 2^-24 of the distance from the last one, below 2^31.
+  bool counts = length > -1024.0 && abs(segmentEnd) <= LARGEST_CHANGE;
+#else
   bool counts = length > 0.0 && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
+#endif
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
 #if !SEES_JUMPS
