@@ -54,27 +54,26 @@ vec3 lightBefore(float isovalue, bool fromBelow)
 // the place relative to the ray and of the scalar.
 vec3 lightBefore(float isovalue, bool fromBelow)
 {
-  ivec4 numbers = cellVertices(cell);
-  RayVertex vertices[4] = RayVertex[4](a, b, c, fetchVertex(numbers.w));
+  ivec4 numbers = ivec4(corners, dropped);
+  RayVertex vertices[4] = RayVertex[4](a, b, c, droppedVertex);
   vec3 place[4];
   for (int k = 0; k < 4; ++k)
   {
     place[k] =
       vec3(placeOf(vertices[k]) * (1.0 / 65536.0), vertexScalar(vertices[k]) - isovalue);
   }
+  vec3 last = cross(place[2], place[3]);
+  vec3 first = cross(place[0], place[1]);
+  vec4 volumes = abs(vec4(
+    dot(place[1], last), dot(place[0], last), dot(place[3], first), dot(place[2], first)));
   vec3 sum = vec3(0.0);
   float total = 0.0;
   for (int k = 0; k < 4; ++k)
   {
-    if ((place[k].z < 0.0) == fromBelow)
-    {
-      float volume =
-        dot(place[k == 0 ? 1 : 0], cross(place[k <= 1 ? 2 : 1], place[k == 3 ? 2 : 3]));
-      // In a cell without volume the vertices count alike.
-      float weight = max(abs(volume), 1.0e-30);
-      sum += weight * texelFetch(vertexLight, numbers[k]).xyz;
-      total += weight;
-    }
+    // In a cell without volume the vertices count alike.
+    float weight = (place[k].z < 0.0) == fromBelow ? max(volumes[k], 1.0e-30) : 0.0;
+    sum += weight * texelFetch(vertexLight, numbers[k]).xyz;
+    total += weight;
   }
   return total > 0.0 ? sum / total : vec3(1.0);
 }
@@ -87,7 +86,7 @@ void addSurface(int index, float at, bool fromBelow)
   vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
 #if SHADING
 #if CELL_SCALARS
-  vec3 gradient = faceNormal(cell);
+  vec3 gradient = faceNormal();
 #elif VERTEX_GRADIENTS
   vec3 gradient = mix(segmentValuesStart, segmentValuesEnd, at);
 #else

@@ -53,23 +53,7 @@ vec3 cellGradient(int index)
 }
 #endif
 
-#if CELL_SCALARS || (VERTEX_LIGHT && !MEDIUM_LIGHT)
-// Vertices of the cell that the ray is leaving; the first three belong to its exit face.
-ivec4 cellVertices(int index)
-{
-#if COMPACT_CELLS
-  int last = cellValue(CELL_SIZE * index) ^ corners.x ^ corners.y ^ corners.z;
-  return ivec4(corners, last);
-#else
-  ivec4 v = ivec4(cellValue(CELL_SIZE * index),
-    cellValue(CELL_SIZE * index + 1), cellValue(CELL_SIZE * index + 2),
-    cellValue(CELL_SIZE * index + 3));
-  return ivec4(corners, v.x ^ v.y ^ v.z ^ v.w ^ corners.x ^ corners.y ^ corners.z);
-#endif
-}
-#endif
-
-#if CELL_SCALARS
+#if CELL_SCALARS && SHADING
 // Difference of two vertices, in units of MODEL_UNIT: exact up to rounding to float.
 vec4 fromVertex(ivec4 from, int vertex)
 {
@@ -77,12 +61,12 @@ vec4 fromVertex(ivec4 from, int vertex)
   return vec4(vec3(p.xyz - from.xyz), intBitsToFloat(p.w) - intBitsToFloat(from.w));
 }
 
-// Normal of the face by which the ray entered that cell: of all vertices but the apex.
-vec3 faceNormal(int index)
+// Normal of the face by which the ray entered the cell that it is leaving: of all vertices but the
+// apex.
+vec3 faceNormal()
 {
-  ivec4 v = cellVertices(index);
-  ivec3 entered =
-    ivec3(v.x == apex ? v.w : v.x, v.y == apex ? v.w : v.y, v.z == apex ? v.w : v.z);
+  ivec3 entered = ivec3(corners.x == apex ? dropped : corners.x,
+    corners.y == apex ? dropped : corners.y, corners.z == apex ? dropped : corners.z);
   ivec4 p = texelFetch(modelVertices, entered.x);
   return cross(fromVertex(p, entered.y).xyz, fromVertex(p, entered.z).xyz);
 }

@@ -90,6 +90,12 @@ RayVertex b;
 RayVertex c;
 ivec3 corners;       // indices of these vertices
 int apex;            // vertex of the cell opposite the face entered by
+// Surfaces in a cell need its fourth vertex, which the face that the ray leaves it by lacks.
+#define KEEPS_DROPPED (SHADING && (CELL_SCALARS || (VERTEX_LIGHT && !MEDIUM_LIGHT)))
+#if KEEPS_DROPPED
+int dropped;
+RayVertex droppedVertex;
+#endif
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
@@ -181,14 +187,9 @@ bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar)
   bool early = exitDepth > endDepth;
   float length = late || early ? float(to - from) : crossing;
 #if CELL_SCALARS
-  // One scalar for the whole cell. Isosurfaces also use the jump to it, unless the ray begins
-  // behind that.
+  // One scalar for the whole cell.
   segmentEnd = texelFetch(cellScalars, cell).r;
-#if SEES_JUMPS
-  segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
-#else
   segmentStart = segmentEnd;
-#endif
 #else
   float perDepth = (exitScalar - faceScalar) * perCrossing;
   segmentStart = late ? faceScalar + float(from - faceDepth) * perDepth : faceScalar;
@@ -211,7 +212,13 @@ bool advance(int exitDepth, float crossing, float perCrossing, float exitScalar)
 #endif
   faceDepth = exitDepth;
   depthNow = max(depthNow, exitDepth);
+#if CELL_SCALARS && SEES_JUMPS
+  // Cells that the ray passes in a point count: a displaced ray meets their faces. The depth of a
+  // face is off by up to 4 * 2^-24 of the distance from the last one, below 2^31.
+  bool counts = length > -1024.0 && abs(segmentEnd) <= LARGEST_CHANGE;
+#else
   bool counts = length > 0.0 && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
+#endif
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
 #if !SEES_JUMPS
@@ -323,9 +330,13 @@ bool stepThroughCell(Ahead ahead, out int link)
   bool dropC = leftOfA && !leftOfB;
   bool dropA = !dropC && leftOfB && !leftOfC;
   bool dropB = !dropC && !dropA;
-  int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
-  int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
-    int(corners.z < dropped);
+  int lacking = dropA ? corners.x : (dropB ? corners.y : corners.z);
+  int rank = int(number < lacking) + int(corners.x < lacking) + int(corners.y < lacking) +
+    int(corners.z < lacking);
+#if KEEPS_DROPPED
+  dropped = lacking;
+  droppedVertex = dropA ? a : (dropB ? b : c);
+#endif
 #if COMPACT_CELLS
   link = cellValue(CELL_SIZE * cell + FIRST_LINK + rank);
 #else

@@ -214,11 +214,12 @@ def add_label(renderer, text, height, color):
     renderer.AddViewProp(label)
 
 
-def take(renderer, size, bar=None):
-    """The picture of a renderer as vtkImageData, drawn at twice the size in each direction."""
+def take(renderer, size, bar=None, samples=0):
+    """The picture of a renderer as vtkImageData, drawn at twice the size in each direction, with
+    this number of samples per pixel of polygons."""
     window = vtkRenderWindow()
     window.OffScreenRenderingOn()
-    window.SetMultiSamples(0)
+    window.SetMultiSamples(samples)
     window.SetSize(2 * size[0], 2 * size[1])
     window.AddRenderer(renderer)
     if bar:

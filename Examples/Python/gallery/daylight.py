@@ -48,7 +48,7 @@ def is_hidden(points, ray, boxes, reach=numpy.inf):
     return hidden
 
 
-def get_light(points, normals, boxes, sun, reach, rays=48):
+def get_light(points, normals, boxes, sun, reach, rays=128):
     """Shares of the sun's light, with the cosine, and of the sky's light that reach points."""
     points = points + 1e-3 * normals  # off the surface; boxes are metres wide
     bright, open_sky, all_sky = (numpy.zeros(len(points)) for _ in range(3))
@@ -77,9 +77,9 @@ def refine(light, plane):
 class Studio:
     """Planes and boxes whose points have the colour of their material times the light there."""
 
-    def __init__(self, sun, boxes=(), sun_share=0.6, reach=2.0, step=0.03):
+    def __init__(self, sun, boxes=(), sun_share=0.6, reach=2.0, step=0.03, exposure=1.0):
         self.sun, self.boxes, self.sun_share, self.reach = sun, list(boxes), sun_share, reach
-        self.step, self.coarse = step, max(step, 0.06)
+        self.step, self.coarse, self.exposure = step, max(step, 0.03), exposure
         self.parts = vtkAppendPolyData()
 
     def add_plane(self, origin, first, second, color):
@@ -100,7 +100,7 @@ class Studio:
             colors = color(points)
         else:
             colors = numpy.broadcast_to(color, points.shape)
-        rgb = numpy.clip(255.0 * colors * light, 0, 255).astype(numpy.uint8)
+        rgb = numpy.clip(255.0 * self.exposure * colors * light, 0, 255).astype(numpy.uint8)
         array = numpy_to_vtk(rgb, deep=True)
         array.SetName("Light")
         plane.GetPointData().Initialize()

@@ -7,6 +7,7 @@ from vtkmodules.vtkRenderingCore import vtkLight
 from . import common, daylight
 
 SUN = (-0.2, 0.62, 0.9)
+EXPOSURE = 0.72  # a room in which smoke is brighter than the walls
 SMOKE = ((0.99, 0.93, 0.80), (0.98, 0.74, 0.42), (0.90, 0.42, 0.18), (0.62, 0.13, 0.10))
 
 
@@ -22,7 +23,8 @@ def make_room(step):
     top = (4.67, 5.53, 0.01, 2.93, 0.94, 1.0)
     hood = (4.7, 5.5, 0.01, 2.9, 2.0, 2.5)
     walls = [(-0.2, 7.2, -0.2, 0.01, 0, 2.5), (7.0, 7.2, 0.0, 5.0, 0, 2.5)]
-    studio = daylight.Studio(SUN, [counter, top, hood, *walls], reach=1.6, step=step)
+    studio = daylight.Studio(
+        SUN, [counter, top, hood, *walls], reach=1.6, step=step, exposure=EXPOSURE)
     studio.add_plane((1.2, 0.01, 0.01), (7.0, 0.01, 0.01), (1.2, 5.0, 0.01), get_tiles)
     studio.add_plane((7.0, 0.01, 0.01), (1.2, 0.01, 0.01), (7.0, 0.01, 2.5), (0.97, 0.97, 0.96))
     studio.add_plane((7.0, 5.0, 0.01), (7.0, 0.01, 0.01), (7.0, 5.0, 2.5), (0.93, 0.95, 0.97))
@@ -53,7 +55,7 @@ def draw_kitchen(data, size):
     mapper.SetMaximumNumberOfPieces(10000000)
     mapper.SetGlobalIlluminationReach(0.6)
     mapper.SetVolumetricScatteringBlending(1.0)
-    renderer = common.make_renderer(common.PAPER)
+    renderer = common.make_renderer(common.NIGHT)
     renderer.AutomaticLightCreationOff()
     light = vtkLight()
     light.SetLightTypeToSceneLight()
@@ -62,6 +64,6 @@ def draw_kitchen(data, size):
     renderer.AddLight(light)
     renderer.AddActor(make_room(0.012 if size[1] > 300 else 0.06))
     renderer.AddVolume(volume)
-    common.look_from(renderer, (1.3, 7.8, 2.9), (5.0, 1.5, 1.2), (0, 0, 1), 29.0)
+    common.look_from(renderer, (1.3, 7.8, 2.8), (5.0, 1.5, 1.28), (0, 0, 1), 27.0)
     renderer.ResetCameraClippingRange()
-    return common.take(renderer, size, common.make_bar(colors, "Contaminant", common.INK))
+    return common.take(renderer, size, common.make_bar(colors, "Contaminant"), 8)

@@ -19,13 +19,13 @@ SUN = (-3.0, 2.6, 2.2)
 
 
 def list_puffs():
-    """Balls (x, y, z, radius) of three sizes: small ones sit on the upper sides of larger ones."""
+    """Balls (x, y, z, radius) of four sizes: small ones sit on the upper sides of larger ones."""
     random = numpy.random.default_rng(4)
     puffs = [(-0.42, -0.16, 0.0, 0.24), (0.0, -0.02, 0.05, 0.33), (0.42, -0.17, -0.05, 0.24),
              (0.17, 0.17, 0.0, 0.20), (-0.2, 0.12, -0.05, 0.18), (-0.7, -0.26, 0.05, 0.13),
              (0.7, -0.26, 0.0, 0.13), (0.15, -0.2, 0.2, 0.2)]
     parents = puffs
-    for children, share in ((16, 0.42), (9, 0.42)):
+    for children, share in ((16, 0.42), (9, 0.42), (6, 0.5)):
         born = []
         for x, y, z, radius in parents:
             for _ in range(children):
@@ -95,7 +95,7 @@ def make_scene(mesh, reach, scattering, lit, ambient, intensity):
 
 
 def get_points(size):
-    return 30 if size[1] < 200 else 110
+    return 30 if size[1] < 200 else 150
 
 
 def draw_shadows(_, size):

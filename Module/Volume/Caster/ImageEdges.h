@@ -86,14 +86,26 @@ void FindImageEdges(const std::vector<float>& rgba, int width, int height,
   const BoundaryRaster::PixelBox& filled, const RangeLoop& loop, std::vector<std::uint8_t>& edges);
 
 /**
- * Level up to which edges get no further rays, so that the pixels at edges together get no more
- * rays than 0.6 of those of the image, by estimate: pictures that consist of edges would take
- * several times as long otherwise. Rays at edges cross more cells than others. It is limited by the
- * error of the picture, which stays below 2 of 255 levels in the quadratic mean of all pixels if
- * those at edges have the error of a step of this level.
+ * Level up to which edges get no further rays, so that the others get no more rays than the image
+ * has, by estimate: pictures that consist of edges would take several times as long otherwise. It
+ * is limited by the error of the picture, which stays below 2 of 255 levels in the quadratic mean
+ * of all pixels, by estimate, too.
  * @param edges as FindImageEdges() sets them.
  * @param rays rays of the image that met the mesh.
+ * @param across a pixel has a square of at most so many rays in a row.
  */
-int ChooseEdgeLevel(const std::vector<std::uint8_t>& edges, std::int64_t rays);
+int ChooseEdgeLevel(const std::vector<std::uint8_t>& edges, std::int64_t rays, int across);
+
+/**
+ * Adds a twelfth of the second differences across and along to the pixels of a box that have an
+ * edge, but get no further rays. A pixel's mean exceeds its middle by 1/24 of them where the colour
+ * is quadratic, and by 1/8 at a step somewhere between two pixels, in the mean.
+ * @param rgba,edges as for FindImageEdges().
+ * @param tolerated see ChooseEdgeLevel().
+ * @param smooth an image with the pixels of `rgba`, which are changed.
+ */
+void SmoothEdges(const std::vector<float>& rgba, int width, int height,
+  const std::vector<std::uint8_t>& edges, int tolerated, const BoundaryRaster::PixelBox& box,
+  std::vector<float>& smooth);
 
 }

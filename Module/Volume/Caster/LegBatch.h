@@ -23,8 +23,8 @@ struct TileLeg
   int RaysAcross = 1;
   /** Nonzero for each ray of the tile that is cast, in rows of TileSize; null for all rays. */
   const std::uint8_t* Selected = nullptr;
-  /** Box of the image's rays outside of which none is selected. */
-  BoundaryRaster::PixelBox Wanted = Box;
+  /** Part of the tile outside of which no ray is selected. */
+  BoundaryRaster::TilePart Wanted = BoundaryRaster::TilePart::Whole();
   /** True if the entries of all these rays were collected for the leg that was cast before. */
   bool HasEntries = false;
 };

@@ -123,7 +123,7 @@ void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across, const st
   this->Known.assign(RaysOfTile, 0);
   // A ray that misses the mesh has no colour.
   this->Colors.assign(4 * RaysOfTile, 0.0f);
-  this->Wanted = { rays.Right, rays.Left, rays.Top, rays.Bottom };
+  this->Wanted = BoundaryRaster::TilePart::Nothing();
   for (int bottom = rays.Bottom; bottom < rays.Top; bottom += across)
   {
     for (int left = rays.Left; left < rays.Right; left += across)
@@ -145,9 +145,10 @@ void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across, const st
       {
         this->SelectNext(pixel);
       }
-      this->Wanted = { std::min(this->Wanted.Left, left),
-        std::max(this->Wanted.Right, left + across), std::min(this->Wanted.Bottom, bottom),
-        std::max(this->Wanted.Top, bottom + across) };
+      for (int row = bottom - rays.Bottom; row < bottom - rays.Bottom + across; ++row)
+      {
+        this->Wanted.Add(row, left - rays.Left, left - rays.Left + across);
+      }
     }
   }
 }
@@ -171,13 +172,20 @@ void PixelRays::VisitRays(const Pixel& pixel, const Visit& visit) const
 }
 
 //------------------------------------------------------------------------------
-/** True if a pixel's rays, with the ray through its centre, differ by no more than is tolerated. */
-bool PixelRays::Agree(const Pixel& pixel, const float* center) const
+/** Square of the step between a pixel's rays, with the ray through its centre. */
+float PixelRays::GetSquaredStep(const Pixel& pixel, const float* center) const
 {
   ColorRange range(center);
   this->VisitRays(pixel, [&range](const float* color) { range.Add(color); });
+  return range.GetChange().GetSquare();
+}
+
+//------------------------------------------------------------------------------
+/** True if a step is one that a pixel's number of rays tolerates. */
+bool PixelRays::IsTolerated(const Pixel& pixel, float squaredStep) const
+{
   const float tolerated = static_cast<float>(pixel.Rays) * this->Tolerated;
-  return range.GetChange().GetSquare() <= tolerated * tolerated;
+  return squaredStep <= tolerated * tolerated;
 }
 
 //------------------------------------------------------------------------------
@@ -187,16 +195,36 @@ bool PixelRays::SelectMore(const float* image)
   bool isAny = false;
   for (Pixel& pixel : this->Pixels)
   {
-    if (pixel.Next == Round::None || this->Agree(pixel, image + 4 * pixel.InImage))
+    if (pixel.Next == Round::None)
     {
-      pixel.Next = Round::None;
       continue;
     }
+    const float step = this->GetSquaredStep(pixel, image + 4 * pixel.InImage);
     const int before = pixel.Rays;
-    this->SelectNext(pixel);
+    // Further rays make the step no lower: where the next ones cannot be enough, those after them
+    // are cast at the same time.
+    while (pixel.Next != Round::None && !this->IsTolerated(pixel, step))
+    {
+      this->SelectNext(pixel);
+    }
+    pixel.Next = pixel.Rays > before ? pixel.Next : Round::None;
     isAny = isAny || pixel.Rays > before;
   }
   return isAny;
+}
+
+//------------------------------------------------------------------------------
+/** Number of rays that the ray through a pixel's centre counts as. */
+float PixelRays::WeightOfCenter(const Pixel& pixel) const
+{
+  if (pixel.Rays == this->Across * this->Across)
+  {
+    return 0.0f;
+  }
+  // Between two rays on a diagonal, it counts as much as for edges along a row, which are found
+  // best if the three count alike, and for edges across the diagonal, in whose middle the pixel is
+  // widest, if it counts twice. Four rays and more cover the pixel without it.
+  return pixel.Rays == 2 ? 1.5f : 0.5f;
 }
 
 //------------------------------------------------------------------------------
@@ -205,15 +233,12 @@ void PixelRays::Finish(float* image)
   for (const Pixel& pixel : this->Pixels)
   {
     float* color = image + 4 * pixel.InImage;
-    const bool hasAll = pixel.Rays == this->Across * this->Across;
-    float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
-    if (!hasAll)
-    {
-      std::copy_n(color, 4, sum);
-    }
+    const float weight = this->WeightOfCenter(pixel);
+    float sum[4];
+    std::transform(color, color + 4, sum, [weight](float value) { return weight * value; });
     this->VisitRays(pixel,
       [&sum](const float* ray) { std::transform(ray, ray + 4, sum, sum, std::plus<float>()); });
-    const auto count = static_cast<float>(hasAll ? pixel.Rays : pixel.Rays + 1);
+    const float count = static_cast<float>(pixel.Rays) + weight;
     std::transform(sum, sum + 4, color, [count](float value) { return value / count; });
   }
 }

@@ -21,7 +21,8 @@ namespace meniscus
  * It gets no further round if its k rays and that of the first image, through its centre, differ by
  * no more than k times the step that is tolerated: they find the covered part of the pixel in steps
  * of 1/k or less, so that they have the error of a single ray at the tolerated step. A pixel has
- * the mean colour of these rays or, if all have been cast, of its square.
+ * the mean colour of these rays, in which the centre counts 1.5 times between two others, and half
+ * among more, or, if all have been cast, of its square.
  */
 class PixelRays
 {
@@ -46,9 +47,9 @@ public:
   /** Writes the mean colours to the image that has the colours of the centres. */
   void Finish(float* image);
 
-  /** Nonzero for each selected ray, in rows of TileSize; and the box that contains them. */
+  /** Nonzero for each selected ray, in rows of TileSize; and the part of the tile with pixels. */
   const std::uint8_t* GetSelected() const { return this->Selected.data(); }
-  const BoundaryRaster::PixelBox& GetWanted() const { return this->Wanted; }
+  const BoundaryRaster::TilePart& GetWanted() const { return this->Wanted; }
   /** Colours of the tile's rays, four numbers each, in rows of TileSize; 0 to begin with. */
   float* GetColors() { return this->Colors.data(); }
 
@@ -72,7 +73,9 @@ private:
   void Select(Pixel& pixel, int row, int column);
   void SelectFour(Pixel& pixel, const int (&rows)[4]);
   void SelectNext(Pixel& pixel);
-  bool Agree(const Pixel& pixel, const float* center) const;
+  float GetSquaredStep(const Pixel& pixel, const float* center) const;
+  bool IsTolerated(const Pixel& pixel, float squaredStep) const;
+  float WeightOfCenter(const Pixel& pixel) const;
   template <class Visit>
   void VisitRays(const Pixel& pixel, const Visit& visit) const;
 
@@ -82,7 +85,7 @@ private:
   /** Nonzero for each ray that is selected or has been cast. */
   std::vector<std::uint8_t> Known;
   std::vector<std::uint8_t> Selected;
-  BoundaryRaster::PixelBox Wanted{ 0, 0, 0, 0 };
+  BoundaryRaster::TilePart Wanted = BoundaryRaster::TilePart::Nothing();
   std::vector<float> Colors;
 };
 

@@ -155,53 +155,54 @@ void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspa
 //------------------------------------------------------------------------------
 /** Adds a face and the wanted pixels of the tile that it may cover; returns their box. */
 ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
-  std::int32_t index, const PixelBox& tile, const PixelBox& wanted, Workspace& workspace) const
+  std::int32_t index, const PixelBox& tile, const TilePart& wanted, Workspace& workspace) const
 {
   const PixelBox& box = this->Boxes[index];
-  const PixelBox covered{ std::max(box.Left, wanted.Left), std::min(box.Right, wanted.Right),
-    std::max(box.Bottom, wanted.Bottom), std::min(box.Top, wanted.Top) };
-  if (covered.IsEmpty())
-  {
-    return { wanted.Right, wanted.Left, wanted.Top, wanted.Bottom };
-  }
-  const int width = covered.Right - covered.Left;
-  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
-  const auto add = [&](int row, const PixelSpan& span)
-  {
-    if (span.First < span.Last)
-    {
-      const int first = (row - tile.Bottom) * TileSize + covered.Left - tile.Left;
-      PacketSpan& added = workspace.Spans.emplace_back();
-      added.Face = number;
-      added.First = first + span.First;
-      added.End = first + span.Last;
-      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
-    }
-  };
-  workspace.Faces.push_back(this->Faces.GetEntered(index));
-  if (width <= NarrowBox)
-  {
-    for (int row = covered.Bottom; row < covered.Top; ++row)
-    {
-      add(row, { 0, width });
-    }
-    return covered;
-  }
-  const ProjectedFaces::Face face = this->Faces.Project(index);
+  const int left = std::max(box.Left, tile.Left);
+  const int right = std::min(box.Right, tile.Right);
+  const bool isNarrow = right - left <= NarrowBox;
+  const ProjectedFaces::Face face = isNarrow ? ProjectedFaces::Face() : this->Faces.Project(index);
   double reciprocals[3];
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3 && !isNarrow; ++k)
   {
     reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
   }
-  for (int row = covered.Bottom; row < covered.Top; ++row)
+  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
+  PixelBox covered{ tile.Right, tile.Left, tile.Top, tile.Bottom };
+  const int top = std::min(box.Top, tile.Top);
+  for (int row = std::max(box.Bottom, tile.Bottom); row < top; ++row)
   {
-    add(row, SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(covered.Left, row), width));
+    const auto inTile = static_cast<std::size_t>(row - tile.Bottom);
+    const int first = std::max(left, tile.Left + wanted.First[inTile]);
+    const int width = std::min(right, tile.Left + wanted.End[inTile]) - first;
+    if (width <= 0)
+    {
+      continue;
+    }
+    covered = { std::min(covered.Left, first), std::max(covered.Right, first + width),
+      std::min(covered.Bottom, row), row + 1 };
+    const PixelSpan span = width <= NarrowBox
+      ? PixelSpan{ 0, width }
+      : SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(first, row), width);
+    if (span.First < span.Last)
+    {
+      const int inRow = (row - tile.Bottom) * TileSize + first - tile.Left;
+      PacketSpan& added = workspace.Spans.emplace_back();
+      added.Face = number;
+      added.First = inRow + span.First;
+      added.End = inRow + span.Last;
+      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
+    }
+  }
+  if (!covered.IsEmpty())
+  {
+    workspace.Faces.push_back(this->Faces.GetEntered(index));
   }
   return covered;
 }
 
 //------------------------------------------------------------------------------
-void BoundaryRaster::CollectEntries(int tile, const PixelBox& wanted, Workspace& workspace) const
+void BoundaryRaster::CollectEntries(int tile, const TilePart& wanted, Workspace& workspace) const
 {
   if (this->IsEmpty(tile))
   {

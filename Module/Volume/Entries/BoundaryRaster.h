@@ -9,6 +9,8 @@
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/ProjectedFaces.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -53,6 +55,31 @@ public:
   /** Smallest depth of the faces by which rays of a tile may enter; infinite if there is none. */
   double NearestDepth(int tile) const;
 
+  /** Rays of a tile: those of each row between two columns, counted from the tile's corner. */
+  struct TilePart
+  {
+    /** The first column of each row, and the one behind the last. */
+    std::array<std::uint8_t, TileSize> First;
+    std::array<std::uint8_t, TileSize> End;
+
+    static TilePart Make(int first, int end)
+    {
+      TilePart part;
+      part.First.fill(static_cast<std::uint8_t>(first));
+      part.End.fill(static_cast<std::uint8_t>(end));
+      return part;
+    }
+    static TilePart Whole() { return Make(0, TileSize); }
+    static TilePart Nothing() { return Make(TileSize, 0); }
+    /** Adds columns of a row, and those between them and others of the row. */
+    void Add(int row, int first, int end)
+    {
+      const auto r = static_cast<std::size_t>(row);
+      this->First[r] = std::min(this->First[r], static_cast<std::uint8_t>(first));
+      this->End[r] = std::max(this->End[r], static_cast<std::uint8_t>(end));
+    }
+  };
+
   /** Buffers of one thread. */
   struct Workspace
   {
@@ -86,18 +113,18 @@ public:
   }
   /**
    * Replaces the lists of the workspace by the entries of a tile's rays.
-   * @param wanted box in the tile; rays outside of it get no entries.
+   * @param wanted rays outside of this part get no entries.
    */
-  void CollectEntries(int tile, const PixelBox& wanted, Workspace& workspace) const;
+  void CollectEntries(int tile, const TilePart& wanted, Workspace& workspace) const;
   void CollectEntries(int tile, Workspace& workspace) const
   {
-    this->CollectEntries(tile, this->BoxOfTile(tile), workspace);
+    this->CollectEntries(tile, TilePart::Whole(), workspace);
   }
 
 private:
   void FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const;
   PixelBox AddSpans(
-    std::int32_t index, const PixelBox& tile, const PixelBox& wanted, Workspace& workspace) const;
+    std::int32_t index, const PixelBox& tile, const TilePart& wanted, Workspace& workspace) const;
 
   /** Readable length of each row of the tile's lines (PacketSpanJob). */
   static constexpr int SizeOfRays = TileSize * TileSize + 16;

@@ -102,9 +102,9 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     const BoundaryRaster::PixelBox& box = this->Filled;
     return target.WriteImage(this->Image, { box.Left, box.Right, box.Bottom, box.Top });
   }
-  const bool finished =
-    this->Refined.Refine(this->Image, width, this->Filled, SumOf(this->OfTile).Rays, depths, target,
-      [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
+  const bool finished = this->Refined.Refine(this->Image, width, this->Filled,
+    SumOf(this->OfTile).Rays, across, depths, target,
+    [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
   return finished ? target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled())
                   : std::string();
 }

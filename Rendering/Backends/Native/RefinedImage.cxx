@@ -49,33 +49,42 @@ void CopyRows(
   }
 }
 
+/** A box and the pixels next to it. */
+PixelBox Widen(const PixelBox& box, int width, int height)
+{
+  return { std::max(box.Left - 1, 0), std::min(box.Right + 1, width), std::max(box.Bottom - 1, 0),
+    std::min(box.Top + 1, height) };
+}
+
 /**
- * The tiles of one ray per pixel around a box. The middle ray of a pixel counts, and its rounding
- * may depend on the rays of its tile.
+ * The tiles of one ray per pixel around a box and the pixels next to it. The middle ray of a pixel
+ * counts, and its rounding may depend on the rays of its tile.
  */
 PixelBox GetTilesAround(const PixelBox& box, int width, int height)
 {
   constexpr int size = BoundaryRaster::TileSize;
+  const PixelBox wide = Widen(box, width, height);
   const auto up = [](int end, int last) { return std::min((end + size - 1) / size * size, last); };
-  return { box.Left / size * size, up(box.Right, width), box.Bottom / size * size,
-    up(box.Top, height) };
+  return { wide.Left / size * size, up(wide.Right, width), wide.Bottom / size * size,
+    up(wide.Top, height) };
 }
 
 }
 
 //------------------------------------------------------------------------------
 bool RefinedImage::Refine(const std::vector<float>& image, int width, const PixelBox& filled,
-  std::int64_t rays, const ImageDepths& depths, RayCastTarget& target,
+  std::int64_t rays, int across, const ImageDepths& depths, RayCastTarget& target,
   const std::function<TileCaster::Scene()>& makeScene)
 {
   this->EdgesBefore.swap(this->Edges);
   const int height = static_cast<int>(depths.Now.size()) / width;
   FindImageEdges(image, width, height, filled, ThreadedLoop, this->Edges);
   const int levelBefore = this->Tolerated;
-  this->Tolerated = ChooseEdgeLevel(this->Edges, rays);
+  this->Tolerated = ChooseEdgeLevel(this->Edges, rays, across);
   this->NumberOfEdges =
     std::count_if(this->Edges.begin(), this->Edges.end(), IsAbove(this->Tolerated));
-  this->Filled = { filled.Left, filled.Right, filled.Bottom, filled.Top };
+  const PixelBox changed = filled.IsEmpty() ? filled : Widen(filled, width, height);
+  this->Filled = { changed.Left, changed.Right, changed.Bottom, changed.Top };
   if (this->NumberOfEdges == 0)
   {
     this->Pixels = image;
@@ -112,6 +121,7 @@ bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>&
     {
       const PixelBox box = caster.GetPixels(tile);
       CopyRows(box, width, image, this->Pixels);
+      SmoothEdges(image, width, height, this->Edges, this->Tolerated, box, this->Pixels);
       this->OfTile[static_cast<std::size_t>(tile)] =
         HasEdges(box, width, this->Edges, this->Tolerated)
         ? caster.Refine(tile, depths.Now.data(), { this->Edges.data(), this->Tolerated },

@@ -27,12 +27,13 @@ public:
    * @param image one ray per pixel, premultiplied RGBA, rows from below.
    * @param filled pixels of the image outside this box are zero.
    * @param rays rays of the image that met the mesh.
+   * @param across rays in a row of a pixel at an edge, at most.
    * @param target of the image, which is asked whether to go on.
    * @param makeScene scene of the rays of a refined image; called if there is an edge.
    * @return false if the application gives up the frame.
    */
   bool Refine(const std::vector<float>& image, int width, const BoundaryRaster::PixelBox& filled,
-    std::int64_t rays, const ImageDepths& depths, RayCastTarget& target,
+    std::int64_t rays, int across, const ImageDepths& depths, RayCastTarget& target,
     const std::function<TileCaster::Scene()>& makeScene);
   /** Makes the next image anew in all tiles. */
   void Forget() { this->Tiles = TilesToCast(); }

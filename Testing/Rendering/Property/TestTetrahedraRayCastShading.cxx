@@ -272,6 +272,75 @@ TEST(TetrahedraRayCastIsosurfaces, ValueOfVerticesIsMetOnce)
   }
 }
 
+// Cells are above or below the plane z = 0, on which the isosurface of their scalars is. Rays
+// through vertices and along edges pass cells in a point; the surface has its own normal and light
+// there, too, and not those of a face inside the mesh.
+TEST(TetrahedraRayCastIsosurfaces, FacesOfCellDataAreLitAlikeOnEdges)
+{
+  const Grid grid = MakeBlock(4, ConstantField(0.0));
+  vtkNew<vtkDoubleArray> heights;
+  heights->SetName("heights");
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    double bounds[6];
+    grid->GetCellBounds(cell, bounds);
+    heights->InsertNextValue(0.5 * (bounds[4] + bounds[5]));
+  }
+  grid->GetPointData()->SetScalars(nullptr);
+  grid->GetCellData()->SetScalars(heights);
+  auto property = MakeConstantProperty(1.0, 1, 1, 1, 1.0);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.0);
+  property->ShadeOn();
+  property->SetAmbient(0.0);
+  property->SetDiffuse(1.0);
+  property->SetSpecular(0.0);
+  constexpr int size = 33;
+  struct View
+  {
+    Vector3 ToCamera;
+    Vector3 Up;
+  };
+  const std::vector<View> views = { { { 0, 0, 1 }, { 0, 1, 0 } }, { { 0, 0, -1 }, { 0, 1, 0 } },
+    { { 1, 0, 1 }, { 0, 1, 0 } }, { { 0, 1, -1 }, { 1, 0, 0 } }, { { 1, 1, 1 }, { 1, -1, 0 } },
+    { { -1, -1, -1 }, { 1, -1, 0 } }, { { -1, 1, 1 }, { 0, 1, -1 } },
+    { { 1, -1, -1 }, { 0, 1, -1 } }, { { 1, 2, 2 }, { 0, 1, -1 } } };
+  for (const auto& [view, reach] : Product(views, List(0.0f, 1.0f)))
+  {
+    const Vector3& toCamera = view.ToCamera;
+    RayCastScene scene(grid, property, size, size);
+    scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    scene.GetRayCaster()->SetScalarModeToUseCellData();
+    scene.GetRayCaster()->SetGlobalIlluminationReach(reach);
+    vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetPosition(5.0 * toCamera[0], 5.0 * toCamera[1], 5.0 * toCamera[2]);
+    camera->SetViewUp(view.Up.data());
+    // Pixels are a quarter of a cube's edge apart: along an axis, many rays meet vertices.
+    camera->SetParallelScale(0.5 * size * 0.125);
+    scene.GetRenderer()->ResetCameraClippingRange();
+    const double facing = std::fabs(toCamera[2]) / MakeLength(toCamera);
+    const PixelRays rays(scene.GetRenderer());
+    const FloatImage image = scene.RenderFloat();
+    int met = 0;
+    for (const auto& [y, x] : Product(image.Height, image.Width))
+    {
+      const Ray ray = rays.GetRay(x, y);
+      const double at = -ray.Origin[2] / ray.Direction[2];
+      const auto along = [&](int axis)
+      { return std::fabs(ray.Origin[axis] + at * ray.Direction[axis]); };
+      if (along(0) < 0.999 && along(1) < 0.999)
+      {
+        ++met;
+        EXPECT_NEAR(image.GetPixel(x, y)[0], facing, 1.0e-4)
+          << toCamera[0] << toCamera[1] << toCamera[2] << ", reach " << reach << ": " << x << ", "
+          << y;
+      }
+    }
+    EXPECT_GT(met, 100);
+  }
+}
+
 TEST(TetrahedraRayCastIsosurfaces, NoValues)
 {
   const Grid grid = MakeBlock(3, WavyField(3.0));

@@ -18,7 +18,9 @@ namespace meniscus
  * pass isovalues on the faces where they jump. A scalar equal to an isovalue counts as above it.
  * Segments without length are skipped, though the scalar may pass an isovalue in them (by rounding,
  * along an edge in a surface): a segment that begins beyond the isovalues next to the last scalar
- * meets those between at its start.
+ * meets those between at its start. With scalars of cells, cells that the ray passes in a point
+ * count as well: a ray through edges and vertices is treated as displaced, and such a displaced ray
+ * meets the faces of these cells.
  * Packets test all segments; the few that meet a surface are processed one by one (CrossSurfaces).
  * The same interface as CompositeModel.
  */
@@ -57,7 +59,12 @@ public:
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
   {
-    const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+    Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+    if (this->Job.CellScalars)
+    {
+      valid = this->PassedCells(lanes, to, place.Depths);
+      from = to;
+    }
     // Scalars before and behind a cell without one are not connected.
     this->Enter(Simd::AndNot(lanes & (length > Simd::Splat(0.0f)), valid));
     const auto beyond = [this](Float scalar)
@@ -107,6 +114,16 @@ public:
   }
 
 private:
+  /**
+   * Lanes in cells with a scalar that are passed forwards, or in a point. The depth of a face is
+   * off by up to 4 * 2^-24 of the distance from the last one, below 2^31 grid units: the difference
+   * of two equal depths may be -1024.
+   */
+  static Mask PassedCells(Mask lanes, Float scalar, Float depths)
+  {
+    return lanes & (Simd::Abs(scalar) < Simd::Splat(LargestChange)) &
+      (depths > Simd::Splat(-1024.0f));
+  }
   template <class Place>
   void Cross(unsigned int lanes, Float from, Float to, const Place& place);
 

@@ -108,6 +108,8 @@ private:
   {
     Float StartDepth;
     Float EndDepth;
+    /** The segment's length in grid units of depth, not positive if the cell is not crossed. */
+    Float Depths;
     /** 4 * cell + face by which the cell was entered. */
     Int CellFace;
     /** Index of each lane's ray. */
@@ -455,8 +457,8 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
       values[1] = &cutValues[1];
     }
   }
-  const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, *values[0], *values[1],
-    crossed.Gradient, this->Line };
+  const SegmentPlace place{ start, end, length, cellFace, this->Ray, lanes, late, *values[0],
+    *values[1], crossed.Gradient, this->Line };
   this->Pending =
     this->Pending | this->Integral.Begin(lanes, from, to, length * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);

@@ -119,17 +119,42 @@ TEST(ImageEdges, ToleratedLevelBoundsRaysAndError)
     std::fill_n(codes.begin(), edges, PixelEdge::Make(height, false).GetCode());
     return codes;
   };
-  EXPECT_EQ(ChooseEdgeLevel(picture(0, 1.0f), 0), 0);
+  EXPECT_EQ(ChooseEdgeLevel(picture(0, 1.0f), 0, 4), 0);
   // One pixel of a hundred has edges: they get all rays that they need.
-  EXPECT_EQ(ChooseEdgeLevel(picture(100, 1.0f), pixels), 0);
-  // A ninth: the error of each may be three times as large.
-  const float limit = StepOfLevel(ChooseEdgeLevel(picture(pixels / 9, 1.0f), 100));
-  EXPECT_LE(limit, 3.0f * EdgeThreshold);
-  EXPECT_GT(limit, 2.7f * EdgeThreshold);
-  // Edges everywhere.
-  EXPECT_EQ(ChooseEdgeLevel(picture(pixels, 1.0f), 100), 0);
-  // They get 2.2 rays each, of 0.6 for each of the image.
+  EXPECT_EQ(ChooseEdgeLevel(picture(100, 1.0f), pixels, 4), 0);
+  // The square of the error is 0.6 of that of the tolerated step, and that of the mean of all
+  // pixels 0.97^2 of that of EdgeThreshold.
+  for (const std::size_t share : { 3, 9 })
+  {
+    const double largest = EdgeThreshold * std::sqrt(0.97 * 0.97 / 0.6 * share);
+    const float limit = StepOfLevel(ChooseEdgeLevel(picture(pixels / share, 1.0f), 100, 4));
+    EXPECT_LE(limit, largest);
+    EXPECT_GT(limit, 0.9 * largest);
+  }
+  // They get 2.2 rays each, of 0.8 for each of the image.
   const float low = 1.5f * EdgeThreshold;
-  EXPECT_EQ(ChooseEdgeLevel(picture(1000, low), 3680), 0);
-  EXPECT_GE(StepOfLevel(ChooseEdgeLevel(picture(1000, low), 3600)), low);
+  EXPECT_EQ(ChooseEdgeLevel(picture(1000, low), 2760, 4), 0);
+  EXPECT_GE(StepOfLevel(ChooseEdgeLevel(picture(1000, low), 2740, 4)), low);
+  // A square of one ray has 9/16 of it.
+  EXPECT_EQ(ChooseEdgeLevel(picture(1000, low), 710, 1), 0);
+}
+
+TEST(ImageEdges, ToleratedEdgesBecomeSmooth)
+{
+  constexpr int width = 4;
+  constexpr int height = 2;
+  std::vector<float> image(4 * width * height, 0.0f);
+  for (const int pixel : { 2, 3, 6, 7 })
+  {
+    image[4 * pixel + 3] = 0.6f;
+  }
+  const std::vector<std::uint8_t> edges = { 0, 3, 4, 0, 0, 5, 4, 0 };
+  std::vector<float> smooth = image;
+  SmoothEdges(image, width, height, edges, 4, { 0, width, 0, height }, smooth);
+  const float expected[8] = { 0.0f, 0.05f, 0.55f, 0.6f, 0.0f, 0.0f, 0.55f, 0.6f };
+  for (std::size_t pixel = 0; pixel < 8; ++pixel)
+  {
+    EXPECT_FLOAT_EQ(smooth[4 * pixel + 3], expected[pixel]) << pixel;
+    EXPECT_EQ(smooth[4 * pixel], 0.0f);
+  }
 }
