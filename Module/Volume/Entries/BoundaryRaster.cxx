@@ -125,8 +125,9 @@ double BoundaryRaster::NearestDepth(int tile) const
 }
 
 //------------------------------------------------------------------------------
-/** Sets the lines of the rays of a tile that are in the box. */
-void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const
+/** Sets the lines of the wanted rays of a tile that are in the box. */
+void BoundaryRaster::FillRays(
+  const PixelBox& tile, const TilePart& wanted, const PixelBox& box, Workspace& workspace) const
 {
   workspace.Offsets.resize(2 * SizeOfRays);
   workspace.Slopes.resize(2 * SizeOfRays);
@@ -139,16 +140,23 @@ void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspa
   }
   for (int row = box.Bottom; row < box.Top; ++row)
   {
+    const auto inTile = static_cast<std::size_t>(row - tile.Bottom);
+    const int left = std::max(box.Left, tile.Left + wanted.First[inTile]);
+    const int right = std::min(box.Right, tile.Left + wanted.End[inTile]);
+    if (right <= left)
+    {
+      continue;
+    }
     FixedPointRays::RowOfRays rays;
     for (int axis = 0; axis < 2; ++axis)
     {
-      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize + box.Left - tile.Left;
+      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize + left - tile.Left;
       rays.Offset[axis] = workspace.Offsets.data() + first;
       rays.Slope[axis] = workspace.Slopes.data() + first;
       rays.Fraction[axis] = workspace.Fractions.data() + first;
       rays.SlopeRest[axis] = workspace.SlopeRests.data() + first;
     }
-    this->GetRays().FillRow(box.Left, row, box.Right - box.Left, rays);
+    this->GetRays().FillRow(left, row, right - left, rays);
   }
 }
 
@@ -160,13 +168,10 @@ ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
   const PixelBox& box = this->Boxes[index];
   const int left = std::max(box.Left, tile.Left);
   const int right = std::min(box.Right, tile.Right);
-  const bool isNarrow = right - left <= NarrowBox;
-  const ProjectedFaces::Face face = isNarrow ? ProjectedFaces::Face() : this->Faces.Project(index);
-  double reciprocals[3];
-  for (int k = 0; k < 3 && !isNarrow; ++k)
-  {
-    reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
-  }
+  // Projected for the first row that is wide: often, none of a face's pixels is wanted.
+  bool isProjected = false;
+  ProjectedFaces::Face face{};
+  double reciprocals[3] = {};
   const auto number = static_cast<std::int32_t>(workspace.Faces.size());
   PixelBox covered{ tile.Right, tile.Left, tile.Top, tile.Bottom };
   const int top = std::min(box.Top, tile.Top);
@@ -181,6 +186,15 @@ ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
     }
     covered = { std::min(covered.Left, first), std::max(covered.Right, first + width),
       std::min(covered.Bottom, row), row + 1 };
+    if (width > NarrowBox && !isProjected)
+    {
+      isProjected = true;
+      face = this->Faces.Project(index);
+      for (int k = 0; k < 3; ++k)
+      {
+        reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
+      }
+    }
     const PixelSpan span = width <= NarrowBox
       ? PixelSpan{ 0, width }
       : SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(first, row), width);
@@ -228,7 +242,7 @@ void BoundaryRaster::CollectEntries(int tile, const TilePart& wanted, Workspace&
     covered = { std::min(covered.Left, part.Left), std::max(covered.Right, part.Right),
       std::min(covered.Bottom, part.Bottom), std::max(covered.Top, part.Top) };
   }
-  this->FillRays(box, covered, workspace);
+  this->FillRays(box, wanted, covered, workspace);
   workspace.Hits.resize(std::max(workspace.Hits.size(), workspace.SpannedPixels));
   PacketSpanJob job;
   job.Vertices = this->Faces.GetVertices().data();

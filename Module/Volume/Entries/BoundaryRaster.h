@@ -122,7 +122,8 @@ public:
   }
 
 private:
-  void FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const;
+  void FillRays(
+    const PixelBox& tile, const TilePart& wanted, const PixelBox& box, Workspace& workspace) const;
   PixelBox AddSpans(
     std::int32_t index, const PixelBox& tile, const TilePart& wanted, Workspace& workspace) const;
 
