@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <ostream>
 
@@ -115,21 +116,20 @@ private:
 bool DrawViews(std::ostream& out, const VolumeOptions& options, PaperScene& scene)
 {
   constexpr int frames = 90;
-  Curve times;
-  Curve steps;
+  Curve times(frames, std::numeric_limits<double>::infinity());
+  Curve steps(frames);
   scene.Look(0.0, 0.0);
   scene.Draw();
-  for (int i = 0; i < frames; ++i)
+  // Rounds over all views: what disturbs the processor for a while disturbs one round of a view.
+  for (int round = 0; round < options.Repetitions; ++round)
   {
-    const double turn = 2.0 * Pi * i / frames;
-    scene.Look(360.0 * i / frames, 75.0 * std::sin(3.0 * turn));
-    Curve rounds;
-    for (int round = 0; round < options.Repetitions; ++round)
+    for (int i = 0; i < frames; ++i)
     {
-      rounds.push_back(scene.Draw());
+      const double turn = 2.0 * Pi * i / frames;
+      scene.Look(360.0 * i / frames, 75.0 * std::sin(3.0 * turn));
+      times[i] = std::min(times[i], scene.Draw());
+      steps[i] = static_cast<double>(scene.GetMapper()->GetNumberOfTraversalSteps());
     }
-    times.push_back(*std::min_element(rounds.begin(), rounds.end()));
-    steps.push_back(static_cast<double>(scene.GetMapper()->GetNumberOfTraversalSteps()));
   }
   const auto ends = std::minmax_element(times.begin(), times.end());
   out << "views: " << *ends.first << " to " << *ends.second << " ms of processor time, mean "

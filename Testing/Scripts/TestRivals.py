@@ -155,7 +155,7 @@ class Paper(unittest.TestCase):
         the steps that the reference counts."""
         with tempfile.TemporaryDirectory() as folder:
             text = run(PROGRAMS / "meniscus_benchmark_volume", "--paper", folder, "--mesh", MESH,
-                       "--function", "opaque", "--size", "256")
+                       "--function", "opaque", "--size", "256", "--repetitions", "8")
             self.assertEqual(sorted(os.listdir(folder)), ["paper-steps.png", "paper-views.png"])
         self.assertGreater(float(re.search(r"correlation ([\d.]+)", text).group(1)), 0.8, text)
         counts = re.findall(r"([\d.e+]+) (?:steps of the reference )?\(mapper: ([\d.e+]+)\)", text)
