@@ -81,7 +81,8 @@ def has_solid_cells(leaf):
 def _corners_in(grid, values):
     """Values of the points of structured data with solid cells at the 8 corners of each cell: an
     iterable of arrays with the shape of the cells."""
-    across, along, up = grid.GetDimensions()
+    extent = grid.GetExtent()  # VTK 9.7's structured grids return no dimensions
+    across, along, up = (extent[2 * axis + 1] - extent[2 * axis] + 1 for axis in range(3))
     values = values.reshape(up, along, across)
     return (values[z:up - 1 + z, y:along - 1 + y, x:across - 1 + x]
             for z in (0, 1) for y in (0, 1) for x in (0, 1))
