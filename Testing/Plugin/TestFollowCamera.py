@@ -147,7 +147,7 @@ def check_setting(view, refracted):
 def check_slow(view, refracted):
     """If an update takes longer than 0.2 s, the eye follows when the camera has stopped."""
     ball = refracted.Geometry
-    ball.ThetaResolution = ball.PhiResolution = 400
+    ball.ThetaResolution = ball.PhiResolution = 1000
     simple.Render(view)
     camera = view.SMProxy.GetActiveCamera()
     camera.SetPosition(*PLACES[0])
