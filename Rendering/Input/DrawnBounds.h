@@ -38,7 +38,7 @@ private:
   std::int64_t Builds = 0;
 };
 
-/** Warning that VTK's cameras do not see what is as small as a box; empty if they see it. */
+/** Warning that a box is too small for VTK's cameras, which do not see it; empty if they do. */
 std::string DescribeSmallBox(const PointBox& box);
 
 /**
