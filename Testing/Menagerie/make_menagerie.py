@@ -165,7 +165,7 @@ def add_programs(menagerie):
     menagerie.add("abaqus/box.inp", other_files.abaqus(HEXAHEDRAL), arrays="cell BOX",
                   needs="meshio")
     menagerie.add("xdmf/mesh.xdmf", other_files.xdmf(TETRAHEDRAL), arrays="point T",
-                  needs="meshio")
+                  needs="meshio h5py")
     menagerie.add("xdmf/steps.xdmf", other_files.xdmf(TETRAHEDRAL, (0.0, 0.5, 2.0)),
                   arrays="point T", steps=3, needs="meshio")
     menagerie.add("avs/box.inp", other_files.avs(HEXAHEDRAL),

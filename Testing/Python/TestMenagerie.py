@@ -34,7 +34,7 @@ def find_missing(row):
     if needs.startswith("VTK "):
         wanted = tuple(int(number) for number in needs[4:].split("."))
         return needs if VERSION < wanted else ""
-    return needs if needs and importlib.util.find_spec(needs) is None else ""
+    return " ".join(name for name in needs.split() if importlib.util.find_spec(name) is None)
 
 
 def measure_volume(data, array, association):
