@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthImagePoints.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 
 #include "vtkCamera.h"
@@ -154,6 +155,7 @@ const char* vtkDepthImagePoints::FindFault(vtkImageData* image, vtkDataArray* de
 int vtkDepthImagePoints::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkImageData* image = vtkImageData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   vtkDataArray* depths = this->GetInputArrayToProcess(0, inputs);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImaginaryCellFilter.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Mesher/SurfaceMessages.h"
 #include "Filters/Mesher/TetGenRun.h"
 
@@ -161,6 +162,7 @@ bool vtkImaginaryCellFilter::HasTetGen()
 int vtkImaginaryCellFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->NumberOfImaginaryCells = 0;
   this->NumberOfAddedPoints = 0;
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputs[0]);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMembraneCellFilter.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
@@ -238,6 +239,7 @@ bool vtkMembraneCellFilter::UpdateScene(vtkInformationVector* membranes)
 int vtkMembraneCellFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->NumberOfBackFacingFacets = 0;
   this->NumberOfTotallyReflectedFacets = 0;
   this->NumberOfMissedFacets = 0;

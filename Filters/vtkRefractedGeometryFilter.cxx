@@ -3,6 +3,7 @@
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
 #include "Common/CoherentOrder.h"
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
@@ -82,7 +83,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* s
   {
     const vtkIdType last = std::min(first + step, count);
     // Threads take whole grains, so the contents of a grain do not depend on the threads.
-    vtkSMPTools::For(0, (last - first + grain - 1) / grain, 1,
+    meniscus::ThreadedFor(0, (last - first + grain - 1) / grain, 1,
       [&body, first, last, grain](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType i = begin; i < end; ++i)
@@ -442,6 +443,7 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
 int vtkRefractedGeometryFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkDataSet* geometry = vtkDataSet::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   if (!geometry || !vtkPolyData::GetData(inputs[1]) || !output)

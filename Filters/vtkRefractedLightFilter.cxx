@@ -3,6 +3,7 @@
 #include "vtkRefractedLightFilter.h"
 
 #include "Common/FiniteVector.h"
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/CellLoop.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ThreadedLoop.h"
@@ -441,6 +442,7 @@ bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
 int vtkRefractedLightFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkDataSet* geometry = vtkDataSet::GetData(inputs[0]);
   vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/ProgressSteps.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
@@ -25,7 +27,6 @@
 #include "vtkPolyData.h"
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -260,6 +261,7 @@ bool vtkRefractionErrorVolume::HasValidLimits()
 int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   int extent[6];
   double origin[3];
   double spacing[3];
@@ -297,6 +299,7 @@ int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(req
 int vtkRefractionErrorVolume::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->Internals->Summary = meniscus::ErrorSummary();
   vtkPolyData* membrane = vtkPolyData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
@@ -397,7 +400,7 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
   return meniscus::RunInSteps(this, output->GetNumberOfPoints(), SampleProgressSteps,
     SmallestSampleStep,
     [&measure](vtkIdType first, vtkIdType last)
-    { vtkSMPTools::For(first, last, SampleGrain, measure); });
+    { meniscus::ThreadedFor(first, last, SampleGrain, measure); });
 }
 
 //------------------------------------------------------------------------------

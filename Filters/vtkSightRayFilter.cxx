@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSightRayFilter.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Membrane/PointEyes.h"
 #include "Refraction/Stack/StackInverse.h"
 
@@ -124,6 +125,7 @@ void TraceLines(meniscus::SightRayTracer& tracer, const glm::dvec3& eye, const g
 int vtkSightRayFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   meniscus::PointEyes eyes;
   if (!this->UpdateScene(input, inputs[1], eyes))

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedralizeSurface.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Mesher/DelaunayMesher.h"
 #include "Filters/Mesher/SurfaceExtraction.h"
@@ -85,6 +86,7 @@ bool vtkTetrahedralizeSurface::HasValidSettings()
 int vtkTetrahedralizeSurface::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->UsedMesher = AUTOMATIC;
   this->NumberOfAddedPoints = 0;
   this->LargestRadiusEdgeRatio = 0.0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTriangulatedPositionFilter.h"
 
+#include "Common/StandardFloatingPoint.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Membrane/PointEyes.h"
 #include "Refraction/Stack/StackTriangulation.h"
 
@@ -18,7 +20,6 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <glm/geometric.hpp>
@@ -197,6 +198,7 @@ std::string vtkTriangulatedPositionFilter::GetPointIdArrayName()
 int vtkTriangulatedPositionFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->WithoutPosition = 0;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   meniscus::PointEyes eyes;
@@ -245,7 +247,7 @@ int vtkTriangulatedPositionFilter::RequestData(
   };
   if (!this->RunInSteps(static_cast<vtkIdType>(tracks.Ids.size()),
         [&](vtkIdType begin, vtkIdType end)
-        { vtkSMPTools::For(begin, end, TriangulationGrain, triangulate); }))
+        { meniscus::ThreadedFor(begin, end, TriangulationGrain, triangulate); }))
   {
     return 1;
   }

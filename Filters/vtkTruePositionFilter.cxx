@@ -3,6 +3,7 @@
 #include "vtkTruePositionFilter.h"
 
 #include "Common/CoherentOrder.h"
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/PointCoordinates.h"
@@ -19,7 +20,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -128,6 +128,7 @@ int vtkTruePositionFilter::RequestDataObject(
 int vtkTruePositionFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->Internals->TotallyReflected = 0;
   this->Internals->Missed = 0;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
@@ -179,7 +180,7 @@ bool vtkTruePositionFilter::MovePoints(
   // Threads take whole chains, so that results do not depend on the threads.
   const auto moveChains = [&move](vtkIdType begin, vtkIdType end)
   {
-    vtkSMPTools::For(0, (end - begin + Chain - 1) / Chain, 1,
+    meniscus::ThreadedFor(0, (end - begin + Chain - 1) / Chain, 1,
       [&](vtkIdType first, vtkIdType last)
       {
         for (vtkIdType i = first; i < last; ++i)

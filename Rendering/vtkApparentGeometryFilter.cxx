@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkApparentGeometryFilter.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/Statistics.h"
@@ -207,6 +208,7 @@ void vtkApparentGeometryFilter::MovePoints(vtkPointSet* output)
 int vtkApparentGeometryFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkPointSet* output = vtkPointSet::GetData(outputs);
   output->Initialize();
   if (!this->TellError(this->FindFault()) ||

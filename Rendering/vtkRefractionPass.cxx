@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Rendering/Pass/LightForNormals.h"
 #include "Rendering/Pass/MembraneComposer.h"
@@ -269,6 +270,7 @@ void vtkRefractionPass::UpdateMedium()
 //------------------------------------------------------------------------------
 void vtkRefractionPass::Render(const vtkRenderState* state)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkInternals& internals = *this->Internals;
   vtkRenderer* renderer = state->GetRenderer();
   if (this->AdjustClippingRange)

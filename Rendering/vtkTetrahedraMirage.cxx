@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraMirage.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Common/Statistics.h"
@@ -307,6 +308,7 @@ void vtkTetrahedraMirage::WriteArrays(vtkImageData* output)
 int vtkTetrahedraMirage::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->Initialize();
   const double* settings[2] = { this->LightDirection, this->BackgroundColor };

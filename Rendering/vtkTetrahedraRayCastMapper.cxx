@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
@@ -89,6 +90,7 @@ meniscus::PointBox vtkTetrahedraRayCastMapper::MeasureInput()
 //------------------------------------------------------------------------------
 double* vtkTetrahedraRayCastMapper::GetBounds()
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkMath::UninitializeBounds(this->Bounds);
   const meniscus::PointBox ofInput = this->MeasureInput();
   if (ofInput.IsEmpty())
@@ -601,6 +603,7 @@ void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* vo
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkInformation* keys = volume->GetPropertyKeys();
   const bool peeled = renderer->GetUseDepthPeelingForVolumes() && keys &&
     keys->Has(vtkOpenGLRenderPass::RenderPasses());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/RayIntegralInternals.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Interface/InterfaceInput.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Integral/ImagePlace.h"
@@ -486,6 +487,7 @@ bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkDataObject* input, v
 int vtkTetrahedraRayIntegral::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->Initialize();
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);

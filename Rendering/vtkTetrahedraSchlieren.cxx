@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraSchlieren.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Filters/Common/Statistics.h"
 #include "Rendering/Integral/BentMedium.h"
@@ -250,6 +251,7 @@ void vtkTetrahedraSchlieren::MakeImages(vtkImageData* background, vtkImageData* 
 int vtkTetrahedraSchlieren::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->Initialize();
   vtkImageData* background =

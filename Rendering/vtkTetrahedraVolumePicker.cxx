@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraVolumePicker.h"
 
+#include "Common/StandardFloatingPoint.h"
 #include "Filters/Common/Accessors.h"
 #include "Rendering/VolumePick.h"
 #include "vtkTetrahedraRayCastMapper.h"
@@ -122,6 +123,7 @@ void vtkTetrahedraVolumePicker::PickProp(vtkProp* prop)
 //------------------------------------------------------------------------------
 void vtkTetrahedraVolumePicker::PickVolume(vtkAssemblyPath* path)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   vtkVolume* volume = vtkVolume::SafeDownCast(path->GetLastNode()->GetViewProp());
   auto* mapper = volume ? vtkTetrahedraRayCastMapper::SafeDownCast(volume->GetMapper()) : nullptr;
   if (!mapper || !volume->GetPickable() || !volume->GetVisibility())
@@ -169,6 +171,7 @@ void vtkTetrahedraVolumePicker::PickVolume(vtkAssemblyPath* path)
 int vtkTetrahedraVolumePicker::Pick(
   double selectionX, double selectionY, double selectionZ, vtkRenderer* renderer)
 {
+  const meniscus::StandardFloatingPoint standardFloatingPoint;
   this->Initialize();
   this->Renderer = renderer;
   this->SelectionPoint[0] = selectionX;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Loops of the kernel on the threads of vtkSMPTools. */
+/** Loops of the library on the threads of vtkSMPTools. */
 #pragma once
 
 #include "Common/RangeLoop.h"
+#include "Common/StandardFloatingPoint.h"
 
 #include "vtkSMPTools.h"
 #include "vtkType.h"
@@ -13,10 +14,25 @@
 namespace meniscus
 {
 
+/**
+ * vtkSMPTools::For() with standard floating-point arithmetic on its threads, whose mode is that of
+ * the threads that started them.
+ */
+template <typename Body>
+void ThreadedFor(vtkIdType first, vtkIdType last, vtkIdType grain, const Body& body)
+{
+  vtkSMPTools::For(first, last, grain,
+    [&body](vtkIdType begin, vtkIdType end)
+    {
+      const StandardFloatingPoint standard;
+      body(begin, end);
+    });
+}
+
 /** Calls `body` for ranges of [0, count), each of at least `grain` elements, on several threads. */
 inline void ThreadedRanges(std::size_t count, vtkIdType grain, const RangeBody& body)
 {
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), grain,
+  ThreadedFor(0, static_cast<vtkIdType>(count), grain,
     [&body](vtkIdType begin, vtkIdType end)
     { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Input/VolumeComponents.h"
 
+#include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Input/ConcatenatedArray.h"
 
 #include "vtkDataArray.h"
-#include "vtkSMPTools.h"
 #include "vtkType.h"
 
 #include <glm/common.hpp>
@@ -59,10 +59,10 @@ std::int64_t MarkUnknown(const VolumeInput& input, const InputBlocks& parts, int
     valuesOf.emplace_back(parts, c, input.GetInterpolatedPoints(FieldAssociation::Points));
   }
   std::atomic<std::int64_t> unknown(0);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
-    [&](vtkIdType first, vtkIdType last)
+  PointLoop(points.size(),
+    [&](std::size_t first, std::size_t last)
     {
-      for (vtkIdType v = first; v < last; ++v)
+      for (std::size_t v = first; v < last; ++v)
       {
         bool known = true;
         for (const ConcatenatedArray& valueOf : valuesOf)
@@ -178,10 +178,10 @@ void VolumeComponents::TakeScalars(const VolumeInput& input, const InputBlocks& 
       parts, this->Others[other], input.GetInterpolatedPoints(FieldAssociation::Points));
     const ScalarNormalization& normalization = this->Normalizations[other];
     const auto at = static_cast<int>(other);
-    vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
-      [&](vtkIdType first, vtkIdType last)
+    PointLoop(points.size(),
+      [&](std::size_t first, std::size_t last)
       {
-        for (vtkIdType v = first; v < last; ++v)
+        for (std::size_t v = first; v < last; ++v)
         {
           this->Values[v][at] = static_cast<float>(normalization(valueOf(points[v])));
         }
@@ -198,10 +198,10 @@ void VolumeComponents::TakeColors(const VolumeInput& input, const InputBlocks& p
   const ConcatenatedArray red(parts, 0, interpolated);
   const ConcatenatedArray green(parts, 1, interpolated);
   const ConcatenatedArray blue(parts, 2, interpolated);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
-    [&](vtkIdType first, vtkIdType last)
+  PointLoop(points.size(),
+    [&](std::size_t first, std::size_t last)
     {
-      for (vtkIdType v = first; v < last; ++v)
+      for (std::size_t v = first; v < last; ++v)
       {
         const glm::dvec3 color(red(points[v]), green(points[v]), blue(points[v]));
         this->Values[v] = glm::vec3(glm::clamp(scale * color, 0.0, 1.0));

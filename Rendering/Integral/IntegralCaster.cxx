@@ -48,7 +48,7 @@ bool IntegralCaster::Cast(
   for (int first = 0; first < tiles && !this->Aborted; first += step)
   {
     const int last = std::min(tiles, first + step);
-    vtkSMPTools::For(first, last, 1,
+    ThreadedFor(first, last, 1,
       [&](vtkIdType begin, vtkIdType end)
       {
         TileCaster::Workspace& workspace = workspaces.Local();

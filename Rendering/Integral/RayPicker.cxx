@@ -6,7 +6,6 @@
 #include "Rendering/Integral/TilePixels.h"
 
 #include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
 #include "vtkType.h"
 
 #include <glm/geometric.hpp>
@@ -117,7 +116,7 @@ std::string RayPicker::CastDepths(RayCastTables& tables, RayCastFrame frame, dou
   const std::vector<float> farPlane(pixels, 1.0f);
   const TileCaster caster(scene, ThreadedLoop);
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
-  vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
+  ThreadedFor(0, caster.GetNumberOfTiles(), 1,
     [&](vtkIdType first, vtkIdType last)
     {
       TileCaster::Workspace& workspace = workspaces.Local();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/Native/TilesToCast.h"
 
-#include "vtkSMPTools.h"
+#include "Filters/Common/ThreadedLoop.h"
 #include "vtkType.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ bool TilesToCast::Cast(RayCastTarget& target, const std::function<void(int)>& ca
     const double start = GetSeconds();
     const std::size_t last = std::min(first + part, count);
     // Tiles differ in cost: small grains let threads share it.
-    vtkSMPTools::For(static_cast<vtkIdType>(first), static_cast<vtkIdType>(last), 1,
+    ThreadedFor(static_cast<vtkIdType>(first), static_cast<vtkIdType>(last), 1,
       [&](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType i = begin; i < end; ++i)
