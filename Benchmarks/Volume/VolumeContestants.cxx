@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeContestants.h"
 
+#ifdef MENISCUS_HAS_OPENVKL
+#include "OpenVklMapper.h"
+#endif
 #include "ResampledMapper.h"
 #include "TestMeshes.h"
 #include "VolumeScene.h"
@@ -59,6 +62,30 @@ Contestant MakeZSweep()
     false, test::FunctionKind::Smooth, false };
 }
 
+#ifdef MENISCUS_HAS_OPENVKL
+// Samples of Open VKL per nominal length of an interval; OSPRay takes 1 by default.
+const struct
+{
+  const char* Name;
+  double Rate;
+} SamplingRates[] = { { "1:16", 1.0 / 16.0 }, { "1:4", 0.25 }, { "1", 1.0 }, { "4", 4.0 } };
+#endif
+
+void AddOpenVkl([[maybe_unused]] int threads, [[maybe_unused]] std::vector<Contestant>& peers)
+{
+#ifdef MENISCUS_HAS_OPENVKL
+  for (const auto& sampling : SamplingRates)
+  {
+    const double rate = sampling.Rate;
+    if (MakeOpenVklMapper(rate, threads))
+    {
+      peers.push_back({ std::string("openvkl/") + sampling.Name,
+        [rate, threads]() { return MakeOpenVklMapper(rate, threads); }, false });
+    }
+  }
+#endif
+}
+
 // Points along the longest side of images that the mesh is resampled to.
 constexpr int ImageSizes[] = { 64, 128, 256 };
 
@@ -77,6 +104,7 @@ std::vector<Contestant> MakePeers(const VolumeOptions& options)
     peers.push_back({ "resampled/" + std::to_string(size),
       [size]() { return MakeResampledMapper(size); }, false });
   }
+  AddOpenVkl(threads, peers);
   if (options.ZSweep)
   {
     peers.push_back(MakeZSweep());

@@ -35,8 +35,9 @@ struct Contestant
 };
 
 /**
- * VTK's mappers, and ours with every backend and integration that is available, which is tested by
- * a small image. Ours is also included with rays that end at an opacity of 0.99. Needs a display.
+ * VTK's mappers, Open VKL where it is installed, and ours with every backend and integration that
+ * is available, which is tested by a small image. Ours is also included with rays that end at an
+ * opacity of 0.99. Needs a display.
  */
 std::vector<Contestant> MakeContestants(const VolumeOptions& options);
 

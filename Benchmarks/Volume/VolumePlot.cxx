@@ -26,6 +26,7 @@ const std::vector<PlotCurve>& GetCurves()
   static const std::vector<PlotCurve> curves{
     { "resampled to an image (64, 128, 256)",
       { "resampled/64", "resampled/128", "resampled/256" } },
+    { "Open VKL (1/16, 1/4, 1, 4)", { "openvkl/1:16", "openvkl/1:4", "openvkl/1", "openvkl/4" } },
     { "projected tetrahedra", { "projected" } },
     { "Bunyk, pre-integrated", { "raycast/pre-integration" } },
     { "Bunyk, partly pre-integrated", { "raycast/partial" } },
