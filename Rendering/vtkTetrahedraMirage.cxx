@@ -12,7 +12,6 @@
 #include "Rendering/Integral/BentVolume.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Rendering/Integral/SeenObjects.h"
-#include "Volume/Graded/GradedRayWalk.h"
 
 #include "vtkDataSet.h"
 #include "vtkFloatArray.h"
@@ -86,35 +85,25 @@ vtkTetrahedraMirage::vtkInternals::List()
 {
   using Self = vtkTetrahedraMirage;
   using Sight = meniscus::OpaqueSight;
-  static const std::vector<meniscus::Statistic<Self>> list = {
-    { "NumberOfRays", "rays of the last image that met the mesh",
-      [](Self& self) { return double(self.Internals->Statistics.Rays); } },
-    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
-      [](Self& self) { return double(self.Internals->Statistics.Steps); } },
-    { "NumberOfObjectPixels", "pixels of the last image that show an object",
-      [](Self& self)
-      { return self.Internals->CountSights([](const Sight& s) { return s.Hit.Triangle >= 0; }); } },
-    { "NumberOfBackPixels", "pixels of the last image that show the back of a polygon",
-      [](Self& self)
-      {
-        return self.Internals->CountSights(
-          [](const Sight& s) { return s.Hit.Triangle >= 0 && !s.Hit.IsFront; });
-      } },
-    { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
-      [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
-    { "NumberOfRaysStoppedInFolds",
-      "stopped rays of the last image that have passed inverted cells, where light goes back",
-      [](Self& self) { return double(self.Internals->Statistics.TrappedInFolds); } },
-    { "NumberOfLostRays",
-      "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
-      "doubles",
-      [](Self& self) { return double(self.Internals->Statistics.Lost); } },
-    { "NumberOfUnusablePoints", "points of the mesh whose value cannot be used",
-      [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
-    { "NumberOfBrokenCells",
-      "polygons of the objects with a point that is not finite or is missing",
-      [](Self& self) { return double(self.Internals->Objects.GetNumberOfBrokenCells()); } },
-  };
+  static const std::vector<meniscus::Statistic<Self>> list = meniscus::ListBentRays<Self>(
+    [](Self& self) -> meniscus::GradedRayStatistics& { return self.Internals->Statistics; },
+    {
+      { "NumberOfObjectPixels", "pixels of the last image that show an object",
+        [](Self& self) {
+          return self.Internals->CountSights([](const Sight& s) { return s.Hit.Triangle >= 0; });
+        } },
+      { "NumberOfBackPixels", "pixels of the last image that show the back of a polygon",
+        [](Self& self)
+        {
+          return self.Internals->CountSights(
+            [](const Sight& s) { return s.Hit.Triangle >= 0 && !s.Hit.IsFront; });
+        } },
+      { "NumberOfUnusablePoints", "points of the mesh whose value cannot be used",
+        [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
+      { "NumberOfBrokenCells",
+        "polygons of the objects with a point that is not finite or is missing",
+        [](Self& self) { return double(self.Internals->Objects.GetNumberOfBrokenCells()); } },
+    });
   return list;
 }
 

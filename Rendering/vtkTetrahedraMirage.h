@@ -54,6 +54,7 @@
 #ifndef vtkTetrahedraMirage_h
 #define vtkTetrahedraMirage_h
 
+#include "OpacityModel.h" // For meniscusOpacityModelMacro
 #include "vtkBentRayAlgorithm.h"
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkSmartPointer.h"   // For members
@@ -136,22 +137,9 @@ public:
   vtkGetStringMacro(VolumeArrayName);
   /** @} */
 
-  /** Meanings of opacity, as in vtkTetrahedraRayCastMapper. */
-  enum
-  {
-    ATTENUATION_COEFFICIENT = 0,
-    OPACITY_PER_UNIT_DISTANCE = 1
-  };
-
   /** @{ */
   /** Set/Get the meaning of the property's opacity. Default is ATTENUATION_COEFFICIENT. */
-  virtual void SetOpacityModel(int model);
-  vtkGetMacro(OpacityModel, int);
-  void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
-  void SetOpacityModelToOpacityPerUnitDistance()
-  {
-    this->SetOpacityModel(OPACITY_PER_UNIT_DISTANCE);
-  }
+  meniscusOpacityModelMacro();
   /** @} */
 
   /** @{ */

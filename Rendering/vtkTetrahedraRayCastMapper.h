@@ -81,6 +81,7 @@
 #ifndef vtkTetrahedraRayCastMapper_h
 #define vtkTetrahedraRayCastMapper_h
 
+#include "OpacityModel.h"      // For meniscusOpacityModelMacro
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkSmartPointer.h"   // for vtkSmartPointer
 #include "vtkUnstructuredGridVolumeMapper.h"
@@ -279,13 +280,6 @@ public:
   vtkGetMacro(MaximumNumberOfPieces, vtkTypeInt64);
   /** @} */
 
-  /** Meaning of an opacity of the transfer function over a length. */
-  enum
-  {
-    ATTENUATION_COEFFICIENT = 0,
-    OPACITY_PER_UNIT_DISTANCE = 1
-  };
-
   /** @{ */
   /**
    * Set/Get the meaning of an opacity of the transfer function over a length L, with the property's
@@ -293,13 +287,7 @@ public:
    * for unstructured grids, alpha = 1 - exp(-L * opacity / unit); OPACITY_PER_UNIT_DISTANCE, VTK's
    * definition for image data, alpha = 1 - (1 - opacity)^(L / unit), for opacities up to 1 - 2^-24.
    */
-  virtual void SetOpacityModel(int model);
-  vtkGetMacro(OpacityModel, int);
-  void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
-  void SetOpacityModelToOpacityPerUnitDistance()
-  {
-    this->SetOpacityModel(OPACITY_PER_UNIT_DISTANCE);
-  }
+  meniscusOpacityModelMacro();
   /** @} */
 
   /** Implementation that casts the rays. */

@@ -8,7 +8,6 @@
 #include "Rendering/Integral/BentMedium.h"
 #include "Rendering/Integral/BentRayView.h"
 #include "Rendering/Integral/SchlierenArrays.h"
-#include "Volume/Graded/GradedRayWalk.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -85,27 +84,16 @@ const std::vector<meniscus::Statistic<vtkTetrahedraSchlieren>>&
 vtkTetrahedraSchlieren::vtkInternals::List()
 {
   using Self = vtkTetrahedraSchlieren;
-  static const std::vector<meniscus::Statistic<Self>> list = {
-    { "NumberOfMediumUpdates", "readings of the index of refraction",
-      [](Self& self) { return double(self.Medium->GetVersion().GetChanges()); } },
-    { "NumberOfCasts", "casts of all rays of an image",
-      [](Self& self) { return double(self.Internals->Casts); } },
-    { "NumberOfRays", "rays of the last image that met the mesh",
-      [](Self& self) { return double(self.Internals->Statistics.Rays); } },
-    { "NumberOfTraversalSteps", "cells that the rays of the last image crossed",
-      [](Self& self) { return double(self.Internals->Statistics.Steps); } },
-    { "NumberOfStoppedRays", "rays of the last image that stayed in the mesh and were stopped",
-      [](Self& self) { return double(self.Internals->Statistics.Trapped); } },
-    { "NumberOfRaysStoppedInFolds",
-      "stopped rays of the last image that have passed inverted cells, where light goes back",
-      [](Self& self) { return double(self.Internals->Statistics.TrappedInFolds); } },
-    { "NumberOfLostRays",
-      "rays of the last image without a way out of a cell, caused by numbers beyond the range of "
-      "doubles",
-      [](Self& self) { return double(self.Internals->Statistics.Lost); } },
-    { "NumberOfUnusablePoints", "points whose value cannot be used",
-      [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
-  };
+  static const std::vector<meniscus::Statistic<Self>> list = meniscus::ListBentRays<Self>(
+    [](Self& self) -> meniscus::GradedRayStatistics& { return self.Internals->Statistics; },
+    {
+      { "NumberOfMediumUpdates", "readings of the index of refraction",
+        [](Self& self) { return double(self.Medium->GetVersion().GetChanges()); } },
+      { "NumberOfCasts", "casts of all rays of an image",
+        [](Self& self) { return double(self.Internals->Casts); } },
+      { "NumberOfUnusablePoints", "points whose value cannot be used",
+        [](Self& self) { return double(self.Medium->GetFaults().GetNumberOfUnusable()); } },
+    });
   return list;
 }
 

@@ -22,10 +22,17 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
   return counter;
 }
 
+//------------------------------------------------------------------------------
+vtkSmartPointer<MessageCounter> UpdateAndObserve(vtkAlgorithm* filter)
+{
+  auto messages = Observe(filter);
+  filter->Update();
+  return messages;
+}
+
 void ExpectQuiet(vtkAlgorithm* filter)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
 }
 
@@ -167,14 +174,8 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
 //------------------------------------------------------------------------------
 void AddTruth(vtkPolyData* data)
 {
-  vtkNew<vtkDoubleArray> truth;
-  truth->SetName("Truth");
-  truth->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    truth->InsertNextTuple(data->GetPoint(i));
-  }
-  data->GetPointData()->AddArray(truth);
+  data->GetPointData()->AddArray(
+    MakeArray("Truth", data->GetNumberOfPoints(), [&](vtkIdType i) { return PointOf(data, i); }));
 }
 
 }

@@ -27,6 +27,9 @@ public:
 /** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
 
+/** Observes a filter, and updates it. */
+vtkSmartPointer<MessageCounter> UpdateAndObserve(vtkAlgorithm* filter);
+
 /** Updates a filter, and expects neither errors nor warnings. */
 void ExpectQuiet(vtkAlgorithm* filter);
 

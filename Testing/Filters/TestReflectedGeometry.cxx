@@ -55,8 +55,7 @@ vtkSmartPointer<vtkPolyData> MakeScreen(double z, double low, double high)
   vtkNew<vtkCellArray> quads;
   for (const vtkIdType k : { 0, 2 })
   {
-    const vtkIdType ids[4] = { k, k + 1, k + 3, k + 2 };
-    quads->InsertNextCell(4, ids);
+    quads->InsertNextCell({ k, k + 1, k + 3, k + 2 });
   }
   screen->SetPolys(quads);
   return screen;
@@ -368,8 +367,7 @@ TEST(ReflectedGeometryOutput, SteepWavesShowNothingBelowThem)
 TEST(ReflectedGeometryBadInput, ObjectsBehindTheMirrorAreReported)
 {
   const auto filter = MakeMirror(MakeGrid(5, 60.0, -40.0), MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedCells"), 16);
@@ -381,8 +379,7 @@ TEST(ReflectedGeometryBadInput, EyesOnTheMirrorAreAnError)
 {
   const auto filter = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   filter->SetEyePosition(10.0, 0.0, 10.0);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_TRUE(HasText(messages->Text, "lies on the membrane"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
@@ -391,8 +388,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
 {
   const auto open = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   open->SetEyePosition(10.0, -100.0, 10.0);
-  const auto messages = Observe(open);
-  open->Update();
+  const auto messages = UpdateAndObserve(open);
   EXPECT_EQ(open->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(open->GetStatistic("NumberOfVerticesWithoutImage"), 25);
   EXPECT_EQ(messages->Warnings, 1);
@@ -402,8 +398,7 @@ TEST(ReflectedGeometryBadInput, BacksOfMirrorsAreReported)
   const auto ball =
     MakeMirror(MakeGrid(5, 0.4, 0.3), MakeMembrane(meniscus::reference::MakeSphere(16, 1.0)));
   ball->SetEyePosition(0.1, -0.2, 0.1);
-  const auto told = Observe(ball);
-  ball->Update();
+  const auto told = UpdateAndObserve(ball);
   EXPECT_EQ(ball->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(ball->GetStatistic("IsEyeEnclosed"));
   EXPECT_TRUE(HasText(told->Text, "sees the back of the mirror only"));
@@ -413,15 +408,13 @@ TEST(ReflectedGeometryBadInput, FlatFacetsAndListsAreErrors)
 {
   const auto flat = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   flat->SetMembraneModelToFlatFacets();
-  const auto messages = Observe(flat);
-  flat->Update();
+  const auto messages = UpdateAndObserve(flat);
   EXPECT_EQ(flat->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(HasText(messages->Text, "REFLECTION needs the membrane model CURVED"));
 
   const auto stack = MakeMirror(MakeGrid(5, 60.0, 40.0), MakeFlatMembrane());
   stack->AddInputData(1, MakeFlatMembrane());
-  const auto told = Observe(stack);
-  stack->Update();
+  const auto told = UpdateAndObserve(stack);
   EXPECT_EQ(stack->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_GT(told->Errors, 0);
 }

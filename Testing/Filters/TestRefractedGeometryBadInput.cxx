@@ -21,8 +21,7 @@ bool HasNoGeometry(vtkPolyData* data)
 TEST(RefractedGeometryBadInput, NoInputAtAll)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_GE(messages->Errors, 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
@@ -31,8 +30,7 @@ TEST(RefractedGeometryBadInput, NoMembraneConnection)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;
   filter->SetInputData(0, MakeGrid(3, 10.0, -5.0));
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_GE(messages->Errors, 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
@@ -41,8 +39,7 @@ TEST(RefractedGeometryBadInput, EmptyGeometry)
 {
   vtkNew<vtkPolyData> empty;
   const auto filter = MakeFilter(empty, MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("SightPoint"), nullptr);
@@ -55,8 +52,7 @@ TEST(RefractedGeometryBadInput, MembraneWithoutTriangles)
   for (vtkPolyData* membrane : { empty.Get(), pointsOnly.Get() })
   {
     const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Errors, 1) << messages->Text;
     EXPECT_TRUE(HasText(messages->Text, "no usable triangle"));
     EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
@@ -67,12 +63,10 @@ TEST(RefractedGeometryBadInput, MembraneWithoutArea)
 {
   const auto line = MakePoints({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } });
   vtkNew<vtkCellArray> polys;
-  const vtkIdType ids[3] = { 0, 1, 2 };
-  polys->InsertNextCell(3, ids);
+  polys->InsertNextCell({ 0, 1, 2 });
   line->SetPolys(polys);
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), line);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(filter->GetStatistic("NumberOfSkippedFacets"), 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
@@ -104,8 +98,7 @@ TEST(RefractedGeometryBadInput, BadFacetsAreSkippedAndCounted)
   strips->InsertNextCell(4, strip);
   membrane->SetStrips(strips);
   const auto filter = MakeFilter(MakeGrid(5, 80.0, -50.0), membrane);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   // The quad without area yields one or two triangles, the strip two.
@@ -146,8 +139,7 @@ TEST(RefractedGeometryBadInput, CellsThatNamePointsThatDoNotExist)
   grid->SetVerts(verts);
   grid->GetCellData()->Initialize();
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 4);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
@@ -157,15 +149,10 @@ TEST(RefractedGeometryBadInput, CellsThatNamePointsThatDoNotExist)
 TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)
 {
   auto grid = MakeGrid(3, 10.0, -5.0);
-  vtkNew<vtkFloatArray> array;
-  array->SetName("Short");
-  array->SetNumberOfTuples(2);
-  array->Fill(1.0);
-  grid->GetPointData()->AddArray(array);
+  grid->GetPointData()->AddArray(MakeArray<vtkFloatArray>("Short", 2, 1.0));
   grid->GetPoints()->SetPoint(0, 0.0, 50.0, 0.0); // no image: arrays are copied tuple by tuple
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Short"), nullptr);
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("Rank"), nullptr);
@@ -219,8 +206,7 @@ TEST(RefractedGeometryBadInput, NormalsOfTheWrongSizeAreComputed)
   normals->Fill(0.3);
   membrane->GetPointData()->SetNormals(normals);
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
@@ -237,8 +223,7 @@ TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
   normals->SetTuple3(40, 0.0, 0.0, 0.0);
   normals->SetTuple3(41, NaN, 0.0, 0.0);
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_TRUE(HasText(messages->Text, "2 of 81"));
 
@@ -269,8 +254,7 @@ TEST(RefractedGeometryBadInput, EyeBehindTheMembrane)
 TEST(RefractedGeometryBadInput, MissingModesWarnOnce)
 {
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   filter->SetImagesToAllImages();
   filter->Update();

@@ -201,8 +201,7 @@ TEST(RefractedGeometryLight, NormalsAreOffByDefaultAndWarnWhereThereAreNone)
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("VirtualNormals"), nullptr);
   const auto bare = MakeCurved(MakeGrid(9, 80.0, -60.0), MakeFlatMembrane());
   bare->VirtualNormalsOn();
-  const auto messages = Observe(bare);
-  bare->Update();
+  const auto messages = UpdateAndObserve(bare);
   bare->SetEyePosition(0.0, 200.0, 0.0);
   bare->Update();
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Irradiance through a membrane: closed forms for flat water, and photons through exact waves.
+// Irradiance through a membrane: photons through exact waves, and its input. TestStackLight.cxx has
+// closed forms for flat water.
 #include "RefractedGeometryTestHelpers.h"
 
 #include "VTKTestBasics.h"
@@ -91,88 +92,6 @@ std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
 }
 
 } // anonymous namespace
-
-TEST(RefractedLight, FlatWaterUnderTheSun)
-{
-  auto membrane = MakeFlatMembrane();
-  for (const double angle : { 0.0, 0.3, 0.9, 1.3 })
-  {
-    const glm::dvec3 sun(std::sin(angle), std::cos(angle), 0.0);
-    auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), membrane, sun);
-    filter->Update();
-    const double expected = std::cos(angle) * MakeTransmittance(std::cos(angle));
-    for (vtkIdType i = 0; i < OfCells(filter)->GetNumberOfTuples(); ++i)
-    {
-      EXPECT_NEAR(OfCells(filter)->GetComponent(i, 0), expected, Parallel) << angle;
-    }
-    for (vtkIdType i = 0; i < OfPoints(filter)->GetNumberOfTuples(); ++i)
-    {
-      EXPECT_NEAR(OfPoints(filter)->GetComponent(i, 0), expected, Parallel) << angle;
-    }
-  }
-}
-
-/** Light across the rays, back along them, and their length in the water; on walls as well. */
-TEST(RefractedLight, VectorsOfTheLightUnderFlatWater)
-{
-  constexpr double depth = 20.0;
-  const auto floor = MakeGrid(5, 20.0, -depth);
-  auto wall = MakePoints({ { 0, -22, -2 }, { 0, -22, 2 }, { 0, -18, 2 }, { 0, -18, -2 } });
-  vtkNew<vtkCellArray> polys;
-  polys->InsertNextCell({ 0, 1, 2, 3 });
-  wall->SetPolys(polys);
-  for (const double angle : { 0.0, 0.3, 0.9, 1.3 })
-  {
-    const double sine = std::sin(angle) / Water;
-    const double cosine = std::sqrt(1.0 - sine * sine);
-    const double across = std::cos(angle) * MakeTransmittance(std::cos(angle)) / cosine;
-    for (vtkPolyData* object : { floor.Get(), wall.Get() })
-    {
-      if (object == wall.Get() && angle == 0.0)
-      {
-        continue; // the light passes it
-      }
-      auto filter =
-        MakeLight(object, MakeFlatMembrane(), { std::sin(angle), std::cos(angle), 0.0 });
-      filter->Update();
-      EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("RefractionLightVector"));
-      filter->LightVectorsOn();
-      filter->Update();
-      for (vtkDataSetAttributes* data :
-        { static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetCellData()),
-          static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetPointData()) })
-      {
-        vtkDataArray* vectors = data->GetArray("RefractionLightVector");
-        vtkDataArray* paths = data->GetArray("RefractionLightPath");
-        ASSERT_TRUE(vectors && paths);
-        for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
-        {
-          EXPECT_NEAR(vectors->GetComponent(i, 0), across * sine, 2.0 * Parallel) << angle;
-          EXPECT_NEAR(vectors->GetComponent(i, 1), across * cosine, 2.0 * Parallel) << angle;
-          EXPECT_NEAR(vectors->GetComponent(i, 2), 0.0, 2.0 * Parallel) << angle;
-          EXPECT_NEAR(paths->GetComponent(i, 0), depth / cosine, 0.01) << angle;
-        }
-      }
-    }
-  }
-}
-
-TEST(RefractedLight, ALampAboveFlatWater)
-{
-  constexpr double height = 40.0;
-  constexpr double depth = 30.0;
-  auto floor = MakeGrid(81, 80.0, -depth);
-  auto filter = MakeLight(floor, MakeFlatMembrane(), { 0.0, height, 0.0 });
-  filter->PositionalOn();
-  filter->Update();
-  // Rings: light at the angle a passes the water at Height tan a and ends at the radius r(a).
-  const auto sine = [](double a) { return std::sin(a) / Water; };
-  const auto radius = [&](double a)
-  { return height * std::tan(a) + depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
-  const double largest = FindLargestLampError(
-    filter, height, radius, [](double a) { return MakeTransmittance(std::cos(a)); });
-  EXPECT_LT(largest, 1e-3);
-}
 
 TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
 {
@@ -285,29 +204,25 @@ TEST(RefractedLight, BadInput)
          glm::dvec3(0.0, std::numeric_limits<double>::infinity(), 0.0) })
   {
     auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), light);
-    auto messages = Observe(filter);
-    filter->Update();
+    auto messages = UpdateAndObserve(filter);
     EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
     filter->SetInteriorIndexOfRefraction(-1.0);
-    auto messages = Observe(filter);
-    filter->Update();
+    auto messages = UpdateAndObserve(filter);
     EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter =
       MakeLight(MakeGrid(3, 60.0, -20.0), vtkSmartPointer<vtkPolyData>::New(), { 0.0, 1.0, 0.0 });
-    auto messages = Observe(filter);
-    filter->Update();
+    auto messages = UpdateAndObserve(filter);
     EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter =
       MakeLight(vtkSmartPointer<vtkPolyData>::New(), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
-    auto messages = Observe(filter);
-    filter->Update();
+    auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Errors, 0);
     EXPECT_EQ(OfCells(filter)->GetNumberOfTuples(), 0);
   }
@@ -324,8 +239,7 @@ TEST(RefractedLight, BadInput)
     broken->SetPolys(polys);
     broken->SetLines(lines);
     auto filter = MakeLight(broken, MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
-    auto messages = Observe(filter);
-    filter->Update();
+    auto messages = UpdateAndObserve(filter);
     ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 5);
     EXPECT_EQ(OfCells(filter)->GetComponent(0, 0), 0.0);
     EXPECT_NEAR(OfCells(filter)->GetComponent(1, 0), MakeTransmittance(1.0), Parallel);

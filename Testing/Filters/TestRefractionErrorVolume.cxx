@@ -89,18 +89,7 @@ vtkSmartPointer<vtkRefractionErrorVolume> MakeThesisVolume(const ThesisRow& row)
 
 std::vector<double> GetErrors(vtkRefractionErrorVolume* volume)
 {
-  vtkDataArray* errors = volume->GetOutput()->GetPointData()->GetArray("RefractionError");
-  std::vector<double> values;
-  for (vtkIdType i = 0; errors && i < errors->GetNumberOfTuples(); ++i)
-  {
-    values.push_back(errors->GetTuple1(i));
-  }
-  return values;
-}
-
-bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
-{
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return ValuesOf(volume->GetOutput()->GetPointData()->GetArray("RefractionError"));
 }
 
 /** Angle between two directions in degrees. */
@@ -330,8 +319,7 @@ TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
 TEST(RefractionErrorVolume, CurvedAgainstItselfIsExactAndWarnsOnce)
 {
   const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
-  const auto messages = Observe(volume);
-  volume->Update();
+  const auto messages = UpdateAndObserve(volume);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 200);
   EXPECT_LT(volume->GetLargestError(), 1e-8);
@@ -461,22 +449,17 @@ TEST(RefractionErrorVolume, APartOfTheVolumeHasThatPartsValues)
 //------------------------------------------------------------------------------
 TEST(RefractionErrorVolume, DoesNotDependOnTheNumberOfThreads)
 {
-  std::vector<std::vector<double>> results;
-  std::vector<double> means;
-  for (const int threads : { 1, 2, 5 })
-  {
-    vtkSMPTools::Initialize(threads);
-    const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
-    volume->SetSampleDimensions(30, 30, 30);
-    volume->SetExactMembrane(vtkSmartPointer<WavesFunction>::New());
-    volume->Update();
-    results.push_back(GetErrors(volume));
-    means.push_back(volume->GetMeanError());
-  }
-  vtkSMPTools::Initialize(0);
-  EXPECT_TRUE(SameBits(results[0], results[1]));
-  EXPECT_TRUE(SameBits(results[0], results[2]));
-  EXPECT_EQ(means[0], means[2]);
+  ExpectSameOnThreads(
+    []
+    {
+      const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
+      volume->SetSampleDimensions(30, 30, 30);
+      volume->SetExactMembrane(vtkSmartPointer<WavesFunction>::New());
+      volume->Update();
+      std::vector<double> values = GetErrors(volume);
+      values.push_back(volume->GetMeanError());
+      return values;
+    });
 }
 
 TEST(RefractionErrorVolume, KeepsWhatDidNotChange)
@@ -612,8 +595,7 @@ TEST_F(RefractionErrorVolumeBadInput, Membranes)
 TEST(RefractionErrorVolume, NoMembraneAtAll)
 {
   vtkNew<vtkRefractionErrorVolume> volume;
-  const auto messages = Observe(volume);
-  volume->Update();
+  const auto messages = UpdateAndObserve(volume);
   EXPECT_GE(messages->Errors, 1);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
   volume->SetInputData(0, vtkSmartPointer<vtkImageData>::New());

@@ -228,8 +228,7 @@ TEST_P(TruePositionsThrough, EyesBehindTheSurfacesAreInTheLastMedium)
   filter->SetInputData(MakePoints({ { seen.x, seen.y, seen.z } }));
   filter->SetEyePosition(eye.x, eye.y, eye.z);
   filter->SetDepthToGeometric();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
   EXPECT_LT(glm::length(PointOf(filter->GetOutput(), 0) - point), 1e-10);
   // The media of several interfaces tell that the eye is there. That is not known of one, of which
@@ -297,17 +296,13 @@ TEST(TruePositions, ThreadsChangeNoBit)
 {
   const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 2.0, 3.0));
   const auto seen = MakePoints(MakeDeepPoints(20000)); // more than one step of progress
-  const auto one = MakeInverse(seen, membrane);
-  const auto two = MakeInverse(seen, membrane);
-  vtkSMPTools::Initialize(1);
-  one->Update();
-  vtkSMPTools::Initialize(2);
-  two->Update();
-  vtkSMPTools::Initialize(0);
-  for (vtkIdType i = 0; i < seen->GetNumberOfPoints(); ++i)
-  {
-    ASSERT_EQ(PointOf(one->GetOutput(), i), PointOf(two->GetOutput(), i)) << i;
-  }
+  ExpectSameOnThreads(
+    [&]
+    {
+      const auto filter = MakeInverse(seen, membrane);
+      filter->Update();
+      return ValuesOf(filter->GetOutput()->GetPoints()->GetData());
+    });
 }
 
 TEST(TruePositions, KeepPointsInFrontAndBeside)
@@ -381,8 +376,7 @@ TEST(TruePositions, BadInputIsAnError)
   const auto points = MakePoints(MakeDeepPoints(4));
   const auto expectError = [&](vtkTruePositionFilter* filter, const char* what)
   {
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_TRUE(HasText(messages->Text, "the output is empty")) << what;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << what;
   };

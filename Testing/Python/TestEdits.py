@@ -3,53 +3,26 @@
 """Edits of the input in place are detected, whichever object receives Modified()."""
 import unittest
 
-from meniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
-from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from meniscus import vtkRefractedGeometryFilter
+from VolumeWindow import make_wavelet, VolumeWindow
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
-from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkVolume
-
-SIZE = 100
 
 
 class TestEdits(unittest.TestCase):
     def make_volume(self):
-        field = vtkRTAnalyticSource()
-        field.SetWholeExtent(-2, 2, -2, 2, -2, 2)
-        tetrahedra = vtkDataSetTriangleFilter()
-        tetrahedra.SetInputConnection(field.GetOutputPort())
-        tetrahedra.Update()
+        wavelet = make_wavelet(2)
+        wavelet.Update()
         self.grid = vtkUnstructuredGrid()
-        self.grid.DeepCopy(tetrahedra.GetOutput())
-        self.mapper = vtkTetrahedraRayCastMapper()
-        self.mapper.SetInputData(self.grid)
-        volume = vtkVolume()
-        volume.SetMapper(self.mapper)
-        volume.GetProperty().GetRGBTransferFunction().AddRGBSegment(0, 0, 0.2, 1, 300, 1, 0.4, 0)
-        opacity = volume.GetProperty().GetScalarOpacity()
-        opacity.RemoveAllPoints()
-        opacity.AddSegment(0, 0, 300, 1)
-        self.renderer = vtkRenderer()
-        self.renderer.AddVolume(volume)
-        self.window = vtkRenderWindow()
-        self.window.SetSize(SIZE, SIZE)
-        self.window.AddRenderer(self.renderer)
-        self.window.Render()
-
-    def work(self):
-        return (self.mapper.GetNumberOfMeshBuilds(),
-                self.mapper.GetStatistic("NumberOfPointUpdates"),
-                self.mapper.GetNumberOfScalarUpdates())
+        self.grid.DeepCopy(wavelet.GetOutput())
+        self.window = VolumeWindow(100, 0, 300)
+        self.window.mapper.SetInputData(self.grid)
+        self.window.draw()
 
     def draw(self):
         """The image, and the work done for it."""
-        before = self.work()
-        self.window.Render()
-        pixels = vtkUnsignedCharArray()
-        self.window.GetPixelData(0, 0, SIZE - 1, SIZE - 1, 0, pixels, 0)
-        return bytes(memoryview(pixels)), tuple(b - a for a, b in zip(before, self.work()))
+        before = self.window.work()
+        return self.window.draw(), tuple(b - a for a, b in zip(before, self.window.work()))
 
     def test_volume(self):
         self.make_volume()

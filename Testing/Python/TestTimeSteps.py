@@ -6,22 +6,19 @@ import math
 import os
 import unittest
 
-from meniscus import vtkTetrahedraRayCastMapper, vtkTetrahedraRayIntegral
+from meniscus import vtkTetrahedraRayIntegral
+from VolumeWindow import make_wavelet, VolumeWindow
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkVolume
 
 try:
     from vtkmodules.vtkIOExodus import vtkExodusIIReader, vtkExodusIIWriter
 except ImportError:
     vtkExodusIIReader = None
 
-SIZE = 100
 STEPS = 20
 SCALARS = "pressure"
 # Exodus files have one array per component.
@@ -29,10 +26,7 @@ DISPLACEMENTS = ["DISPL" + axis for axis in "XYZ"]
 
 
 def make_mesh():
-    field = vtkRTAnalyticSource()
-    field.SetWholeExtent(-2, 2, -2, 2, -2, 2)
-    tetrahedra = vtkDataSetTriangleFilter()
-    tetrahedra.SetInputConnection(field.GetOutputPort())
+    tetrahedra = make_wavelet(2)
     tetrahedra.Update()
     mesh = vtkUnstructuredGrid()
     mesh.CopyStructure(tetrahedra.GetOutput())
@@ -82,36 +76,14 @@ class Steps(VTKPythonAlgorithmBase):
         return 1
 
 
-class View:
+class View(VolumeWindow):
     """A window with one volume of an algorithm's output."""
 
     def __init__(self, source):
-        self.mapper = vtkTetrahedraRayCastMapper()
+        super().__init__(100, 50, 150)
         self.mapper.SetInputConnection(source.GetOutputPort())
         self.mapper.SetScalarModeToUsePointFieldData()
         self.mapper.SelectScalarArray(SCALARS)
-        volume = vtkVolume()
-        volume.SetMapper(self.mapper)
-        volume.GetProperty().GetRGBTransferFunction().AddRGBSegment(50, 0, 0.2, 1, 150, 1, 0.4, 0)
-        opacity = volume.GetProperty().GetScalarOpacity()
-        opacity.RemoveAllPoints()
-        opacity.AddSegment(50, 0, 150, 1)
-        self.renderer = vtkRenderer()
-        self.renderer.AddVolume(volume)
-        self.window = vtkRenderWindow()
-        self.window.SetSize(SIZE, SIZE)
-        self.window.AddRenderer(self.renderer)
-
-    def draw(self):
-        self.window.Render()
-        pixels = vtkUnsignedCharArray()
-        self.window.GetPixelData(0, 0, SIZE - 1, SIZE - 1, 0, pixels, 0)
-        return bytes(memoryview(pixels))
-
-    def work(self):
-        return (self.mapper.GetNumberOfMeshBuilds(),
-                self.mapper.GetStatistic("NumberOfPointUpdates"),
-                self.mapper.GetNumberOfScalarUpdates())
 
 
 class TestTimeSteps(unittest.TestCase):

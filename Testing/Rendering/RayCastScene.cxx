@@ -53,6 +53,26 @@ double AddBlackSquare(vtkRenderer* renderer, double offset)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkLight> AddParallelLight(vtkRenderer* renderer, double x, double y, double z)
+{
+  auto light = vtkSmartPointer<vtkLight>::New();
+  light->SetLightTypeToSceneLight();
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  light->SetPosition(x, y, z);
+  renderer->AddLight(light);
+  return light;
+}
+
+//------------------------------------------------------------------------------
+void AddClippingPlane(vtkAbstractMapper* mapper, const reference::HalfSpace& half)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(half.Normal.data());
+  plane->SetOrigin(half.Origin.data());
+  mapper->AddClippingPlane(plane);
+}
+
+//------------------------------------------------------------------------------
 int BackendUnderTest()
 {
   const char* name = std::getenv("MENISCUS_TEST_BACKEND");
@@ -162,6 +182,21 @@ vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object)
   return observer;
 }
 
+//------------------------------------------------------------------------------
+void ExpectError(vtkAlgorithm* filter, const std::string& text)
+{
+  const auto observer = ObserveErrors(filter);
+  const auto executive = ObserveErrors(filter->GetExecutive()); // "Algorithm returned failure"
+  filter->Update();
+  filter->RemoveObserver(observer);
+  ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
+  EXPECT_TRUE(HasText(observer->Errors[0], text));
+  auto* output = vtkDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_TRUE(output) << text;
+  EXPECT_EQ(output->GetNumberOfPoints(), 0) << text;
+}
+
+//------------------------------------------------------------------------------
 std::string ErrorObserver::GetText() const
 {
   std::string all;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ReferenceImage.h"
+#include "ReferenceOptics.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 #include "VTKTestBasics.h"
@@ -41,6 +42,12 @@ int BackendUnderTest();
  * distance from the camera.
  */
 double AddBlackSquare(vtkRenderer* renderer, double offset);
+
+/** Adds a light of the scene at infinity, in the direction (x, y, z). */
+vtkSmartPointer<vtkLight> AddParallelLight(vtkRenderer* renderer, double x, double y, double z);
+
+/** Keeps a half of space; the origin of its plane may be left out. */
+void AddClippingPlane(vtkAbstractMapper* mapper, const reference::HalfSpace& half);
 
 /**
  * Fraction of covered pixels that may be excused as silhouettes, or a number of pixels if that is
@@ -91,5 +98,8 @@ public:
 
 /** A new observer of an object. */
 vtkSmartPointer<ErrorObserver> ObserveErrors(vtkObject* object);
+
+/** Updates a filter; expects one error with a text in it, and nothing in the output. */
+void ExpectError(vtkAlgorithm* filter, const std::string& text);
 
 } // namespace meniscus::test

@@ -11,7 +11,6 @@ namespace
 {
 
 constexpr int PointsPerCase = 24;
-constexpr double Side = 200.0;
 
 // As in StackCheck.cxx.
 constexpr double Rest = 1e-8;
@@ -71,11 +70,8 @@ private:
 //------------------------------------------------------------------------------
 bool MirrorChecker::SetUp()
 {
-  reference::MembraneMesh mesh = this->Test.Mesh;
-  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
-  {
-    mesh.Points[i] = this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
-  }
+  const reference::MembraneMesh mesh =
+    PlaceMesh(this->Test.Mesh, this->Test.Scale, this->Test.Offset);
   const glm::dvec3 eye = this->Test.Scale * this->Test.Eye + this->Test.Offset;
   if (this->Mirror.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
     this->Mirror.SetEye(eye, 1.0, 1.5, SerialLoop, true) != EyeStatus::Ready ||
@@ -88,9 +84,7 @@ bool MirrorChecker::SetUp()
     this->Mirror.GetPatches(), this->Mirror.GetMembrane().GetFacets().size());
   this->Frame = this->Mirror.GetMembrane().GetOrigin();
   this->Eye = eye - this->Frame;
-  this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() *
-    (glm::length(this->Test.Offset) +
-      this->Test.Scale * (glm::length(this->Test.Eye) + 4.0 * Side));
+  this->Rounding = RoundingOf(this->Test.Scale, this->Test.Offset, this->Test.Eye);
   return true;
 }
 
@@ -103,8 +97,7 @@ PatchHit MirrorChecker::ChoosePlace()
   {
     const auto facets = static_cast<int>(this->Tracer->GetNumberOfFacets());
     const auto facet = static_cast<std::int32_t>(this->Random.Below(facets));
-    glm::dvec2 b(this->Random.Uniform(), this->Random.Uniform());
-    b = b.x + b.y > 1.0 ? 1.0 - b : b;
+    glm::dvec2 b = RandomPlace(this->Random);
     if (this->Random.Below(8) == 0)
     {
       b = this->Random.Below(2) ? glm::dvec2(b.x, 0.0) : glm::dvec2(0.0, 1.0);
@@ -139,23 +132,15 @@ bool MirrorChecker::FindPlace(const VirtualVertex& vertex, PatchHit& place) cons
 }
 
 //------------------------------------------------------------------------------
-// As StackChecker::GetCondition.
 double MirrorChecker::GetCondition(const PatchHit& first, const glm::dvec3& point) const
 {
-  constexpr double h = 1e-5;
-  const glm::dvec3 axis = glm::normalize(point - first.Position);
-  glm::dvec3 by[2];
-  for (int k = 0; k < 2; ++k)
-  {
-    const double step = (k == 0 ? first.B.x : first.B.y) > 0.5 ? -h : h;
-    const glm::dvec2 b = first.B + step * glm::dvec2(k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0);
-    const PatchHit near = this->Tracer->Evaluate(first.Facet, b, true);
-    const glm::dvec3 direction = ReflectRay(glm::normalize(near.Position - this->Eye), near.Normal);
-    const double length = glm::dot(point - near.Position, axis) / glm::dot(direction, axis);
-    by[k] = (near.Position + length * direction - point) / step;
-  }
-  const double longest = std::max(glm::dot(by[0], by[0]), glm::dot(by[1], by[1]));
-  return std::fabs(glm::dot(axis, glm::cross(by[0], by[1]))) / longest;
+  return MeasureCondition(first.B, point, glm::normalize(point - first.Position),
+    [&](const glm::dvec2& b)
+    {
+      const PatchHit near = this->Tracer->Evaluate(first.Facet, b, true);
+      return NearRay{ near.Position,
+        ReflectRay(glm::normalize(near.Position - this->Eye), near.Normal) };
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -318,15 +303,7 @@ void MirrorChecker::CheckChains()
     return;
   }
   constexpr std::size_t count = CurvedMembraneSolver::Chain + 40;
-  std::vector<double> points;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double at = static_cast<double>((this->Points.size() - 1) * i) / count;
-    const auto k = static_cast<std::size_t>(at);
-    const double part = at - static_cast<double>(k);
-    const glm::dvec3 p = (1.0 - part) * this->Points[k] + part * this->Points[k + 1];
-    points.insert(points.end(), { p.x, p.y, p.z });
-  }
+  const std::vector<double> points = PointsAlong(this->Points, count);
   const auto solve = [&](const CurvedMembraneSolver& solver, const RangeLoop& loop)
   {
     constexpr std::size_t chain = CurvedMembraneSolver::Chain;

@@ -6,6 +6,7 @@
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTriangles.h"
+#include "StackCheck.h"
 
 namespace meniscus::test
 {
@@ -48,12 +49,8 @@ public:
 
   RefractionTally Run()
   {
-    reference::MembraneMesh mesh = this->Test.Mesh;
-    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
-    {
-      mesh.Points[i] =
-        this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
-    }
+    const reference::MembraneMesh mesh =
+      PlaceMesh(this->Test.Mesh, this->Test.Scale, this->Test.Offset);
     if (this->Geometry.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
       this->Geometry.SetEye(this->ToWorld(this->Test.Eye), this->Test.Exterior,
         this->Test.Interior) != EyeStatus::Ready)

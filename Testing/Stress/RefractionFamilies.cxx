@@ -12,7 +12,6 @@ using reference::MembraneMesh;
 using reference::SmoothSurface;
 
 const double Pi = std::acos(-1.0);
-constexpr double Side = 200.0;
 constexpr int PointsPerCase = 24;
 
 // 10 to a random power between the two.

@@ -14,7 +14,6 @@ namespace
 
 constexpr int PointsPerCase = 24;
 constexpr int RimPointsPerCase = 8;
-constexpr double Side = 200.0;
 
 template <typename T>
 bool HasSameBits(const T& a, const T& b)
@@ -30,6 +29,69 @@ bool IsSame(const VirtualVertex& a, const VirtualVertex& b)
 }
 
 } // anonymous namespace
+
+//------------------------------------------------------------------------------
+reference::MembraneMesh PlaceMesh(
+  reference::MembraneMesh mesh, double scale, const glm::dvec3& offset)
+{
+  for (std::size_t i = 0; i < mesh.Points.size(); ++i)
+  {
+    mesh.Points[i] = scale * mesh.Points[i] + offset[static_cast<int>(i % 3)];
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+double RoundingOf(double scale, const glm::dvec3& offset, const glm::dvec3& eye)
+{
+  return 4.0 * std::numeric_limits<double>::epsilon() *
+    (glm::length(offset) + scale * (glm::length(eye) + 4.0 * Side));
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> PointsAlong(const std::vector<glm::dvec3>& points, std::size_t count)
+{
+  std::vector<double> coordinates;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double at = static_cast<double>((points.size() - 1) * i) / count;
+    const auto k = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(k);
+    const glm::dvec3 p = (1.0 - part) * points[k] + part * points[k + 1];
+    coordinates.insert(coordinates.end(), { p.x, p.y, p.z });
+  }
+  return coordinates;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 RandomPlace(StressRandom& random)
+{
+  const glm::dvec2 b(random.Uniform(), random.Uniform());
+  return b.x + b.y > 1.0 ? 1.0 - b : b;
+}
+
+//------------------------------------------------------------------------------
+double MeasureCondition(const glm::dvec2& b, const glm::dvec3& point, const glm::dvec3& axis,
+  const std::function<std::optional<NearRay>(const glm::dvec2&)>& rayAt)
+{
+  constexpr double h = 1e-5;
+  glm::dvec3 by[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const double step = b[k] > 0.5 ? -h : h;
+    glm::dvec2 beside = b;
+    beside[k] += step;
+    const std::optional<NearRay> ray = rayAt(beside);
+    if (!ray)
+    {
+      return 0.0;
+    }
+    const double length = glm::dot(point - ray->Origin, axis) / glm::dot(ray->Direction, axis);
+    by[k] = (ray->Origin + length * ray->Direction - point) / step;
+  }
+  const double longest = std::max(glm::dot(by[0], by[0]), glm::dot(by[1], by[1]));
+  return std::fabs(glm::dot(axis, glm::cross(by[0], by[1]))) / longest;
+}
 
 //------------------------------------------------------------------------------
 std::vector<Interface> StackChecker::MakeList() const
@@ -82,11 +144,7 @@ bool StackChecker::SetUp()
   this->Surfaces = std::vector<TracedSurface>(this->Test.Meshes.size());
   for (std::size_t m = 0; m < this->Test.Meshes.size(); ++m)
   {
-    reference::MembraneMesh mesh = this->Test.Meshes[m];
-    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
-    {
-      mesh.Points[i] = scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
-    }
+    const reference::MembraneMesh mesh = PlaceMesh(this->Test.Meshes[m], scale, this->Test.Offset);
     TracedSurface& surface = this->Surfaces[m];
     if (surface.Surface->SetMembrane(mesh.AsInput(), SurfaceParts::Crossings) !=
       MembraneStatus::Ready)
@@ -120,8 +178,7 @@ bool StackChecker::SetUp()
       this->Layers.push_back(&layer);
     }
   }
-  this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() *
-    (glm::length(this->Test.Offset) + scale * (glm::length(this->Test.Eye) + 4.0 * Side));
+  this->Rounding = RoundingOf(scale, this->Test.Offset, this->Test.Eye);
   return true;
 }
 
@@ -145,8 +202,7 @@ PatchHit StackChecker::ChoosePlace()
 {
   const auto facets = static_cast<int>(this->GetSurface(0).Tracer->GetNumberOfFacets());
   const auto facet = static_cast<std::int32_t>(this->Random.Below(facets));
-  glm::dvec2 b(this->Random.Uniform(), this->Random.Uniform());
-  b = b.x + b.y > 1.0 ? 1.0 - b : b;
+  glm::dvec2 b = RandomPlace(this->Random);
   if (this->Random.Uniform() < this->Test.BorderShare)
   {
     const double t = this->Random.Uniform();
@@ -185,8 +241,7 @@ std::optional<PatchHit> StackChecker::ChooseRim()
       return std::nullopt;
     }
     PatchHit passed = *place;
-    glm::dvec2 stopped(this->Random.Uniform(), this->Random.Uniform());
-    stopped = stopped.x + stopped.y > 1.0 ? 1.0 - stopped : stopped;
+    glm::dvec2 stopped = RandomPlace(this->Random);
     std::size_t most = this->Trace(passed).Points.size();
     const PatchHit other = this->Evaluate(0, passed.Facet, stopped);
     const std::size_t least = this->Trace(other).Points.size();
@@ -343,15 +398,7 @@ void StackChecker::CheckChains()
   }
   constexpr std::size_t count = StackSolver::Chain + 8;
   constexpr std::size_t checked = 24; // those compared with other lists and with the law
-  std::vector<double> points;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double at = static_cast<double>((this->Points.size() - 1) * i) / count;
-    const auto k = static_cast<std::size_t>(at);
-    const double part = at - static_cast<double>(k);
-    const glm::dvec3 p = (1.0 - part) * this->Points[k] + part * this->Points[k + 1];
-    points.insert(points.end(), { p.x, p.y, p.z });
-  }
+  const std::vector<double> points = PointsAlong(this->Points, count);
   const std::size_t components = this->Solver.GetStack().GetNumberOfInterfaces();
   struct Result
   {

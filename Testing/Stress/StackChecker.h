@@ -4,8 +4,7 @@
 
 #include "PatchTracer.h"
 #include "Refraction/Stack/StackSolver.h"
-#include "RefractionCheck.h"
-#include "StackCase.h"
+#include "StackCheck.h"
 
 namespace meniscus::test
 {

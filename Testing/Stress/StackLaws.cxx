@@ -10,8 +10,6 @@ namespace meniscus::test
 namespace
 {
 
-constexpr double Side = 200.0;
-
 // Positions on a patch: the rest of Newton's method is below 1e-10 of a facet (StackShot.cxx).
 constexpr double Rest = 1e-8;
 
@@ -110,31 +108,19 @@ TracedPath StackChecker::Trace(const PatchHit& first) const
 }
 
 //------------------------------------------------------------------------------
-// Determinant of the map from the first facet to the plane through the point, over the square of
-// its longer column, by differences: 0 on a caustic or if rays beside this one do not pass.
 double StackChecker::GetCondition(const TracedPath& path, const glm::dvec3& point) const
 {
-  constexpr double h = 1e-5;
   const std::size_t count = path.Points.size();
-  const glm::dvec3 axis = path.Directions.back();
-  const PatchHit& first = path.Points.front();
-  glm::dvec3 by[2];
-  for (int k = 0; k < 2; ++k)
-  {
-    const double step = (k == 0 ? first.B.x : first.B.y) > 0.5 ? -h : h;
-    const glm::dvec2 b = first.B + step * glm::dvec2(k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0);
-    const TracedPath near = this->Trace(this->Evaluate(0, first.Facet, b));
-    if (near.Points.size() < count)
+  return MeasureCondition(path.Points.front().B, point, path.Directions.back(),
+    [&](const glm::dvec2& b) -> std::optional<NearRay>
     {
-      return 0.0;
-    }
-    const glm::dvec3 origin = near.Points[count - 1].Position;
-    const glm::dvec3 direction = near.Directions[count - 1];
-    const double length = glm::dot(point - origin, axis) / glm::dot(direction, axis);
-    by[k] = (origin + length * direction - point) / step;
-  }
-  const double longest = std::max(glm::dot(by[0], by[0]), glm::dot(by[1], by[1]));
-  return std::fabs(glm::dot(axis, glm::cross(by[0], by[1]))) / longest;
+      const TracedPath near = this->Trace(this->Evaluate(0, path.Points.front().Facet, b));
+      if (near.Points.size() < count)
+      {
+        return std::nullopt;
+      }
+      return NearRay{ near.Points[count - 1].Position, near.Directions[count - 1] };
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -159,15 +159,13 @@ vtkSmartPointer<vtkPolyData> MakeWalls()
     copy->GetPointData()->RemoveArray("Normals");
     // Coordinates stay away from the border of the image, so that its wrap mode has no effect.
     vtkDataArray* coordinates = copy->GetPointData()->GetTCoords();
-    vtkNew<vtkFloatArray> inner;
-    inner->SetName("TextureCoordinates");
-    inner->SetNumberOfComponents(2);
-    for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
-    {
-      inner->InsertNextTuple2(0.02 + 0.96 * coordinates->GetComponent(i, 0),
-        0.02 + 0.96 * coordinates->GetComponent(i, 1));
-    }
-    copy->GetPointData()->SetTCoords(inner);
+    copy->GetPointData()->SetTCoords(
+      MakeArray<vtkFloatArray>("TextureCoordinates", coordinates->GetNumberOfTuples(),
+        [&](vtkIdType i)
+        {
+          return glm::dvec2(0.02 + 0.96 * coordinates->GetComponent(i, 0),
+            0.02 + 0.96 * coordinates->GetComponent(i, 1));
+        }));
     walls->AddInputData(copy);
   }
   vtkNew<vtkTriangleFilter> triangles;

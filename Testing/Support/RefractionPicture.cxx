@@ -103,8 +103,7 @@ vtkSmartPointer<vtkPolyData> MakeMembrane(
   vtkNew<vtkCellArray> triangles;
   for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
   {
-    const vtkIdType ids[3] = { mesh.Triangles[i], mesh.Triangles[i + 1], mesh.Triangles[i + 2] };
-    triangles->InsertNextCell(3, ids);
+    triangles->InsertNextCell({ mesh.Triangles[i], mesh.Triangles[i + 1], mesh.Triangles[i + 2] });
   }
   auto membrane = vtkSmartPointer<vtkPolyData>::New();
   membrane->SetPoints(points);

@@ -189,6 +189,48 @@ Region TwoBlocks(double gap)
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::vector<int>> FurtherPoints(int type)
+{
+  using Corners = std::vector<int>;
+  static const std::vector<Corners> hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 },
+    { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 }, { 0, 4, 7, 3 },
+    { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 }, { 4, 5, 6, 7 },
+    { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  static const std::vector<Corners> wedge{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 },
+    { 5, 3 }, { 0, 3 }, { 1, 4 }, { 2, 5 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } };
+  static const std::vector<Corners> pyramid{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 },
+    { 1, 4 }, { 2, 4 }, { 3, 4 }, { 0, 1, 2, 3 }, { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 },
+    { 3, 0, 4 }, { 0, 1, 2, 3, 4 } };
+  static const std::vector<Corners> tetrahedron{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 },
+    { 2, 3 } };
+  const auto first = [](const std::vector<Corners>& all, std::size_t count)
+  { return std::vector<Corners>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)); };
+  switch (type)
+  {
+    case VTK_QUADRATIC_HEXAHEDRON:
+      return first(hexahedron, 12);
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+      return first(hexahedron, 16);
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return hexahedron;
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+      return first(wedge, 6);
+    case VTK_QUADRATIC_WEDGE:
+      return first(wedge, 9);
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return wedge;
+    case VTK_QUADRATIC_PYRAMID:
+      return first(pyramid, 8);
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return pyramid;
+    case VTK_QUADRATIC_TETRA:
+      return tetrahedron;
+    default:
+      return {};
+  }
+}
+
+//------------------------------------------------------------------------------
 void Jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
 {
   // std::uniform_real_distribution is not used: its values may differ between libraries.

@@ -47,6 +47,9 @@ Region Shell(double inner, double outer);
 Region Torus(double ringRadius, double tubeRadius);
 Region TwoBlocks(double gap);
 
+/** Corners of a cell of second order whose means are its further points, in VTK's order. */
+std::vector<std::vector<int>> FurtherPoints(int type);
+
 /** Moves every point of the mesh by up to amount in each direction (fixed seed). */
 void Jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed);
 

@@ -4,7 +4,7 @@
 
 /** @file
  * Headers of VTK that most programs of the tests use, those of MathBasics.h, and
- * PointOf() and TupleOf().
+ * PointOf(), TupleOf(), ValuesOf() and MakeArray().
  */
 
 #include "MathBasics.h"
@@ -82,6 +82,64 @@ glm::dvec3 TupleOf(const Array& array, vtkIdType i)
   glm::dvec3 tuple;
   array->GetTuple(i, &tuple.x);
   return tuple;
+}
+
+/** The values of an array, one component after the other; none if the array is null. */
+inline std::vector<double> ValuesOf(vtkDataArray* array)
+{
+  std::vector<double> values;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
+  {
+    values.push_back(array->GetVariantValue(i).ToDouble());
+  }
+  return values;
+}
+
+/** The values of all arrays of numbers, one array after the other. */
+inline std::vector<double> ValuesOf(vtkDataSetAttributes* attributes)
+{
+  std::vector<double> all;
+  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+  {
+    const std::vector<double> values = ValuesOf(attributes->GetArray(a));
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+/**
+ * An array of `count` tuples: numbers or vectors of GLM. `value` is a function of the tuple's
+ * index, or the same value for all.
+ */
+template <typename Array = vtkDoubleArray, typename Value>
+vtkSmartPointer<Array> MakeArray(const char* name, vtkIdType count, const Value& value)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  const auto add = [&array](const auto& tuple)
+  {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(tuple)>>)
+    {
+      array->InsertNextTuple1(static_cast<double>(tuple));
+    }
+    else
+    {
+      array->SetNumberOfComponents(tuple.length());
+      array->InsertNextTuple(&tuple[0]);
+    }
+  };
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if constexpr (std::is_invocable_v<Value, vtkIdType>)
+    {
+      add(value(i));
+    }
+    else
+    {
+      add(value);
+    }
+  }
+  return array;
 }
 
 } // namespace meniscus::test

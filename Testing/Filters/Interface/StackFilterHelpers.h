@@ -53,8 +53,7 @@ void ExpectBadLists(const Make& make, const Measure& measure)
 {
   const auto expectError = [&measure](auto filter, const std::string& text)
   {
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(measure(filter.Get()), 0) << text;

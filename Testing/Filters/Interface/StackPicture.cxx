@@ -65,8 +65,7 @@ void ExpectSameView(ComparisonSheet& sheet, int row, const StackPicture& picture
   vtkPolyData* object, const PlacePicture& traced, const PlaceColour& colour)
 {
   const auto filter = picture.MakeFilter(object, true);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), picture.Camera);
   const PlaceComparison compared =

@@ -40,8 +40,7 @@ double GetValue(vtkPolyData* data, const char* name, vtkIdType point, int compon
 
 void ExpectError(vtkRefractedGeometryFilter* filter, const std::string& text)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_TRUE(HasText(messages->Text, text));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
@@ -323,14 +322,7 @@ TEST(RefractedGeometryStack, ListMayChangeItsLength)
 TEST(RefractedGeometryStack, NormalsForALightAtTheEyeKeepTheirAngleToTheRay)
 {
   const auto grid = MakeGrid(5, 60.0, -40.0);
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  for (int i = 0; i < 25; ++i)
-  {
-    normals->InsertNextTuple3(0.6, 0.8, 0.0);
-  }
-  grid->GetPointData()->SetNormals(normals);
+  grid->GetPointData()->SetNormals(MakeArray("Normals", 25, glm::dvec3(0.6, 0.8, 0.0)));
   const auto filter = MakeAquarium(grid);
   filter->VirtualNormalsOn();
   filter->Update();
@@ -429,8 +421,7 @@ TEST(RefractedGeometryStack, WrongOrderWarnsAndCountsPointsWithoutImage)
   AddInterface(filter, MakePlaneAt(-10.0), 1.0, 1.5);
   AddInterface(filter, MakePlaneAt(0.0), 1.5, 1.333);
   filter->SetEyePosition(0.0, -5.0, 0.0); // in front of the first one, and behind the second one
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_TRUE(HasText(messages->Text, "No ray from the eye passes"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 9);

@@ -102,8 +102,7 @@ TEST(RefractingInterface, MoreThanItsSurfacesIsAnErrorAndTheOutputIsEmpty)
   vtkNew<vtkRefractingInterface> second;
   filter->GetInterfaces()->GetFirstInterface();
   filter->GetInterfaces()->AddItem(second);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_TRUE(HasText(messages->Text, "2 refracting interfaces, and port 1 has 1 surfaces"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);

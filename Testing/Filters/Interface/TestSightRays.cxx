@@ -256,8 +256,7 @@ TEST(SightRays, ArraysThatAreMissingAreErrors)
   seen.Add({ 5.0, -30.0, 3.0 }, Cameras[0], 0);
   const auto expectError = [](auto filter, const std::string& text)
   {
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_TRUE(HasText(messages->Text, "the output is empty"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
@@ -466,8 +465,7 @@ TEST(SightRays, NumbersOfPointsAreWhole)
     ids->InsertNextValue(7.0);
     seen.Data->GetPointData()->AddArray(ids);
     const auto filter = MakePaneFilter<vtkTriangulatedPositionFilter>(seen.Data);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Errors, 0) << messages->Text;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 1);
     ids->SetValue(1, bad);
@@ -646,8 +644,7 @@ TEST(DepthImage, BadInputIsAnError)
   image->SetDimensions(4, 3, 1);
   const auto expectError = [](vtkDepthImagePoints* filter, const std::string& text)
   {
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_TRUE(HasText(messages->Text, text));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };

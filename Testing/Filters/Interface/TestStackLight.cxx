@@ -17,26 +17,18 @@ constexpr double Water = 1.333;
 // The light is at a distance of ten thousand sizes of the scene.
 constexpr double Parallel = 2e-4;
 
-/** Reflectances of both polarisations for an angle of incidence with this sine in a vacuum. */
-glm::dvec2 MakeReflectances(double sine, double before, double behind)
-{
-  const double c = std::sqrt(1.0 - std::pow(sine / before, 2.0));
-  const double d = std::sqrt(1.0 - std::pow(sine / behind, 2.0));
-  const double s = (before * c - behind * d) / (before * c + behind * d);
-  const double p = (behind * c - before * d) / (behind * c + before * d);
-  return { s * s, p * p };
-}
-
-/**
- * Transmittance of glass for unpolarised light: the sum of the geometric series of the light that
- * is reflected between its sides, for each polarisation.
- */
+/** Transmittance of glass for unpolarised light. */
 double MakeTransmittance(double sine, double inFront, double behind)
 {
-  const glm::dvec2 upper = MakeReflectances(sine, inFront, Glass);
-  const glm::dvec2 lower = MakeReflectances(sine, Glass, behind);
-  const glm::dvec2 passed = (1.0 - upper) * (1.0 - lower) / (1.0 - upper * lower);
-  return 0.5 * (passed.x + passed.y);
+  return reference::MakePlateTransmittance(sine, inFront, Glass, behind);
+}
+
+/** Transmittance of the surface of water, or of a pane of glass on it. */
+double MakeTransmittanceBelow(double thickness, double sine)
+{
+  const glm::dvec2 reflected = reference::MakeReflectances(sine, 1.0, Water);
+  return thickness > 0.0 ? MakeTransmittance(sine, 1.0, Water)
+                         : 1.0 - 0.5 * (reflected.x + reflected.y);
 }
 
 vtkSmartPointer<vtkRefractedLightFilter> MakeLight(vtkPolyData* geometry, const glm::dvec3& light)
@@ -48,14 +40,22 @@ vtkSmartPointer<vtkRefractedLightFilter> MakeLight(vtkPolyData* geometry, const 
   return filter;
 }
 
-/** Air, glass from 0 to -10, and water. */
+/** Air, glass from 0 to -thickness, if there is any, and water. */
 vtkSmartPointer<vtkRefractedLightFilter> MakePaneLight(
-  vtkPolyData* geometry, const glm::dvec3& light)
+  vtkPolyData* geometry, const glm::dvec3& light, double thickness = 10.0)
 {
   auto filter = MakeLight(geometry, light);
-  AddInterface(filter, MakePlaneAt(0.0), 1.0, Glass);
-  AddInterface(filter, MakePlaneAt(-10.0), Glass, Water);
+  if (thickness > 0.0)
+  {
+    AddInterface(filter, MakePlaneAt(0.0), 1.0, Glass);
+  }
+  AddInterface(filter, MakePlaneAt(-thickness), thickness > 0.0 ? Glass : 1.0, Water);
   return filter;
+}
+
+std::array<vtkDataSetAttributes*, 2> AttributesOf(vtkRefractedLightFilter* filter)
+{
+  return { filter->GetOutput()->GetCellData(), filter->GetOutput()->GetPointData() };
 }
 
 double CellOf(vtkRefractedLightFilter* filter, vtkIdType i)
@@ -111,42 +111,68 @@ double GetShare(double radius, double side)
 
 } // anonymous namespace
 
-TEST(StackLight, PaneUnderTheSun)
+TEST(StackLight, PlanesUnderTheSun)
 {
-  for (const double angle : { 0.0, 0.3, 0.9, 1.3, 1.4 })
+  for (const auto& [thickness, angle] : Product(List(0.0, 10.0), List(0.0, 0.3, 0.9, 1.3, 1.4)))
   {
     const auto filter =
-      MakePaneLight(MakeGrid(9, 60.0, -20.0), { std::sin(angle), std::cos(angle), 0.0 });
+      MakePaneLight(MakeGrid(9, 60.0, -20.0), { std::sin(angle), std::cos(angle), 0.0 }, thickness);
     ExpectQuiet(filter);
-    const double expected = std::cos(angle) * MakeTransmittance(std::sin(angle), 1.0, Water);
-    for (vtkIdType i = 0; i < 64; ++i)
+    const double expected = std::cos(angle) * MakeTransmittanceBelow(thickness, std::sin(angle));
+    for (vtkDataSetAttributes* data : AttributesOf(filter))
     {
-      EXPECT_NEAR(CellOf(filter, i), expected, Parallel) << angle;
+      for (const double value : ValuesOf(data->GetArray("RefractionIrradiance")))
+      {
+        EXPECT_NEAR(value, expected, Parallel) << angle;
+      }
     }
   }
 }
 
-/** The path is that behind the first side. */
-TEST(StackLight, VectorsOfTheLightBehindAPane)
+/** Light across the rays, back along them, and their length; on walls as well. */
+TEST(StackLight, VectorsOfTheLightBehindPlanes)
 {
-  const double angle = 0.9;
-  const auto filter =
-    MakePaneLight(MakeGrid(5, 20.0, -30.0), { std::sin(angle), std::cos(angle), 0.0 });
-  filter->LightVectorsOn();
-  filter->Update();
-  const double sine = std::sin(angle) / Water;
-  const double cosine = std::sqrt(1.0 - sine * sine);
-  const double inGlass = std::sqrt(1.0 - std::pow(std::sin(angle) / Glass, 2.0));
-  const double across = std::cos(angle) * MakeTransmittance(std::sin(angle), 1.0, Water) / cosine;
-  vtkDataSetAttributes* data = filter->GetOutput()->GetCellData();
-  for (vtkIdType i = 0; i < 16; ++i)
+  constexpr double depth = 20.0; // in the water
+  for (const auto& [thickness, angle, isWall] :
+    Product(List(0.0, 10.0), List(0.0, 0.3, 0.9, 1.3), List(false, true)))
   {
-    const glm::dvec3 vector = TupleOf(data->GetArray("RefractionLightVector"), i);
-    EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel);
-    EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel);
-    EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel);
-    EXPECT_NEAR(
-      data->GetArray("RefractionLightPath")->GetTuple1(i), 10.0 / inGlass + 20.0 / cosine, 0.01);
+    if (isWall && angle == 0.0)
+    {
+      continue; // the light passes it
+    }
+    const double y = -thickness - depth;
+    auto object = MakeGrid(5, 20.0, y);
+    if (isWall)
+    {
+      object = MakePoints({ { 0, y - 2, -2 }, { 0, y - 2, 2 }, { 0, y + 2, 2 }, { 0, y + 2, -2 } });
+      vtkNew<vtkCellArray> polys;
+      polys->InsertNextCell({ 0, 1, 2, 3 });
+      object->SetPolys(polys);
+    }
+    const auto filter = MakePaneLight(object, { std::sin(angle), std::cos(angle), 0.0 }, thickness);
+    filter->Update();
+    EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("RefractionLightVector"));
+    filter->LightVectorsOn();
+    filter->Update();
+    const double sine = std::sin(angle) / Water;
+    const double cosine = std::sqrt(1.0 - sine * sine);
+    const double inGlass = std::sqrt(1.0 - std::pow(std::sin(angle) / Glass, 2.0));
+    const double across =
+      std::cos(angle) * MakeTransmittanceBelow(thickness, std::sin(angle)) / cosine;
+    for (vtkDataSetAttributes* data : AttributesOf(filter))
+    {
+      vtkDataArray* vectors = data->GetArray("RefractionLightVector");
+      vtkDataArray* paths = data->GetArray("RefractionLightPath");
+      ASSERT_TRUE(vectors && paths);
+      for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
+      {
+        const glm::dvec3 vector = TupleOf(vectors, i);
+        EXPECT_NEAR(vector[0], across * sine, 2.0 * Parallel) << angle;
+        EXPECT_NEAR(vector[1], across * cosine, 2.0 * Parallel) << angle;
+        EXPECT_NEAR(vector[2], 0.0, 2.0 * Parallel) << angle;
+        EXPECT_NEAR(paths->GetTuple1(i), thickness / inGlass + depth / cosine, 0.01) << angle;
+      }
+    }
   }
 }
 
@@ -179,23 +205,25 @@ TEST(StackLight, GeometryInThePaneHasTheLightOfTheFirstSurface)
   EXPECT_EQ(SumOf(filter, 1.0), 0.0);
 }
 
-/** Rings: light at the angle a passes the pane at Height tan a and ends at the radius r(a). */
-TEST(StackLight, LampAboveAPane)
+/** Rings: light at the angle a passes the first surface at Height tan a and ends at r(a). */
+TEST(StackLight, LampAbovePlanes)
 {
   constexpr double height = 40.0;
-  constexpr double thickness = 10.0;
   constexpr double depth = 30.0;
-  const auto floor = MakeGrid(81, 80.0, -thickness - depth);
-  const auto filter = MakePaneLight(floor, { 0.0, height, 0.0 });
-  filter->PositionalOn();
-  filter->Update();
-  const auto tangent = [](double a, double index)
-  { return std::tan(std::asin(std::sin(a) / index)); };
-  const auto radius = [&](double a)
-  { return height * std::tan(a) + thickness * tangent(a, Glass) + depth * tangent(a, Water); };
-  const double largest = FindLargestLampError(
-    filter, height, radius, [](double a) { return MakeTransmittance(std::sin(a), 1.0, Water); });
-  EXPECT_LT(largest, 1e-3); // the mean of the cells around a point, as for one interface
+  for (const double thickness : { 0.0, 10.0 })
+  {
+    const auto floor = MakeGrid(81, 80.0, -thickness - depth);
+    const auto filter = MakePaneLight(floor, { 0.0, height, 0.0 }, thickness);
+    filter->PositionalOn();
+    filter->Update();
+    const auto tangent = [](double a, double index)
+    { return std::tan(std::asin(std::sin(a) / index)); };
+    const auto radius = [&](double a)
+    { return height * std::tan(a) + thickness * tangent(a, Glass) + depth * tangent(a, Water); };
+    const double largest = FindLargestLampError(filter, height, radius,
+      [thickness](double a) { return MakeTransmittanceBelow(thickness, std::sin(a)); });
+    EXPECT_LT(largest, 1e-3) << thickness; // the mean of the cells around a point
+  }
 }
 
 /**
@@ -314,25 +342,13 @@ TEST(StackLight, EqualIndicesAreLightWithoutRefraction)
 
 TEST(StackLight, ResultsDoNotDependOnTheNumberOfThreads)
 {
-  std::vector<double> light;
-  for (const int threads : { 1, 3 })
-  {
-    vtkSMPTools::Initialize(threads);
-    const auto filter = MakeBallLight(MakeGrid(21, 200.0, -60.0));
-    filter->Update();
-    for (vtkIdType i = 0; i < 400; ++i)
+  ExpectSameOnThreads(
+    []
     {
-      if (threads == 1)
-      {
-        light.push_back(CellOf(filter, i));
-      }
-      else
-      {
-        EXPECT_EQ(CellOf(filter, i), light[static_cast<std::size_t>(i)]);
-      }
-    }
-  }
-  vtkSMPTools::Initialize(0);
+      const auto filter = MakeBallLight(MakeGrid(21, 200.0, -60.0));
+      filter->Update();
+      return ValuesOf(filter->GetOutput()->GetCellData()->GetArray("RefractionIrradiance"));
+    });
 }
 
 TEST(StackLight, ListsThatCannotBeUsed)

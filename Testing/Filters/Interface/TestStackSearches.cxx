@@ -190,8 +190,7 @@ TEST(StackSearches, ARingOfImagesIsUndecided)
       return MakePoints({ { 0.0, 0.0, -1.6 } });
     },
     [](vtkRefractedGeometryFilter* stack) { AddGlassBall(stack, 6); } });
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 1);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 1);

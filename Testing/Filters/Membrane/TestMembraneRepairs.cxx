@@ -51,8 +51,7 @@ TEST(MembraneRepairs, SeparateTrianglesShowEveryPoint)
       separate->GetPointData()->SetNormals(nullptr);
     }
     const auto view = MakeAllImages(grid, separate);
-    const auto told = Observe(view);
-    view->Update();
+    const auto told = UpdateAndObserve(view);
     EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
     EXPECT_EQ(view->GetStatistic("NumberOfVerticesWithoutImage"), 0);
     vtkPolyData* seen = view->GetOutput();
@@ -82,8 +81,7 @@ TEST(MembraneRepairs, WildNormalsAreReportedAndReplaced)
     ++wild;
   }
   const auto view = MakeAllImages(grid, MakeMembrane(mesh));
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_EQ(told->Warnings, 1);
   EXPECT_TRUE(HasText(told->Text, std::to_string(wild) + " of 1681 membrane normals deviate"));
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), right->GetOutput()->GetNumberOfPoints());
@@ -132,8 +130,7 @@ TEST(MembraneRepairs, DomesWithWildNormalsAtTheRimEnd)
     ball->SetPhiResolution(12);
     ball->Update();
     const auto view = MakeAllImages(ball->GetOutput(), MakeMembrane(dome));
-    const auto told = Observe(view);
-    view->Update();
+    const auto told = UpdateAndObserve(view);
     EXPECT_GT(view->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(
       told->Text.find("64 of 125 membrane normals deviate") == std::string::npos, degrees < 30.0)

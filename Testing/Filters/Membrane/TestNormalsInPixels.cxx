@@ -61,8 +61,7 @@ MembraneMesh MakePolarCap(
 double Measure(const char* name, vtkRefractedGeometryFilter* filter, const PixelCamera& camera,
   const PlacePicture& traced)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   const PlaceComparison compared =
     ComparePlaces(traced, DrawPlaces(filter->GetOutput(), camera), camera);

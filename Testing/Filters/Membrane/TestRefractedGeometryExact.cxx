@@ -173,8 +173,7 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
   }
   const auto below = MakeCurved(turned);
   below->SetExactMembrane(sphere);
-  const auto messages = Observe(below);
-  below->Update();
+  const auto messages = UpdateAndObserve(below);
   EXPECT_EQ(below->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -217,8 +216,7 @@ TEST(RefractedGeometryExact, FunctionsWithoutAZeroLeaveTheMembraneWithAWarning)
     nowhere->HasGradient = hasGradient;
     const auto filter = MakeCurved(MakeFlatMembrane());
     filter->SetExactMembrane(nowhere);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Errors, 0) << messages->Text;
     EXPECT_EQ(messages->Warnings, 1);
     EXPECT_TRUE(HasText(messages->Text, "81 of 81"));

@@ -191,8 +191,7 @@ TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
     }
     const auto filter =
       MakeAllImages(MakeVertices({ { 0, -60, 0 }, { 5, -80, 3 } }), MakeMembrane(sheets));
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Warnings, isStacked ? 1 : 0) << messages->Text;
     EXPECT_EQ(filter->GetStatistic("NumberOfMembranePointsBehind") > 0, isStacked);
     filter->SetEyePosition(25.0, 310.0, 12.0);
@@ -250,8 +249,7 @@ TEST(RefractedGeometryMembrane, NormalsOfAnotherSurfaceAreToldOf)
   bowl->GetPointData()->SetNormals(
     MakeMembrane(MakeDisc(141.5, 5, 0.0))->GetPointData()->GetNormals());
   const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), bowl);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_TRUE(HasText(messages->Text, "do not fit the triangles"));
   bowl->GetPointData()->SetNormals(nullptr);
@@ -272,8 +270,7 @@ TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
     normals->SetTuple3(i, -n[0], -n[1], -n[2]);
   }
   const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), wrong);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_TRUE(HasText(messages->Text, "4 of 125"));
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
@@ -313,8 +310,7 @@ TEST(RefractedGeometryMembrane, OneSidedMembranesAreAnError)
   }
   band->SetPolys(polys);
   const auto filter = MakeAllImages(MakeGrid(5, 40.0, -50.0), band);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1);
   EXPECT_TRUE(HasText(messages->Text, "one-sided"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
@@ -334,8 +330,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
     filter->SetMembraneModel(
       curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
     filter->SetImagesToFirstImage();
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Warnings, 1) << messages->Text;
     EXPECT_TRUE(HasText(messages->Text, "None of the 81 points"));
     EXPECT_EQ(filter->GetStatistic("NumberOfVerticesWithoutImage"), 81);
@@ -382,8 +377,7 @@ TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
     grid->GetPoints()->SetPoint(2, 0.0, -1e300, 0.0);
     const auto filter = MakeAllImages(grid, MakeFlatMembrane());
     filter->SetImages(images);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
     EXPECT_EQ(messages->Warnings, 1);
     EXPECT_TRUE(HasText(messages->Text, "2 of 9 points"));
@@ -443,8 +437,7 @@ TEST(RefractedGeometryMembrane, CurvedMembranesMayBeStripsAndPolygons)
   strips->SetStrips(cells);
   const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), strips);
   filter->SetImagesToFirstImage();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings + messages->Errors, 0) << messages->Text;
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
   for (vtkIdType i = 0; i < 81; ++i)
@@ -546,8 +539,7 @@ TEST(RefractedGeometryMembrane, DataOfThePortsMayChangeBetweenUpdates)
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   membrane->Initialize();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
   membrane->ShallowCopy(MakeFlatMembrane());
   grid->ShallowCopy(MakeGrid(9, 80.0, -50.0));

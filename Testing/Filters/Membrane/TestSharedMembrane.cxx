@@ -305,8 +305,7 @@ TEST_F(SharedMembrane, MessagesComeFromEachFilter)
   this->Water->GetPointData()->GetNormals()->Resize(3); // too few of them
   for (const auto& filter : { this->First, this->Second })
   {
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_GE(messages->Warnings + messages->Errors, 1);
   }
 }

@@ -60,8 +60,7 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
       const auto view = MakeAllImages(points, water);
       view->SetImages(
         all ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
-      const auto told = Observe(view);
-      view->Update();
+      const auto told = UpdateAndObserve(view);
       EXPECT_TRUE(Contains(told->Text, expected)) << told->Text;
       EXPECT_EQ(told->Warnings, 1) << told->Text;
       view->Modified();
@@ -88,8 +87,7 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
       filter->SetEyePosition(20.0, 300.0, 10.0);
       filter->SetInputData(points);
       filter->SetMembraneData(water);
-      const auto toldOfEyes = Observe(filter);
-      filter->Update();
+      const auto toldOfEyes = UpdateAndObserve(filter);
       EXPECT_TRUE(Contains(toldOfEyes->Text, "No facet of the first membrane faces an eye"))
         << toldOfEyes->Text;
       filter->Modified();
@@ -100,8 +98,7 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
     vtkNew<vtkMembraneCellFilter> cells;
     cells->AddMembraneData(water);
     cells->SetEyePosition(20.0, 300.0, 10.0);
-    const auto toldOfCells = Observe(cells);
-    cells->Update();
+    const auto toldOfCells = UpdateAndObserve(cells);
     EXPECT_TRUE(Contains(toldOfCells->Text, "No facet of the first membrane faces an eye"))
       << toldOfCells->Text;
 
@@ -109,15 +106,13 @@ TEST(WrongSides, EachFilterWarnsOfAMembraneThatTurnsItsBackToTheEye)
     light->SetInputData(MakeGrid(5, 50.0, -20.0));
     light->SetMembraneData(water);
     light->SetLightPosition(0.3, 1.0, 0.0);
-    const auto toldOfLight = Observe(light);
-    light->Update();
+    const auto toldOfLight = UpdateAndObserve(light);
     EXPECT_TRUE(Contains(toldOfLight->Text, expected)) << toldOfLight->Text;
 
     vtkNew<vtkRefractionErrorVolume> volume;
     volume->SetInputData(0, water);
     volume->SetEyePosition(20.0, 300.0, 10.0);
-    const auto toldOfVolume = Observe(volume);
-    volume->Update();
+    const auto toldOfVolume = UpdateAndObserve(volume);
     EXPECT_TRUE(Contains(toldOfVolume->Text, expected)) << toldOfVolume->Text;
   }
 }
@@ -132,8 +127,7 @@ TEST(WrongSides, AMembraneIsTurnedTowardsTheEye)
   {
     const auto turned = MakeAllImages(points, MakeWater(-1.0, 0.0, withNormals));
     turned->GetInterfaces()->GetFirstInterface()->TurnTowardsEyeOn();
-    const auto told = Observe(turned);
-    turned->Update();
+    const auto told = UpdateAndObserve(turned);
     EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
     ASSERT_EQ(turned->GetOutput()->GetNumberOfPoints(), 2);
     for (vtkIdType i = 0; i < 2; ++i)
@@ -176,8 +170,7 @@ TEST(WrongSides, APaneWithASideUpsideDownIsReportedAndTurned)
   {
     const double upper = isUpper ? -1.0 : 1.0;
     const auto wrong = MakePane(points, upper, -upper, false);
-    const auto told = Observe(wrong);
-    wrong->Update();
+    const auto told = UpdateAndObserve(wrong);
     EXPECT_EQ(told->Warnings, 1) << told->Text;
     EXPECT_TRUE(Contains(told->Text, "The eye is behind interface 0")) << told->Text;
     EXPECT_TRUE(
@@ -185,8 +178,7 @@ TEST(WrongSides, APaneWithASideUpsideDownIsReportedAndTurned)
       << told->Text;
 
     const auto turned = MakePane(points, upper, -upper, true);
-    const auto toldOfTurned = Observe(turned);
-    turned->Update();
+    const auto toldOfTurned = UpdateAndObserve(turned);
     EXPECT_EQ(toldOfTurned->Warnings, 0) << toldOfTurned->Text;
     ASSERT_EQ(turned->GetOutput()->GetNumberOfPoints(), 1);
     EXPECT_LT(glm::length(PointOf(turned->GetOutput(), 0) - PointOf(right->GetOutput(), 0)), 1e-10);
@@ -202,8 +194,7 @@ TEST(WrongSides, SidesOfAPaneInTheWrongOrderAreReported)
   pane->AddInterface(1.0, 1.5);
   pane->AddInterface(1.5, 1.0);
   filter->SetInterfaces(pane);
-  const auto told = Observe(filter);
-  filter->Update();
+  const auto told = UpdateAndObserve(filter);
   EXPECT_TRUE(Contains(told->Text, "The eye is behind interface 0")) << told->Text;
 }
 
@@ -214,8 +205,7 @@ TEST(WrongSides, TotalReflectionEverywhereIsNamed)
   view->SetEyePosition(1000.0, 300.0, 0.0); // at least 72 degrees from the normal
   view->SetExteriorIndexOfRefraction(1.333);
   view->SetInteriorIndexOfRefraction(1.0);
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_EQ(view->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(Contains(told->Text, "totally reflected")) << told->Text;
   EXPECT_TRUE(Contains(told->Text, "48.6")) << told->Text;
@@ -236,8 +226,7 @@ TEST(WrongSides, AFinOnTheMembraneIsReported)
   ASSERT_EQ(common.size(), 2u);
   mesh.AddTriangle(common[0], common[1], static_cast<std::int64_t>(mesh.Points.size() / 3) - 1);
   const auto view = MakeAllImages(MakePoints({ { 10.0, -60.0, 5.0 } }), MakeMembrane(mesh));
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_TRUE(Contains(told->Text, "three or more of them share")) << told->Text;
 }
 

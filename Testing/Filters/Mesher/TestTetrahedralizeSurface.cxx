@@ -118,8 +118,7 @@ vtkSmartPointer<vtkTetrahedralizeSurface> MakeFilter(vtkPolyData* surface, int m
 /** Runs the filter and returns its messages; the output must be empty. */
 std::string FailureOf(vtkTetrahedralizeSurface* filter)
 {
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_GE(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
@@ -188,10 +187,7 @@ void AddArrays(vtkPolyData* surface)
   surface->GetPointData()->SetGlobalIds(ids);
   for (const double bad : { std::nan(""), HUGE_VAL, -HUGE_VAL })
   {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(std::to_string(bad).c_str());
-    array->SetNumberOfTuples(surface->GetNumberOfPoints());
-    array->Fill(1.0);
+    const auto array = MakeArray(std::to_string(bad).c_str(), surface->GetNumberOfPoints(), 1.0);
     array->SetValue(3, bad);
     surface->GetPointData()->AddArray(array);
   }
@@ -248,8 +244,7 @@ TEST_F(TetGenMeshes, FillTheSurface)
   {
     SCOPED_TRACE(solid.Name);
     const auto filter = MakeFilter(solid.Surface, vtkTetrahedralizeSurface::TETGEN);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Text, "");
     vtkUnstructuredGrid* grid = filter->GetOutput();
     const MeshFigures figures = Measure(grid);
@@ -345,8 +340,7 @@ TEST_F(TetGenMeshes, KeepShallowBumps)
 {
   const auto filter = MakeFilter(MakeEllipsoid(3, 1.0, 1e-4), vtkTetrahedralizeSurface::TETGEN);
   filter->PreserveSurfaceOn();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Text, "");
   const double volume = 1e-4 * GeodesicSphereVolume(1.0, 3);
   EXPECT_NEAR(Measure(filter->GetOutput()).Volume, volume, 1e-9 * volume);
@@ -407,8 +401,7 @@ TEST_F(TetGenMeshes, ContinueArrays)
   // A value that is not a number has no continuation.
   sphere->GetPointData()->AddArray(holes);
   sphere->Modified();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_TRUE(Contains(messages->Text, "1 point arrays cannot be continued"));
   grid = filter->GetOutput();
@@ -435,8 +428,7 @@ TEST_F(TetGenMeshes, KeepArraysAtThePointsOfTheSurface)
   const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::TETGEN);
   filter->SetMaximumVolume(0.01);
   filter->PreserveSurfaceOn();
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_TRUE(Contains(messages->Text, "3 point arrays cannot be continued"));
   EXPECT_GT(filter->GetNumberOfAddedPoints(), 0);
   CheckArrays(filter->GetOutput(), surface);
@@ -460,8 +452,7 @@ TEST(DelaunayMeshes, FillTheSurface)
   const auto surface = MakeEllipsoid(2, 1.3, 0.8);
   const double volume = GeodesicSphereVolume(1.0, 2) * 1.3 * 0.8;
   const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Text, "");
   const MeshFigures figures = Measure(filter->GetOutput());
   EXPECT_NEAR(figures.Volume, volume, 1e-12 * volume);
@@ -480,8 +471,7 @@ TEST(DelaunayMeshes, FillSurfacesFarAway)
     SCOPED_TRACE(distance);
     const auto surface = Moved(MakeEllipsoid(2, 1.3, 0.8), { distance, 0.7 * distance, 0.0 });
     const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Text, "");
     double volume = 0.0;
     vtkUnstructuredGrid* grid = filter->GetOutput();
@@ -508,8 +498,7 @@ TEST(DelaunayMeshes, KeepArraysAtThePointsOfTheSurface)
   const auto surface = MakeEllipsoid(2, 1.3, 0.8);
   AddArrays(surface);
   const auto filter = MakeFilter(surface, vtkTetrahedralizeSurface::DELAUNAY);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(messages->Text, "");
   CheckArrays(filter->GetOutput(), surface);
 }
@@ -524,8 +513,7 @@ TEST(DelaunayMeshes, FillFlatConvexSurfaces)
     SCOPED_TRACE(height);
     const auto filter =
       MakeFilter(MakeEllipsoid(3, 1.3, height), vtkTetrahedralizeSurface::DELAUNAY);
-    const auto messages = Observe(filter);
-    filter->Update();
+    const auto messages = UpdateAndObserve(filter);
     EXPECT_EQ(messages->Text, "");
     const double volume = GeodesicSphereVolume(1.0, 3) * 1.3 * height;
     EXPECT_NEAR(Measure(filter->GetOutput()).Volume, volume, 1e-12 * volume);

@@ -20,8 +20,7 @@ TEST(CoarseTriangles, AreToldOnceAndDrawn)
   {
     const auto view = MakeAllImages(object, water);
     view->SetAngularTolerance(tolerance);
-    const auto told = Observe(view);
-    view->Update();
+    const auto told = UpdateAndObserve(view);
     const vtkIdType points = view->GetOutput()->GetNumberOfPoints();
     EXPECT_GT(points, 3);
     if (tolerance > 1.0e-6)

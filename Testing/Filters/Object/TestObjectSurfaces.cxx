@@ -45,13 +45,8 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeHexahedra()
   for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(grid->GetPointData()),
          static_cast<vtkDataSetAttributes*>(grid->GetCellData()) })
   {
-    vtkNew<vtkIdTypeArray> rank;
-    rank->SetName("Rank");
-    for (vtkIdType i = 0; i < (data == grid->GetPointData() ? 12 : 2); ++i)
-    {
-      rank->InsertNextValue(100 + i);
-    }
-    data->AddArray(rank);
+    data->AddArray(MakeArray<vtkIdTypeArray>(
+      "Rank", (data == grid->GetPointData() ? 12 : 2), [&](vtkIdType i) { return 100 + i; }));
   }
   return grid;
 }
@@ -83,8 +78,7 @@ TEST(ObjectSurfaces, GridsAreSeenByTheirSurface)
 {
   const auto grid = MakeHexahedra();
   const auto view = MakeView(grid);
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
   EXPECT_EQ(view->GetOutput()->GetNumberOfPolys(), 10); // of twelve faces, two are inside
   ExpectImagesOf(grid, view->GetOutput());
@@ -117,8 +111,7 @@ TEST(ObjectSurfaces, BlocksAreOneOutputOrSeveral)
   blocks->SetBlock(0, MakeHexahedra());
   blocks->SetBlock(2, MakeGrid(3, 20.0, -10.0));
   const auto view = MakeView(blocks);
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
   ASSERT_TRUE(vtkMultiBlockDataSet::SafeDownCast(view->GetOutputDataObject(0)));
   ASSERT_NE(view->GetOutput(), nullptr);
@@ -141,13 +134,8 @@ vtkSmartPointer<vtkPolyData> MakeConcave()
   polygons->InsertNextCell(8, letter);
   polygons->InsertNextCell(3, triangle);
   data->SetPolys(polygons);
-  vtkNew<vtkIdTypeArray> global;
-  global->SetName("Rank");
-  for (vtkIdType i = 0; i < 3; ++i)
-  {
-    global->InsertNextValue(100 + i);
-  }
-  data->GetCellData()->SetGlobalIds(global);
+  data->GetCellData()->SetGlobalIds(
+    MakeArray<vtkIdTypeArray>("Rank", 3, [&](vtkIdType i) { return 100 + i; }));
   return data;
 }
 
@@ -191,13 +179,8 @@ TEST(ObjectSurfaces, ConcavePolygonsAreDividedAndTheirGlobalIdsAreNot)
     }
   }
   const auto whole = MakeGrid(3, 20.0, -20.0);
-  vtkNew<vtkIdTypeArray> global;
-  global->SetName("Global");
-  for (vtkIdType i = 0; i < 4; ++i)
-  {
-    global->InsertNextValue(7 * i);
-  }
-  whole->GetCellData()->SetGlobalIds(global);
+  whole->GetCellData()->SetGlobalIds(
+    MakeArray<vtkIdTypeArray>("Global", 4, [&](vtkIdType i) { return 7 * i; }));
   const auto view = MakeView(whole);
   view->Update();
   EXPECT_NE(view->GetOutput()->GetCellData()->GetGlobalIds(), nullptr) << "no cell is cut";
@@ -305,8 +288,7 @@ TEST(ObjectSurfaces, ParallelCamerasHaveTheirEyeAtInfinity)
   const auto points = MakePoints({ { 5.0, -20.0, -10.0 }, { -15.0, -35.0, 2.0 } });
   const auto view = MakeView(points);
   view->SetCamera(camera);
-  const auto told = Observe(view);
-  view->Update();
+  const auto told = UpdateAndObserve(view);
   EXPECT_EQ(told->Warnings + told->Errors, 0) << told->Text;
   ASSERT_EQ(view->GetOutput()->GetNumberOfPoints(), 2);
   constexpr double index = 1.333;
@@ -332,8 +314,7 @@ TEST(ObjectSurfaces, ParallelPicturesAreDividedAsFinely)
 {
   auto line = MakePoints({ { -40.0, -20.0, 0.0 }, { 40.0, -60.0, 0.0 } });
   vtkNew<vtkCellArray> lines;
-  const vtkIdType ids[2] = { 0, 1 };
-  lines->InsertNextCell(2, ids);
+  lines->InsertNextCell({ 0, 1 });
   line->SetLines(lines);
   const auto waves = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 1.0, 4.0));
   vtkIdType points[2];

@@ -195,8 +195,7 @@ TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
 {
   const auto camera = MakeCamera(900.0, 10.0);
   const auto filter = this->Make(camera);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 0);
   EXPECT_EQ(filter->GetStatistic("NumberOfCulledVertices"), All);
   EXPECT_EQ(filter->GetStatistic("NumberOfCulledCells"), 1600);
@@ -239,8 +238,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   camera->ParallelProjectionOn();
   const auto filter =
     MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE, camera);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), All);
   filter->SetCamera(nullptr);
   filter->SetEyePosition(20.0, 150.0, 10.0);
@@ -267,8 +265,7 @@ TEST(RefractedGeometryViews, PointsThatAreNotFiniteAreNotCulled)
   auto grid = MakeGrid(3, 10.0, -30.0);
   grid->GetPoints()->SetPoint(4, 0.0, std::nan(""), 0.0);
   filter->SetInputData(0, grid);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetNumberOfFailedSolves(), 1);
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 }

@@ -35,13 +35,8 @@ std::vector<Part> GetGeometry(Filter* filter)
 
 void SetColors(vtkPolyData* grid, double first)
 {
-  vtkNew<vtkDoubleArray> colors;
-  colors->SetName("Color");
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    colors->InsertNextValue(first + static_cast<double>(i));
-  }
-  grid->GetPointData()->AddArray(colors);
+  grid->GetPointData()->AddArray(MakeArray("Color", grid->GetNumberOfPoints(),
+    [&](vtkIdType i) { return first + static_cast<double>(i); }));
 }
 
 /** Object and filter for one of the ways in which outputs are made. */
@@ -156,14 +151,8 @@ void ExpectSameArrays(vtkDataSetAttributes* found, vtkDataSetAttributes* expecte
 TEST(KeptAssembly, IsThatOfTheCurrentSettings)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
-  vtkNew<vtkFloatArray> normals;
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    normals->InsertNextTuple3(0.1, 1.0, 0.0);
-  }
-  grid->GetPointData()->SetNormals(normals);
+  grid->GetPointData()->SetNormals(
+    MakeArray<vtkFloatArray>("Normals", grid->GetNumberOfPoints(), glm::dvec3(0.1, 1.0, 0.0)));
   const auto water = MakeFlatMembrane();
   const auto make = [&grid, &water]()
   {
@@ -212,14 +201,8 @@ TEST(KeptAssembly, IsThatOfTheCurrentSettings)
 TEST(KeptOutput, RolesOfArraysStay)
 {
   auto grid = MakeGrid(5, 80.0, -50.0);
-  vtkNew<vtkFloatArray> normals;
-  normals->SetName("N");
-  normals->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    normals->InsertNextTuple3(0.0, 1.0, 0.0);
-  }
-  grid->GetPointData()->SetNormals(normals);
+  grid->GetPointData()->SetNormals(
+    MakeArray<vtkFloatArray>("N", grid->GetNumberOfPoints(), glm::dvec3(0.0, 1.0, 0.0)));
   auto filter = MakeFilter(grid, MakeFlatMembrane());
   filter->SetMembraneModelToCurved();
   filter->SetImagesToAllImages();

@@ -20,8 +20,7 @@ vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
   auto wall = MakePoints(
     { { 7.0, low, -30.0 }, { 7.0, high, -30.0 }, { 7.0, high, 40.0 }, { 7.0, low, 40.0 } });
   vtkNew<vtkCellArray> polys;
-  const vtkIdType ids[4] = { 0, 1, 2, 3 };
-  polys->InsertNextCell(4, ids);
+  polys->InsertNextCell({ 0, 1, 2, 3 });
   wall->SetPolys(polys);
   AddTruth(wall);
   return wall;
@@ -256,8 +255,7 @@ TEST(RefractedGeometryImages, LinesAreDividedAndCut)
 {
   const auto line = MakePoints({ { -40.0, -60.0, 5.0 }, { 30.0, 20.0, 8.0 } });
   vtkNew<vtkCellArray> lines;
-  const vtkIdType ids[2] = { 0, 1 };
-  lines->InsertNextCell(2, ids);
+  lines->InsertNextCell({ 0, 1 });
   line->SetLines(lines);
   AddTruth(line);
   const auto filter = MakeAllImages(line, MakeFlatMembrane());
@@ -295,11 +293,7 @@ TEST(RefractedGeometryImages, NothingIsComputedAgainWithoutNeed)
     EXPECT_EQ(filter->GetNumberOfSolvedVertices(), vertices);
   };
   expect(1, 1, 81);
-  vtkNew<vtkFloatArray> colour;
-  colour->SetName("Colour");
-  colour->SetNumberOfTuples(81);
-  colour->Fill(0.5);
-  grid->GetPointData()->AddArray(colour);
+  grid->GetPointData()->AddArray(MakeArray<vtkFloatArray>("Colour", 81, 0.5));
   expect(1, 1, 81);
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("Colour"), nullptr);
   const vtkIdType cells = filter->GetOutput()->GetNumberOfCells();
@@ -329,8 +323,7 @@ TEST(RefractedGeometryImages, CountsSearchesAtAFocus)
   filter->SetExteriorIndexOfRefraction(1.5);
   filter->SetInteriorIndexOfRefraction(1.0);
   filter->SetEyePosition(0.0, 2000.0, 0.0);
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   EXPECT_EQ(filter->GetStatistic("NumberOfUndecidedSearches"), 1);
   EXPECT_EQ(messages->Warnings, 1);
   EXPECT_TRUE(HasText(messages->Text, "undecided"));

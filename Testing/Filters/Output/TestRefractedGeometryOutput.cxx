@@ -33,8 +33,7 @@ TEST(RefractedGeometryOutput, GridKeepsConnectivityAndArrays)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
-  const auto messages = Observe(filter);
-  filter->Update();
+  const auto messages = UpdateAndObserve(filter);
   vtkPolyData* output = filter->GetOutput();
   EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   ASSERT_EQ(output->GetNumberOfPoints(), 81);
@@ -98,8 +97,7 @@ TEST(RefractedGeometryOutput, PointsWithoutImageTakeTheirCellsWithThem)
   polys->InsertNextCell(4, quad);
   grid->SetPolys(polys);
   vtkNew<vtkCellArray> lines;
-  const vtkIdType line[3] = { 5, 2, 0 };
-  lines->InsertNextCell(3, line);
+  lines->InsertNextCell({ 5, 2, 0 });
   lines->InsertNextCell(2, good);
   grid->SetLines(lines);
   vtkNew<vtkStringArray> names;

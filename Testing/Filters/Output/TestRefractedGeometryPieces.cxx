@@ -56,20 +56,13 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
   const auto floor = MakeGrid(count, side, depth);
   AddTruth(floor);
   const vtkIdType points = floor->GetNumberOfPoints();
-  vtkNew<vtkDoubleArray> ones;
-  ones->SetName("Ones");
-  ones->SetNumberOfTuples(points);
-  ones->Fill(1.0);
-  floor->GetPointData()->AddArray(ones);
-  vtkNew<vtkDoubleArray> texture;
-  texture->SetName("Texture");
-  texture->SetNumberOfComponents(2);
-  for (vtkIdType i = 0; i < points; ++i)
-  {
-    const double* p = floor->GetPoint(i);
-    texture->InsertNextTuple2(p[0] / side + 0.5, p[2] / side + 0.5);
-  }
-  floor->GetPointData()->SetTCoords(texture);
+  floor->GetPointData()->AddArray(MakeArray("Ones", points, 1.0));
+  floor->GetPointData()->SetTCoords(MakeArray("Texture", points,
+    [&](vtkIdType i)
+    {
+      const double* p = floor->GetPoint(i);
+      return glm::dvec2(p[0] / side + 0.5, p[2] / side + 0.5);
+    }));
   const auto filter = MakePieces(test, floor);
   filter->Update();
   vtkPointData* output = filter->GetOutput()->GetPointData();

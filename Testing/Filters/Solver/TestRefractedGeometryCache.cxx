@@ -89,11 +89,7 @@ TEST_F(RefractedGeometryCache, MovedObjectIsNoticedByTheDataSetsTimeAlone)
 
 TEST_F(RefractedGeometryCache, RecolouredObjectKeepsItsVirtualVertices)
 {
-  vtkNew<vtkFloatArray> colour;
-  colour->SetName("Colour");
-  colour->SetNumberOfTuples(81);
-  colour->Fill(0.5);
-  this->Grid->GetPointData()->AddArray(colour);
+  this->Grid->GetPointData()->AddArray(MakeArray<vtkFloatArray>("Colour", 81, 0.5));
   this->ExpectAfterUpdate({ 1, 1, 81 });
   EXPECT_TRUE(this->Executed);
   EXPECT_NE(this->Filter->GetOutput()->GetPointData()->GetArray("Colour"), nullptr);
@@ -102,8 +98,7 @@ TEST_F(RefractedGeometryCache, RecolouredObjectKeepsItsVirtualVertices)
 TEST_F(RefractedGeometryCache, ChangedConnectivityKeepsTheVirtualVertices)
 {
   vtkNew<vtkCellArray> polys;
-  const vtkIdType ids[3] = { 0, 1, 2 };
-  polys->InsertNextCell(3, ids);
+  polys->InsertNextCell({ 0, 1, 2 });
   this->Grid->SetPolys(polys);
   this->Grid->GetCellData()->Initialize();
   this->ExpectAfterUpdate({ 1, 1, 81 });

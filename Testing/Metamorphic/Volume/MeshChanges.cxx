@@ -259,53 +259,24 @@ void DivideTetrahedra(MeshArrays& mesh, int parts)
 namespace
 {
 
-struct SecondOrder
+/** Type of a cell of second order with the shape of a linear one, drawn by lot. */
+int SecondOrderOf(int type, RandomNumbers& random)
 {
-  int Type;
-  // Each further point is the mean of these corners.
-  std::vector<std::vector<int>> Middles;
-};
-
-SecondOrder SecondOrderOf(int type, RandomNumbers& random)
-{
-  if (type == VTK_TETRA)
+  switch (type)
   {
-    return { VTK_QUADRATIC_TETRA, { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } } };
-  }
-  if (type == VTK_PYRAMID)
-  {
-    return { VTK_QUADRATIC_PYRAMID,
-      { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } } };
-  }
-  if (type == VTK_WEDGE)
-  {
-    SecondOrder cell{ VTK_QUADRATIC_WEDGE,
-      { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 }, { 1, 4 },
-        { 2, 5 } } };
-    if (random.Below(2))
+    case VTK_TETRA:
+      return VTK_QUADRATIC_TETRA;
+    case VTK_PYRAMID:
+      return VTK_QUADRATIC_PYRAMID;
+    case VTK_WEDGE:
+      return random.Below(2) ? VTK_BIQUADRATIC_QUADRATIC_WEDGE : VTK_QUADRATIC_WEDGE;
+    default:
     {
-      cell.Type = VTK_BIQUADRATIC_QUADRATIC_WEDGE;
-      cell.Middles.insert(cell.Middles.end(), { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 2, 0, 3, 5 } });
+      const int types[3] = { VTK_QUADRATIC_HEXAHEDRON, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON,
+        VTK_TRIQUADRATIC_HEXAHEDRON };
+      return types[random.Below(3)];
     }
-    return cell;
   }
-  SecondOrder cell{ VTK_QUADRATIC_HEXAHEDRON,
-    { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 },
-      { 1, 5 }, { 2, 6 }, { 3, 7 } } };
-  const int points = random.Below(3);
-  if (points > 0)
-  {
-    cell.Type = VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON;
-    cell.Middles.insert(
-      cell.Middles.end(), { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 } });
-  }
-  if (points > 1)
-  {
-    cell.Type = VTK_TRIQUADRATIC_HEXAHEDRON;
-    cell.Middles.insert(
-      cell.Middles.end(), { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 2, 3, 4, 5, 6, 7 } });
-  }
-  return cell;
 }
 
 } // anonymous namespace
@@ -316,10 +287,9 @@ void MakeQuadratic(MeshArrays& mesh, RandomNumbers& random)
   MiddlePoints middles(mesh);
   for (MeshCell& cell : mesh.Cells)
   {
-    const SecondOrder order = SecondOrderOf(cell.Type, random);
-    cell.Type = order.Type;
+    cell.Type = SecondOrderOf(cell.Type, random);
     const std::vector<vtkIdType> corners = cell.Ids;
-    for (const std::vector<int>& places : order.Middles)
+    for (const std::vector<int>& places : FurtherPoints(cell.Type))
     {
       std::vector<vtkIdType> ids;
       for (const int place : places)

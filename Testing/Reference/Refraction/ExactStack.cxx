@@ -125,6 +125,25 @@ ExactImage MakeImage(
 }
 
 //------------------------------------------------------------------------------
+glm::dvec2 MakeReflectances(double sine, double before, double behind)
+{
+  const double c = std::sqrt(1.0 - std::pow(sine / before, 2.0));
+  const double d = std::sqrt(1.0 - std::pow(sine / behind, 2.0));
+  const double s = (before * c - behind * d) / (before * c + behind * d);
+  const double p = (behind * c - before * d) / (behind * c + before * d);
+  return { s * s, p * p };
+}
+
+//------------------------------------------------------------------------------
+double MakePlateTransmittance(double sine, double before, double plate, double behind)
+{
+  const glm::dvec2 upper = MakeReflectances(sine, before, plate);
+  const glm::dvec2 lower = MakeReflectances(sine, plate, behind);
+  const glm::dvec2 passed = (1.0 - upper) * (1.0 - lower) / (1.0 - upper * lower);
+  return 0.5 * (passed.x + passed.y);
+}
+
+//------------------------------------------------------------------------------
 MembraneMesh MakeSphere(const glm::dvec3& centre, double radius, int levels, bool outwards)
 {
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));

@@ -8,6 +8,7 @@
 
 #include "MembraneMeshes.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <optional>
@@ -47,6 +48,15 @@ struct ExactImage
 };
 ExactImage MakeImage(
   const std::vector<ExactSurface>& surfaces, const ExactPath& path, double length);
+
+/** Reflectances of both polarisations for an angle of incidence with this sine in a vacuum. */
+glm::dvec2 MakeReflectances(double sine, double before, double behind);
+
+/**
+ * Transmittance of a plate for unpolarised light: the sum of the geometric series of the light that
+ * is reflected between its sides, for each polarisation.
+ */
+double MakePlateTransmittance(double sine, double before, double plate, double behind);
 
 /** A whole sphere, an icosahedron divided `levels` times: 20 * 4^levels facets. */
 MembraneMesh MakeSphere(const glm::dvec3& centre, double radius, int levels, bool outwards);

@@ -106,9 +106,7 @@ void ExpectAgreementOfModes(
         "mode " + std::to_string(mode) + ", gradients " + std::to_string(gradients));
     }
   }
-  vtkNew<vtkPlane> plane;
-  plane->SetNormal(0.3, 1.0, 0.2);
-  scene.GetRayCaster()->AddClippingPlane(plane);
+  AddClippingPlane(scene.GetRayCaster(), { { 0.3, 1.0, 0.2 }, {} });
   scene.GetRayCaster()->SetBlendMode(modes.front());
   ExpectAgreement(scene, backends, "clipped");
   scene.GetRayCaster()->RemoveAllClippingPlanes();

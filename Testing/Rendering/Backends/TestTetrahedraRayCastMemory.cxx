@@ -26,13 +26,8 @@ protected:
     , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
   {
     Jitter(this->Mesh, 0.05, 5);
-    vtkNew<vtkDoubleArray> values;
-    for (vtkIdType c = 0; c < this->Mesh->GetNumberOfCells(); ++c)
-    {
-      values->InsertNextValue(std::sin(0.05 * c));
-    }
-    values->SetName("cells");
-    this->Mesh->GetCellData()->SetScalars(values);
+    this->Mesh->GetCellData()->SetScalars(MakeArray("cells", this->Mesh->GetNumberOfCells(),
+      [](vtkIdType c) { return std::sin(0.05 * static_cast<double>(c)); }));
     this->Property->GetIsoSurfaceValues()->SetValue(0, 0.2);
     this->Property->GetIsoSurfaceValues()->SetValue(1, -0.4);
     this->Observer->Observe(this->Mapper);

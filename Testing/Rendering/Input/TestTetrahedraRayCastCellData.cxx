@@ -224,10 +224,7 @@ vtkSmartPointer<vtkVolumeProperty> SurfaceProperty()
 std::vector<HalfSpace> AddPlane(RayCastScene& scene)
 {
   const HalfSpace half{ Vector3{ 0.4, -0.3, -0.8 }, Vector3{ 0.05, 0.02, 0.11 } };
-  vtkNew<vtkPlane> plane;
-  plane->SetNormal(half.Normal.data());
-  plane->SetOrigin(half.Origin.data());
-  scene.GetRayCaster()->AddClippingPlane(plane);
+  AddClippingPlane(scene.GetRayCaster(), half);
   return { half };
 }
 
@@ -345,10 +342,7 @@ TEST(TetrahedraRayCastCellData, IsosurfacesAreFacesBetweenCells)
       property->SetShade(lit);
       CellScene scene(grid, property);
       scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-      vtkNew<vtkLight> side;
-      side->SetLightTypeToSceneLight();
-      side->SetPosition(4.0, 2.0, 1.0);
-      scene.GetRenderer()->AddLight(side);
+      AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0);
       const std::string what =
         std::string(lit ? "lit" : "unlit") + (hollow ? ", shell" : ", block");
       scene.ExpectSurfaces(what);

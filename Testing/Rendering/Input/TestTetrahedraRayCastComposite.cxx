@@ -118,14 +118,12 @@ vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<Grid>& parts)
 /** Cells of a structured kind over [-1, 1]^3 with n cubes along each axis. */
 void AddScalars(vtkDataSet* grid, const Field& field)
 {
-  vtkNew<vtkDoubleArray> scalars;
-  scalars->SetName(ScalarName);
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 x = PointOf(grid, i);
-    scalars->InsertNextValue(field(x[0], x[1], x[2]));
-  }
-  grid->GetPointData()->SetScalars(scalars);
+  grid->GetPointData()->SetScalars(MakeArray(ScalarName, grid->GetNumberOfPoints(),
+    [&](vtkIdType i)
+    {
+      const glm::dvec3 x = PointOf(grid, i);
+      return field(x[0], x[1], x[2]);
+    }));
 }
 
 vtkSmartPointer<vtkImageData> MakeImage(int n, const Field& field)
@@ -298,13 +296,8 @@ TEST(TetrahedraRayCastComposite, ChangesOfALeaf)
 TEST(TetrahedraRayCastComposite, CellDataOfLeaves)
 {
   const Grid whole = MakeBlock(4, MakeLinear());
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("cells");
-  for (vtkIdType c = 0; c < whole->GetNumberOfCells(); ++c)
-  {
-    values->InsertNextValue(std::sin(0.01 * c));
-  }
-  whole->GetCellData()->SetScalars(values);
+  whole->GetCellData()->SetScalars(
+    MakeArray("cells", whole->GetNumberOfCells(), [&](vtkIdType c) { return std::sin(0.01 * c); }));
   ExpectSamePicture(PictureOf(MakeBlocks(Interlocking(whole)), VTK_SCALAR_MODE_USE_CELL_DATA),
     PictureOf(whole, VTK_SCALAR_MODE_USE_CELL_DATA), "cell data");
 }

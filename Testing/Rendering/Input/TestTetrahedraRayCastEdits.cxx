@@ -93,13 +93,8 @@ protected:
 
 vtkDoubleArray* AddCellScalars(vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkDoubleArray> values;
-  values->SetName(ScalarName);
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    values->InsertNextValue(std::sin(0.1 * static_cast<double>(c)));
-  }
-  grid->GetCellData()->SetScalars(values);
+  grid->GetCellData()->SetScalars(MakeArray(ScalarName, grid->GetNumberOfCells(),
+    [&](vtkIdType c) { return std::sin(0.1 * static_cast<double>(c)); }));
   return vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetScalars());
 }
 
@@ -186,12 +181,8 @@ TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
   grid->SetXCoordinates(axes[0]);
   grid->SetYCoordinates(axes[1]);
   grid->SetZCoordinates(axes[2]);
-  vtkNew<vtkDoubleArray> scalars;
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    scalars->InsertNextValue(std::sin(static_cast<double>(p)));
-  }
-  grid->GetPointData()->SetScalars(scalars);
+  grid->GetPointData()->SetScalars(MakeArray(nullptr, grid->GetNumberOfPoints(),
+    [&](vtkIdType p) { return std::sin(static_cast<double>(p)); }));
   this->ExpectSeen(
     grid, { { "array", axes[1] }, { "grid", grid } },
     [&axes](int i) { axes[1]->SetValue(3, 0.8 + 0.1 * i); }, Part::Points);

@@ -74,10 +74,7 @@ void ExpectFills(const std::string& mode, vtkVolumeProperty* property, const Sce
   {
     const Grid grid = MakeFilled(fill);
     RayCastScene scene(grid, property, Size, Size);
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
-    light->SetPosition(4.0, 2.0, 1.0);
-    scene.GetRenderer()->AddLight(light);
+    AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0);
     prepare(scene);
     scene.GetWindow()->Render();
     const Grid trueGrid = MakeFilled(ForTruth(fill));
@@ -239,14 +236,10 @@ TEST(TetrahedraRayCastFillValues, CellData)
     for (int i = 0; i < 3; ++i)
     {
       const Grid grid = MakeBlock(5, WavyField(3.0));
-      vtkNew<vtkDoubleArray> values;
-      values->SetNumberOfTuples(grid->GetNumberOfCells());
-      for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-      {
-        values->SetValue(c, c % 97 == 5 ? fills[i] : std::sin(0.37 * static_cast<double>(c)));
-      }
       grid->GetPointData()->Initialize();
-      grid->GetCellData()->SetScalars(values);
+      grid->GetCellData()->SetScalars(MakeArray(nullptr, grid->GetNumberOfCells(),
+        [&](vtkIdType c)
+        { return c % 97 == 5 ? fills[i] : std::sin(0.37 * static_cast<double>(c)); }));
       RayCastScene scene(grid, property, Size, Size);
       scene.GetRayCaster()->SetBlendMode(mode);
       images[i] = scene.RenderFloat();

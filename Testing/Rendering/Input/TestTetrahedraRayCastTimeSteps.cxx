@@ -432,12 +432,8 @@ TEST_F(TetrahedraRayCastTimeSteps, ThreeChangedSignsAreSeen)
   // In a digest whose steps spread a word's highest bit to bit 31 only, these three changes of four
   // bytes each cancel.
   const Grid grid = MakeBlock(6, WavyField(3.0));
-  vtkNew<vtkFloatArray> scalars;
-  scalars->SetName(ScalarName);
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    scalars->InsertNextValue(0.5f + 0.001f * static_cast<float>(p));
-  }
+  const auto scalars = MakeArray<vtkFloatArray>(ScalarName, grid->GetNumberOfPoints(),
+    [&](vtkIdType p) { return 0.5f + 0.001f * static_cast<float>(p); });
   grid->GetPointData()->SetScalars(scalars);
   const auto scene = this->MakeScene(grid);
   scene->RenderFloat();

@@ -203,14 +203,9 @@ TEST(TetrahedraRayCastTopology, HexahedraGivenRepeatedly)
 TEST(TetrahedraRayCastTopology, FirstOfRepeatedCellsGivesTheValue)
 {
   const Grid grid = MakeBlock(4, ConstantField(0.0));
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("PerCell");
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    values->InsertNextValue(std::sin(1.7 * static_cast<double>(c)));
-  }
   grid->GetPointData()->Initialize();
-  grid->GetCellData()->SetScalars(values);
+  grid->GetCellData()->SetScalars(MakeArray("PerCell", grid->GetNumberOfCells(),
+    [&](vtkIdType c) { return std::sin(1.7 * static_cast<double>(c)); }));
   for (const int backend : Backends)
   {
     vtkTypeInt64 copies = 0;

@@ -22,32 +22,6 @@ Filter MakeGood()
   return rays;
 }
 
-void AddArray(
-  vtkDataSetAttributes* to, const char* name, vtkIdType tuples, int components, double value)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  array->Fill(value);
-  to->AddArray(array);
-}
-
-/** Expects one error of the filter with a text in it, and nothing in the output. */
-void ExpectError(vtkTetrahedraRayIntegral* rays, const std::string& text)
-{
-  vtkNew<ErrorObserver> observer;
-  vtkNew<ErrorObserver> executive; // "Algorithm returned failure"
-  observer->Observe(rays);
-  executive->Observe(rays->GetExecutive());
-  rays->Update();
-  rays->RemoveObserver(observer);
-  ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
-  EXPECT_TRUE(HasText(observer->Errors[0], text));
-  EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0) << text;
-  EXPECT_EQ(rays->GetOutput()->GetPointData()->GetNumberOfArrays(), 0) << text;
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -77,13 +51,13 @@ TEST(RayIntegralBadInput, Arrays)
   rays = MakeGood();
   rays->SetInputData(grid);
   ExpectError(rays, "no active scalars and no arrays of points or cells");
-  AddArray(grid->GetPointData(), "short", grid->GetNumberOfPoints() - 1, 1, 1.0);
+  grid->GetPointData()->AddArray(MakeArray("short", grid->GetNumberOfPoints() - 1, 1.0));
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "short");
   ExpectError(rays, "values for");
-  AddArray(grid->GetCellData(), "few", 3, 1, 1.0);
+  grid->GetCellData()->AddArray(MakeArray("few", 3, 1.0));
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "few");
   ExpectError(rays, "has 3 values for 48 cells");
-  AddArray(grid->GetPointData(), "pair", grid->GetNumberOfPoints(), 2, 1.0);
+  grid->GetPointData()->AddArray(MakeArray("pair", grid->GetNumberOfPoints(), glm::dvec2(1.0)));
   rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "pair");
   rays->SetArrayComponent(2);
   ExpectError(rays, "none of number 2");
@@ -95,8 +69,8 @@ TEST(RayIntegralBadInput, NoActiveScalars)
 {
   Grid grid = MakeMesh();
   grid->GetPointData()->SetActiveScalars(nullptr);
-  AddArray(grid->GetPointData(), "heat", grid->GetNumberOfPoints(), 1, 1.0);
-  AddArray(grid->GetCellData(), "flux", grid->GetNumberOfCells(), 3, 1.0);
+  grid->GetPointData()->AddArray(MakeArray("heat", grid->GetNumberOfPoints(), 1.0));
+  grid->GetCellData()->AddArray(MakeArray("flux", grid->GetNumberOfCells(), glm::dvec3(1.0)));
   grid->GetPointData()->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
   grid->GetCellData()->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
   Filter rays = MakeGood();
@@ -219,11 +193,11 @@ TEST(RayIntegralBadInput, EnergyBins)
 {
   Grid grid = MakeMesh();
   const vtkIdType points = grid->GetNumberOfPoints();
-  AddArray(grid->GetPointData(), "mu", points, 3, 0.5);
-  AddArray(grid->GetPointData(), "light", points, 2, 0.5);
-  AddArray(grid->GetCellData(), "cells", grid->GetNumberOfCells(), 3, 0.5);
-  AddArray(grid->GetPointData(), "negative", points, 1, -0.5);
-  AddArray(grid->GetPointData(), "short", points - 2, 1, 0.5);
+  grid->GetPointData()->AddArray(MakeArray("mu", points, glm::dvec3(0.5)));
+  grid->GetPointData()->AddArray(MakeArray("light", points, glm::dvec2(0.5)));
+  grid->GetCellData()->AddArray(MakeArray("cells", grid->GetNumberOfCells(), glm::dvec3(0.5)));
+  grid->GetPointData()->AddArray(MakeArray("negative", points, -0.5));
+  grid->GetPointData()->AddArray(MakeArray("short", points - 2, 0.5));
   Filter rays = MakeGood();
   rays->SetInputData(grid);
   rays->GetArraySelection()->DisableArray("Integral");

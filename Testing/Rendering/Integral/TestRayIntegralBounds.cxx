@@ -48,10 +48,8 @@ void AddFarCell(vtkUnstructuredGrid* grid, int type, vtkIdType size)
 
 void AddFlags(vtkDataSet* grid, unsigned char flag)
 {
-  vtkNew<vtkUnsignedCharArray> flags;
-  flags->SetName(vtkDataSetAttributes::GhostArrayName());
-  flags->SetNumberOfTuples(grid->GetNumberOfCells());
-  flags->Fill(0.0);
+  const auto flags = MakeArray<vtkUnsignedCharArray>(
+    vtkDataSetAttributes::GhostArrayName(), grid->GetNumberOfCells(), 0.0);
   flags->SetValue(grid->GetNumberOfCells() - 1, flag);
   grid->GetCellData()->AddArray(flags);
 }
@@ -160,11 +158,7 @@ std::vector<BoundsCase> MakeCases()
   image->SetDimensions(4, 3, 2);
   image->SetOrigin(Place[0], Place[1], Place[2]);
   image->SetSpacing(5.0, 5.0, 10.0);
-  vtkNew<vtkDoubleArray> values;
-  values->SetName(ScalarName);
-  values->SetNumberOfTuples(24);
-  values->Fill(1.0);
-  image->GetPointData()->SetScalars(values);
+  image->GetPointData()->SetScalars(MakeArray(ScalarName, 24, 1.0));
   image->BlankCell(2);
   image->BlankCell(5);
   cases.push_back({ "blanked cells of an image", image });

@@ -291,9 +291,7 @@ TEST(BrokenCellArrays, ArraysThatContradictEachOther)
   {
     vtkNew<vtkRectilinearGrid> grid;
     grid->SetDimensions(3, 3, 3);
-    vtkNew<vtkDoubleArray> two;
-    two->SetNumberOfTuples(2);
-    two->Fill(0.0);
+    const auto two = MakeArray(nullptr, 2, 0.0);
     grid->SetXCoordinates(two);
     grid->SetYCoordinates(two);
     grid->SetZCoordinates(two);

@@ -27,13 +27,8 @@ vtkSmartPointer<vtkImageData> MakeRow()
 {
   auto row = vtkSmartPointer<vtkImageData>::New();
   row->SetDimensions(NumberOfCells + 1, 2, 2);
-  vtkNew<vtkDoubleArray> scalars;
-  scalars->SetName("s");
-  for (int cell = 0; cell < NumberOfCells; ++cell)
-  {
-    scalars->InsertNextValue(ScalarOf(cell));
-  }
-  row->GetCellData()->SetScalars(scalars);
+  row->GetCellData()->SetScalars(
+    MakeArray("s", NumberOfCells, [&](vtkIdType cell) { return ScalarOf(cell); }));
   return row;
 }
 

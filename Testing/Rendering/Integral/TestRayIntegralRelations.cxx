@@ -369,11 +369,8 @@ TEST(RayIntegralRelations, EmissionThroughAPlane)
   Grid block = MakeBlock(4, BlockField());
   for (const auto& constant : { std::pair<const char*, double>{ "mu", 0.7 }, { "light", 0.4 } })
   {
-    vtkNew<vtkFloatArray> array;
-    array->SetName(constant.first);
-    array->SetNumberOfTuples(block->GetNumberOfPoints());
-    array->Fill(constant.second);
-    block->GetPointData()->AddArray(array);
+    block->GetPointData()->AddArray(
+      MakeArray<vtkFloatArray>(constant.first, block->GetNumberOfPoints(), constant.second));
   }
   Filter rays = MakeThroughWater(block);
   rays->SetMembraneData(MakePlaneCase(0.25, 6.0, 3).Mesh);

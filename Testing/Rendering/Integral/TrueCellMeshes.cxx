@@ -10,22 +10,6 @@ namespace
 
 using Ids = std::vector<vtkIdType>;
 
-/** Edges of a linear cell in the order of the middle points of VTK's cell of second order. */
-const std::vector<std::pair<std::size_t, std::size_t>>& EdgesOf(int type)
-{
-  static const std::map<int, std::vector<std::pair<std::size_t, std::size_t>>> edges{
-    { VTK_PYRAMID,
-      { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } } },
-    { VTK_WEDGE,
-      { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 }, { 1, 4 },
-        { 2, 5 } } },
-    { VTK_HEXAHEDRON,
-      { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 },
-        { 1, 5 }, { 2, 6 }, { 3, 7 } } }
-  };
-  return edges.at(type);
-}
-
 /** Builder of MakeMixedBlock(). */
 class MixedBlock
 {
@@ -89,12 +73,10 @@ private:
   void AddCell(int linear, int curved, Ids ids)
   {
     const Ids ends = ids;
-    for (const auto& edge : EdgesOf(linear))
+    for (const auto& edge :
+      this->Quadratic ? FurtherPoints(curved) : std::vector<std::vector<int>>())
     {
-      if (this->Quadratic)
-      {
-        ids.push_back(this->MiddleOf(ends[edge.first], ends[edge.second]));
-      }
+      ids.push_back(this->MiddleOf(ends[edge[0]], ends[edge[1]]));
     }
     this->Mesh->InsertNextCell(
       this->Quadratic ? curved : linear, static_cast<vtkIdType>(ids.size()), ids.data());

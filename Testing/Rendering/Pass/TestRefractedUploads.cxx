@@ -13,13 +13,8 @@ namespace
 
 void SetColors(vtkPolyData* object, double first)
 {
-  vtkNew<vtkDoubleArray> colors;
-  for (vtkIdType i = 0; i < object->GetNumberOfPoints(); ++i)
-  {
-    colors->InsertNextValue(first + 0.001 * static_cast<double>(i));
-  }
-  colors->SetName("Color");
-  object->GetPointData()->SetScalars(colors);
+  object->GetPointData()->SetScalars(meniscus::test::MakeArray("Color", object->GetNumberOfPoints(),
+    [&](vtkIdType i) { return first + 0.001 * static_cast<double>(i); }));
 }
 
 }

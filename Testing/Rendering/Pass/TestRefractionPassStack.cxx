@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Fresnel's equations at every interface of a pane of glass above water, in closed form.
+#include "ExactStack.h"
 #include "FlatPool.h"
 
 #include <vtkRefractingInterface.h>
@@ -8,6 +9,8 @@
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
+using meniscus::reference::MakePlateTransmittance;
+using meniscus::reference::MakeReflectances;
 
 namespace
 {
@@ -28,32 +31,6 @@ void AddPane(Pool& pool)
   pool.Filter->AddMembraneConnection(surface->GetOutputPort());
   // Cells at the edge of the pane have no image: they must lie in the border that is not compared.
   pool.Bottom->SetResolution(240, 240);
-}
-
-/** Reflectances of both polarisations for an angle of incidence with this sine in air. */
-std::array<double, 2> MakeFresnelAt(double sine, double before, double behind)
-{
-  const double c = std::sqrt(1.0 - std::pow(sine / before, 2.0));
-  const double d = std::sqrt(1.0 - std::pow(sine / behind, 2.0));
-  const double s = (before * c - behind * d) / (before * c + behind * d);
-  const double p = (behind * c - before * d) / (behind * c + before * d);
-  return { s * s, p * p };
-}
-
-/**
- * Transmittance of a plate for unpolarised light: the sum of the geometric series of the light that
- * is reflected between its sides, for each polarisation.
- */
-double MakePlateTransmittance(double sine, double glass, double behind)
-{
-  const std::array<double, 2> upper = MakeFresnelAt(sine, 1.0, glass);
-  const std::array<double, 2> lower = MakeFresnelAt(sine, glass, behind);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < 2; ++k)
-  {
-    sum += (1.0 - upper[k]) * (1.0 - lower[k]) / (1.0 - upper[k] * lower[k]);
-  }
-  return 0.5 * sum;
 }
 
 double SineOf(const Sight& sight)
@@ -78,7 +55,7 @@ TEST(RefractionPassStack, APaneReflectsByBothSides)
       ExpectColors(pool, "pane",
         [&](const Sight& sight, int channel)
         {
-          const double passed = MakePlateTransmittance(SineOf(sight), Glass, behind);
+          const double passed = MakePlateTransmittance(SineOf(sight), 1.0, Glass, behind);
           return passed + (1.0 - passed) * Background[channel];
         });
     }
@@ -121,11 +98,11 @@ TEST(RefractionPassStack, StacksOfPlatesInClosedForm)
       const double sine = std::sin(angle);
       pool.GetCamera()->SetPosition(4.0 * sine, 0.0, 4.0 * std::cos(angle));
       double passed = 0.0;
-      for (std::size_t k = 0; k < 2; ++k)
+      for (int k = 0; k < 2; ++k)
       {
-        const double r = MakeFresnelAt(sine, 1.0, stack.Media[0])[k];
+        const double r = MakeReflectances(sine, 1.0, stack.Media[0])[k];
         const double last =
-          stack.Media.size() > 1 ? MakeFresnelAt(sine, stack.Media[0], stack.Media[1])[k] : 0.0;
+          stack.Media.size() > 1 ? MakeReflectances(sine, stack.Media[0], stack.Media[1])[k] : 0.0;
         const double panes = 0.5 * static_cast<double>(stack.Media.size());
         passed += stack.Media.back() == 1.0 ? (1.0 - r) / (1.0 + (2.0 * panes - 1.0) * r)
                                             : (1.0 - r) * (1.0 - last) / (1.0 - r * last);
@@ -158,12 +135,12 @@ TEST(RefractionPassStack, TheSecondInterfaceCounts)
   constexpr double dense = 2.4;
   pool.Filter->SetInteriorIndexOfRefraction(dense);
   pool.Filter->GetInterfaces()->GetInterface(1)->SetExteriorIndexOfRefraction(dense);
-  const double second = MakeFresnelAt(0.0, dense, Water)[0];
+  const double second = MakeReflectances(0.0, dense, Water)[0];
   ASSERT_GT(second, 10.0 * Rounding);
   ExpectColors(pool, "dense",
     [&](const Sight& sight, int channel)
     {
-      const double passed = MakePlateTransmittance(SineOf(sight), dense, Water);
+      const double passed = MakePlateTransmittance(SineOf(sight), 1.0, dense, Water);
       return passed + (1.0 - passed) * Background[channel];
     });
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);

@@ -393,13 +393,10 @@ TEST(VolumePicker, VoxelsAndCellData)
   image->SetDimensions(5, 5, 5);
   image->SetOrigin(-1.0, -1.0, -1.0);
   image->SetSpacing(0.5, 0.5, 0.5);
-  vtkNew<vtkDoubleArray> ofCells;
-  ofCells->SetName("cells");
-  for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
-  {
-    // The third layer from the front is visible.
-    ofCells->InsertNextValue(i / 16 == 1 ? 0.5 + 0.001 * static_cast<double>(i) : 0.0);
-  }
+  const auto ofCells = MakeArray("cells", image->GetNumberOfCells(),
+    [&](vtkIdType i) { // The third layer from the front is visible.
+      return i / 16 == 1 ? 0.5 + 0.001 * static_cast<double>(i) : 0.0;
+    });
   image->GetCellData()->SetScalars(ofCells);
   PickScene scene(MakeBlock(1, ConstantField(1.0)), MakeRamp(2.0));
   scene.Mapper()->SetInputData(static_cast<vtkDataSet*>(image.Get()));
@@ -431,14 +428,8 @@ TEST(VolumePicker, GradientOpacityAndComponents)
   EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0, 1.0e-5);
 
   Grid grid = MakeBlock(2, ConstantField(0.0));
-  vtkNew<vtkDoubleArray> pair;
-  pair->SetNumberOfComponents(2);
-  pair->SetName("pair");
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    pair->InsertNextTuple2(0.3, 0.5);
-  }
-  grid->GetPointData()->SetScalars(pair);
+  grid->GetPointData()->SetScalars(
+    MakeArray("pair", grid->GetNumberOfPoints(), glm::dvec2(0.3, 0.5)));
   auto both = MakeRamp(2.0);
   both->SetIndependentComponents(1);
   both->SetScalarOpacity(1, MakeOpacity({ { 0.0, 0.0 }, { 1.0, 0.6 } }));

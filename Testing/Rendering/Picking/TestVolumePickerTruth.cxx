@@ -304,10 +304,7 @@ TEST(VolumePickerTruth, VolumeMatrix)
 TEST(VolumePickerTruth, ClippingPlanes)
 {
   BlockScene block(FunctionKind::Smooth, false, 2.0);
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.1, 0.2, 0.1);
-  plane->SetNormal(-0.5, -0.3, -0.8);
-  block.Scene.GetRayCaster()->AddClippingPlane(plane);
+  AddClippingPlane(block.Scene.GetRayCaster(), { { -0.5, -0.3, -0.8 }, { 0.1, 0.2, 0.1 } });
   const reference::HalfSpace half{ { -0.5, -0.3, -0.8 }, { 0.1, 0.2, 0.1 } };
   const FindEvents medium = MediumOf(block.Scene, 0.2);
   const FindEvents clipped =

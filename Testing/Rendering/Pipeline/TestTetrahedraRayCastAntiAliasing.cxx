@@ -43,16 +43,12 @@ public:
     }
     if (look == Look::Clipped)
     {
-      vtkNew<vtkPlane> plane;
-      plane->SetNormal(1.0, 0.3, -0.5);
-      mapper->AddClippingPlane(plane);
+      AddClippingPlane(mapper, { { 1.0, 0.3, -0.5 }, {} });
     }
     if (look == Look::Shadows)
     {
       mapper->SetGlobalIlluminationReach(1.0f);
-      vtkNew<vtkLight> light;
-      light->SetPosition(3.0, 2.0, 4.0);
-      this->Scene.GetRenderer()->AddLight(light);
+      AddParallelLight(this->Scene.GetRenderer(), 3.0, 2.0, 4.0);
     }
     if (look == Look::PreIntegrated)
     {

@@ -303,41 +303,6 @@ TEST(TetrahedraRayCastMembrane, TransformedVolume)
   test.ExpectComposite("mirrored and stretched");
 }
 
-TEST(TetrahedraRayCastMembrane, ClippingPlanesAreWhereTheMeshIs)
-{
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  const std::vector<HalfSpace> planes{ { { 0.3, -1.0, 0.2 }, { 0.1, 0.4, 0.0 } },
-    { { -2.0, 0.1, 0.7 }, { 0.5, 0.0, 0.1 } } };
-  for (const double level : { 0.1, 1.2 })
-  {
-    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
-    for (const HalfSpace& half : planes)
-    {
-      vtkNew<vtkPlane> plane;
-      plane->SetNormal(half.Normal.data());
-      plane->SetOrigin(half.Origin.data());
-      test.Scene.GetRayCaster()->AddClippingPlane(plane);
-    }
-    test.LookAtBlock(30.0, 40.0);
-    test.Scene.GetWindow()->Render();
-    const auto integrator = MakeReference(grid);
-    const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
-    ExpectTrace(
-      test.Scene,
-      [&](const Ray& ray)
-      {
-        return Compose(Refract(test.Membrane.Surface, ray, 0.0, false),
-          [&](const Ray& part)
-          {
-            const Ray clipped = ClipRay(part, planes);
-            return clipped.Begin < clipped.End ? integrator->Trace(clipped, function)
-                                               : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
-          });
-      },
-      "clipped at " + std::to_string(level));
-  }
-}
-
 TEST(TetrahedraRayCastMembrane, Projections)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
@@ -390,42 +355,11 @@ TEST(TetrahedraRayCastMembrane, Isosurfaces)
         lamp->SetConeAngle(40.0);
         lamp->SetAttenuationValues(0.4, 0.2, 0.05);
         test.Scene.GetRenderer()->AddLight(lamp);
-        vtkNew<vtkLight> sun;
-        sun->SetPosition(-1.0, 2.0, 0.5);
-        sun->SetFocalPoint(0.0, 0.0, 0.0);
-        test.Scene.GetRenderer()->AddLight(sun);
+        AddParallelLight(test.Scene.GetRenderer(), -1.0, 2.0, 0.5);
         test.LookAtBlock(30.0, 50.0);
         ExpectSurfaces(test, shade ? "lit" : "unlit");
       }
     }
-  }
-}
-
-TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
-{
-  // A rectangle across the view. Behind the sight point its depth corresponds to a true length
-  // n2/n1 times as large (Eq. 2.4), in front of it to itself.
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  for (const auto& [level, offset] : Product(List(0.1, 1.2), List(-0.7, -0.1, 0.5)))
-  {
-    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
-    test.LookAtBlock(30.0, 50.0);
-    test.Scene.GetWindow()->Render();
-    const double depth = AddBlackSquare(test.Scene.GetRenderer(), offset);
-    const auto integrator = MakeReference(grid);
-    const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
-    ExpectTrace(
-      test.Scene,
-      [&](const Ray& ray)
-      {
-        Ray ended = ray;
-        ended.End = depth;
-        std::array<double, 4> color = Compose(Refract(test.Membrane.Surface, ended, 0.0, true),
-          [&](const Ray& part) { return integrator->Trace(part, function); });
-        color[3] = 1.0;
-        return color;
-      },
-      "rectangle at " + std::to_string(offset) + ", plane at " + std::to_string(level));
   }
 }
 
@@ -463,10 +397,7 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
     property->SetSpecular(0.0);
     property->SetGradientOpacity(MakeOpacity({ { 0.0, 0.2 }, { 4.0, 1.0 } }));
     test.Scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-    vtkNew<vtkLight> sun;
-    sun->SetPosition(-1.0, 2.0, 0.5);
-    sun->SetFocalPoint(0.0, 0.0, 0.0);
-    test.Scene.GetRenderer()->AddLight(sun);
+    AddParallelLight(test.Scene.GetRenderer(), -1.0, 2.0, 0.5);
     test.LookAtBlock(30.0, 50.0);
     test.Scene.GetWindow()->Render();
     const auto integrator = MakeReference(grid);
@@ -489,19 +420,4 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
       },
       "lit medium");
   }
-}
-
-TEST(TetrahedraRayCastMembrane, TheNumberOfThreadsDoesNotMatter)
-{
-  const Grid grid = MakeBlock(6, WavyField(3.0));
-  MembraneTest test(MakeWavesCase(0.3, 0.08, 3.0, 3.0, 48), grid);
-  test.LookAtBlock(30.0, 50.0);
-  FloatImage several;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(4), [&] { several = test.Scene.RenderFloat(); });
-  test.Scene.GetRayCaster()->SetInteriorIndexOfRefraction(1.5);
-  test.Scene.RenderFloat(); // the state from the first frame must not be used
-  test.Scene.GetRayCaster()->SetInteriorIndexOfRefraction(1.333);
-  FloatImage one;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(1), [&] { one = test.Scene.RenderFloat(); });
-  EXPECT_EQ(one.Rgba, several.Rgba);
 }

@@ -335,12 +335,8 @@ TEST(TetrahedraRayCastMembraneMedium, LegsBehindSeveralInterfacesAddUp)
 TEST(TetrahedraRayCastMembraneMedium, CellData)
 {
   const Grid grid = MakeBlock(4, ConstantField(0.5));
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("cells");
-  array->SetNumberOfTuples(grid->GetNumberOfCells());
-  array->Fill(0.5);
   grid->GetPointData()->Initialize();
-  grid->GetCellData()->SetScalars(array);
+  grid->GetCellData()->SetScalars(MakeArray("cells", grid->GetNumberOfCells(), 0.5));
   RayCastScene scene(grid, Plain(), Size, Size);
   scene.GetRayCaster()->SetScalarModeToUseCellData();
   ExpectClosedForm(scene, Water, "cell data");

@@ -140,14 +140,8 @@ TEST_F(TetrahedraRayCastPipeline, ScalarChangeUpdatesOnlyScalars)
 
 TEST_F(TetrahedraRayCastPipeline, OtherArrayUpdatesOnlyScalars)
 {
-  vtkNew<vtkDoubleArray> other;
-  other->SetName("Other");
-  other->SetNumberOfTuples(this->Mesh->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < other->GetNumberOfTuples(); ++i)
-  {
-    other->SetValue(i, this->Mesh->GetPoint(i)[0]);
-  }
-  this->Mesh->GetPointData()->AddArray(other);
+  this->Mesh->GetPointData()->AddArray(MakeArray("Other", this->Mesh->GetNumberOfPoints(),
+    [&](vtkIdType i) { return this->Mesh->GetPoint(i)[0]; }));
   this->Scene->GetWindow()->Render();
   this->Scene->GetRayCaster()->SetScalarModeToUsePointFieldData();
   this->Scene->GetRayCaster()->SelectScalarArray("Other");

@@ -176,13 +176,8 @@ TEST(TetrahedraRayCastBadNumbers, ScalarsOfAnySize)
     // Halves, because the width may be larger than the largest number.
     const auto at = [offset, step](double number)
     { return 2.0 * (0.5 * offset + 0.5 * step * number); };
-    vtkNew<vtkDoubleArray> scalars;
-    scalars->SetName(ScalarName);
-    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-    {
-      scalars->InsertNextValue(at(static_cast<double>(7 * i * i % (steps + 1))));
-    }
-    grid->GetPointData()->SetScalars(scalars);
+    grid->GetPointData()->SetScalars(MakeArray(ScalarName, grid->GetNumberOfPoints(),
+      [&](vtkIdType i) { return at(static_cast<double>(7 * i * i % (steps + 1))); }));
     vtkNew<vtkVolumeProperty> property;
     property->SetScalarOpacity(
       MakeOpacity({ { at(0.0), 0.1 }, { at(4.0), 0.9 }, { at(steps), 0.3 } }));

@@ -20,10 +20,7 @@ void Clip(RayCastScene& scene, const std::vector<HalfSpace>& halfSpaces)
 {
   for (const HalfSpace& half : halfSpaces)
   {
-    vtkNew<vtkPlane> plane;
-    plane->SetNormal(half.Normal.data());
-    plane->SetOrigin(half.Origin.data());
-    scene.GetRayCaster()->AddClippingPlane(plane);
+    AddClippingPlane(scene.GetRayCaster(), half);
   }
 }
 

@@ -306,13 +306,8 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
 {
   // x and y, each visible above 0.5 of [-1, 1]; the third is invisible.
   const Grid grid = MakeBlock(8, ConstantField(0.0));
-  vtkNew<vtkDoubleArray> array;
-  array->SetNumberOfComponents(3);
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    const double* x = grid->GetPoint(p);
-    array->InsertNextTuple3(x[0], x[1], x[2]);
-  }
+  const auto array =
+    MakeArray(nullptr, grid->GetNumberOfPoints(), [&](vtkIdType p) { return PointOf(grid, p); });
   grid->GetPointData()->SetScalars(array);
   std::vector<vtkSmartPointer<vtkVolumeProperty>> parts;
   for (int c = 0; c < 3; ++c)
@@ -584,9 +579,7 @@ TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
       const std::string what =
         std::to_string(components.size()) + " dependent, gradients " + std::to_string(gradients);
       drawBoth(scene, what);
-      vtkNew<vtkPlane> plane;
-      plane->SetNormal(0.3, 1.0, 0.2);
-      scene.GetRayCaster()->AddClippingPlane(plane);
+      AddClippingPlane(scene.GetRayCaster(), { { 0.3, 1.0, 0.2 }, {} });
       drawBoth(scene, what + ", clipped");
     }
   }

@@ -46,11 +46,7 @@ TracedComparison CompareLit(vtkUnstructuredGrid* grid, int view, double density)
   SetMaterial(property);
   RayCastScene scene(grid, property, Size, Size);
   scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToSceneLight();
-  light->SetPosition(4.0, 2.0, 1.0);
-  light->SetDiffuseColor(1.0, 0.6, 0.2);
-  scene.GetRenderer()->AddLight(light);
+  AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0)->SetDiffuseColor(1.0, 0.6, 0.2);
   const auto angles = ViewAngles(view);
   LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1]);
   scene.GetWindow()->Render();

@@ -278,16 +278,14 @@ TEST(TetrahedraRayCastIsosurfaces, ValueOfVerticesIsMetOnce)
 TEST(TetrahedraRayCastIsosurfaces, FacesOfCellDataAreLitAlikeOnEdges)
 {
   const Grid grid = MakeBlock(4, ConstantField(0.0));
-  vtkNew<vtkDoubleArray> heights;
-  heights->SetName("heights");
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    double bounds[6];
-    grid->GetCellBounds(cell, bounds);
-    heights->InsertNextValue(0.5 * (bounds[4] + bounds[5]));
-  }
   grid->GetPointData()->SetScalars(nullptr);
-  grid->GetCellData()->SetScalars(heights);
+  grid->GetCellData()->SetScalars(MakeArray("heights", grid->GetNumberOfCells(),
+    [&](vtkIdType cell)
+    {
+      double bounds[6];
+      grid->GetCellBounds(cell, bounds);
+      return 0.5 * (bounds[4] + bounds[5]);
+    }));
   auto property = MakeConstantProperty(1.0, 1, 1, 1, 1.0);
   property->GetIsoSurfaceValues()->SetValue(0, 0.0);
   property->ShadeOn();
@@ -360,11 +358,7 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
   {
     RayCastScene scene(grid, MediumProperty(true, factor), 72, 72);
     scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
-    light->SetPosition(4.0, 2.0, 1.0);
-    light->SetDiffuseColor(1.0, 0.6, 0.2);
-    scene.GetRenderer()->AddLight(light);
+    AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0)->SetDiffuseColor(1.0, 0.6, 0.2);
     ExpectShadedMedium(scene, factor, FloatTolerance, factor ? "with factor" : "shading");
   }
 }
@@ -410,10 +404,7 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
   {
     const Grid grid = MakeBlock(cubes, WavyField(2.0));
     RayCastScene scene(grid, MediumProperty(true, true), 64, 64);
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
-    light->SetPosition(4.0, 2.0, 1.0);
-    scene.GetRenderer()->AddLight(light);
+    AddParallelLight(scene.GetRenderer(), 4.0, 2.0, 1.0);
     const TracedComparison comparison = CompareShadedMedium(scene, MembraneCase());
     RecordProperty("cubes" + std::to_string(cubes), comparison.GetText());
     EXPECT_TRUE(last == 0.0 || comparison.Rms < 0.75 * last) << comparison.Rms << " after " << last;

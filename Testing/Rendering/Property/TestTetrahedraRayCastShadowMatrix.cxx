@@ -419,10 +419,7 @@ struct MatrixScene
     {
       // Along faces of cells: all vertices of cells that are drawn are kept.
       this->Drawn.Upper[0] = CubeSize;
-      vtkNew<vtkPlane> plane;
-      plane->SetOrigin(CubeSize, 0.0, 0.0);
-      plane->SetNormal(-1.0, 0.0, 0.0);
-      mapper->AddClippingPlane(plane);
+      AddClippingPlane(mapper, { { -1.0, 0.0, 0.0 }, { CubeSize, 0.0, 0.0 } });
     }
     const bool isMedium = tested.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
     LookAlongAxis(this->Scene.GetRenderer(), this->Mesh->GetBounds(), isMedium ? 0 : 2);

@@ -12,17 +12,6 @@ using namespace meniscus::reference;
 namespace
 {
 
-/** A light of the scene at infinity, in the direction (x, y, z). */
-vtkSmartPointer<vtkLight> AddParallelLight(vtkRenderer* renderer, double x, double y, double z)
-{
-  auto light = vtkSmartPointer<vtkLight>::New();
-  light->SetLightTypeToSceneLight();
-  light->SetFocalPoint(0.0, 0.0, 0.0);
-  light->SetPosition(x, y, z);
-  renderer->AddLight(light);
-  return light;
-}
-
 /** Number of shadow casts of a mapper so far. */
 int CastsOf(vtkTetrahedraRayCastMapper* mapper)
 {
@@ -190,9 +179,7 @@ TEST(TetrahedraRayCastShadows, WorkFollowsChanges)
   grid->GetPoints()->Modified();
   grid->Modified();
   expectCasts(2 + ambient, "points");
-  vtkNew<vtkPlane> plane;
-  plane->SetNormal(0.0, 0.0, -1.0);
-  mapper->AddClippingPlane(plane);
+  AddClippingPlane(mapper, { { 0.0, 0.0, -1.0 }, {} });
   expectCasts(2 + ambient, "a clipping plane");
   mapper->SetGlobalIlluminationReach(0.5f);
   expectCasts(2 + ambient, "reach");
@@ -267,10 +254,7 @@ TEST(TetrahedraRayCastShadows, ClippedPartCastsNoShadow)
   RayCastScene scene(grid, MakeScatteringProperty(attenuation), 33, 33);
   scene.GetRayCaster()->SetGlobalIlluminationReach(1.0f);
   scene.GetRayCaster()->SetVolumetricScatteringBlending(2.0f);
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.0, 0.0, 0.1);
-  plane->SetNormal(0.0, 0.0, -1.0);
-  scene.GetRayCaster()->AddClippingPlane(plane);
+  AddClippingPlane(scene.GetRayCaster(), { { 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.1 } });
   AddParallelLight(scene.GetRenderer(), 0.0, 0.0, 1.0);
   LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0);
   const FloatImage image = scene.RenderFloat();

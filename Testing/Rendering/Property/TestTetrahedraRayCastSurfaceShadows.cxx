@@ -192,14 +192,8 @@ TEST(TetrahedraRayCastSurfaceShadows, WorkFollowsChanges)
 TEST(TetrahedraRayCastSurfaceShadows, IndependentComponentsHaveClosedForm)
 {
   const Grid grid = MakeBlock(8, ConstantField(0.0));
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("two");
-  values->SetNumberOfComponents(2);
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    values->InsertNextTuple2(1.0, 1.0);
-  }
-  grid->GetPointData()->SetScalars(values);
+  grid->GetPointData()->SetScalars(
+    MakeArray("two", grid->GetNumberOfPoints(), glm::dvec2(1.0, 1.0)));
   constexpr double attenuation = 0.2; // of each component
   const auto property = MakeConstantProperty(1.0, 1.0, 0.5, 0.25, 1.0 / attenuation);
   property->IndependentComponentsOn();

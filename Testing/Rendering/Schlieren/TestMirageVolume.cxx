@@ -17,14 +17,12 @@ constexpr double PictureError = 2.0e-5;
 /** Adds an array of the field's values at the points. */
 void AddValues(const Grid& grid, const char* name, const Field& field)
 {
-  vtkNew<vtkDoubleArray> values;
-  values->SetName(name);
-  for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
-  {
-    const double* p = grid->GetPoint(point);
-    values->InsertNextValue(field(p[0], p[1], p[2]));
-  }
-  grid->GetPointData()->AddArray(values);
+  grid->GetPointData()->AddArray(MakeArray(name, grid->GetNumberOfPoints(),
+    [&](vtkIdType point)
+    {
+      const double* p = grid->GetPoint(point);
+      return field(p[0], p[1], p[2]);
+    }));
 }
 
 double Waves(double x, double y, double z)
@@ -132,19 +130,14 @@ TEST(MirageVolume, OpacityPerUnitDistanceIsVTKs)
 TEST(MirageVolume, CellDataAndBlocks)
 {
   const Grid grid = MakeSmoke(5, ConstantField(1.1));
-  vtkNew<vtkFloatArray> ofCells;
-  ofCells->SetName("smoke");
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    ofCells->InsertNextValue(static_cast<float>((cell * 37) % 101) / 50.0f - 1.0f);
-  }
   const VolumeFunction function = { { -0.5, { 0.0, { 1.0, 0.0, 0.0 } } },
     { 0.2, { 1.0, { 0.8, 0.9, 0.1 } } }, { 0.9, { 0.1, { 0.0, 0.2, 1.0 } } } };
   Filter filter = MakeVolume(grid, ToProperty(function));
   filter->Update();
   // The filter has a mesh of which it does not know the cells.
   grid->GetPointData()->RemoveArray("smoke");
-  grid->GetCellData()->SetScalars(ofCells);
+  grid->GetCellData()->SetScalars(MakeArray<vtkFloatArray>("smoke", grid->GetNumberOfCells(),
+    [&](vtkIdType cell) { return static_cast<float>((cell * 37) % 101) / 50.0f - 1.0f; }));
   filter->Update();
   ExpectStraight(filter, "cells");
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -305,13 +298,7 @@ TEST(MirageVolume, BadVolumesAreErrors)
   const char* texts[] = { "named 'soot'", "UnitDistance", "named 'smoke'", "same data sets" };
   for (int i = 0; i < 4; ++i)
   {
-    const auto observer = ObserveErrors(filters[i]);
-    vtkNew<ErrorObserver> executive;
-    executive->Observe(filters[i]->GetExecutive());
-    filters[i]->Update();
-    ASSERT_EQ(observer->Errors.size(), 1u) << i << observer->GetText();
-    EXPECT_TRUE(HasText(observer->Errors[0], texts[i])) << observer->Errors[0];
-    EXPECT_EQ(filters[i]->GetOutput()->GetNumberOfPoints(), 0);
+    ExpectError(filters[i], texts[i]);
   }
 }
 
@@ -371,23 +358,13 @@ TEST(MirageVolume, FoldedMeshes)
 
 TEST(MirageVolume, ThreadsDoNotMatter)
 {
-  std::vector<double> first;
-  for (const int threads : { 4, 1 })
-  {
-    vtkSMPTools::Initialize(threads);
-    const Grid grid = MakeSmoke(
-      6, [](double x, double y, double z) { return 1.3 + 0.2 * std::sin(3.0 * x + y) * z; });
-    Filter filter = MakeVolume(grid, ToProperty(UsualFunctions(grid)[0].Function));
-    filter->Update();
-    vtkDataArray* colors = ArrayOf(filter, "RGBA");
-    std::vector<double> values;
-    for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
+  ExpectSameOnThreads(
+    []
     {
-      values.push_back(colors->GetComponent(i, 0));
-      values.push_back(colors->GetComponent(i, 3));
-    }
-    first = first.empty() ? values : first;
-    EXPECT_EQ(values, first);
-  }
-  vtkSMPTools::Initialize(0);
+      const Grid grid = MakeSmoke(
+        6, [](double x, double y, double z) { return 1.3 + 0.2 * std::sin(3.0 * x + y) * z; });
+      Filter filter = MakeVolume(grid, ToProperty(UsualFunctions(grid)[0].Function));
+      filter->Update();
+      return ValuesOf(ArrayOf(filter, "RGBA"));
+    });
 }

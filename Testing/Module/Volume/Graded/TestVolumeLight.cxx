@@ -192,6 +192,36 @@ struct ParabolaRay
   glm::dvec3 At(double s) const { return this->Eye + s * this->Momentum + 0.5 * s * s * Force; }
 };
 
+/** Calls body(ray, sight) for random rays. */
+void ForEachParabola(LitScene& scene, RandomNumbers& random, int count,
+  const std::function<void(const ParabolaRay&, const OpaqueSight&)>& body,
+  const OpaqueTriangles& wall = OpaqueTriangles())
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const ParabolaRay ray(random);
+    body(ray, scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }, wall).front());
+  }
+}
+
+/** Expects the light of layers along random parabolas. */
+void ExpectLayers(
+  LitScene& scene, RandomNumbers& random, int count, const SquaredIndexField& scalar)
+{
+  ForEachParabola(scene, random, count,
+    [&scalar](const ParabolaRay& ray, const OpaqueSight& sight)
+    {
+      ExpectLight(sight.Light,
+        ReferenceLight([&ray](double s) { return ray.At(s); }, ray.Time, scalar, Layers));
+    });
+}
+
+/** Transmittance of smoke along the arc of a ray. */
+double TransmittanceOfArc(const ParabolaRay& ray)
+{
+  return std::exp(-Smoke[0].Attenuation * LengthOfParabola(ray.Momentum, Force, ray.Time));
+}
+
 }
 
 TEST(VolumeLight, SmokeIsAsDenseAsTheArcIsLong)
@@ -201,22 +231,20 @@ TEST(VolumeLight, SmokeIsAsDenseAsTheArcIsLong)
   for (const int n : { 1, 3, 12 })
   {
     LitScene scene(CenteredGrid(n, 1.0), LinearIndex, SlantedScalar, Smoke);
-    for (int i = 0; i < 50; ++i)
-    {
-      const ParabolaRay ray(random);
-      const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
-      const double length = LengthOfParabola(ray.Momentum, Force, ray.Time);
-      const double share = -std::expm1(-Smoke[0].Attenuation * length);
-      const double tolerance = RoundingOf(100);
-      EXPECT_NEAR(1.0 - sight.Light.Values[3], share, tolerance);
-      for (int k = 0; k < 3; ++k)
+    ForEachParabola(scene, random, 50,
+      [](const ParabolaRay& ray, const OpaqueSight& sight)
       {
-        EXPECT_NEAR(sight.Light.Values[k], share * Smoke[0].Color[k], tolerance);
-      }
-      // The test can tell the arc from the straight way.
-      const double chord = glm::distance(ray.At(ray.Time), ray.Eye);
-      EXPECT_GT(std::abs(share + std::expm1(-Smoke[0].Attenuation * chord)), 1.0e-3);
-    }
+        const double share = 1.0 - TransmittanceOfArc(ray);
+        const double tolerance = RoundingOf(100);
+        EXPECT_NEAR(1.0 - sight.Light.Values[3], share, tolerance);
+        for (int k = 0; k < 3; ++k)
+        {
+          EXPECT_NEAR(sight.Light.Values[k], share * Smoke[0].Color[k], tolerance);
+        }
+        // The test can tell the arc from the straight way.
+        const double chord = glm::distance(ray.At(ray.Time), ray.Eye);
+        EXPECT_GT(std::abs(share + std::expm1(-Smoke[0].Attenuation * chord)), 1.0e-3);
+      });
   }
 }
 
@@ -226,13 +254,7 @@ TEST(VolumeLight, LayersAlongParabolas)
   for (const int n : { 1, 4, 9 })
   {
     LitScene scene(CenteredGrid(n, 1.0), LinearIndex, SlantedScalar, Layers);
-    for (int i = 0; i < 20; ++i)
-    {
-      const ParabolaRay ray(random);
-      const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
-      ExpectLight(sight.Light,
-        ReferenceLight([&ray](double s) { return ray.At(s); }, ray.Time, SlantedScalar, Layers));
-    }
+    ExpectLayers(scene, random, 20, SlantedScalar);
   }
 }
 
@@ -249,15 +271,8 @@ TEST(VolumeLight, NoiseAlongParabolas)
   LitScene scene(
     arrays, LinearIndex, [&random](const glm::dvec3&) { return random.Uniform(-1.0, 1.0); },
     Layers);
-  for (int i = 0; i < 10; ++i)
-  {
-    const ParabolaRay ray(random);
-    const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
-    std::size_t cell = 0;
-    ExpectLight(sight.Light,
-      ReferenceLight([&ray](double s) { return ray.At(s); }, ray.Time,
-        [&](const glm::dvec3& p) { return scene.ScalarAt(p, cell); }, Layers));
-  }
+  std::size_t cell = 0;
+  ExpectLayers(scene, random, 10, [&](const glm::dvec3& p) { return scene.ScalarAt(p, cell); });
 }
 
 // n^2 = 2 - r^2 is exact in quadratic cells whose vertices have enough neighbours: rays are
@@ -295,15 +310,14 @@ TEST(VolumeLight, NothingBendsIsTheStraightIntegral)
   for (const bool isStraight : { false, true })
   {
     scene.Medium.IsStraight = isStraight;
-    for (int i = 0; i < 20; ++i)
-    {
-      const ParabolaRay ray(random);
-      const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
-      const double end = std::min(2.0, (1.0 + ray.Eye.x) / -ray.Direction.x);
-      ExpectLight(sight.Light,
-        ReferenceLight(
-          [&ray](double s) { return ray.Eye + s * ray.Direction; }, end, SlantedScalar, Layers));
-    }
+    ForEachParabola(scene, random, 20,
+      [](const ParabolaRay& ray, const OpaqueSight& sight)
+      {
+        const double end = std::min(2.0, (1.0 + ray.Eye.x) / -ray.Direction.x);
+        ExpectLight(sight.Light,
+          ReferenceLight(
+            [&ray](double s) { return ray.Eye + s * ray.Direction; }, end, SlantedScalar, Layers));
+      });
   }
 }
 
@@ -324,15 +338,16 @@ TEST(VolumeLight, EndsAtAWall)
     {
       scene.Flags[c] = HasLight | cells[c];
     }
-    for (int i = 0; i < 20; ++i)
-    {
-      const ParabolaRay ray(random);
-      const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }, wall).front();
-      ASSERT_EQ(sight.Hit.Triangle, 0);
-      const double end = (depth - 1.0) / ray.Momentum.z;
-      ExpectLight(sight.Light,
-        ReferenceLight([&ray](double s) { return ray.At(s); }, end, SlantedScalar, Layers));
-    }
+    ForEachParabola(
+      scene, random, 20,
+      [depth](const ParabolaRay& ray, const OpaqueSight& sight)
+      {
+        ASSERT_EQ(sight.Hit.Triangle, 0);
+        const double end = (depth - 1.0) / ray.Momentum.z;
+        ExpectLight(sight.Light,
+          ReferenceLight([&ray](double s) { return ray.At(s); }, end, SlantedScalar, Layers));
+      },
+      wall);
   }
 }
 
@@ -369,13 +384,9 @@ TEST(VolumeLight, ScalarsOfCells)
   for (const int n : { 1, 4 })
   {
     LitScene scene(CenteredGrid(n, 1.0), LinearIndex, SlantedScalar, Smoke, true);
-    for (int i = 0; i < 20; ++i)
-    {
-      const ParabolaRay ray(random);
-      const OpaqueSight sight = scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front();
-      const double length = LengthOfParabola(ray.Momentum, Force, ray.Time);
-      EXPECT_NEAR(sight.Light.Values[3], std::exp(-Smoke[0].Attenuation * length), 1.0e-6);
-    }
+    ForEachParabola(scene, random, 20,
+      [](const ParabolaRay& ray, const OpaqueSight& sight)
+      { EXPECT_NEAR(sight.Light.Values[3], TransmittanceOfArc(ray), 1.0e-6); });
     scene.Flags.assign(scene.Flags.size(), 0);
     const ParabolaRay ray(random);
     EXPECT_EQ(scene.See({ scene.RayFrom(ray.Eye, ray.Direction) }).front().Light.Values[3], 1.0f);
