@@ -120,7 +120,7 @@ class TestComponents(unittest.TestCase):
     def test_a_choice_is_needed(self):
         cube = make_cube()
         plotter = pyvista.Plotter(off_screen=True)
-        colors = numpy.zeros((cube.n_points, 4), numpy.uint8)
+        colors = numpy.zeros((cube.n_points, 4))  # of uint8, they would be colours
         for scalars, count in (("U", 3), (cube["U"], 3), (colors, 4)):
             choices = 'component=%s or "magnitude"' % ", ".join(map(str, range(count)))
             with self.assertRaisesRegex(ValueError, choices):
