@@ -66,6 +66,9 @@ class Scalars:
             mesh["Data"] = scalars
             scalars = "Data"
         scalars = scalars or mesh.active_scalars_name
+        if scalars is None and not mesh.array_names:
+            raise ValueError("The mesh has no arrays; give its values with scalars=, one per point "
+                             "or cell")
         if scalars is None:
             raise ValueError("The mesh has no active scalars; name an array with scalars=, one of: "
                              + ", ".join(mesh.array_names))

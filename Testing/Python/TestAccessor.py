@@ -245,6 +245,8 @@ class TestBlending(unittest.TestCase):
                                ({"eye_dome_lighting": True}, "shadows")):
             with self.assertRaisesRegex(ValueError, message):
                 methods.plot("y", off_screen=True, **named)
+        with self.assertRaisesRegex(TypeError, r"2 whole numbers, not \(400,\)"):
+            methods.plot("y", off_screen=True, window_size=(400,))
         methods.plot("y", off_screen=True, volume=True)
 
     def test_shadows(self):

@@ -87,6 +87,8 @@ class TestMultiBlocks(unittest.TestCase):
         self.cube.set_active_scalars(None)
         with self.assertRaisesRegex(ValueError, "one of: .*decades"):
             add_volume(plotter, self.cube)
+        with self.assertRaisesRegex(ValueError, "has no arrays"):
+            add_volume(plotter, pyvista.ImageData(dimensions=(3, 3, 3)))
         plotter.close()
 
     def test_blocks_that_are_not_drawn(self):
