@@ -3,8 +3,11 @@
 """Volumes in PyVista's plotters."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import math
 import numbers
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -244,6 +247,22 @@ def _wrap(mesh, resolution):
     return wrapped
 
 
+def _add_stand_in(plotter, *positional, **named):
+    """plotter.add_volume(); an error about a name that it does not know has names that are like
+    it."""
+    try:
+        return plotter.add_volume(*positional, **named)
+    except TypeError as error:
+        wrong = re.match(r'"(\w+)".* invalid keyword', str(error))
+        if not wrong:
+            raise
+        known = {name for function in (plot, add_to, plotter.add_volume)
+                 for name in inspect.signature(function).parameters}
+        near = difflib.get_close_matches(wrong[1], sorted(known))
+        raise TypeError("%s%s" % (error, near and "; did you mean %s?" % " or ".join(near) or "")
+                        ) from None
+
+
 def _refuse_mapper(mapper):
     """plotter.add_volume()'s choice among VTK's mappers."""
     if mapper is not None:
@@ -348,8 +367,8 @@ def add_to(
         opacity_unit_distance = _find_unit_distance(chosen.mesh, tuple(mapper.GetBounds()))
     if surfaces is not None:
         connect(mapper, surfaces, indices)
-    volume = plotter.add_volume(
-        _make_stand_in(tuple(mapper.GetBounds()), chosen), scalars=chosen.name,
+    volume = _add_stand_in(
+        plotter, _make_stand_in(tuple(mapper.GetBounds()), chosen), scalars=chosen.name,
         categories=chosen.count_categories(categories),
         opacity_unit_distance=opacity_unit_distance, show_scalar_bar=False, render=False,
         name=name or "%s(%s)" % (type(mesh).__name__, mapper.GetAddressAsString("")), **arguments)

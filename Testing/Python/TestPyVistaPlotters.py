@@ -301,6 +301,11 @@ class TestPyVistaPlotters(unittest.TestCase):
                                ({"resolution": (1, 1, 2)}, "a mesh has its own")):
             with self.assertRaisesRegex(ValueError, message):
                 add_ours(plotter, FIRST, "height", **named)
+        for named, message in (({"opacitty": 0.5}, "did you mean opacity"),
+                               ({"windowsize": (9, 9)}, "did you mean window_size"),
+                               ({"xyzzy": 1}, "`$")):
+            with self.assertRaisesRegex(TypeError, message):
+                add_ours(plotter, FIRST, "height", **named)
 
     def test_arrays(self):
         """An array with three dimensions is a volume, with distances between its values."""
