@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkTexture
 
-from . import common
+from . import common, solids
 
 SUN = (-0.45, -0.35, 0.82)
 DEPTH = 0.75  # of the pool, which is 2 wide
@@ -218,7 +218,7 @@ class Pool:
 
 
 def draw_pool(data, size):
-    """The crushed can and two balls in a tiled pool under a summer sky."""
+    """The crushed can, a ball and a duck in a tiled pool under a summer sky."""
     pool = Pool(lambda x, y: sum(a * math.sin(k * x + l * y + p) for a, k, l, p in WAVES),
                 (0.60, 0.10, 0.05), 128, 384)
     pool.add_sides(make_tiles())
@@ -230,7 +230,16 @@ def draw_pool(data, size):
     can.GetMapper().SelectColorArray("Speed")
     can.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[2:], low, high))
     pool.add_colored(make_ball((0.55, 0.55, -0.55), 0.2), (0.95, 0.35, 0.15))
-    pool.add_colored(make_ball((-0.62, 0.5, -0.02), 0.17), (0.98, 0.80, 0.12))
+    duck = place(solids.make_duck(), 0.62, -50, (-0.52, 0.42, 0.08))
+    swims = pool.add_colored(duck, (1, 1, 1))
+    stands_out = common.make_actor(duck)  # the part above the water, by the renderer
+    stands_out.SetProperty(swims.GetProperty())
+    pool.renderer.AddActor(stands_out)
+    for actor in (swims, stands_out):
+        actor.GetMapper().ScalarVisibilityOn()
+        actor.GetMapper().SetScalarModeToUsePointFieldData()
+        actor.GetMapper().SelectColorArray("Paint")
+        actor.GetMapper().SetLookupTable(common.make_colors(solids.PAINT, 0.0, 1.0))
     common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.02, -0.23), (0, 0, 1), 28.5)
     pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
     return common.take(pool.renderer, size)
