@@ -8,6 +8,8 @@ import os
 
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
+_LONGEST_VALUE = 60  # characters of a list that a message repeats; of longer ones it has the type
+
 
 def refuse(argument, expected, value):
     """Raises a TypeError about an argument."""
@@ -20,7 +22,10 @@ def refuse(argument, expected, value):
         hint = " (its read() returns one)"
     elif expected.startswith("a dataset") and hasattr(value, "GetOutputDataObject"):
         hint = " (its GetOutput() returns one)"
-    raise TypeError("%s must be %s, not %s%s" % (argument, expected, type(value).__name__, hint))
+    found = type(value).__name__
+    if isinstance(value, (list, tuple)) and len(repr(value)) <= _LONGEST_VALUE:
+        found = repr(value)
+    raise TypeError("%s must be %s, not %s%s" % (argument, expected, found, hint))
 
 
 def check_name(argument, value):

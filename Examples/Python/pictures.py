@@ -32,7 +32,7 @@ PICTURES = {
     "gallery-radiograph": volumes.draw_radiograph,
     "gallery-cells": cells.draw_cells,
     "gallery-blow": steps.draw_blow,
-    "gallery-walls": solids.draw_walls,
+    "gallery-duck": solids.draw_duck,
     "gallery-rings": pools.draw_rings,
     "gallery-lens": through.draw_lens,
     "opacity-distances": opacity.draw_distances,

@@ -32,14 +32,14 @@ class Scalars:
     mesh: the mesh. name: of the array. in_points: whether points have it. component: its number, or
     None for the magnitude. title: for the legend. arrays, leaves: the array of each block that is
     drawn and has one, and these blocks. limits: range of the functions, if the values do not say.
-    opacity_limits: range of the opacities of another array, or None. is_mixed: whether several
-    components are drawn at once.
+    opacity_limits: range of the opacities of another array, or None. has_colors: whether the array
+    is drawn as colours. is_mixed: whether several components are drawn at once.
     """
 
     limits = opacity_limits = None
     is_mixed = False
 
-    def __init__(self, mesh, scalars, preference, component, rgba=False):
+    def __init__(self, mesh, scalars, preference, component, rgba=None):
         check_values("scalars", scalars)
         self.title = scalars if scalars is None or isinstance(scalars, str) else ""
         try:
@@ -52,7 +52,8 @@ class Scalars:
             self._find(mesh, scalars, preference)
         if self.title is None:
             self.title = self.name
-        if rgba:
+        self.has_colors = component is None and self._are_colors() if rgba is None else rgba
+        if self.has_colors:
             self._take_colors(component)
         else:
             self._choose_component(component)
@@ -65,6 +66,9 @@ class Scalars:
             mesh["Data"] = scalars
             scalars = "Data"
         scalars = scalars or mesh.active_scalars_name
+        if scalars is None and not mesh.array_names:
+            raise ValueError("The mesh has no arrays; give its values with scalars=, one per point "
+                             "or cell")
         if scalars is None:
             raise ValueError("The mesh has no active scalars; name an array with scalars=, one of: "
                              + ", ".join(mesh.array_names))
@@ -107,6 +111,11 @@ class Scalars:
         # Since VTK 9.7 the comparison of an array with `==`, as by `in`, has one result per value.
         if any(array is None for array in self.arrays):
             raise TypeError("The array '%s' is not numeric" % self.name)
+
+    def _are_colors(self):
+        """Whether plotter.add_volume() takes the array as colours."""
+        return self.in_points and all(array.GetNumberOfComponents() == 4 and vtk_to_numpy(
+            array).dtype == numpy.uint8 for array in self.arrays)
 
     def _choose_component(self, component):
         count = self.arrays[0].GetNumberOfComponents()
@@ -155,7 +164,7 @@ class Scalars:
     def add_opacity(self, name, component, limits):
         """Takes the opacity from another array of points, whose range is limits or its own."""
         check_name("opacity_array", name)
-        other = Scalars(self.mesh, name, "point" if self.in_points else "cell", component)
+        other = Scalars(self.mesh, name, "point" if self.in_points else "cell", component, False)
         if other.in_points != self.in_points:
             raise ValueError("The arrays '%s' and '%s' must both belong to points" % (
                 self.name, other.name))

@@ -3,8 +3,11 @@
 """Volumes in PyVista's plotters."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import math
 import numbers
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -15,7 +18,7 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 from ..arguments import (
     check_count, check_finite, check_numbers, refuse, take_number, take_range)
 from ..data import leaves_of
-from ..names import ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
+from ..names import BACKENDS, ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
 from .functions import check_color_map, follow_table, make_opaque, take_opacity
 from .mapper import make_mapper
@@ -29,6 +32,9 @@ if TYPE_CHECKING:
 
 # Colour maps that plotter.add_volume() gives the blocks of a dataset with multi_colors.
 _BLOCK_COLORS = ("Reds", "Greens", "Blues", "Greys", "Oranges", "Purples")
+
+# Anti-aliasing that is for edges, where it leaves the number of a volume's rays as it is.
+_AT_EDGES = ("msaa", "fxaa")
 
 
 def _make_stand_in(bounds, scalars):
@@ -223,20 +229,51 @@ def _set_isovalues(look, isovalues, limits):
         contours.SetValue(index, value)
 
 
-def _wrap(mesh):
-    """A mesh of any library as PyVista's."""
+def _wrap(mesh, resolution):
+    """A mesh of any library as PyVista's. resolution: distances of the values of an array with
+    three dimensions, which plotter.add_volume() takes as well."""
+    if resolution is not None:
+        if not isinstance(mesh, numpy.ndarray):
+            raise ValueError("resolution is the spacing of an array of values; a mesh has its own")
+        check_numbers("resolution", resolution, 3)
     try:
         wrapped = pyvista.wrap(mesh)
     except (NotImplementedError, TypeError):
         wrapped = None
     if wrapped is None:
         refuse("mesh", "a dataset", mesh)
+    if resolution is not None:
+        wrapped.spacing = [take_number("resolution", each, above=0.0) for each in resolution]
     return wrapped
+
+
+def _add_stand_in(plotter, *positional, **named):
+    """plotter.add_volume(); an error about a name that it does not know has names that are like
+    it."""
+    try:
+        return plotter.add_volume(*positional, **named)
+    except TypeError as error:
+        wrong = re.match(r'"(\w+)".* invalid keyword', str(error))
+        if not wrong:
+            raise
+        known = {name for function in (plot, add_to, plotter.add_volume)
+                 for name in inspect.signature(function).parameters}
+        near = difflib.get_close_matches(wrong[1], sorted(known))
+        raise TypeError("%s%s" % (error, near and "; did you mean %s?" % " or ".join(near) or "")
+                        ) from None
+
+
+def _refuse_mapper(mapper):
+    """plotter.add_volume()'s choice among VTK's mappers."""
+    if mapper is not None:
+        raise ValueError("mapper=%r is a choice among PyVista's mappers; the rays of "
+                         "vtkTetrahedraRayCastMapper are cast by backend=, one of %s" % (
+                             mapper, ", ".join(BACKENDS)))
 
 
 def add_to(
     mesh: Mesh, /, plotter: pyvista.Plotter, scalars: str | Array | None = None, *,
-    component: int | str | None = None, rgba: bool = False,
+    component: int | str | None = None, rgba: bool | None = None,
     opacity_array: str | None = None, opacity_component: int | str | None = None,
     opacity_clim: Sequence[float] | None = None,
     blending: str | None = None, isovalues: int | Sequence[float] | None = None,
@@ -244,6 +281,7 @@ def add_to(
     opacity_unit_distance: float | None = None, backend: str = "automatic",
     surfaces: Surfaces | None = None, indices: Indices = 1.333,
     preference: str = "point", categories: bool | int = False,
+    resolution: Sequence[float] | None = None,
     scalar_bar_args: dict[str, Any] | None = None, show_scalar_bar: bool | None = None,
     render: bool = True, name: str | None = None, multi_colors: bool = False, **arguments: Any,
 ) -> Any:
@@ -257,7 +295,8 @@ def add_to(
         default: the active scalars.
     component: number of a component from 0, or "magnitude"; needed for an array with several.
     rgba: draws an array of points with 3 or 4 components as colours, and the fourth as opacity:
-        uint8 from 0 to 255, or floating-point numbers from 0 to 1. Default: False.
+        uint8 from 0 to 255, or floating-point numbers from 0 to 1. Default: whether there are 4
+        components of uint8, as in plotter.add_volume().
     opacity_array: name of another array of points, which the opacity is taken from; the colours
         are those of scalars. opacity_component: as component. opacity_clim: range over which
         `opacity` runs, (low, high); default: the range of the array's values.
@@ -279,19 +318,21 @@ def add_to(
         refraction; see meniscus.refracted(). Default: none.
     multi_colors: adds each block of a pyvista.MultiBlock as a volume of its own in colours of its
         own, blended in the order of the blocks; returns a list of them. Default: False.
-    preference, categories, scalar_bar_args, show_scalar_bar, render, name: as in
+    preference, categories, resolution, scalar_bar_args, show_scalar_bar, render, name: as in
         plotter.add_volume().
-    arguments: all other arguments of plotter.add_volume(), such as cmap (a name of PyVista,
-        matplotlib, cmocean or colorcet), opacity, clim, log_scale, n_colors, user_matrix; and
-        properties of vtkTetrahedraRayCastMapper, such as CellDivision=1. With log_scale, colour and
-        opacity depend on the logarithm of the value; without clim, from the least value above 0 on.
+    arguments: all other arguments of plotter.add_volume() but mapper, such as cmap (a name of
+        PyVista, matplotlib, cmocean or colorcet), opacity, clim, log_scale, n_colors, user_matrix;
+        and properties of vtkTetrahedraRayCastMapper, such as CellDivision=1. With log_scale, colour
+        and opacity depend on the logarithm of the value; without clim, from the least value above 0
+        on.
 
     Raises ValueError for a mesh without volume, for several components without a choice, for
     scalars that are missing or not finite, for numbers that are not finite or out of range, limits
     whose upper end comes first, and for names of modes and colour maps that do not exist (the
     message lists those that do); KeyError for the name of an array that does not exist.
     """
-    source, mesh = mesh, _wrap(mesh)
+    _refuse_mapper(arguments.pop("mapper", None))
+    source, mesh = mesh, _wrap(mesh, resolution)
     if not hasattr(plotter, "add_volume"):
         refuse("plotter", "a pyvista.Plotter", plotter)
     if multi_colors and isinstance(mesh, pyvista.MultiBlock):
@@ -306,7 +347,8 @@ def add_to(
         raise ValueError("rgba=True has an opacity of its own; leave opacity_array out")
 
     def choose(mesh):
-        chosen = Scalars(mesh, scalars, preference, component, rgba)
+        chosen = Scalars(mesh, scalars, preference, component,
+                         False if rgba is None and opacity_array is not None else rgba)
         if opacity_array is not None:
             chosen.add_opacity(opacity_array, opacity_component, opacity_clim)
         return chosen
@@ -325,8 +367,8 @@ def add_to(
         opacity_unit_distance = _find_unit_distance(chosen.mesh, tuple(mapper.GetBounds()))
     if surfaces is not None:
         connect(mapper, surfaces, indices)
-    volume = plotter.add_volume(
-        _make_stand_in(tuple(mapper.GetBounds()), chosen), scalars=chosen.name,
+    volume = _add_stand_in(
+        plotter, _make_stand_in(tuple(mapper.GetBounds()), chosen), scalars=chosen.name,
         categories=chosen.count_categories(categories),
         opacity_unit_distance=opacity_unit_distance, show_scalar_bar=False, render=False,
         name=name or "%s(%s)" % (type(mesh).__name__, mapper.GetAddressAsString("")), **arguments)
@@ -350,7 +392,7 @@ def add_to(
         _follow_mesh(plotter.renderer, mapper, mesh, choose)
     if blending == "isosurface":
         _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range)
-    if not rgba:
+    if not chosen.has_colors:
         _add_bar(plotter, chosen.title, scalar_bar_args, show_scalar_bar)
     if render:
         plotter.render()
@@ -379,6 +421,25 @@ def _place_camera(plotter, cpos, zoom, parallel_projection):
         plotter.camera.zoom(zoom)
 
 
+def _smooth_edges(plotter, anti_aliasing):
+    """Anti-aliasing as pyvista.plot() has it."""
+    if anti_aliasing is True:
+        plotter.enable_anti_aliasing()
+    elif anti_aliasing is False:
+        plotter.disable_anti_aliasing()
+    elif anti_aliasing is not None:
+        plotter.enable_anti_aliasing(anti_aliasing)
+
+
+def _refuse_surfaces(volume, eye_dome_lighting, ssao):
+    """Arguments of pyvista.plot() that are for surfaces alone."""
+    if not volume:
+        raise ValueError("volume=False draws surfaces, which pyvista.plot() does")
+    for name, value in ("eye_dome_lighting", eye_dome_lighting), ("ssao", ssao):
+        if value:
+            raise ValueError("%s shades surfaces; shadows=True has shadows in volumes" % name)
+
+
 def plot(
     mesh: Mesh, /, scalars: str | Array | None = None, *, off_screen: bool | None = None,
     window_size: Sequence[int] | None = None, background: Any = None, cpos: Any = None,
@@ -386,7 +447,11 @@ def plot(
     screenshot: Any = False, show_axes: bool | None = None, show_bounds: bool = False,
     show_grid: bool = False, full_screen: bool | None = None, interactive: bool = True,
     notebook: bool | None = None, theme: Any = None, jupyter_backend: str | None = None,
-    return_img: bool = False, return_cpos: bool = False, **arguments: Any,
+    return_img: bool = False, return_cpos: bool = False, return_viewer: bool = False,
+    jupyter_kwargs: dict[str, Any] | None = None, before_close_callback: Any = None,
+    auto_close: bool | None = None, anti_aliasing: str | bool | None = None,
+    border: bool | None = None, border_color: Any = None, border_width: float | None = None,
+    volume: bool = True, eye_dome_lighting: bool = False, ssao: bool = False, **arguments: Any,
 ) -> Any:
     """Shows a mesh as a volume in a window, or in a notebook.
 
@@ -396,7 +461,13 @@ def plot(
     background: colour; default: PyVista's theme.
     cpos: camera position as pyvista.plot() takes it, such as "xy".
     zoom, parallel_projection, text, show_bounds, show_grid, full_screen, interactive, notebook,
-        theme, return_cpos: as in pyvista.plot().
+        theme, return_cpos, return_viewer, jupyter_kwargs, before_close_callback, auto_close,
+        border, border_color, border_width: as in pyvista.plot().
+    anti_aliasing: "ssaa", "msaa", "fxaa", True or False, as in pyvista.plot(); default: the
+        theme's, which is "msaa" in PyVista. With "msaa" and "fxaa" still pictures of the volume
+        have up to 16 rays per pixel at edges, as by ImageSampleDistance=0.25.
+    volume, eye_dome_lighting, ssao: for calls written for pyvista.plot(); other values than the
+        defaults are refused, because surfaces are shaded by them. shadows has shadows in volumes.
     screenshot: file name of a picture, or True to return it.
     show_axes: whether axes are shown in a corner; default: PyVista's setting.
     jupyter_backend: in a notebook "trame" or "server" (pictures that the kernel draws, turned with
@@ -410,17 +481,24 @@ def plot(
     """
     from .notebook import choose_backend
 
+    _refuse_surfaces(volume, eye_dome_lighting, ssao)
     if window_size is not None:
         check_numbers("window_size", window_size, 2, numbers.Integral)
     backend = choose_backend(jupyter_backend)
     plotter = pyvista.Plotter(
-        off_screen=off_screen, window_size=window_size, notebook=notebook, theme=theme)
+        off_screen=off_screen, window_size=window_size, notebook=notebook, theme=theme,
+        border=border, border_color=border_color, border_width=border_width)
     if background is not None:
         plotter.set_background(background)
+    if (plotter.theme.anti_aliasing if anti_aliasing is None else anti_aliasing) in _AT_EDGES:
+        arguments.setdefault("ImageSampleDistance", 0.25)
     add_to(mesh, plotter, scalars, **{"render": False, **arguments})
     _furnish(plotter, text, show_axes, show_bounds, show_grid)
     _place_camera(plotter, cpos, zoom, parallel_projection)
+    _smooth_edges(plotter, anti_aliasing)
     return plotter.show(
         screenshot=screenshot, full_screen=full_screen, interactive=interactive,
-        return_img=return_img, return_cpos=return_cpos,
+        return_img=return_img, return_cpos=return_cpos, return_viewer=return_viewer,
+        auto_close=auto_close, before_close_callback=before_close_callback,
+        jupyter_kwargs=jupyter_kwargs or {},
         **({"jupyter_backend": backend} if plotter.notebook else {}))

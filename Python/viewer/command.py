@@ -21,6 +21,12 @@ from .scene import AXES, MeshScene
 
 DESCRIPTION = """Draws a mesh of tetrahedra or other cells as a volume. Several files are the time
 steps of one mesh. In the window, h shows the keys."""
+EXAMPLES = """examples:
+  meniscus demo                                  a mesh that comes with the package
+  meniscus case.vtu --array T --cmap inferno     a window
+  meniscus case.vtu --isovalues 300 350 --edges  isosurfaces
+  meniscus case.vtu --shadows --output case.png  a picture, no window
+  meniscus step*.vtu --movie steps.mp4           the time steps as a movie"""
 # Pixels along a side that OpenGL draws everywhere at once: larger pictures are cut off, or exceed
 # the memory.
 _LARGEST_SIZE = 16384
@@ -55,7 +61,9 @@ def _port(text):
 
 
 def make_parser():
-    parser = OptionParser(prog="meniscus", description=DESCRIPTION)
+    parser = OptionParser(prog="meniscus", usage="meniscus [OPTION ...] MESH [MESH ...]",
+                          description=DESCRIPTION, epilog=EXAMPLES,
+                          formatter_class=argparse.RawDescriptionHelpFormatter)
     _add_look(parser)
     _add_view(parser)
     _add_output(parser)
@@ -69,25 +77,27 @@ def _add_look(parser):
     parser.add_argument("--config", metavar="FILE.toml",
                         help="file with options by the names of this list, and mesh; the command "
                         "line goes before, and --no-NAME leaves out the file's option NAME")
+    parser.start_group("values, colours and opacity")
     parser.add_argument("--array", help="array to show; default: the first one")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
-                        help="range of the colour map")
+                        help="range of the colour map; default: that of the values")
     parser.add_argument("--cmap", "--colors", dest="colors", default=COLOR_MAPS[0], metavar="NAME",
                         offers=COLOR_MAPS,
                         help="colour map: " + ", ".join(COLOR_MAPS) + ", or a name of matplotlib, "
                         "cmocean, colorcet or trame-colormaps where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
-                        "tenth of the mesh's diagonal; default: chosen by volume")
+                        "tenth of the mesh's diagonal; default: the rarer a value, the more opaque")
     parser.add_argument("--blend", default="composite", metavar="MODE", offers=BLEND_MODES,
                         help="blend mode: " + ", ".join(BLEND_MODES))
     parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
                         help="isosurfaces of these values")
     parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
-                        help="makes the volume denser (above 1) or thinner")
+                        help="makes the volume denser (above 1) or thinner; default: 1")
     parser.add_argument("--light", action="store_true", help="lights the volume")
     parser.add_argument("--shadows", action="store_true",
                         help="lights the volume, which casts shadows into itself")
+    parser.start_group("what is shown with it")
     parser.add_argument("--outline", action="store_true", help="shows the box around the mesh")
     parser.add_argument("--axes", action="store_true", help="shows axes with numbers")
     parser.add_argument("--edges", action="store_true", help="shows the edges of the surface")
@@ -96,6 +106,7 @@ def _add_look(parser):
 
 
 def _add_view(parser):
+    parser.start_group("part and view")
     parser.add_argument("--clip", metavar="AXIS[:SHARE]",
                         help="removes the part below a share (default 0.5) of the extent along "
                         + ", ".join(AXES))
@@ -109,13 +120,15 @@ def _add_view(parser):
     parser.add_argument("--backend", default="automatic", metavar="NAME", offers=BACKENDS,
                         help="caster of rays: " + ", ".join(BACKENDS))
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
-                        default=(1.0, 0.7, 1.0), help="vector from the mesh to the eye")
+                        default=(1.0, 0.7, 1.0),
+                        help="vector from the mesh to the eye; default: 1 0.7 1")
     parser.add_argument("--up", choices=list(AXES), default="y", help="upward axis; default: y")
     parser.add_argument("--size", type=_size, default=(1024, 768), metavar="WxH",
-                        help="size of the window or picture")
+                        help="size of the window or picture; default: 1024x768")
 
 
 def _add_output(parser):
+    parser.start_group("pictures, movies, pages")
     parser.add_argument("--output", metavar="PICTURE.png",
                         help="writes a picture and opens no window")
     parser.add_argument("--transparent", action="store_true",

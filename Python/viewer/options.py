@@ -7,6 +7,7 @@ import argparse
 import contextlib
 import importlib
 import os
+import sys
 from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn
 
@@ -29,12 +30,17 @@ class OptionParser(argparse.ArgumentParser):
     def __init__(self, **arguments: Any) -> None:
         self._names: dict[str, argparse.Action] = {}
         self._file = ""  # whose options are parsed
+        self._group: argparse._ArgumentGroup | None = None
         super().__init__(**arguments)
+
+    def start_group(self, title: str) -> None:
+        """The help lists the next options under a title."""
+        self._group = self.add_argument_group(title)
 
     def add_argument(self, *names: Any, offers: Iterable[str] = (), **settings: Any
                      ) -> argparse.Action:
         """offers: values that complete() proposes; others are allowed."""
-        action = super().add_argument(*names, **settings)
+        action = (self._group or super()).add_argument(*names, **settings)
         if offers:
             setattr(action, "completer", lambda **_: list(offers))  # as argcomplete expects it
         for name in names:
@@ -61,6 +67,7 @@ class OptionParser(argparse.ArgumentParser):
     def parse(self, arguments: Sequence[str] | None = None) -> argparse.Namespace:
         """Options of the command line and, where it has none, of the file that it names. A file
         with an error is a ReadingError."""
+        arguments = self._put_mesh_first(sys.argv[1:] if arguments is None else arguments)
         options = self.parse_args(arguments)
         if options.config:
             self._take_defaults(options.config, options.left_out or ())
@@ -68,8 +75,27 @@ class OptionParser(argparse.ArgumentParser):
         if not options.mesh:
             options.mesh = self.get_default("mesh")
         if not options.mesh:
-            self.error("the following arguments are required: MESH")
+            self.error("the following arguments are required: MESH, before options that take any "
+                       "number of values")
         return options
+
+    def _put_mesh_first(self, words: Sequence[str]) -> list[str]:
+        """Words of a command line whose files are first where they follow an option with any number
+        of numbers, to which argparse would give them. Numbers are as argparse takes them."""
+        files: list[str] = []
+        others: list[str] = []
+        target, has_numbers = files, False
+        for place, word in enumerate(words):
+            if word == "--":
+                return [*files, *others, *words[place:]]
+            if word.startswith("-") and not _is_number(word):
+                action = self._names.get(word[2:])
+                has_numbers = action is not None and action.nargs == "+" and action.type is float
+                target = others
+            elif has_numbers and not _is_number(word):
+                target = files
+            target.append(_text_of(float(word)) if _has_exponent(word) else word)
+        return [*files, *others]
 
     def _take_defaults(self, name: str, left_out: Sequence[str]) -> None:
         """left_out: destinations of options that do not count."""
@@ -116,6 +142,18 @@ class OptionParser(argparse.ArgumentParser):
         if not isinstance(value, list):
             return [f"--{key}={texts[0]}"]
         return ["--" + key, *texts]
+
+
+def _has_exponent(text: str) -> bool:
+    return text.startswith("-") and "e" in text.lower() and _is_number(text)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _text_of(number: float) -> str:

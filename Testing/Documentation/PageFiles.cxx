@@ -6,9 +6,15 @@
 // that of its name in the folder.
 #include "StrictImage.h"
 
+#include <vtkMath.h>
 #include <vtkParametricFunctionSource.h>
 #include <vtkParametricTorus.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
+
+#include <cmath>
 
 namespace
 {
@@ -26,6 +32,24 @@ bool Write(vtkAlgorithm* source, const char* file)
   return writer->Write() == 1;
 }
 
+// Adds waves to a plane, with their normals.
+void MakeWaves(vtkPolyData* plane)
+{
+  for (vtkIdType p = 0; p < plane->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    plane->GetPoint(p, x);
+    const double first = 4.0 * x[0] + x[1];
+    const double second = 2.0 * x[0] - 5.0 * x[1];
+    x[2] += 0.04 * std::sin(first) + 0.03 * std::sin(second);
+    plane->GetPoints()->SetPoint(p, x);
+    double normal[3] = { -0.16 * std::cos(first) - 0.06 * std::cos(second),
+      -0.04 * std::cos(first) + 0.15 * std::cos(second), 1.0 };
+    vtkMath::Normalize(normal);
+    plane->GetPointData()->GetNormals()->SetTuple(p, normal);
+  }
+}
+
 // The files of RunBlocks.py.
 bool WriteFiles()
 {
@@ -36,6 +60,9 @@ bool WriteFiles()
   water->SetOrigin(-2.0, -2.0, 0.2);
   water->SetPoint1(2.0, -2.0, 0.2);
   water->SetPoint2(-2.0, 2.0, 0.2);
+  water->SetResolution(80, 80);
+  water->Update();
+  MakeWaves(water->GetOutput());
   return Write(torus, "object.vtp") && Write(water, "water.vtp");
 }
 

@@ -55,8 +55,20 @@ def make_field():
     return field
 
 
+def make_waves(plane):
+    """Adds waves to a plane, with their normals."""
+    points, normals = plane.GetPoints(), plane.GetPointData().GetNormals()
+    for p in range(points.GetNumberOfPoints()):
+        x, y, z = points.GetPoint(p)
+        points.SetPoint(p, x, y, z + 0.04 * math.sin(4 * x + y) + 0.03 * math.sin(2 * x - 5 * y))
+        along = -0.16 * math.cos(4 * x + y) - 0.06 * math.cos(2 * x - 5 * y)
+        across = -0.04 * math.cos(4 * x + y) + 0.15 * math.cos(2 * x - 5 * y)
+        length = math.sqrt(along ** 2 + across ** 2 + 1)
+        normals.SetTuple3(p, along / length, across / length, 1 / length)
+
+
 def write_files():
-    """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it
+    """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, waves that it
     intersects; in ASCII, for every reader."""
     from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
     from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
@@ -71,6 +83,9 @@ def write_files():
     water.SetOrigin(-2.0, -2.0, 0.2)
     water.SetPoint1(2.0, -2.0, 0.2)
     water.SetPoint2(-2.0, 2.0, 0.2)
+    water.SetResolution(80, 80)
+    water.Update()
+    make_waves(water.GetOutput())
     for name, writer, source in [("mesh.vtu", vtkXMLUnstructuredGridWriter(), tetrahedra),
                                  ("object.vtp", vtkXMLPolyDataWriter(), torus),
                                  ("water.vtp", vtkXMLPolyDataWriter(), water)]:

@@ -215,6 +215,39 @@ class TestBlending(unittest.TestCase):
             self.assertTrue((seen_with(**view) != plain).any(), view)
         camera = methods.plot("y", off_screen=True, cpos="xy", return_cpos=True)
         numpy.testing.assert_allclose(tuple(camera)[2], (0, 1, 0))
+        closed = []
+        self.assertTrue((seen_with(border=True, border_color="red", before_close_callback=(
+            closed.append), auto_close=True) != plain).any())
+        self.assertEqual(len(closed), 1)
+
+    def test_smooth_edges(self):
+        """Pixels at the edge of a surface are between its colour and the background's, unless
+        that is refused."""
+        methods = accessor.MeniscusAccessor(make_cube())
+        named = {"off_screen": True, "window_size": SIZE, "screenshot": True, "opacity": [1, 1],
+                 "background": "black", "show_scalar_bar": False, "show_axes": False,
+                 "isovalues": [0.52], "light": False, "cmap": ["white", "white"]}
+
+        def count_mixed(**more):
+            picture = numpy.asarray(methods.plot("y", **more, **named))[..., 0]
+            return ((picture > 5) & (picture < 250)).sum()
+
+        self.assertEqual(count_mixed(anti_aliasing=False), 0)
+        for more in ({}, {"anti_aliasing": "msaa"}, {"anti_aliasing": "ssaa"},
+                     {"anti_aliasing": True}):
+            self.assertGreater(count_mixed(**more), 50, more)
+        self.assertEqual(count_mixed(ImageSampleDistance=1.0), 0)
+
+    def test_arguments_of_surfaces(self):
+        """Those of pyvista.plot() that mean nothing here are refused with a hint."""
+        methods = accessor.MeniscusAccessor(make_cube())
+        for named, message in (({"volume": False}, "pyvista.plot"), ({"ssao": True}, "shadows"),
+                               ({"eye_dome_lighting": True}, "shadows")):
+            with self.assertRaisesRegex(ValueError, message):
+                methods.plot("y", off_screen=True, **named)
+        with self.assertRaisesRegex(TypeError, r"2 whole numbers, not \(400,\)"):
+            methods.plot("y", off_screen=True, window_size=(400,))
+        methods.plot("y", off_screen=True, volume=True)
 
     def test_shadows(self):
         """A lamp above a cube of one dense medium lights its top, and less of it with a shorter

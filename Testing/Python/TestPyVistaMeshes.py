@@ -87,6 +87,8 @@ class TestMultiBlocks(unittest.TestCase):
         self.cube.set_active_scalars(None)
         with self.assertRaisesRegex(ValueError, "one of: .*decades"):
             add_volume(plotter, self.cube)
+        with self.assertRaisesRegex(ValueError, "has no arrays"):
+            add_volume(plotter, pyvista.ImageData(dimensions=(3, 3, 3)))
         plotter.close()
 
     def test_blocks_that_are_not_drawn(self):
@@ -120,7 +122,7 @@ class TestComponents(unittest.TestCase):
     def test_a_choice_is_needed(self):
         cube = make_cube()
         plotter = pyvista.Plotter(off_screen=True)
-        colors = numpy.zeros((cube.n_points, 4), numpy.uint8)
+        colors = numpy.zeros((cube.n_points, 4))  # of uint8, they would be colours
         for scalars, count in (("U", 3), (cube["U"], 3), (colors, 4)):
             choices = 'component=%s or "magnitude"' % ", ".join(map(str, range(count)))
             with self.assertRaisesRegex(ValueError, choices):

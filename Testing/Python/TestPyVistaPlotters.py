@@ -73,6 +73,15 @@ def log_scale_from_zero(plotter, add):
     add(plotter, FIRST, "height", log_scale=True, clim=(0.0, 8.0), opacity=[0.1, 0.3])
 
 
+def four_components(plotter, add):
+    """Four components of uint8 are colours without being asked for."""
+    image = FIRST.copy()
+    heights = 20 * image["height"].astype(numpy.uint8)
+    opacities = numpy.full_like(heights, 60)
+    image["colors"] = numpy.stack([heights, 255 - heights, heights // 2, opacities], 1)
+    add(plotter, image, "colors")
+
+
 def table_of_the_user(plotter, add):
     table = pyvista.LookupTable("plasma", scalar_range=(2.0, 9.0), nan_color="red")
     table.apply_opacity([0.0, 0.2])
@@ -117,7 +126,7 @@ LOGARITHMIC = (log_scale, log_scale_from_zero)
 SCENES = (
     one_volume, limits, symmetric_limits, shared_bar, two_arrays, log_scale, log_scale_from_zero,
     table_of_the_user, bar_of_the_user, no_bar, same_name, with_a_surface, values_without_a_name,
-    subplots)
+    subplots, four_components)
 
 
 def make_plotter(scene, add):
@@ -168,7 +177,7 @@ class TestPyVistaPlotters(unittest.TestCase):
     def test_legends(self):
         def check(scene, own, ours):
             expected = bars_of(own)
-            self.assertEqual(bool(expected), scene is not no_bar)
+            self.assertEqual(bool(expected), scene not in (no_bar, four_components))
             self.assertEqual(bars_of(ours), expected)
 
         self.each_scene(check)
@@ -288,6 +297,25 @@ class TestPyVistaPlotters(unittest.TestCase):
             with self.assertRaises(KeyError):
                 add(plotter, FIRST, "width")
             self.assertEqual(len(plotter.actors), 0)
+        for named, message in (({"mapper": "smart"}, "backend"),
+                               ({"resolution": (1, 1, 2)}, "a mesh has its own")):
+            with self.assertRaisesRegex(ValueError, message):
+                add_ours(plotter, FIRST, "height", **named)
+        for named, message in (({"opacitty": 0.5}, "did you mean opacity"),
+                               ({"windowsize": (9, 9)}, "did you mean window_size"),
+                               ({"xyzzy": 1}, "`$")):
+            with self.assertRaisesRegex(TypeError, message):
+                add_ours(plotter, FIRST, "height", **named)
+
+    def test_arrays(self):
+        """An array with three dimensions is a volume, with distances between its values."""
+        values = numpy.random.default_rng(1).random((4, 5, 6))
+        plotter = pyvista.Plotter(off_screen=True)
+        own, ours = (add(plotter, values, resolution=(1, 2, 0.5)) for add in (add_own, add_ours))
+        self.assertEqual(ours.bounds, own.bounds)
+        for wrong, kind in (((1, 2), TypeError), ((1, 2, 0), ValueError)):
+            with self.assertRaisesRegex(kind, "resolution"):
+                add_ours(plotter, values, resolution=wrong)
 
 
 if __name__ == "__main__":

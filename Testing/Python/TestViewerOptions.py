@@ -218,6 +218,25 @@ class TestMessages(Case):
             self.assertEqual(status, 1)
             self.assertIn(message, errors)
 
+    def test_places_of_the_mesh(self):
+        """It may follow the values of an option with numbers."""
+        first = make_parser().parse(["a.vtu", "b.vtu", "--opacity", "0", "-1e-5", "--light"])
+        for words in (["--opacity", "0", "-1e-5", "a.vtu", "b.vtu", "--light"],
+                      ["--light", "--opacity", "0", "-1e-5", "a.vtu", "b.vtu"],
+                      ["--light", "--opacity", "0", "-1e-5", "--", "a.vtu", "b.vtu"],
+                      ["a.vtu", "--opacity", "0", "-1e-5", "b.vtu", "--light"]):
+            self.assertEqual(vars(make_parser().parse(words)), vars(first), words)
+        with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit):
+            make_parser().parse(["--units", "m", "a.vtu"])
+        self.assertIn("required: MESH, before options", message.getvalue())
+
+    def test_help(self):
+        """has titles, and examples that the parser takes."""
+        text = make_parser().format_help()
+        self.assertIn("\nvalues, colours and opacity:\n  --array", text)
+        for line in re.findall("^  meniscus (.*?)  ", text, re.MULTILINE):
+            self.assertTrue(make_parser().parse(line.split()).mesh)
+
     def test_absent_file(self):
         """It is told whether or not there is a package that could read it."""
         for absent in ({}, {"tomllib": None, "tomli": None}):

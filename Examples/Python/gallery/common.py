@@ -6,7 +6,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from vtkmodules.vtkImagingCore import vtkImageResize
+from vtkmodules.vtkImagingCore import vtkImageShrink3D
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLStructuredGridReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -225,7 +225,7 @@ def take(renderer, size, bar=None, samples=0):
     if bar:
         window.SetNumberOfLayers(2)
         window.AddRenderer(make_margin(renderer, bar, 2 * size[1]))
-    return _grab(window, size)
+    return _grab(window, 2)
 
 
 def take_beside(renderers, size, finer=1):
@@ -239,18 +239,20 @@ def take_beside(renderers, size, finer=1):
     for index, renderer in enumerate(renderers):
         renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
         window.AddRenderer(renderer)
-    return _grab(window, whole)
+    return _grab(window, finer)
 
 
-def _grab(window, size):
-    """The window's picture in this size, and the end of the window."""
+def _grab(window, finer):
+    """The window's picture, whose pixels are the means of `finer` x `finer` pixels of the window,
+    and the end of the window."""
     window.Render()
     picture = vtkWindowToImageFilter()
     picture.SetInput(window)
     picture.ReadFrontBufferOff()
-    smaller = vtkImageResize()
+    smaller = vtkImageShrink3D()
     smaller.SetInputConnection(picture.GetOutputPort())
-    smaller.SetOutputDimensions(*size, 1)
+    smaller.SetShrinkFactors(finer, finer, 1)
+    smaller.MeanOn()
     smaller.Update()
     window.Finalize()
     return smaller.GetOutput()

@@ -8,13 +8,13 @@ from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersCore import vtkImageAppend, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkTexture
 
-from . import common
+from . import common, solids
 
 SUN = (-0.45, -0.35, 0.82)
 DEPTH = 0.75  # of the pool, which is 2 wide
@@ -58,18 +58,18 @@ def make_sky(pixels=64, color_of=get_sky):
     return sky
 
 
-def make_tiles(tiles=10, pixels=256):
-    """Mosaic tiles of slightly different blue, with light joints."""
+def make_tiles(tiles=10, pixels=256, colors=((0.42, 0.74, 0.86), (0.66, 0.90, 0.94)),
+               joints=(0.93, 0.96, 0.95), width=0.07):
+    """Mosaic tiles of slightly different colours between two, with joints of a width."""
     image = vtkImageData()
     image.SetDimensions(pixels, pixels, 1)
     image.AllocateScalars(VTK_UNSIGNED_CHAR, 3)
     for j in range(pixels):
         for i in range(pixels):
             u, v = tiles * i / pixels, tiles * j / pixels
-            joint = min(u % 1, v % 1) < 0.07
+            joint = min(u % 1, v % 1) < width
             chance = math.sin(12.9898 * int(u) + 78.233 * int(v)) * 43758.5453 % 1.0
-            shade = mix((0.42, 0.74, 0.86), (0.66, 0.90, 0.94), chance)
-            for channel, value in enumerate((0.93, 0.96, 0.95) if joint else shade):
+            for channel, value in enumerate(joints if joint else mix(*colors, chance)):
                 image.SetScalarComponentFromFloat(i, j, 0, channel, round(255 * value))
     texture = vtkTexture()
     texture.SetInputData(image)
@@ -134,7 +134,8 @@ class Pool:
     def add_sides(self, texture):
         d, top = -DEPTH, DECK
         floor = common.make_plane((-1, -1, d), (1, -1, d), (-1, 1, d), (self.lights,) * 2)
-        parts = (max(self.lights // 4, 26), max(self.lights // 7, 16))
+        # As many parts along the floor as it has: cells at an edge are divided alike, without gaps.
+        parts = (self.lights, max(self.lights // 7, 16))
         walls = [common.make_plane(*corners, parts) for corners in (
             ((-1, 1, d), (1, 1, d), (-1, 1, top)), ((-1, -1, d), (-1, 1, d), (-1, -1, top)),
             ((1, 1, d), (1, -1, d), (1, 1, top)))]
@@ -146,16 +147,24 @@ class Pool:
     def add_deck(self):
         """Stone around the pool, in the sun."""
         w = 4.0
+        slabs = make_tiles(
+            2, 128, ((0.84, 0.77, 0.66), (0.90, 0.84, 0.74)), (0.72, 0.65, 0.56), 0.04)
         for x, y, width, height in ((-w, 1, 2 * w, w), (-w, -w, 2 * w, w - 1), (-w, -1, w - 1, 2),
                                     (1, -1, w - 1, 2)):
             self.add_stone(((x, y, DECK), (x + width, y, DECK), (x, y + height, DECK)),
-                           (0.86, 0.80, 0.70))
+                           (1.0, 1.0, 1.0), slabs, (width, height))
         for corner, other in (((-1, 1), (1, 1)), ((-1, -1), (-1, 1)), ((1, 1), (1, -1))):
             self.add_stone(((*corner, -DECK), (*other, -DECK), (*corner, DECK)),
                            (0.62, 0.60, 0.56))
 
-    def add_stone(self, corners, color):
-        stone = common.make_actor(common.make_plane(*corners, (1, 1)), color)
+    def add_stone(self, corners, color, slabs=None, times=(1, 1)):
+        """Adds a rectangle of one colour, or of slabs, repeated so many times."""
+        plane = common.make_plane(*corners, (1, 1))
+        coordinates = plane.GetPointData().GetTCoords()
+        for i in range(4):
+            coordinates.SetTuple2(i, *(a * b for a, b in zip(coordinates.GetTuple2(i), times)))
+        stone = common.make_actor(plane, color)
+        stone.SetTexture(slabs)
         stone.GetProperty().LightingOff()
         self.renderer.AddActor(stone)
 
@@ -209,7 +218,7 @@ class Pool:
 
 
 def draw_pool(data, size):
-    """The crushed can and two balls in a tiled pool under a summer sky."""
+    """The crushed can, a ball and a duck in a tiled pool under a summer sky."""
     pool = Pool(lambda x, y: sum(a * math.sin(k * x + l * y + p) for a, k, l, p in WAVES),
                 (0.60, 0.10, 0.05), 128, 384)
     pool.add_sides(make_tiles())
@@ -221,35 +230,39 @@ def draw_pool(data, size):
     can.GetMapper().SelectColorArray("Speed")
     can.GetMapper().SetLookupTable(common.make_colors(common.INFERNO[2:], low, high))
     pool.add_colored(make_ball((0.55, 0.55, -0.55), 0.2), (0.95, 0.35, 0.15))
-    pool.add_colored(make_ball((-0.62, 0.5, -0.02), 0.17), (0.98, 0.80, 0.12))
+    duck = place(solids.make_duck(), 0.62, -50, (-0.52, 0.42, 0.08))
+    swims = pool.add_colored(duck, (1, 1, 1))
+    stands_out = common.make_actor(duck)  # the part above the water, by the renderer
+    stands_out.SetProperty(swims.GetProperty())
+    pool.renderer.AddActor(stands_out)
+    for actor in (swims, stands_out):
+        actor.GetMapper().ScalarVisibilityOn()
+        actor.GetMapper().SetScalarModeToUsePointFieldData()
+        actor.GetMapper().SelectColorArray("Paint")
+        actor.GetMapper().SetLookupTable(common.make_colors(solids.PAINT, 0.0, 1.0))
     common.look_from(pool.renderer, (0.22, -2.45, 1.85), (0.0, 0.02, -0.23), (0, 0, 1), 28.5)
     pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
     return common.take(pool.renderer, size)
 
 
-def rings(time):
-    """Height of rings around the place of a drop, `time` after its fall."""
-    def height(x, y):
-        r = math.hypot(x - 0.15, y + 0.05)
-        front = 0.9 * time
-        return 0.035 * math.exp(-((r - front) / 0.22) ** 2) * math.cos(24.0 * (r - front))
-    return height
+# Places of drops that have fallen, and how far their rings have spread.
+DROPS = ((0.2, 0.1, 0.55), (-0.55, 0.5, 0.24), (-0.35, -0.55, 0.36))
+
+
+def get_rings(x, y):
+    """Height of the rings of all drops; the wider a ring, the lower."""
+    return sum(0.0075 / math.sqrt(spread) * math.cos(26.0 * (r - spread)) * math.exp(
+        -((r - spread) / 0.16) ** 2) for r, spread in (
+            (math.hypot(x - a, y - b), spread) for a, b, spread in DROPS))
 
 
 def draw_rings(_data, size):
-    """Three moments of rings that spread over a pool, as a strip."""
-    tiles = make_tiles()
-    strip = vtkImageAppend()
-    strip.SetAppendAxis(0)
-    panel = (size[0] // 3, size[1] // 3)
-    for time in (0.2, 0.5, 0.85):
-        pool = Pool(rings(time), (0.60, 0.10, 0.05), 72, 256)
-        pool.add_sides(tiles)
-        common.look_from(pool.renderer, (0.0, -1.9, 2.9), (0.0, -0.04, -0.25), (0, 0, 1), 31.0)
-        pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
-        strip.AddInputData(common.take(pool.renderer, panel))
-    strip.Update()
-    return strip.GetOutput()
+    """Rings of three drops that have fallen into a pool."""
+    pool = Pool(get_rings, (0.60, 0.10, 0.05), 192, 576)
+    pool.add_sides(make_tiles())
+    common.look_from(pool.renderer, (0.3, -2.5, 2.0), (0.0, -0.04, -0.2), (0, 0, 1), 28.0)
+    pool.renderer.ResetCameraClippingRange(-1.2, 1.2, -1.2, 1.2, -1.5, 0.5)
+    return common.take(pool.renderer, size)
 
 
 FRAMES = 40  # of the loop, which lasts 4 seconds

@@ -9,39 +9,40 @@ from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkFiltersCore import vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkSphereSource
 
-from . import common
+from . import common, volumes
+
+
+# Of the lens: glass between two caps of spheres, in the unit of the combustor's mesh.
+CURVATURE = 16.0
+APERTURE = 2.9  # radius
+TARGET = (8.6, 0.7, 27.8)  # what is enlarged
+DISTANCE = 13.0  # of the lens from it
 
 
 def draw_lens(data, size):
-    """A part of the blunt fin's shock under a magnifying glass."""
-    mesh = data.fin
-    colors = common.make_colors(common.VIRIDIS, 0.4, 3.4)
-    opacity = common.make_opacity(
-        ((0.4, 0.5), (0.8, 0.08), (1.05, 0.0), (1.25, 0.35), (1.8, 0.2), (2.4, 0.7), (3.4, 1.0)))
+    """Jets in the combustor under a magnifying glass."""
+    volume, colors = volumes.make_medium(data)
     renderer = common.make_renderer()
-    glasses = meniscus.vtkRefractingInterfaceCollection()
-    look = common.make_look(colors, opacity, 0.9, False)
-    whole = common.make_volume(mesh, look)
-    mapper = whole.GetMapper()
-    focus, eye, target = (2.2, 2.4, 2.4), (-1.5, 4.5, 27.0), (-0.2, 1.4, 2.4)
-    axis = [e - f for e, f in zip(eye, target)]
+    renderer.AddVolume(volume)
+    common.light_flames(renderer)
+    renderer.GetActiveCamera().Zoom(0.95)
+    axis = [e - t for e, t in zip(renderer.GetActiveCamera().GetPosition(), TARGET)]
     length = math.sqrt(sum(a * a for a in axis))
     axis = [a / length for a in axis]
-    # Two caps of spheres of radius 8 around points of the axis: a lens of 4.6 across.
-    middle = [f + 7.5 * a for f, a in zip(target, axis)]
+    middle = [t + DISTANCE * a for t, a in zip(TARGET, axis)]
+    depth = math.sqrt(CURVATURE ** 2 - APERTURE ** 2)
+    glasses = meniscus.vtkRefractingInterfaceCollection()
     for side in (1, -1):
         exact = vtkSphere()
-        exact.SetRadius(8.0)
-        exact.SetCenter(*(m - side * 7.6 * a for m, a in zip(middle, axis)))
-        mapper.AddMembraneData(make_cap(exact, [side * a for a in axis], 18.2))
+        exact.SetRadius(CURVATURE)
+        exact.SetCenter(*(m - side * depth * a for m, a in zip(middle, axis)))
+        volume.GetMapper().AddMembraneData(make_cap(
+            exact, [side * a for a in axis], math.degrees(math.asin(APERTURE / CURVATURE))))
         glasses.AddInterface(1.0, 1.5).SetExactSurface(exact)
-    mapper.SetInterfaces(glasses)
-    renderer.AddVolume(whole)
-    ring = common.make_actor(make_ring(middle, axis, 2.54, 0.09), (0.75, 0.62, 0.38))
+    volume.GetMapper().SetInterfaces(glasses)
+    ring = common.make_actor(make_ring(middle, axis, 1.02 * APERTURE, 0.09), (0.75, 0.62, 0.38))
     ring.GetProperty().SetSpecular(0.6)
     renderer.AddActor(ring)
-    common.add_lights(renderer, ((-0.7, 0.9, 1.0), (1.0, 0.98, 0.94), 1.1))
-    common.look_from(renderer, eye, focus, (0, 1, 0), 27.0)
     renderer.ResetCameraClippingRange()
     return common.take(renderer, size, common.make_bar(colors, "Density"))
 

@@ -9,8 +9,8 @@ from vtkmodules.vtkRenderingCore import vtkTexture
 from . import common
 
 
-def draw_flames(data, size):
-    """The combustor as a dense medium that scatters light."""
+def make_medium(data):
+    """The combustor as a dense medium that scatters light, and its colours."""
     colors, look = common.make_flames(data.combustor, 0.5)
     low, high = common.get_range(data.combustor)
     # Sheets at two densities, and the densest jets.
@@ -22,6 +22,12 @@ def draw_flames(data, size):
     volume = common.make_volume(data.combustor, look)
     volume.GetMapper().SetGlobalIlluminationReach(0.5)
     volume.GetMapper().SetVolumetricScatteringBlending(2.0)
+    return volume, colors
+
+
+def draw_flames(data, size):
+    """The density in the combustor."""
+    volume, colors = make_medium(data)
     renderer = common.make_renderer()
     renderer.AddVolume(volume)
     common.light_flames(renderer)
