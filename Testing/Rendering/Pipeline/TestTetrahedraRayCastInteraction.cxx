@@ -197,6 +197,41 @@ TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
   }
 }
 
+// Pixels between the window's edge and the first ray have the colour of that ray.
+TEST(TetrahedraRayCastDetail, OppositeEdgesOfACoarseImageAreNotMixed)
+{
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  for (const int backend :
+    { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+  {
+    RayCastScene coarse(grid, Smooth(), 2 * Size, 2 * Size);
+    coarse.GetRayCaster()->AutoAdjustSampleDistancesOff();
+    coarse.GetRayCaster()->SetImageSampleDistance(2.0f);
+    RayCastScene small(grid, Smooth(), Size, Size);
+    for (RayCastScene* scene : { &coarse, &small })
+    {
+      scene->GetRayCaster()->SetBackend(backend);
+      LookAt(scene->GetRenderer(), Bounds, 30.0, 20.0);
+      // The left edge cuts the volume, which does not reach the right one.
+      scene->GetRenderer()->GetActiveCamera()->SetWindowCenter(0.9, 0.0);
+    }
+    const FloatImage large = coarse.RenderFloat();
+    const FloatImage truth = small.RenderFloat();
+    std::size_t covered = 0;
+    for (int y = 1; y < Size - 1; ++y)
+    {
+      ASSERT_EQ(truth.GetPixel(Size - 1, y)[3], 0.0f) << y;
+      const float alpha = truth.GetPixel(0, y)[3];
+      covered += alpha > 0.3f;
+      // As above, between the rays of two rows.
+      ASSERT_NEAR(
+        large.GetPixel(0, 2 * y + 1)[3], 0.75f * alpha + 0.25f * truth.GetPixel(0, y + 1)[3], 0.01f)
+        << y;
+    }
+    EXPECT_GT(covered, 20u);
+  }
+}
+
 TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
