@@ -43,7 +43,8 @@ meniscusInterfaceTimeMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
-  : MaximumTableSize(VTK_TYPE_INT64_MAX)
+  : EarlyTerminationOpacity(meniscus::DefaultTerminationOpacity)
+  , MaximumTableSize(VTK_TYPE_INT64_MAX)
   , Internals(new vtkInternals)
 {
   this->Interfaces = meniscus::MakeInterfaces();
@@ -488,6 +489,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   if (!error.empty())
   {
     return error;
+  }
+  const bool isCoarse = this->AutoAdjustSampleDistances != 0 && pixels > 1.0;
+  if (isCoarse && this->EarlyTerminationOpacity == meniscus::DefaultTerminationOpacity)
+  {
+    frame.EarlyTerminationOpacity = meniscus::CoarseTerminationOpacity;
   }
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);

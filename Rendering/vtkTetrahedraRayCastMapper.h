@@ -440,7 +440,8 @@ public:
   /** @{ */
   /**
    * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
-   * this. Default is 1 - 2^-17; with 1, every ray is integrated to its end.
+   * this. Default is 1 - 2^-17, in place of which images that AutoAdjustSampleDistances makes
+   * coarse have 1 - 2^-9; with 1, every ray is integrated to its end.
    */
   virtual void SetEarlyTerminationOpacity(double opacity);
   vtkGetMacro(EarlyTerminationOpacity, double);
@@ -667,7 +668,7 @@ private:
   double MediumAttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
   double MediumRange[2] = { 0.0, 1.0 };
   double MediumColor[3] = { 0.0, 0.0, 0.0 };
-  double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
+  double EarlyTerminationOpacity;
   float GlobalIlluminationReach = 0.0f;
   float VolumetricScatteringBlending = 0.0f;
   float ImageSampleDistance = 1.0f;

@@ -45,6 +45,14 @@ struct RayCastRefraction
   double EyeDepth = 0.0;
 };
 
+/** Opacity at which a ray ends, unless the application chooses another one. */
+constexpr double DefaultTerminationOpacity = 1.0 - 1.0 / 131072.0;
+/**
+ * The same in images that interaction makes coarse. The error of a pixel is at most what is left,
+ * 1/512, and half a level of 8 bits is 1/510.
+ */
+constexpr double CoarseTerminationOpacity = 1.0 - 1.0 / 512.0;
+
 /** Parameters of a frame besides the tables. */
 struct RayCastFrame
 {

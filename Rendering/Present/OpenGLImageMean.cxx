@@ -22,6 +22,9 @@ vtkSmartPointer<vtkTextureObject> MakeFloatImage(
   vtkOpenGLRenderWindow* window, int width, int height)
 {
   auto image = MakeTexelTexture(window);
+  // VTK's default repeats the image: a linear filter would mix opposite edges.
+  image->SetWrapS(vtkTextureObject::ClampToEdge);
+  image->SetWrapT(vtkTextureObject::ClampToEdge);
   return image->Allocate2D(width, height, 4, VTK_FLOAT) ? image : nullptr;
 }
 

@@ -197,6 +197,83 @@ TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
   }
 }
 
+// Pixels between the window's edge and the first ray have the colour of that ray.
+TEST(TetrahedraRayCastDetail, OppositeEdgesOfACoarseImageAreNotMixed)
+{
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  for (const int backend :
+    { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+  {
+    RayCastScene coarse(grid, Smooth(), 2 * Size, 2 * Size);
+    coarse.GetRayCaster()->AutoAdjustSampleDistancesOff();
+    coarse.GetRayCaster()->SetImageSampleDistance(2.0f);
+    RayCastScene small(grid, Smooth(), Size, Size);
+    for (RayCastScene* scene : { &coarse, &small })
+    {
+      scene->GetRayCaster()->SetBackend(backend);
+      LookAt(scene->GetRenderer(), Bounds, 30.0, 20.0);
+      // The left edge cuts the volume, which does not reach the right one.
+      scene->GetRenderer()->GetActiveCamera()->SetWindowCenter(0.9, 0.0);
+    }
+    const FloatImage large = coarse.RenderFloat();
+    const FloatImage truth = small.RenderFloat();
+    std::size_t covered = 0;
+    for (int y = 1; y < Size - 1; ++y)
+    {
+      ASSERT_EQ(truth.GetPixel(Size - 1, y)[3], 0.0f) << y;
+      const float alpha = truth.GetPixel(0, y)[3];
+      covered += alpha > 0.3f;
+      // As above, between the rays of two rows.
+      ASSERT_NEAR(
+        large.GetPixel(0, 2 * y + 1)[3], 0.75f * alpha + 0.25f * truth.GetPixel(0, y + 1)[3], 0.01f)
+        << y;
+    }
+    EXPECT_GT(covered, 20u);
+  }
+}
+
+// A coarse image of an interaction leaves 1/512 of the light, at most half a level of 8 bits. Still
+// images, fixed distances and opacities that the application sets are not concerned.
+TEST(TetrahedraRayCastDetail, RaysOfAMovingImageEndEarlier)
+{
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  const auto dense = Smooth();
+  dense->SetScalarOpacityUnitDistance(0.05 * dense->GetScalarOpacityUnitDistance());
+  for (const int backend :
+    { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+  {
+    RayCastScene scene(grid, dense, Size, Size);
+    vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+    mapper->SetBackend(backend);
+    mapper->SetMaximumImageSampleDistance(2.0f);
+    const auto renderAt = [&scene, mapper](bool adjusts, float distance)
+    {
+      mapper->SetAutoAdjustSampleDistances(adjusts);
+      mapper->SetImageSampleDistance(distance);
+      return scene.RenderFloat().Rgba;
+    };
+    const auto still = renderAt(true, 1.0f);
+    EXPECT_EQ(still, renderAt(false, 1.0f));
+
+    scene.GetWindow()->SetDesiredUpdateRate(1e6); // more than can be reached
+    const auto moving = renderAt(true, 1.0f);
+    const vtkTypeInt64 steps = mapper->GetNumberOfTraversalSteps();
+    EXPECT_EQ(mapper->GetStatistic("UsedImageSampleDistance"), 2.0);
+    const auto fixed = renderAt(false, 2.0f);
+    EXPECT_LT(steps, mapper->GetNumberOfTraversalSteps() * 9 / 10);
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+    {
+      largest = std::max(largest, std::abs(moving[i] - fixed[i]));
+    }
+    EXPECT_LE(largest, 0.5f / 255.0f);
+    EXPECT_GT(largest, 0.05f / 255.0f);
+
+    mapper->SetEarlyTerminationOpacity(1.0);
+    EXPECT_EQ(renderAt(true, 1.0f), renderAt(false, 2.0f));
+  }
+}
+
 TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 {
   const Grid grid = MakeBlock(6, WavyField(3.0));
