@@ -93,14 +93,14 @@ FixedPointRays::FixedPointRays(
   , Height(height)
   , Pivot(static_cast<std::int32_t>(std::lrint(pivot * GridPerDepth)))
 {
-  // The magnitude of an affine function is largest at a corner.
+  // The magnitude of an affine function is largest at a corner: of the image, not of its rays, so
+  // that vertices have the same places for an image of the same view with more pixels.
   double steepest = 0.0;
-  for (const int column : { 0, width - 1 })
+  for (const double column : { -0.5 * width, 0.5 * width })
   {
-    for (const int row : { 0, height - 1 })
+    for (const double row : { -0.5 * height, 0.5 * height })
     {
-      const glm::dvec2 pixel = this->FromCenter(column, row);
-      const glm::dvec2 slope = glm::abs(frame.Slope.At(pixel.x, pixel.y));
+      const glm::dvec2 slope = glm::abs(frame.Slope.At(column, row));
       steepest = std::max({ steepest, slope.x, slope.y });
     }
   }
