@@ -175,27 +175,7 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
 //------------------------------------------------------------------------------
 void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
 {
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const auto make = [&](int i)
-    {
-      const glm::dvec2 pixel = this->FromCenter(column + i, row);
-      return this->MakeAxis(
-        this->Offset.At(pixel.x, pixel.y)[axis], this->Slope.At(pixel.x, pixel.y)[axis]);
-    };
-    for (int i = 0; i < count; ++i)
-    {
-      const AxisOfRay made = make(i);
-      rays.Offset[axis][i] = made.Offset;
-      rays.Slope[axis][i] = made.Slope;
-    }
-    for (int i = 0; this->Fine && i < count; ++i)
-    {
-      const AxisOfRay made = make(i);
-      rays.Fraction[axis][i] = FractionOf(made.Fraction);
-      rays.SlopeRest[axis][i] = SlopeRestOf(made.SlopeRest);
-    }
-  }
+  this->FillRays([&](int i) { return this->FromCenter(column + i, row); }, count, rays);
 }
 
 }
