@@ -252,7 +252,10 @@ int ChooseEdgeLevel(const std::vector<std::uint8_t>& edges, std::int64_t rays, i
   EdgeCounts pixels{};
   for (const std::uint8_t edge : edges)
   {
-    ++pixels[static_cast<std::size_t>(PixelEdge(edge).GetLevel())];
+    if (edge != 0)
+    {
+      ++pixels[static_cast<std::size_t>(PixelEdge(edge).GetLevel())];
+    }
   }
   const double largestError = LargestError * LargestError * static_cast<double>(edges.size());
   const double wantedRays = LargestShareOfRays * static_cast<double>(rays);

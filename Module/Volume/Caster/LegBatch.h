@@ -21,12 +21,8 @@ struct TileLeg
   const float* OpaqueDepth;
   /** Rays of a pixel along each axis. */
   int RaysAcross = 1;
-  /** Nonzero for each ray of the tile that is cast, in rows of TileSize; null for all rays. */
-  const std::uint8_t* Selected = nullptr;
-  /** Part of the tile outside of which no ray is selected. */
-  BoundaryRaster::TilePart Wanted = BoundaryRaster::TilePart::Whole();
-  /** True if the entries of all these rays were collected for the leg that was cast before. */
-  bool HasEntries = false;
+  /** Rays of the tile that are cast, as for BoundaryRaster; null for all of them. */
+  const std::vector<std::int16_t>* Selected = nullptr;
 };
 
 /** Lines of one leg in one frame that enter the mesh, ready to be cast. */

@@ -3,6 +3,7 @@
 #include "Volume/Caster/PixelRays.h"
 
 #include "Volume/Caster/ImageEdges.h"
+#include "Volume/Caster/TileCurve.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,8 @@ namespace
 {
 
 constexpr std::size_t RaysOfTile = std::size_t{ PixelRays::TileSize } * PixelRays::TileSize;
+
+constexpr TileCurve Curve;
 
 /** Rows of four rays in the four columns of a square: a rotated square, and its mirror image. */
 constexpr int FirstFour[4] = { 1, 3, 0, 2 };
@@ -73,7 +76,9 @@ void PixelRays::Select(Pixel& pixel, int row, int column)
   if (this->Known[ray] == 0)
   {
     this->Known[ray] = 1;
-    this->Selected[ray] = 1;
+    this->Selected.push_back(static_cast<std::int16_t>(ray));
+    // A ray that misses the mesh has no colour.
+    std::fill_n(this->Colors.begin() + static_cast<std::ptrdiff_t>(4 * ray), 4, 0.0f);
     ++pixel.Rays;
   }
 }
@@ -119,38 +124,43 @@ void PixelRays::Begin(const BoundaryRaster::PixelBox& rays, int across, const st
   this->Across = across;
   this->Tolerated = StepOfLevel(level);
   this->Pixels.clear();
-  this->Selected.assign(RaysOfTile, 0);
+  this->Selected.clear();
   this->Known.assign(RaysOfTile, 0);
-  // A ray that misses the mesh has no colour.
-  this->Colors.assign(4 * RaysOfTile, 0.0f);
-  this->Wanted = BoundaryRaster::TilePart::Nothing();
-  for (int bottom = rays.Bottom; bottom < rays.Top; bottom += across)
+  this->Colors.resize(4 * RaysOfTile);
+  const int columns = (rays.Right - rays.Left) / across;
+  const int rows = (rays.Top - rays.Bottom) / across;
+  for (std::size_t i = 0; i < TileCurve::LengthOf(std::max(columns, rows)); ++i)
   {
-    for (int left = rays.Left; left < rays.Right; left += across)
+    const int column = Curve[i] % TileSize;
+    const int row = Curve[i] / TileSize;
+    if (column < columns && row < rows)
     {
-      const std::int64_t number = bottom / across * width + left / across;
-      const PixelEdge edge(edges[number]);
-      if (edge.GetLevel() <= level)
-      {
-        continue;
-      }
-      const int first = (bottom - rays.Bottom) * TileSize + left - rays.Left;
-      Pixel& pixel = this->Pixels.emplace_back(Pixel{ number, first, 0, Round::Four });
-      if (edge.GetLevel() - level <= LevelOfTwoRays)
-      {
-        this->Select(pixel, edge.IsFalling() ? across - 1 : 0, 0);
-        this->Select(pixel, edge.IsFalling() ? 0 : across - 1, across - 1);
-      }
-      else
-      {
-        this->SelectNext(pixel);
-      }
-      for (int row = bottom - rays.Bottom; row < bottom - rays.Bottom + across; ++row)
-      {
-        this->Wanted.Add(row, left - rays.Left, left - rays.Left + across);
-      }
+      const std::int64_t bottom = rays.Bottom / across;
+      const std::int64_t number = (bottom + row) * width + rays.Left / across + column;
+      this->BeginPixel(
+        { number, across * (row * TileSize + column), 0, Round::Four }, edges[number], level);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/** Selects the first rays of a pixel, if it is at an edge above the given level. */
+void PixelRays::BeginPixel(const Pixel& begun, std::uint8_t code, int level)
+{
+  const PixelEdge edge(code);
+  if (edge.GetLevel() <= level)
+  {
+    return;
+  }
+  Pixel& pixel = this->Pixels.emplace_back(begun);
+  if (edge.GetLevel() - level > LevelOfTwoRays)
+  {
+    this->SelectNext(pixel);
+    return;
+  }
+  const int last = this->Across - 1;
+  this->Select(pixel, edge.IsFalling() ? last : 0, 0);
+  this->Select(pixel, edge.IsFalling() ? 0 : last, last);
 }
 
 //------------------------------------------------------------------------------
@@ -191,8 +201,7 @@ bool PixelRays::IsTolerated(const Pixel& pixel, float squaredStep) const
 //------------------------------------------------------------------------------
 bool PixelRays::SelectMore(const float* image)
 {
-  std::fill(this->Selected.begin(), this->Selected.end(), std::uint8_t{ 0 });
-  bool isAny = false;
+  this->Selected.clear();
   for (Pixel& pixel : this->Pixels)
   {
     if (pixel.Next == Round::None)
@@ -208,9 +217,8 @@ bool PixelRays::SelectMore(const float* image)
       this->SelectNext(pixel);
     }
     pixel.Next = pixel.Rays > before ? pixel.Next : Round::None;
-    isAny = isAny || pixel.Rays > before;
   }
-  return isAny;
+  return !this->Selected.empty();
 }
 
 //------------------------------------------------------------------------------

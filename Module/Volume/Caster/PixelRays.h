@@ -47,10 +47,9 @@ public:
   /** Writes the mean colours to the image that has the colours of the centres. */
   void Finish(float* image);
 
-  /** Nonzero for each selected ray, in rows of TileSize; and the part of the tile with pixels. */
-  const std::uint8_t* GetSelected() const { return this->Selected.data(); }
-  const BoundaryRaster::TilePart& GetWanted() const { return this->Wanted; }
-  /** Colours of the tile's rays, four numbers each, in rows of TileSize; 0 to begin with. */
+  /** Selected rays, as for BoundaryRaster. */
+  const std::vector<std::int16_t>& GetSelected() const { return this->Selected; }
+  /** Colours of the tile's rays, four numbers each, in rows of TileSize; 0 for selected rays. */
   float* GetColors() { return this->Colors.data(); }
 
 private:
@@ -70,6 +69,7 @@ private:
     int Rays;
     Round Next;
   };
+  void BeginPixel(const Pixel& begun, std::uint8_t code, int level);
   void Select(Pixel& pixel, int row, int column);
   void SelectFour(Pixel& pixel, const int (&rows)[4]);
   void SelectNext(Pixel& pixel);
@@ -84,8 +84,7 @@ private:
   std::vector<Pixel> Pixels;
   /** Nonzero for each ray that is selected or has been cast. */
   std::vector<std::uint8_t> Known;
-  std::vector<std::uint8_t> Selected;
-  BoundaryRaster::TilePart Wanted = BoundaryRaster::TilePart::Nothing();
+  std::vector<std::int16_t> Selected;
   std::vector<float> Colors;
 };
 

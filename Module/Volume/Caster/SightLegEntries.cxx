@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Caster/SightLegEntries.h"
 
+#include "Volume/Caster/TileCurve.h"
 #include "Volume/Refracted/RayBundleEntries.h"
 
 #include <algorithm>
@@ -14,32 +15,7 @@ namespace
 
 constexpr int TileSize = RefractedRayTiles::TileSize;
 
-/** Every second bit of a number of ten bits, as one number. */
-constexpr std::int32_t EvenBits(std::int32_t number)
-{
-  std::int32_t bits = 0;
-  for (int i = 0; i < 5; ++i)
-  {
-    bits |= (number >> 2 * i & 1) << i;
-  }
-  return bits;
-}
-
-/** Pixels of a tile along the Morton curve. */
-struct CurveOfTile
-{
-  std::int16_t Pixels[TileSize * TileSize]{};
-
-  constexpr CurveOfTile()
-  {
-    for (std::int32_t i = 0; i < TileSize * TileSize; ++i)
-    {
-      this->Pixels[i] = static_cast<std::int16_t>(EvenBits(i >> 1) * TileSize + EvenBits(i));
-    }
-  }
-};
-constexpr CurveOfTile Curve;
-static_assert(TileSize == 32, "EvenBits() takes ten bits");
+constexpr TileCurve Curve;
 static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 
 /** Depths of a frame at which opaque objects end the rays of pixels. */
@@ -79,7 +55,7 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
   const BoundaryTree* tree, const std::vector<RayClippingPlane>& clippingPlanes,
   const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop,
-  int pitch)
+  int pitch, const BoundaryRaster::Refinement& refinement)
   : Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
@@ -87,7 +63,7 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   static const std::vector<BoundaryFace> none;
   const bool isHidden =
     legs.GetNumberOfLegs() > 1 && this->EndBefore(BoxOf(*tree, rays.GetFrame()));
-  this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set, pitch);
+  this->Raster.Build(vertices, isHidden ? none : boundary, rays, loop, set, pitch, refinement);
   this->Frame.Set(rays, vertices, optics);
 }
 
@@ -156,11 +132,12 @@ void SightLegEntries::TakeRays(
   OpaqueEnds ends(this->Rays.GetFrame(), leg.OpaqueDepth);
   // The rays of a square are cast together: they cross the same cells for longer than the rays of a
   // row.
-  for (const std::int32_t pixel : Curve.Pixels)
+  const std::size_t count = leg.Selected ? leg.Selected->size() : TileSize * TileSize;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const auto inTile = static_cast<std::size_t>(pixel);
-    if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1) ||
-      (leg.Selected && leg.Selected[inTile] == 0))
+    const std::int32_t pixel = leg.Selected ? (*leg.Selected)[i] : Curve[i];
+    const std::size_t listed = leg.Selected ? i : static_cast<std::size_t>(pixel);
+    if (entries.GetBegin(listed) == entries.GetBegin(listed + 1))
     {
       continue;
     }
@@ -172,9 +149,9 @@ void SightLegEntries::TakeRays(
     this->Limit(column, row, next ? std::min(end, double{ next[pixel].Depth }) : end, ray);
     if (ray.StartDepth < ray.EndDepth)
     {
-      BoundaryRaster::SetLine(workspace.Raster, inTile, ray);
-      ray.FirstEntry = entries.GetBegin(inTile);
-      ray.EndEntry = entries.GetBegin(inTile + 1);
+      BoundaryRaster::SetLine(workspace.Raster, listed, ray);
+      ray.FirstEntry = entries.GetBegin(listed);
+      ray.EndEntry = entries.GetBegin(listed + 1);
       LegBatch::Origin& origin = batch.Origins.emplace_back();
       origin.Pixel = pixel;
       origin.ReachesInterface = next && ray.EndDepth == this->Rays.FromPivot(next[pixel].Depth);
@@ -201,9 +178,13 @@ void SightLegEntries::Collect(
     (this->Legs.GetNumberOfLegs() == 1 ||
       this->ReachDepth(leg.Tile, this->Raster.NearestDepth(leg.Tile))))
   {
-    if (!leg.HasEntries)
+    if (leg.Selected)
     {
-      this->Raster.CollectEntries(leg.Tile, leg.Wanted, workspace.Raster);
+      this->Raster.CollectEntries(leg.Tile, *leg.Selected, workspace.Raster);
+    }
+    else
+    {
+      this->Raster.CollectEntries(leg.Tile, workspace.Raster);
     }
     this->TakeRays(leg, next, joined, workspace);
   }

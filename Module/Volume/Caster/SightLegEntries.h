@@ -32,11 +32,13 @@ public:
    * All objects that the arguments refer to must outlive this object.
    * @param tree tree over the boundary; may be null if there are no further legs.
    * @param pitch rays from a tile to the next one, as in `legs`.
+   * @param refinement as for BoundaryRaster.
    */
   SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
     const std::vector<BoundaryFace>& boundary, const BoundaryTree* tree,
     const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
-    const FrameOptics& optics, InstructionSet set, const RangeLoop& loop, int pitch);
+    const FrameOptics& optics, InstructionSet set, const RangeLoop& loop, int pitch,
+    const BoundaryRaster::Refinement& refinement);
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }

@@ -39,7 +39,7 @@ RayEventState FirstState(const TileCaster::Scene& scene)
 /** Rays from a tile to the next one: tiles have whole pixels. */
 int PitchOf(const TileCaster::Scene& scene)
 {
-  return BoundaryRaster::TileSize / scene.RaysAcross * scene.RaysAcross;
+  return TileCaster::PixelsAcrossTile(scene.RaysAcross) * scene.RaysAcross;
 }
 
 /** A medium in single precision. */
@@ -77,7 +77,8 @@ TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs,
       PitchOf(scene))
   , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, scene.Refracted.Tree,
-      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop, PitchOf(scene))
+      this->Input.ClippingPlanes, this->Legs, this->SightOptics(), scene.Set, loop, PitchOf(scene),
+      scene.Refining)
 {
   if (scene.PreIntegration)
   {
@@ -380,14 +381,11 @@ RayStatistics TileCaster::Refine(int tile, const float* opaqueDepth, const Edges
   TileWork work{ PacketJob{}, workspace, rays.GetColors(), PixelRays::TileSize, RayStatistics() };
   this->SetPictureOptics(work.Job);
   TileLeg leg = this->FirstLeg(tile, opaqueDepth);
-  leg.Wanted = rays.GetWanted();
-  leg.Selected = rays.GetSelected();
-  this->CastLegs(leg, work);
-  leg.HasEntries = true;
-  while (rays.SelectMore(image))
+  leg.Selected = &rays.GetSelected();
+  do
   {
     this->CastLegs(leg, work);
-  }
+  } while (rays.SelectMore(image));
   rays.Finish(image);
   return work.Sums;
 }

@@ -99,6 +99,8 @@ public:
      * the columns and rows, divisible by it. 1 unless Refine() is called and no ray is refracted.
      */
     int RaysAcross = 1;
+    /** Rays of the pixels' centres, and the tiles for which Refine() is called. */
+    BoundaryRaster::Refinement Refining{};
     /** Planes that clip rays: only the part of a ray on the kept side of all of them is drawn. */
     std::vector<RayClippingPlane> ClippingPlanes;
     /** Transmittance at or below which a ray ends. */
@@ -119,6 +121,9 @@ public:
   /** Sets the mesh and the tables that map scalars to colours, except the tables of LegFrame. */
   static void SetOptics(const Scene& scene, PacketJob& job);
 
+  /** Pixels in a row of a tile, in the image of Refine(). */
+  static int PixelsAcrossTile(int raysAcross) { return BoundaryRaster::TileSize / raysAcross; }
+  const BoundaryRaster& GetRaster() const { return this->Sight.GetRaster(); }
   int GetNumberOfTiles() const { return this->Legs.GetNumberOfTiles(); }
   int GetWidth() const { return this->Legs.GetWidth(); }
   int GetHeight() const { return this->Legs.GetHeight(); }

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -22,6 +23,25 @@ constexpr double Margin = ProjectedFaces::Margin;
  * instruction set, and cheaper than to find the pixels that a face covers.
  */
 constexpr int NarrowBox = 16;
+
+/**
+ * Selected rays that are tested together where a face may be entered by one of them. Half a packet
+ * of the widest instruction set: their boxes are smaller, and neighbouring groups make one span.
+ */
+constexpr std::size_t RaysOfGroup = 8;
+
+/**
+ * A number rounded to float, downwards or upwards: by less than 2^-23 of it, twice as much as the
+ * nearest float may be away.
+ */
+float RoundedDown(double value)
+{
+  return static_cast<float>(value - std::abs(value) * 1.1920928955078125e-07);
+}
+float RoundedUp(double value)
+{
+  return -RoundedDown(-value);
+}
 
 /** A range of pixels in a row. */
 struct PixelSpan
@@ -64,26 +84,17 @@ PixelSpan SpanOf(
 //------------------------------------------------------------------------------
 void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
   const std::vector<BoundaryFace>& faces, const FixedPointRays& rays, const RangeLoop& loop,
-  InstructionSet set, int pitch)
+  InstructionSet set, int pitch, const Refinement& refinement)
 {
   this->Set = set;
   this->Pitch = pitch;
   this->Faces.Set(vertices, faces, rays);
   this->Columns = (rays.GetWidth() + pitch - 1) / pitch;
   this->Rows = (rays.GetHeight() + pitch - 1) / pitch;
-
-  this->Boxes.resize(faces.size());
-  loop(faces.size(),
-    [this](std::size_t first, std::size_t last)
-    {
-      for (std::size_t f = first; f < last; ++f)
-      {
-        const auto index = static_cast<std::int32_t>(f);
-        this->Boxes[f] = this->Faces.BoundPixels(this->Faces.Project(index)).Box;
-      }
-    });
+  this->BoundFaces(refinement.Coarse, loop);
+  const std::uint8_t* const wanted = refinement.Tiles ? refinement.Tiles->data() : nullptr;
   this->FacesOfTiles.Set(static_cast<std::size_t>(this->GetNumberOfTiles()),
-    [this, pitch](const auto& visit)
+    [this, pitch, wanted](const auto& visit)
     {
       for (std::size_t f = 0; f < this->Boxes.size(); ++f)
       {
@@ -96,10 +107,46 @@ void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
         {
           for (int column = box.Left / pitch; column <= (box.Right - 1) / pitch; ++column)
           {
-            visit(
-              static_cast<std::size_t>(row * this->Columns + column), static_cast<std::int32_t>(f));
+            const auto tile = static_cast<std::size_t>(row * this->Columns + column);
+            if (!wanted || wanted[tile] != 0)
+            {
+              visit(tile, static_cast<std::int32_t>(f));
+            }
           }
         }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+/** Finds the pixels of each face, from those in a coarse image if that has the same places. */
+void BoundaryRaster::BoundFaces(const BoundaryRaster* coarse, const RangeLoop& loop)
+{
+  const FixedPointRays& rays = this->GetRays();
+  const std::size_t faces = this->Faces.GetNumberOfFaces();
+  const bool isKnown =
+    coarse && coarse->Extents.size() == faces && coarse->GetRays().PlacesAs(rays);
+  const double across = isKnown ? rays.GetWidth() / coarse->GetRays().GetWidth() : 1;
+  this->Boxes.resize(faces);
+  this->Extents.resize(isKnown ? 0 : faces);
+  loop(faces,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t f = first; f < last; ++f)
+      {
+        if (isKnown)
+        {
+          const Extent& extent = coarse->Extents[f];
+          this->Boxes[f] =
+            this->Faces.PixelsIn(across * glm::dvec2(extent.Lower[0], extent.Lower[1]),
+              across * glm::dvec2(extent.Upper[0], extent.Upper[1]));
+          continue;
+        }
+        const ProjectedFaces::Footprint seen =
+          this->Faces.BoundPixels(this->Faces.Project(static_cast<std::int32_t>(f)));
+        this->Boxes[f] = this->Faces.PixelsIn(seen);
+        this->Extents[f] = { { RoundedDown(seen.Lower.x), RoundedDown(seen.Lower.y) },
+          { RoundedUp(seen.Upper.x), RoundedUp(seen.Upper.y) } };
       }
     });
 }
@@ -125,9 +172,157 @@ double BoundaryRaster::NearestDepth(int tile) const
 }
 
 //------------------------------------------------------------------------------
-/** Sets the lines of the wanted rays of a tile that are in the box. */
-void BoundaryRaster::FillRays(
-  const PixelBox& tile, const TilePart& wanted, const PixelBox& box, Workspace& workspace) const
+/** Sets the lines of the rays of a tile that are in the box. */
+void BoundaryRaster::FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    this->GetRays().FillRow(box.Left, row, box.Right - box.Left,
+      LinesFrom((row - tile.Bottom) * TileSize + box.Left - tile.Left, workspace));
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Adds a face and the pixels of the tile that it may cover; returns their box. */
+ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
+  std::int32_t index, const PixelBox& tile, Workspace& workspace) const
+{
+  const PixelBox& box = this->Boxes[index];
+  const PixelBox part{ std::max(box.Left, tile.Left), std::min(box.Right, tile.Right),
+    std::max(box.Bottom, tile.Bottom), std::min(box.Top, tile.Top) };
+  const int width = part.Right - part.Left;
+  ProjectedFaces::Face face{};
+  double reciprocals[3] = {};
+  if (width > NarrowBox)
+  {
+    face = this->Faces.Project(index);
+    for (int k = 0; k < 3; ++k)
+    {
+      reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
+    }
+  }
+  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
+  workspace.Faces.push_back(this->Faces.GetEntered(index));
+  for (int row = part.Bottom; row < part.Top; ++row)
+  {
+    const PixelSpan span = width <= NarrowBox
+      ? PixelSpan{ 0, width }
+      : SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(part.Left, row), width);
+    if (span.First < span.Last)
+    {
+      const int inRow = (row - tile.Bottom) * TileSize + part.Left - tile.Left;
+      workspace.AddSpan(number, inRow + span.First, inRow + span.Last);
+    }
+  }
+  return part;
+}
+
+//------------------------------------------------------------------------------
+/** Lists the faces of a tile that may cover pixels of a part of it, from near to far. */
+void BoundaryRaster::ListFaces(int tile, const PixelBox& part, Workspace& workspace) const
+{
+  workspace.Faces.clear();
+  workspace.Spans.clear();
+  workspace.SpannedRays = 0;
+  // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
+  // leaves little to sort.
+  workspace.Order.clear();
+  for (const std::int32_t face : this->FacesOfTiles[static_cast<std::size_t>(tile)])
+  {
+    if (this->Boxes[static_cast<std::size_t>(face)].Overlaps(part))
+    {
+      workspace.Order.emplace_back(static_cast<float>(this->Faces.GetNearestDepth(face)), face);
+    }
+  }
+  std::sort(workspace.Order.begin(), workspace.Order.end());
+}
+
+//------------------------------------------------------------------------------
+void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
+{
+  const PixelBox box = this->BoxOfTile(tile);
+  this->ListFaces(tile, box, workspace);
+  PixelBox covered;
+  for (const auto& face : workspace.Order)
+  {
+    covered.Add(this->AddSpans(face.second, box, workspace));
+  }
+  this->PrepareLines(workspace);
+  this->FillRays(box, covered, workspace);
+  this->TestSpans(TileSize * TileSize, workspace);
+}
+
+//------------------------------------------------------------------------------
+/** Finds the boxes of groups of rays; returns the box around all of them. */
+ProjectedFaces::PixelBox BoundaryRaster::GroupRays(
+  const PixelBox& tile, const std::vector<std::int16_t>& rays, Workspace& workspace)
+{
+  PixelBox all;
+  workspace.Groups.clear();
+  for (std::size_t first = 0; first < rays.size(); first += RaysOfGroup)
+  {
+    PixelBox group;
+    for (std::size_t i = first; i < std::min(first + RaysOfGroup, rays.size()); ++i)
+    {
+      const int column = tile.Left + rays[i] % TileSize;
+      const int row = tile.Bottom + rays[i] / TileSize;
+      group.Add({ column, column + 1, row, row + 1 });
+    }
+    workspace.Groups.push_back(group);
+    all.Add(group);
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+/** Adds a face and the groups of rays that it may cover. */
+void BoundaryRaster::AddGroups(std::int32_t index, std::size_t rays, Workspace& workspace) const
+{
+  const PixelBox& box = this->Boxes[static_cast<std::size_t>(index)];
+  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
+  const std::size_t groups = workspace.Groups.size();
+  for (std::size_t group = 0; group < groups; ++group)
+  {
+    const std::size_t first = group;
+    while (group < groups && box.Overlaps(workspace.Groups[group]))
+    {
+      ++group;
+    }
+    if (group > first)
+    {
+      workspace.AddSpan(number, static_cast<std::int32_t>(first * RaysOfGroup),
+        static_cast<std::int32_t>(std::min(group * RaysOfGroup, rays)));
+    }
+  }
+  workspace.Faces.push_back(this->Faces.GetEntered(index));
+}
+
+//------------------------------------------------------------------------------
+void BoundaryRaster::CollectEntries(
+  int tile, const std::vector<std::int16_t>& rays, Workspace& workspace) const
+{
+  const PixelBox box = this->BoxOfTile(tile);
+  this->ListFaces(tile, GroupRays(box, rays, workspace), workspace);
+  for (const auto& face : workspace.Order)
+  {
+    this->AddGroups(face.second, rays.size(), workspace);
+  }
+  this->PrepareLines(workspace);
+  if (!workspace.Spans.empty())
+  {
+    const auto pixelAt = [&](int i)
+    {
+      const int ray = rays[static_cast<std::size_t>(i)];
+      return this->GetRays().FromCenter(box.Left + ray % TileSize, box.Bottom + ray / TileSize);
+    };
+    this->GetRays().FillRays(pixelAt, static_cast<int>(rays.size()), LinesFrom(0, workspace));
+  }
+  this->TestSpans(rays.size(), workspace);
+}
+
+//------------------------------------------------------------------------------
+/** Makes room for lines. */
+void BoundaryRaster::PrepareLines(Workspace& workspace) const
 {
   workspace.Offsets.resize(2 * SizeOfRays);
   workspace.Slopes.resize(2 * SizeOfRays);
@@ -138,130 +333,48 @@ void BoundaryRaster::FillRays(
     std::fill(workspace.Fractions.begin(), workspace.Fractions.end(), 0.0f);
     std::fill(workspace.SlopeRests.begin(), workspace.SlopeRests.end(), 0.0f);
   }
-  for (int row = box.Bottom; row < box.Top; ++row)
-  {
-    const auto inTile = static_cast<std::size_t>(row - tile.Bottom);
-    const int left = std::max(box.Left, tile.Left + wanted.First[inTile]);
-    const int right = std::min(box.Right, tile.Left + wanted.End[inTile]);
-    if (right <= left)
-    {
-      continue;
-    }
-    FixedPointRays::RowOfRays rays;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const int first = axis * SizeOfRays + (row - tile.Bottom) * TileSize + left - tile.Left;
-      rays.Offset[axis] = workspace.Offsets.data() + first;
-      rays.Slope[axis] = workspace.Slopes.data() + first;
-      rays.Fraction[axis] = workspace.Fractions.data() + first;
-      rays.SlopeRest[axis] = workspace.SlopeRests.data() + first;
-    }
-    this->GetRays().FillRow(left, row, right - left, rays);
-  }
 }
 
 //------------------------------------------------------------------------------
-/** Adds a face and the wanted pixels of the tile that it may cover; returns their box. */
-ProjectedFaces::PixelBox BoundaryRaster::AddSpans(
-  std::int32_t index, const PixelBox& tile, const TilePart& wanted, Workspace& workspace) const
+/** The lines from the given number on. */
+FixedPointRays::RowOfRays BoundaryRaster::LinesFrom(int number, Workspace& workspace)
 {
-  const PixelBox& box = this->Boxes[index];
-  const int left = std::max(box.Left, tile.Left);
-  const int right = std::min(box.Right, tile.Right);
-  // Projected for the first row that is wide: often, none of a face's pixels is wanted.
-  bool isProjected = false;
-  ProjectedFaces::Face face{};
-  double reciprocals[3] = {};
-  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
-  PixelBox covered{ tile.Right, tile.Left, tile.Top, tile.Bottom };
-  const int top = std::min(box.Top, tile.Top);
-  for (int row = std::max(box.Bottom, tile.Bottom); row < top; ++row)
+  FixedPointRays::RowOfRays lines;
+  for (int axis = 0; axis < 2; ++axis)
   {
-    const auto inTile = static_cast<std::size_t>(row - tile.Bottom);
-    const int first = std::max(left, tile.Left + wanted.First[inTile]);
-    const int width = std::min(right, tile.Left + wanted.End[inTile]) - first;
-    if (width <= 0)
-    {
-      continue;
-    }
-    covered = { std::min(covered.Left, first), std::max(covered.Right, first + width),
-      std::min(covered.Bottom, row), row + 1 };
-    if (width > NarrowBox && !isProjected)
-    {
-      isProjected = true;
-      face = this->Faces.Project(index);
-      for (int k = 0; k < 3; ++k)
-      {
-        reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
-      }
-    }
-    const PixelSpan span = width <= NarrowBox
-      ? PixelSpan{ 0, width }
-      : SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(first, row), width);
-    if (span.First < span.Last)
-    {
-      const int inRow = (row - tile.Bottom) * TileSize + first - tile.Left;
-      PacketSpan& added = workspace.Spans.emplace_back();
-      added.Face = number;
-      added.First = inRow + span.First;
-      added.End = inRow + span.Last;
-      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
-    }
+    const int first = axis * SizeOfRays + number;
+    lines.Offset[axis] = workspace.Offsets.data() + first;
+    lines.Slope[axis] = workspace.Slopes.data() + first;
+    lines.Fraction[axis] = workspace.Fractions.data() + first;
+    lines.SlopeRest[axis] = workspace.SlopeRests.data() + first;
   }
-  if (!covered.IsEmpty())
-  {
-    workspace.Faces.push_back(this->Faces.GetEntered(index));
-  }
-  return covered;
+  return lines;
 }
 
 //------------------------------------------------------------------------------
-void BoundaryRaster::CollectEntries(int tile, const TilePart& wanted, Workspace& workspace) const
+/** Sets the lists of rays to the entries in the spans. */
+void BoundaryRaster::TestSpans(std::size_t rays, Workspace& workspace) const
 {
-  if (this->IsEmpty(tile))
-  {
-    workspace.Lists.Set(TileSize * TileSize, nullptr, 0, nullptr);
-    return;
-  }
-  // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
-  // leaves little to sort.
-  workspace.Order.clear();
-  for (const std::int32_t face : this->FacesOfTiles[static_cast<std::size_t>(tile)])
-  {
-    workspace.Order.emplace_back(static_cast<float>(this->Faces.GetNearestDepth(face)), face);
-  }
-  std::sort(workspace.Order.begin(), workspace.Order.end());
-  const PixelBox box = this->BoxOfTile(tile);
-  workspace.Faces.clear();
-  workspace.Spans.clear();
-  workspace.SpannedPixels = 0;
-  PixelBox covered{ box.Right, box.Left, box.Top, box.Bottom };
-  for (const auto& face : workspace.Order)
-  {
-    const PixelBox part = this->AddSpans(face.second, box, wanted, workspace);
-    covered = { std::min(covered.Left, part.Left), std::max(covered.Right, part.Right),
-      std::min(covered.Bottom, part.Bottom), std::max(covered.Top, part.Top) };
-  }
-  this->FillRays(box, wanted, covered, workspace);
-  workspace.Hits.resize(std::max(workspace.Hits.size(), workspace.SpannedPixels));
+  workspace.Hits.resize(std::max(workspace.Hits.size(), workspace.SpannedRays));
   PacketSpanJob job;
   job.Vertices = this->Faces.GetVertices().data();
   job.Faces = workspace.Faces.data();
   job.Spans = workspace.Spans.data();
   job.NumberOfSpans = static_cast<std::int32_t>(workspace.Spans.size());
+  const FixedPointRays::RowOfRays lines = LinesFrom(0, workspace);
   for (int axis = 0; axis < 2; ++axis)
   {
-    job.Offsets[axis] = workspace.Offsets.data() + axis * SizeOfRays;
-    job.Slopes[axis] = workspace.Slopes.data() + axis * SizeOfRays;
-    job.Fractions[axis] = workspace.Fractions.data() + axis * SizeOfRays;
-    job.SlopeRests[axis] = workspace.SlopeRests.data() + axis * SizeOfRays;
+    job.Offsets[axis] = lines.Offset[axis];
+    job.Slopes[axis] = lines.Slope[axis];
+    job.Fractions[axis] = lines.Fraction[axis];
+    job.SlopeRests[axis] = lines.SlopeRest[axis];
   }
   job.Pivot = this->GetRays().GetPivot();
   job.RaysAreFine = this->GetRays().AreFine();
   job.Hits = workspace.Hits.data();
   FindEntries(job, this->Set);
-  workspace.Lists.Set(TileSize * TileSize, job.Hits, static_cast<std::size_t>(job.NumberOfHits),
-    workspace.Faces.data());
+  workspace.Lists.Set(
+    rays, job.Hits, static_cast<std::size_t>(job.NumberOfHits), workspace.Faces.data());
 }
 
 }

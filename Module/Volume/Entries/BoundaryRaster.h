@@ -9,7 +9,6 @@
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/ProjectedFaces.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -30,16 +29,27 @@ class BoundaryRaster
 public:
   static constexpr int TileSize = 32;
 
+  /** An image with several times the columns and rows of another one of the same view. */
+  struct Refinement
+  {
+    /** Raster of the same vertices and faces for the other image; null if there is none. */
+    const BoundaryRaster* Coarse;
+    /** Nonzero for each tile whose entries will be collected; null for all tiles. */
+    const std::vector<std::uint8_t>* Tiles;
+  };
+
   /**
    * Sorts faces into tiles.
    * @param vertices vertices of the mesh in the grid of the rays; must outlive this object.
    * @param faces boundary by which rays may enter; must outlive this object.
    * @param loop runs over the faces, as the caller wants to.
    * @param pitch rays from a tile to the next one, at most TileSize.
+   * @param refinement spares most of the work, where a part of a refined image is cast only.
    */
   void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
     const FixedPointRays& rays, const RangeLoop& loop = SerialLoop,
-    InstructionSet set = BestInstructionSet(), int pitch = TileSize);
+    InstructionSet set = BestInstructionSet(), int pitch = TileSize,
+    const Refinement& refinement = { nullptr, nullptr });
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
   const FixedPointRays& GetRays() const { return this->Faces.GetRays(); }
@@ -55,56 +65,38 @@ public:
   /** Smallest depth of the faces by which rays of a tile may enter; infinite if there is none. */
   double NearestDepth(int tile) const;
 
-  /** Rays of a tile: those of each row between two columns, counted from the tile's corner. */
-  struct TilePart
-  {
-    /** The first column of each row, and the one behind the last. */
-    std::array<std::uint8_t, TileSize> First;
-    std::array<std::uint8_t, TileSize> End;
-
-    static TilePart Make(int first, int end)
-    {
-      TilePart part;
-      part.First.fill(static_cast<std::uint8_t>(first));
-      part.End.fill(static_cast<std::uint8_t>(end));
-      return part;
-    }
-    static TilePart Whole() { return Make(0, TileSize); }
-    static TilePart Nothing() { return Make(TileSize, 0); }
-    /** Adds columns of a row, and those between them and others of the row. */
-    void Add(int row, int first, int end)
-    {
-      const auto r = static_cast<std::size_t>(row);
-      this->First[r] = std::min(this->First[r], static_cast<std::uint8_t>(first));
-      this->End[r] = std::max(this->End[r], static_cast<std::uint8_t>(end));
-    }
-  };
-
   /** Buffers of one thread. */
   struct Workspace
   {
-    /** Entries of the tile's rays, which are numbered (row - Bottom) * TileSize + column - Left. */
     EntryLists Lists;
     /** The tile's faces with their nearest depths, from near to far. */
     std::vector<std::pair<float, std::int32_t>> Order;
     std::vector<PacketFace> Faces;
-    /** Pixels that each face may cover, row by row, and the number of these pixels. */
+    /** Rays that may enter by each face, and their number. */
     std::vector<PacketSpan> Spans;
-    std::size_t SpannedPixels = 0;
+    std::size_t SpannedRays = 0;
     std::vector<PacketHit> Hits;
-    /** Lines of the tile's rays: SizeOfRays numbers each in x, then in y. */
+    /** Boxes of the groups of selected rays. */
+    std::vector<PixelBox> Groups;
+    /** Lines of the lists' rays: SizeOfRays numbers each in x, then in y. */
     std::vector<std::int32_t> Offsets;
     std::vector<float> Slopes;
     /** 0 unless rays are fine. */
     std::vector<float> Fractions;
     std::vector<float> SlopeRests;
+
+    void AddSpan(std::int32_t face, std::int32_t first, std::int32_t end)
+    {
+      this->Spans.push_back({ face, first, end });
+      this->SpannedRays += static_cast<std::size_t>(end - first);
+    }
   };
-  /** Sets the line of a ray as in the tile whose entries were collected last. */
-  static void SetLine(const Workspace& workspace, std::size_t pixel, PacketRay& ray)
+  /** Sets the line of a ray of the lists that were collected last. */
+  static void SetLine(const Workspace& workspace, std::size_t number, PacketRay& ray)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
-      const std::size_t at = axis * SizeOfRays + pixel;
+      const std::size_t at = axis * SizeOfRays + number;
       ray.Offset[axis] = workspace.Offsets[at];
       ray.Slope[axis] = workspace.Slopes[at];
       ray.Fraction[axis] = workspace.Fractions[at];
@@ -112,20 +104,35 @@ public:
     }
   }
   /**
-   * Replaces the lists of the workspace by the entries of a tile's rays.
-   * @param wanted rays outside of this part get no entries.
+   * Replaces the lists of the workspace by the entries of all rays of a tile, which are numbered
+   * (row - Bottom) * TileSize + column - Left.
    */
-  void CollectEntries(int tile, const TilePart& wanted, Workspace& workspace) const;
-  void CollectEntries(int tile, Workspace& workspace) const
-  {
-    this->CollectEntries(tile, TilePart::Whole(), workspace);
-  }
+  void CollectEntries(int tile, Workspace& workspace) const;
+  /**
+   * Replaces the lists of the workspace by the entries of some of a tile's rays.
+   * @param rays their numbers among all rays, each once. The lists have the rays in this order; it
+   *   is best if those next to each other are near each other.
+   */
+  void CollectEntries(int tile, const std::vector<std::int16_t>& rays, Workspace& workspace) const;
 
 private:
-  void FillRays(
-    const PixelBox& tile, const TilePart& wanted, const PixelBox& box, Workspace& workspace) const;
-  PixelBox AddSpans(
-    std::int32_t index, const PixelBox& tile, const TilePart& wanted, Workspace& workspace) const;
+  /** Corners of a rectangle in pixels about the image's centre, rounded outwards. */
+  struct Extent
+  {
+    std::array<float, 2> Lower;
+    std::array<float, 2> Upper;
+  };
+
+  void BoundFaces(const BoundaryRaster* coarse, const RangeLoop& loop);
+  void ListFaces(int tile, const PixelBox& part, Workspace& workspace) const;
+  void FillRays(const PixelBox& tile, const PixelBox& box, Workspace& workspace) const;
+  PixelBox AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
+  static PixelBox GroupRays(
+    const PixelBox& tile, const std::vector<std::int16_t>& rays, Workspace& workspace);
+  void AddGroups(std::int32_t index, std::size_t rays, Workspace& workspace) const;
+  void PrepareLines(Workspace& workspace) const;
+  static FixedPointRays::RowOfRays LinesFrom(int number, Workspace& workspace);
+  void TestSpans(std::size_t rays, Workspace& workspace) const;
 
   /** Readable length of each row of the tile's lines (PacketSpanJob). */
   static constexpr int SizeOfRays = TileSize * TileSize + 16;
@@ -137,6 +144,8 @@ private:
   int Rows = 0;
   /** Pixels whose rays may enter by each face. */
   std::vector<PixelBox> Boxes;
+  /** Footprints of the faces. */
+  std::vector<Extent> Extents;
   GroupedItems FacesOfTiles;
 };
 

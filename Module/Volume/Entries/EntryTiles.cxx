@@ -169,14 +169,15 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
         const auto index = static_cast<std::int32_t>(f);
         const ProjectedFaces::Face face = projected.Project(index);
         const ProjectedFaces::Footprint seen = projected.BoundPixels(face, error);
-        if (seen.Box.IsEmpty())
+        const ProjectedFaces::PixelBox box = projected.PixelsIn(seen);
+        if (box.IsEmpty())
         {
           continue;
         }
         Outline outline;
         outline.Face = index;
-        outline.Tiles = { seen.Box.Left / tileSize, (seen.Box.Right - 1) / tileSize + 1,
-          seen.Box.Bottom / tileSize, (seen.Box.Top - 1) / tileSize + 1 };
+        outline.Tiles = { box.Left / tileSize, (box.Right - 1) / tileSize + 1,
+          box.Bottom / tileSize, (box.Top - 1) / tileSize + 1 };
         const bool bounded = seen.Error < std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k)
         {

@@ -291,10 +291,13 @@ void ShadowCast::CastLines(const FrameCaster& caster, ShadowBatch& batch) const
 RayStatistics ShadowCast::Cast(std::size_t first, std::size_t last, ShadowBatch& batch) const
 {
   const std::vector<std::int32_t>& numbers = this->Scene.Starts->GetNumbers();
+  const auto* const cells = this->Scene.Medium.Mesh->GetCells().data();
   batch.Sums = RayStatistics();
   for (std::size_t i = first; i < last; ++i)
   {
     ShadowLine& line = batch.Lines[i - first];
+    // Read by Add(): these cells are far apart in memory, so that each of them would be waited for.
+    __builtin_prefetch(cells + this->Scene.Starts->GetCell(numbers[i]));
     line = this->LineOf(numbers[i]);
     if (line.Frame < 0)
     {

@@ -93,14 +93,14 @@ FixedPointRays::FixedPointRays(
   , Height(height)
   , Pivot(static_cast<std::int32_t>(std::lrint(pivot * GridPerDepth)))
 {
-  // The magnitude of an affine function is largest at a corner.
+  // The magnitude of an affine function is largest at a corner: of the image, not of its rays, so
+  // that vertices have the same places for an image of the same view with more pixels.
   double steepest = 0.0;
-  for (const int column : { 0, width - 1 })
+  for (const double column : { -0.5 * width, 0.5 * width })
   {
-    for (const int row : { 0, height - 1 })
+    for (const double row : { -0.5 * height, 0.5 * height })
     {
-      const glm::dvec2 pixel = this->FromCenter(column, row);
-      const glm::dvec2 slope = glm::abs(frame.Slope.At(pixel.x, pixel.y));
+      const glm::dvec2 slope = glm::abs(frame.Slope.At(column, row));
       steepest = std::max({ steepest, slope.x, slope.y });
     }
   }
@@ -175,27 +175,7 @@ void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec
 //------------------------------------------------------------------------------
 void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
 {
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const auto make = [&](int i)
-    {
-      const glm::dvec2 pixel = this->FromCenter(column + i, row);
-      return this->MakeAxis(
-        this->Offset.At(pixel.x, pixel.y)[axis], this->Slope.At(pixel.x, pixel.y)[axis]);
-    };
-    for (int i = 0; i < count; ++i)
-    {
-      const AxisOfRay made = make(i);
-      rays.Offset[axis][i] = made.Offset;
-      rays.Slope[axis][i] = made.Slope;
-    }
-    for (int i = 0; this->Fine && i < count; ++i)
-    {
-      const AxisOfRay made = make(i);
-      rays.Fraction[axis][i] = FractionOf(made.Fraction);
-      rays.SlopeRest[axis][i] = SlopeRestOf(made.SlopeRest);
-    }
-  }
+  this->FillRays([&](int i) { return this->FromCenter(column + i, row); }, count, rays);
 }
 
 }

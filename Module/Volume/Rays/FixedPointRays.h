@@ -83,6 +83,9 @@ public:
   };
   /** Sets the rays of consecutive pixels of a row. */
   void FillRow(int column, int row, int count, const RowOfRays& rays) const;
+  /** Sets the rays of any pixels; `pixelAt(i)` is the vector to pixel i, see FromCenter(). */
+  template <class PixelAt>
+  void FillRays(const PixelAt& pixelAt, int count, const RowOfRays& rays) const;
   /**
    * PacketRay::LengthPerDepth of a pixel's ray.
    * @param fromCenter the pixel, see FromCenter().
@@ -252,6 +255,33 @@ inline float FixedPointRays::FractionOf(double rest)
 {
   const auto fraction = static_cast<std::int32_t>(rest * FractionsOfRay);
   return static_cast<float>(fraction) * static_cast<float>(1.0 / FractionsOfRay);
+}
+
+//------------------------------------------------------------------------------
+template <class PixelAt>
+void FixedPointRays::FillRays(const PixelAt& pixelAt, int count, const RowOfRays& rays) const
+{
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const auto make = [&](int i)
+    {
+      const glm::dvec2 pixel = pixelAt(i);
+      return this->MakeAxis(
+        this->Offset.At(pixel.x, pixel.y)[axis], this->Slope.At(pixel.x, pixel.y)[axis]);
+    };
+    for (int i = 0; i < count; ++i)
+    {
+      const AxisOfRay made = make(i);
+      rays.Offset[axis][i] = made.Offset;
+      rays.Slope[axis][i] = made.Slope;
+    }
+    for (int i = 0; this->Fine && i < count; ++i)
+    {
+      const AxisOfRay made = make(i);
+      rays.Fraction[axis][i] = FractionOf(made.Fraction);
+      rays.SlopeRest[axis][i] = SlopeRestOf(made.SlopeRest);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -116,11 +116,8 @@ ProjectedFaces::Face ProjectedFaces::Project(std::int32_t index) const
 //------------------------------------------------------------------------------
 ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double error) const
 {
-  const PixelBox whole{ 0, this->Rays.GetWidth(), 0, this->Rays.GetHeight() };
-  glm::dvec2 lower(1.0e30);
-  glm::dvec2 upper(-1.0e30);
+  Footprint seen = Nowhere();
   const double rounding = 1.42 * (error > 0.0 ? error : FixedPointRays::RoundingOfRay);
-  double pixelError = 0.0;
   bool facesAway = true;
   const Vertex& first = face.Vertices[0];
   for (int k = 0; k < 3; ++k)
@@ -137,10 +134,11 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     if (!together || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
     {
       // Near the plane of the eye, the projection of the face is unbounded.
-      return { whole, std::numeric_limits<double>::infinity() };
+      return { glm::dvec2(-Everywhere), glm::dvec2(Everywhere),
+        std::numeric_limits<double>::infinity() };
     }
-    lower = glm::dvec2(std::min(lower.x, pixel.x), std::min(lower.y, pixel.y));
-    upper = glm::dvec2(std::max(upper.x, pixel.x), std::max(upper.y, pixel.y));
+    seen.Lower = glm::dvec2(std::min(seen.Lower.x, pixel.x), std::min(seen.Lower.y, pixel.y));
+    seen.Upper = glm::dvec2(std::max(seen.Upper.x, pixel.x), std::max(seen.Upper.y, pixel.y));
     const double opposite = At(face.Edges[(k + 1) % 3], pixel);
     double margin = Margin;
     if (error > 0.0)
@@ -151,24 +149,33 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     // over the larger one. Both u and v have errors, which are many pixels next to the eye.
     const double largest =
       std::abs(vertex.U[1]) + std::abs(vertex.U[2]) + std::abs(vertex.V[1]) + std::abs(vertex.V[2]);
-    pixelError = std::max(pixelError, rounding * largest * std::abs(perSide));
+    seen.Error = std::max(seen.Error, rounding * largest * std::abs(perSide));
     // Inside a face that faces away, one edge is below a third of its value at the opposite vertex.
     facesAway = facesAway && opposite < -3.0 * margin;
   }
   if (facesAway)
   {
-    return { { 0, 0, 0, 0 }, 0.0 };
+    return Nowhere();
   }
+  seen.Lower -= seen.Error + RoundingOfPixel;
+  seen.Upper += seen.Error + RoundingOfPixel;
+  return seen;
+}
+
+//------------------------------------------------------------------------------
+ProjectedFaces::PixelBox ProjectedFaces::PixelsIn(
+  const glm::dvec2& lower, const glm::dvec2& upper) const
+{
+  const int width = this->Rays.GetWidth();
+  const int height = this->Rays.GetHeight();
   // The centre of pixel p is at p + 1/2.
-  const glm::dvec2 zero = 0.5 * glm::dvec2(whole.Right, whole.Top) - 0.5;
-  const double reach = pixelError + RoundingOfPixel;
-  const auto from = [reach](double value, int size)
-  { return static_cast<int>(std::clamp(std::ceil(value - reach), 0.0, double(size))); };
-  const auto to = [reach](double value, int size)
-  { return static_cast<int>(std::clamp(std::floor(value + reach) + 1.0, 0.0, double(size))); };
-  return { { from(lower.x + zero.x, whole.Right), to(upper.x + zero.x, whole.Right),
-             from(lower.y + zero.y, whole.Top), to(upper.y + zero.y, whole.Top) },
-    pixelError };
+  const glm::dvec2 zero = 0.5 * glm::dvec2(width, height) - 0.5;
+  const auto from = [](double value, int size)
+  { return static_cast<int>(std::clamp(std::ceil(value), 0.0, double(size))); };
+  const auto to = [](double value, int size)
+  { return static_cast<int>(std::clamp(std::floor(value) + 1.0, 0.0, double(size))); };
+  return { from(lower.x + zero.x, width), to(upper.x + zero.x, width),
+    from(lower.y + zero.y, height), to(upper.y + zero.y, height) };
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -66,21 +67,47 @@ public:
 
   struct PixelBox
   {
-    int Left;
-    int Right; // exclusive
-    int Bottom;
-    int Top; // exclusive
+    int Left = 0;
+    int Right = 0; // exclusive
+    int Bottom = 0;
+    int Top = 0; // exclusive
 
     bool IsEmpty() const { return this->Left >= this->Right || this->Bottom >= this->Top; }
+    bool Overlaps(const PixelBox& other) const
+    {
+      return std::max(this->Left, other.Left) < std::min(this->Right, other.Right) &&
+        std::max(this->Bottom, other.Bottom) < std::min(this->Top, other.Top);
+    }
+    /** Makes this the smallest box around both; an empty box adds nothing. */
+    void Add(const PixelBox& other)
+    {
+      if (this->IsEmpty())
+      {
+        *this = other;
+      }
+      else if (!other.IsEmpty())
+      {
+        *this = { std::min(this->Left, other.Left), std::max(this->Right, other.Right),
+          std::min(this->Bottom, other.Bottom), std::max(this->Top, other.Top) };
+      }
+    }
   };
-  /** A box of pixels, and the error of a vertex in pixels. */
+  /** Pixels in a rectangle about the image's centre, and the error of a vertex; both in pixels. */
   struct Footprint
   {
-    PixelBox Box;
+    glm::dvec2 Lower;
+    glm::dvec2 Upper;
     double Error;
   };
+  /** The rectangle from -Everywhere to Everywhere holds all pixels. */
+  static constexpr double Everywhere = 1.0e30;
+  static Footprint Nowhere() { return { glm::dvec2(Everywhere), glm::dvec2(-Everywhere), 0.0 }; }
+  /** The pixels of the image with their centres in a rectangle about the image's centre. */
+  PixelBox PixelsIn(const glm::dvec2& lower, const glm::dvec2& upper) const;
+  PixelBox PixelsIn(const Footprint& seen) const { return this->PixelsIn(seen.Lower, seen.Upper); }
   /**
-   * Box of the pixels whose rays may enter by a face; empty if the face certainly faces away.
+   * Pixels whose rays may enter by a face; none if the face certainly faces away. They are those of
+   * any image of the same view with vertices in the same grid, if its pixels are no larger.
    * @param error error of u and v of a vertex in the caller's arithmetic, in grid units; 0 for rays
    *   of packets, whose error is FixedPointRays::RoundingOfRay.
    */

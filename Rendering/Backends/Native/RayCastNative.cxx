@@ -89,8 +89,9 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
   const int width = target.GetWidth();
   const int height = target.GetHeight();
   const ImageDepths depths{ target.ReadDepths(), target.GetDepthsOfImage() };
-  if (!this->CastTiles(
-        this->Scene.Make(request.Tables, request.Frame, width, height), depths, target))
+  const TileCaster caster(
+    this->Scene.Make(request.Tables, request.Frame, width, height), ThreadedLoop);
+  if (!this->CastTiles(caster, depths, target))
   {
     this->Refined.Forget();
     return std::string();
@@ -104,7 +105,13 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
   }
   const bool finished = this->Refined.Refine(this->Image, width, this->Filled,
     SumOf(this->OfTile).Rays, across, depths, target,
-    [&]() { return this->Scene.Make(request.Tables, request.Frame, width, height, across); });
+    [&]()
+    {
+      TileCaster::Scene scene =
+        this->Scene.Make(request.Tables, request.Frame, width, height, across);
+      scene.Refining.Coarse = &caster.GetRaster();
+      return scene;
+    });
   return finished ? target.WriteImage(this->Refined.GetPixels(), this->Refined.GetFilled())
                   : std::string();
 }
@@ -122,10 +129,9 @@ bool RayCastNative::CastsSeveralRays(const RayCastRequest& request) const
  * if the application gives up the frame.
  */
 bool RayCastNative::CastTiles(
-  const TileCaster::Scene& scene, const ImageDepths& depths, RayCastTarget& target)
+  const TileCaster& caster, const ImageDepths& depths, RayCastTarget& target)
 {
-  const TileCaster caster(scene, ThreadedLoop);
-  const int width = scene.Rays.GetWidth();
+  const int width = caster.GetWidth();
   if (this->Image.size() != 4 * depths.Now.size() || this->ImageWidth != width)
   {
     this->Image.assign(4 * depths.Now.size(), 0.0f);

@@ -39,7 +39,7 @@ public:
 private:
   std::int64_t SizeOf(RayCastTable table, const RayCastTables& tables) const;
   void BoundFilled(const TileCaster& caster);
-  bool CastTiles(const TileCaster::Scene& scene, const ImageDepths& depths, RayCastTarget& target);
+  bool CastTiles(const TileCaster& caster, const ImageDepths& depths, RayCastTarget& target);
 
   NativeScene Scene;
   TableCounter Counter;

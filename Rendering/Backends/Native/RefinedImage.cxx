@@ -24,20 +24,6 @@ auto IsAbove(int level)
   return [level](std::uint8_t edge) { return PixelEdge(edge).GetLevel() > level; };
 }
 
-/** True if a pixel of the box has an edge above a level. */
-bool HasEdges(const PixelBox& box, int width, const std::vector<std::uint8_t>& edges, int level)
-{
-  for (int row = box.Bottom; row < box.Top; ++row)
-  {
-    const auto begin = edges.begin() + std::ptrdiff_t{ row } * width;
-    if (std::any_of(begin + box.Left, begin + box.Right, IsAbove(level)))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 /** Copies a box of an image of four numbers per pixel. */
 void CopyRows(
   const PixelBox& box, int width, const std::vector<float>& from, std::vector<float>& to)
@@ -83,30 +69,66 @@ bool RefinedImage::Refine(const std::vector<float>& image, int width, const Pixe
   this->Tolerated = ChooseEdgeLevel(this->Edges, rays, across);
   this->NumberOfEdges =
     std::count_if(this->Edges.begin(), this->Edges.end(), IsAbove(this->Tolerated));
-  const PixelBox changed = filled.IsEmpty() ? filled : Widen(filled, width, height);
-  this->Filled = { changed.Left, changed.Right, changed.Bottom, changed.Top };
+  const bool hasSize = this->Pixels.size() == image.size() && this->Width == width;
+  const PixelBox before = hasSize ? this->Filled : PixelBox{ 0, 0, 0, 0 };
+  this->Filled = filled.IsEmpty() ? filled : Widen(filled, width, height);
   if (this->NumberOfEdges == 0)
   {
     this->Pixels = image;
+    this->Width = width;
     this->OfTile.clear();
     return true;
   }
-  const TileCaster caster(makeScene(), ThreadedLoop);
-  const bool isKept = depths.Before && this->Tolerated == levelBefore &&
-    this->Pixels.size() == image.size() &&
+  if (!hasSize)
+  {
+    this->Pixels.assign(image.size(), 0.0f);
+    this->Width = width;
+  }
+  this->FindTiles(height, TileCaster::PixelsAcrossTile(across));
+  TileCaster::Scene scene = makeScene();
+  scene.Refining.Tiles = &this->HasEdges;
+  const TileCaster caster(scene, ThreadedLoop);
+  const bool isKept = depths.Before && hasSize && this->Tolerated == levelBefore &&
     this->OfTile.size() == static_cast<std::size_t>(caster.GetNumberOfTiles());
-  this->Pixels.resize(image.size());
   this->OfTile.resize(static_cast<std::size_t>(caster.GetNumberOfTiles()));
-  const bool finished =
-    this->CastTiles(caster, image, width, { depths.Now, isKept ? depths.Before : nullptr }, target);
+  PixelBox changed = this->Filled;
+  changed.Add(before);
+  const bool finished = this->CastTiles(
+    caster, image, changed, { depths.Now, isKept ? depths.Before : nullptr }, target);
   this->BoundFilled(caster);
+  if (!finished)
+  {
+    this->Filled.Add(before);
+  }
   return finished;
 }
 
 //------------------------------------------------------------------------------
-bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
-  const ImageDepths& depths, RayCastTarget& target)
+/** Finds the tiles, of so many columns and rows, with pixels that get several rays. */
+void RefinedImage::FindTiles(int height, int size)
 {
+  const int columns = (this->Width + size - 1) / size;
+  const int rows = (height + size - 1) / size;
+  this->HasEdges.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+  for (int row = 0; row < height; ++row)
+  {
+    const std::uint8_t* const edges = this->Edges.data() + std::ptrdiff_t{ row } * this->Width;
+    std::uint8_t* const tiles = this->HasEdges.data() + std::ptrdiff_t{ row / size } * columns;
+    for (int column = 0; column < this->Width; ++column)
+    {
+      if (edges[column] != 0 && IsAbove(this->Tolerated)(edges[column]))
+      {
+        tiles[column / size] = 1;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>& image,
+  const PixelBox& changed, const ImageDepths& depths, RayCastTarget& target)
+{
+  const int width = this->Width;
   const int height = static_cast<int>(depths.Now.size()) / width;
   this->Tiles.Begin(caster.GetNumberOfTiles(), depths.Before != nullptr,
     [&](int tile)
@@ -120,10 +142,13 @@ bool RefinedImage::CastTiles(const TileCaster& caster, const std::vector<float>&
     [&](int tile)
     {
       const PixelBox box = caster.GetPixels(tile);
-      CopyRows(box, width, image, this->Pixels);
-      SmoothEdges(image, width, height, this->Edges, this->Tolerated, box, this->Pixels);
-      this->OfTile[static_cast<std::size_t>(tile)] =
-        HasEdges(box, width, this->Edges, this->Tolerated)
+      const bool hasEdges = this->HasEdges[static_cast<std::size_t>(tile)] != 0;
+      if (hasEdges || box.Overlaps(changed))
+      {
+        CopyRows(box, width, image, this->Pixels);
+        SmoothEdges(image, width, height, this->Edges, this->Tolerated, box, this->Pixels);
+      }
+      this->OfTile[static_cast<std::size_t>(tile)] = hasEdges
         ? caster.Refine(tile, depths.Now.data(), { this->Edges.data(), this->Tolerated },
             this->Pixels.data(), workspaces.Local())
         : RayStatistics();
@@ -138,10 +163,7 @@ void RefinedImage::BoundFilled(const TileCaster& caster)
   {
     if (this->OfTile[static_cast<std::size_t>(tile)].Rays > 0)
     {
-      const PixelBox box = caster.GetPixels(tile);
-      this->Filled = { std::min(this->Filled.Left, box.Left),
-        std::max(this->Filled.Right, box.Right), std::min(this->Filled.Bottom, box.Bottom),
-        std::max(this->Filled.Top, box.Top) };
+      this->Filled.Add(caster.GetPixels(tile));
     }
   }
 }

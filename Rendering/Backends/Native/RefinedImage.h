@@ -42,23 +42,30 @@ public:
 
   const std::vector<float>& GetPixels() const { return this->Pixels; }
   /** Pixels outside this box are zero. */
-  const RayCastImageBox& GetFilled() const { return this->Filled; }
+  RayCastImageBox GetFilled() const
+  {
+    return { this->Filled.Left, this->Filled.Right, this->Filled.Bottom, this->Filled.Top };
+  }
   std::int64_t GetBytes() const;
   /** Adds the rays of pixels at edges. */
   void AddTo(RayCastStatistics& total) const;
 
 private:
-  bool CastTiles(const TileCaster& caster, const std::vector<float>& image, int width,
-    const ImageDepths& depths, RayCastTarget& target);
+  bool CastTiles(const TileCaster& caster, const std::vector<float>& image,
+    const BoundaryRaster::PixelBox& changed, const ImageDepths& depths, RayCastTarget& target);
+  void FindTiles(int height, int size);
   void BoundFilled(const TileCaster& caster);
 
   std::vector<float> Pixels;
+  int Width = 0;
   /** Edges of the pixels (PixelEdge), in this image and in the image before it. */
   std::vector<std::uint8_t> Edges;
   std::vector<std::uint8_t> EdgesBefore;
+  /** Nonzero for each tile with pixels that get several rays. */
+  std::vector<std::uint8_t> HasEdges;
   std::vector<RayStatistics> OfTile;
   TilesToCast Tiles;
-  RayCastImageBox Filled{ 0, 0, 0, 0 };
+  BoundaryRaster::PixelBox Filled{ 0, 0, 0, 0 };
   /** Edges up to this level are left as they are. */
   int Tolerated = 0;
   std::int64_t NumberOfEdges = 0;

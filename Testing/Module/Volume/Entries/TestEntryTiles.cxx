@@ -152,6 +152,100 @@ std::int64_t CountMissedEntries(const TetrahedralMesh& mesh, const FixedPointRay
   return missed;
 }
 
+/** Entries of selected rays of a refined image, those that differ, and tiles that are not empty. */
+struct RefinedCheck
+{
+  std::int64_t Entries = 0;
+  std::int64_t Different = 0;
+  std::int64_t Unwanted = 0;
+  bool PlacesAlike = false;
+};
+
+/** True if two workspaces have the same line and the same entries for a ray of each. */
+bool HaveSameRay(const BoundaryRaster::Workspace& a, std::size_t rayOfA,
+  const BoundaryRaster::Workspace& b, std::size_t rayOfB)
+{
+  PacketRay lines[2] = {};
+  BoundaryRaster::SetLine(a, rayOfA, lines[0]);
+  BoundaryRaster::SetLine(b, rayOfB, lines[1]);
+  const auto entriesOf = [](const EntryLists& lists, std::size_t ray)
+  {
+    std::vector<std::pair<float, std::int32_t>> entries;
+    for (std::int32_t e = lists.GetBegin(ray); e < lists.GetBegin(ray + 1); ++e)
+    {
+      entries.emplace_back(lists.GetEntries()[e].Depth, lists.GetEntries()[e].CellFace);
+    }
+    return entries;
+  };
+  const auto entries = entriesOf(a.Lists, rayOfA);
+  const bool sameLine = std::equal(std::begin(lines[0].Offset), std::end(lines[0].Offset),
+                          std::begin(lines[1].Offset)) &&
+    std::equal(std::begin(lines[0].Slope), std::end(lines[0].Slope), std::begin(lines[1].Slope));
+  return entries == entriesOf(b.Lists, rayOfB) && (sameLine || entries.empty());
+}
+
+/**
+ * Compares the entries of random rays in every third tile of a refined image with those of all its
+ * rays.
+ */
+RefinedCheck CheckRefinement(
+  const TetrahedralMesh& mesh, const RayFrame& frame, int across, std::mt19937& random)
+{
+  const FixedPointRays pixels(frame, Pixels, Pixels);
+  const FixedPointRays rays(Refined(frame, across), across * Pixels, across * Pixels);
+  std::vector<PacketVertex> ofPixels;
+  std::vector<PacketVertex> ofRays;
+  PlaceVertices(mesh, {}, pixels, SerialLoop, ofPixels);
+  PlaceVertices(mesh, {}, rays, SerialLoop, ofRays);
+  const int pitch = BoundaryRaster::TileSize / across * across;
+  const InstructionSet set = BestInstructionSet();
+  BoundaryRaster coarse;
+  coarse.Build(ofPixels, mesh.GetBoundary(), pixels);
+  BoundaryRaster whole;
+  whole.Build(ofRays, mesh.GetBoundary(), rays, SerialLoop, set, pitch);
+  std::vector<std::uint8_t> tiles(static_cast<std::size_t>(whole.GetNumberOfTiles()), 0);
+  for (std::size_t tile = 0; tile < tiles.size(); tile += 3)
+  {
+    tiles[tile] = 1;
+  }
+  BoundaryRaster part;
+  part.Build(ofRays, mesh.GetBoundary(), rays, SerialLoop, set, pitch, { &coarse, &tiles });
+
+  RefinedCheck check;
+  check.PlacesAlike = rays.PlacesAs(pixels);
+  BoundaryRaster::Workspace all;
+  BoundaryRaster::Workspace some;
+  for (int tile = 0; tile < whole.GetNumberOfTiles(); ++tile)
+  {
+    if (tiles[static_cast<std::size_t>(tile)] == 0)
+    {
+      check.Unwanted += part.IsEmpty(tile) ? 0 : 1;
+      continue;
+    }
+    const ProjectedFaces::PixelBox box = whole.BoxOfTile(tile);
+    std::vector<std::int16_t> selected;
+    for (std::int16_t ray = 0; ray < BoundaryRaster::TileSize * BoundaryRaster::TileSize; ++ray)
+    {
+      const bool isInside = ray % BoundaryRaster::TileSize < box.Right - box.Left &&
+        ray / BoundaryRaster::TileSize < box.Top - box.Bottom;
+      if (isInside && random() % 3 == 0)
+      {
+        selected.push_back(ray);
+      }
+    }
+    std::shuffle(selected.begin(), selected.end(), random);
+    whole.CollectEntries(tile, all);
+    part.CollectEntries(tile, selected, some);
+    for (std::size_t i = 0; i < selected.size(); ++i)
+    {
+      const auto ray = static_cast<std::size_t>(selected[i]);
+      check.Entries += all.Lists.GetBegin(ray + 1) - all.Lists.GetBegin(ray);
+      check.Different += HaveSameRay(all, ray, some, i) ? 0 : 1;
+    }
+  }
+  return check;
+}
+
 }
 
 TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
@@ -261,6 +355,29 @@ TEST(BoundaryRaster, FindsEveryEntryFromAnEyeAtAVertex)
       const FixedPointRays rays(frame, Pixels, Pixels, frame.NearDepth, spacing);
       ASSERT_EQ(rays.AreFine(), spacing == 0.0);
       EXPECT_EQ(CountMissedEntries(mesh, rays), 0) << i;
+    }
+  }
+}
+
+TEST(BoundaryRaster, FindsTheSameEntriesForPartsOfRefinedImages)
+{
+  // Views from outside, and from inside, where faces are unbounded in the image. Thirds of a pixel
+  // are rounded, so that vertices may have other places about them.
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(Apart(KuhnGrid(5), 0.9).View()), MeshStatus::Ok);
+  std::mt19937 random(7);
+  for (const int across : { 2, 3, 4 })
+  {
+    for (const double degrees : { 0.0, 30.0, 100.0 })
+    {
+      const glm::dvec3 eye =
+        degrees < 60.0 ? glm::dvec3(1.9, 1.3, 2.2) : glm::dvec3(0.41, 0.37, 0.9);
+      const RayFrame frame = FrameFrom(mesh, eye, degrees);
+      const RefinedCheck check = CheckRefinement(mesh, frame, across, random);
+      EXPECT_GT(check.Entries, 1000);
+      EXPECT_EQ(check.Different, 0) << across << " " << degrees;
+      EXPECT_EQ(check.Unwanted, 0);
+      EXPECT_TRUE(check.PlacesAlike || across == 3);
     }
   }
 }
