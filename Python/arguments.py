@@ -106,6 +106,12 @@ def take_range(argument, value):
     return low, high
 
 
+def check_plotter(value):
+    """A plotter of PyVista."""
+    if not hasattr(value, "add_volume"):
+        refuse("plotter", "a pyvista.Plotter", value)
+
+
 def check_dataset(argument, value):
     """A dataset of VTK or PyVista, or a filter whose output is one."""
     if not isinstance(value, vtkDataObject) and not hasattr(value, "GetOutputPort"):

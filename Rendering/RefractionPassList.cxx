@@ -109,6 +109,13 @@ std::vector<vtkProp*> RefractionList::ListObjects(vtkActor* membrane, bool areRe
 }
 
 //------------------------------------------------------------------------------
+bool RefractionList::HasVolume(vtkActor* membrane) const
+{
+  return std::any_of(this->All.begin(), this->All.end(),
+    [membrane](const Refraction& one) { return one.Membrane == membrane && one.GetVolume(); });
+}
+
+//------------------------------------------------------------------------------
 const Refraction& RefractionList::FirstOf(vtkActor* membrane) const
 {
   return *std::find_if(this->All.begin(), this->All.end(),

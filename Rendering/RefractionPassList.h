@@ -69,6 +69,8 @@ public:
   std::vector<vtkActor*> ListMembranes() const;
   /** Visible objects, without volumes. */
   std::vector<vtkProp*> ListObjects(vtkActor* membrane, bool areReflections) const;
+  /** True if a volume was added behind the membrane. */
+  bool HasVolume(vtkActor* membrane) const;
   /** The first of a membrane. @pre there is one */
   const Refraction& FirstOf(vtkActor* membrane) const;
   /** The object or volume as it was added; null if it was not. */

@@ -29,6 +29,7 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3D.h"
 #include "vtkProperty.h"
+#include "vtkRect.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
@@ -332,6 +333,10 @@ void vtkRefractionPass::DrawMembrane(
   const meniscus::PictureSize picture(drawn);
   const int(&size)[2] = picture.Size;
   vtkOpenGLState* state = window->GetState();
+  // Volumes are cast to images of their own, which the limits of this one must not cut.
+  const vtkRecti part = internals.Refractions.HasVolume(membrane)
+    ? vtkRecti(0, 0, size[0], size[1])
+    : meniscus::FindPixels(renderer, membrane->GetBounds(), size);
   state->Push();
   state->PushFramebufferBindings();
   const bool ready = internals.Objects.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR) &&
@@ -341,8 +346,8 @@ void vtkRefractionPass::DrawMembrane(
   if (ready)
   {
     this->UpdateLighting(renderer, membrane);
-    this->DrawObjects(renderer, state, membrane);
-    this->DrawSurface(renderer, state, membrane);
+    this->DrawObjects(renderer, state, membrane, part);
+    this->DrawSurface(renderer, state, membrane, part);
   }
   state->PopFramebufferBindings();
   state->Pop();
@@ -353,7 +358,8 @@ void vtkRefractionPass::DrawMembrane(
     return;
   }
   state->Push();
-  picture.Set(state);
+  picture.Set(state, part);
+  state->vtkglEnable(GL_SCISSOR_TEST);
   this->Compose(renderer, window, membrane);
   state->Pop();
   vtkOpenGLCheckErrorMacro("failed after drawing a membrane");
@@ -362,7 +368,7 @@ void vtkRefractionPass::DrawMembrane(
 //------------------------------------------------------------------------------
 /** Draws the virtual geometry behind the membrane: the refracted one and the mirror images. */
 void vtkRefractionPass::DrawObjects(
-  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
+  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane, const vtkRecti& part)
 {
   vtkInternals& internals = *this->Internals;
   for (const bool areReflections : { true, false })
@@ -373,7 +379,7 @@ void vtkRefractionPass::DrawObjects(
       continue;
     }
     meniscus::RefractionTarget& target = areReflections ? internals.Mirrored : internals.Objects;
-    target.Begin(state);
+    target.Begin(state, part);
     internals.Stage =
       areReflections ? vtkInternals::Stages::Mirrored : vtkInternals::Stages::Objects;
     vtkRenderState objects(renderer);
@@ -414,10 +420,10 @@ void vtkRefractionPass::DrawVolumes(
 //------------------------------------------------------------------------------
 /** Draws the membrane's normals and depths. */
 void vtkRefractionPass::DrawSurface(
-  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
+  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane, const vtkRecti& part)
 {
   vtkInternals& internals = *this->Internals;
-  internals.Membrane.Begin(state);
+  internals.Membrane.Begin(state, part);
   state->vtkglDisable(GL_BLEND);
   internals.Stage = vtkInternals::Stages::Membrane;
   internals.Surface->SetMapper(membrane->GetMapper());

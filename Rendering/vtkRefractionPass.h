@@ -69,6 +69,7 @@ class vtkActor;
 class vtkOpenGLRenderWindow;
 class vtkOpenGLState;
 class vtkProp3D;
+class vtkRecti;
 class vtkRefractedGeometryFilter;
 class vtkRenderer;
 class vtkTexture;
@@ -352,9 +353,11 @@ private:
 
   void DrawMembrane(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawInFront(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
-  void DrawObjects(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
+  void DrawObjects(
+    vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane, const vtkRecti& part);
   void DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, meniscus::MembranePart part);
-  void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
+  void DrawSurface(
+    vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane, const vtkRecti& part);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void UpdateMedium();
   void ChooseLighting();

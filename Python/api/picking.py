@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..arguments import take_number
+from ..arguments import check_dataset, check_plotter, take_number
 from ..names import choose
 from ..vtkMeniscus import vtkTetrahedraVolumePicker
 from .mapper import TetrahedraRayCastMapper
@@ -59,6 +59,8 @@ def pick(
     Returns a Pick. Raises ValueError if the plotter does not show the mesh as a volume, and for
     another name of a place.
     """
+    check_dataset("mesh", mesh)
+    check_plotter(plotter)
     x, y = take_number("x", x), take_number("y", y)
     opacity = take_number("opacity", opacity, least=0.0, most=1.0)
     volumes = _volumes_of(mesh, plotter)

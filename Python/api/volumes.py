@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonCore import VTK_SCALE_LOG10, vtkDataArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
 
 from ..arguments import (
-    check_count, check_finite, check_numbers, refuse, take_number, take_range)
+    check_count, check_finite, check_numbers, check_plotter, refuse, take_number, take_range)
 from ..data import leaves_of
 from ..names import BACKENDS, ISOSURFACE_OPACITY, MATERIAL, SCATTERED_SHARE, SHADOWED_MATERIAL
 from ..viewer.cells import drawn_cells_of, drawn_leaves_of
@@ -333,8 +333,7 @@ def add_to(
     """
     _refuse_mapper(arguments.pop("mapper", None))
     source, mesh = mesh, _wrap(mesh, resolution)
-    if not hasattr(plotter, "add_volume"):
-        refuse("plotter", "a pyvista.Plotter", plotter)
+    check_plotter(plotter)
     if multi_colors and isinstance(mesh, pyvista.MultiBlock):
         return _add_blocks(plotter, mesh, scalars, name, dict(
             arguments, component=component, rgba=rgba, opacity_array=opacity_array,

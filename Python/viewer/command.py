@@ -30,6 +30,7 @@ EXAMPLES = """examples:
 # Pixels along a side that OpenGL draws everywhere at once: larger pictures are cut off, or exceed
 # the memory.
 _LARGEST_SIZE = 16384
+_WATER = 1.333  # index of refraction
 
 
 def _pair_of(text, separator, kind):
@@ -87,9 +88,10 @@ def _add_look(parser):
                         "cmocean, colorcet or trame-colormaps where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
-                        "tenth of the mesh's diagonal; default: the rarer a value, the more opaque")
-    parser.add_argument("--blend", default="composite", metavar="MODE", offers=BLEND_MODES,
-                        help="blend mode: " + ", ".join(BLEND_MODES))
+                         "tenth of the mesh's diagonal; default: the rarer a value, the more opaque")
+    parser.add_argument("--blend", metavar="MODE", offers=BLEND_MODES,
+                        help="blend mode: " + ", ".join(BLEND_MODES) + "; default: composite, with "
+                        "--isovalues isosurface")
     parser.add_argument("--isovalues", type=float, nargs="+", metavar="VALUE",
                         help="isosurfaces of these values")
     parser.add_argument("--density", type=float, default=1.0, metavar="FACTOR",
@@ -115,8 +117,8 @@ def _add_view(parser):
     parser.add_argument("--water", metavar="SURFACE",
                         help="file of a refracting surface through which the volume is seen; its "
                         "normals point to the eye's side")
-    parser.add_argument("--index", type=float, default=1.333,
-                        help="index of refraction behind the surface; default: 1.333")
+    parser.add_argument("--index", type=float,
+                        help=f"index of refraction behind the surface; default: {_WATER}")
     parser.add_argument("--backend", default="automatic", metavar="NAME", offers=BACKENDS,
                         help="caster of rays: " + ", ".join(BACKENDS))
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
@@ -171,8 +173,11 @@ def make_scene(options, report=lambda line: None):
     scene.set_colors(options.colors)
     scene.set_density(options.density)
     scene.set_opacities(options.opacity)
-    scene.set_blend(options.blend)
+    scene.set_blend(options.blend or "composite")
     if options.isovalues:
+        if options.blend not in (None, "isosurface"):
+            raise ReadingError("--isovalues are those of --blend isosurface, not of --blend "
+                               + options.blend)
         scene.set_isovalues(options.isovalues)
     scene.set_lit(options.light or options.shadows)
     scene.set_shadows(1.0 if options.shadows else 0.0)
@@ -184,7 +189,10 @@ def make_scene(options, report=lambda line: None):
     if options.clip is not None:
         scene.set_clip(*_split_clip(options.clip))
     if options.water:
-        scene.set_surface(read_surface(options.water), options.index)
+        scene.set_surface(read_surface(options.water),
+                          _WATER if options.index is None else options.index)
+    elif options.index is not None:
+        raise ReadingError("--index is that behind a surface, which --water SURFACE names")
     if len(options.units) > 2:
         raise ReadingError("--units takes at most two: of lengths and of the array")
     scene.set_units(*options.units)

@@ -4,6 +4,7 @@
 
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkOpenGLState.h"
+#include "vtkRect.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 
@@ -31,8 +32,15 @@ struct PictureSize
 
   void Set(vtkOpenGLState* state) const
   {
+    this->Set(state, { 0, 0, this->Size[0], this->Size[1] });
+  }
+
+  /** Limits drawing to a part of the image. */
+  void Set(vtkOpenGLState* state, const vtkRecti& part) const
+  {
     state->vtkglViewport(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
-    state->vtkglScissor(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
+    state->vtkglScissor(this->Origin[0] + part.GetX(), this->Origin[1] + part.GetY(),
+      part.GetWidth(), part.GetHeight());
   }
 };
 

@@ -39,12 +39,13 @@ bool RefractionTarget::Ready(vtkOpenGLRenderWindow* window, int width, int heigh
 }
 
 //------------------------------------------------------------------------------
-void RefractionTarget::Begin(vtkOpenGLState* state)
+void RefractionTarget::Begin(vtkOpenGLState* state, const vtkRecti& part)
 {
   this->Buffer->Bind();
   this->Buffer->ActivateDrawBuffers(1);
   state->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
-  state->vtkglScissor(0, 0, this->Size[0], this->Size[1]);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(part.GetX(), part.GetY(), part.GetWidth(), part.GetHeight());
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_LEQUAL);
   state->vtkglDepthMask(GL_TRUE);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "vtkOpenGLFramebufferObject.h"
+#include "vtkRect.h"
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
@@ -22,8 +23,11 @@ struct RefractionTarget
   int Size[2] = { 0, 0 };
 
   bool Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType);
-  /** Binds the framebuffer and clears it: colour (0, 0, 0, 0), depth 1. */
-  void Begin(vtkOpenGLState* state);
+  /**
+   * Binds the framebuffer, limits drawing to a part of it and clears that: colour (0, 0, 0, 0),
+   * depth 1.
+   */
+  void Begin(vtkOpenGLState* state, const vtkRecti& part);
   void Release(vtkWindow* window);
 };
 

@@ -3,9 +3,12 @@
 #include "Rendering/Pass/ViewBounds.h"
 
 #include "vtkCamera.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -33,6 +36,40 @@ bool MayBeInView(vtkRenderer* renderer, const double bounds[6])
     }
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+// The matrices are those of drawing, also in stereo. Fragments lie within a pixel of the corners'
+// rectangle: shaders transform points in single precision.
+vtkRecti FindPixels(vtkRenderer* renderer, const double bounds[6], const int (&size)[2])
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkNew<vtkMatrix4x4> toClip;
+  vtkMatrix4x4::Multiply4x4(
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0),
+    camera->GetModelViewTransformMatrix(), toClip);
+  double low[2] = { std::numeric_limits<double>::max(), std::numeric_limits<double>::max() };
+  double high[2] = { 0.0, 0.0 };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double place[4] = { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)],
+      bounds[4 + (corner >> 2 & 1)], 1.0 };
+    double clip[4];
+    toClip->MultiplyPoint(place, clip);
+    if (!(clip[3] > 0.0))
+    {
+      return { 0, 0, size[0], size[1] };
+    }
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double pixel = 0.5 * (clip[axis] / clip[3] + 1.0) * size[axis];
+      low[axis] = std::min(low[axis], std::clamp(pixel - 1.0, 0.0, double(size[axis])));
+      high[axis] = std::max(high[axis], std::clamp(pixel + 1.0, 0.0, double(size[axis])));
+    }
+  }
+  const int first[2] = { static_cast<int>(low[0]), static_cast<int>(low[1]) };
+  return { first[0], first[1], static_cast<int>(std::ceil(high[0])) - first[0],
+    static_cast<int>(std::ceil(high[1])) - first[1] };
 }
 
 //------------------------------------------------------------------------------

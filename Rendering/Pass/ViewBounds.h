@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vtkRect.h"
+
 class vtkRenderer;
 
 namespace meniscus
@@ -9,6 +11,12 @@ namespace meniscus
 
 /** True if a part of the box may be in view: if no plane of the frustum has all corners outside. */
 bool MayBeInView(vtkRenderer* renderer, const double bounds[6]);
+
+/**
+ * Rectangle of the pixels that a box may cover in a picture of a width and a height: the whole
+ * picture if a part of the box is beside or behind the eye.
+ */
+vtkRecti FindPixels(vtkRenderer* renderer, const double bounds[6], const int (&size)[2]);
 
 /**
  * Widens the camera's clipping range so that it contains the bounds, as the renderer does for its

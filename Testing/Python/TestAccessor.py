@@ -443,6 +443,10 @@ class TestPick(unittest.TestCase):
                 self.assertIsNone(meniscus.pick(mesh, plotter, 0, 0))
                 with self.assertRaisesRegex(ValueError, "does not show this mesh"):
                     meniscus.pick(make_cube(), plotter, 0, 0)
+                with self.assertRaisesRegex(TypeError, "mesh must be a dataset, not NoneType"):
+                    meniscus.pick(None, plotter, 0, 0)
+                with self.assertRaisesRegex(TypeError, "must be a pyvista.Plotter, not NoneType"):
+                    meniscus.pick(mesh, None, 0, 0)
                 with self.assertRaisesRegex(ValueError, "known are first_visible"):
                     meniscus.pick(mesh, plotter, 0, 0, place="last")
                 plotter.close()

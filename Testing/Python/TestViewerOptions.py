@@ -251,6 +251,9 @@ class TestMessages(Case):
                                    (["--compare", "--light"], "without --light"),
                                    (["--compare", "--shadows"], "--shadows"),
                                    (["--compare", "--blend", "maximum"], "composite"),
+                                   (["--index", "1.5"], "--water SURFACE"),
+                                   (["--blend", "maximum", "--isovalues", "0.5"],
+                                    "--isovalues are those of --blend isosurface"),
                                    (["--units", "m", "K", "s"], "at most two")):
             status, _, errors = self.run_command(self.mesh, *arguments)
             self.assertEqual(status, 1, arguments)

@@ -25,6 +25,10 @@ constexpr std::size_t CacheSize = 1024;
 // The table is doubled when it is half full.
 constexpr std::size_t SmallestEdgeTable = 64;
 
+// Parts of a triangle whose sides are solved together: few enough that their middles do not replace
+// each other in the cache.
+constexpr std::size_t PartsAtOnce = 64;
+
 constexpr std::int32_t NotSplit = -1;
 
 std::size_t Hash(const glm::dvec3& point)
@@ -45,7 +49,7 @@ EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double to
   : Geometry(geometry)
   , Tolerance(tolerance)
   , Cache(std::move(GetSpareCache()))
-  , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0 })
+  , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0, false })
 {
   static std::atomic<std::uint64_t> last{ 0 };
   this->Number = ++last;
@@ -151,15 +155,45 @@ void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
 }
 
 //------------------------------------------------------------------------------
+// Solves the points on the edges `Tested` that FindShape looks at, side by side.
+void EdgeSubdivision::PrepareShapes()
+{
+  this->TestedImages.clear();
+  for (int depth = 0; !this->Tested.empty(); ++depth)
+  {
+    this->TestedEnds.clear();
+    for (const Stretch& part : this->Tested)
+    {
+      this->TestedEnds.push_back(
+        GetEnds(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]));
+    }
+    this->PrepareMiddles(this->TestedEnds.data(), this->TestedEnds.size());
+    this->NextTested.clear();
+    for (const Stretch& part : this->Tested)
+    {
+      const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
+      const Middle& middle = this->FindEntry(point);
+      if (this->IsStored(middle, point) &&
+        this->JudgeMiddle(part, middle.Vertex, depth) == Shape::Undecided)
+      {
+        this->TestedImages.push_back(middle.Vertex); // its entry may be overwritten
+        const std::array<Stretch, 2> halves = Halve(part, this->TestedImages.back());
+        this->NextTested.insert(this->NextTested.end(), halves.begin(), halves.end());
+      }
+    }
+    this->Tested.swap(this->NextTested);
+  }
+}
+
+//------------------------------------------------------------------------------
 void EdgeSubdivision::PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides)
 {
-  std::vector<Ends> ends;
-  ends.reserve(sides.size());
+  this->Tested.clear();
   for (const std::array<ImagedPoint, 2>& side : sides)
   {
-    ends.push_back(GetEnds(side[0].Point, *side[0].Image, side[1].Point, *side[1].Image));
+    this->Tested.push_back(MakeStretch(side[0], side[1]));
   }
-  this->PrepareMiddles(ends.data(), ends.size());
+  this->PrepareShapes();
 }
 
 //------------------------------------------------------------------------------
@@ -199,44 +233,84 @@ bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex&
 }
 
 //------------------------------------------------------------------------------
+// True if the image of a line may be S-shaped between two points.
+bool EdgeSubdivision::MayTurn(const VirtualVertex& a, const VirtualVertex& b) const
+{
+  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
+  return MayTurnTwice(
+    glm::length(glm::normalize(a.Position - eye) - glm::normalize(b.Position - eye)),
+    this->Tolerance);
+}
+
+//------------------------------------------------------------------------------
+// True if the halves of an edge that is divided need no test. An edge whose middle is on its chord
+// is divided because of waves between.
+bool EdgeSubdivision::AreHalvesSmooth(
+  const VirtualVertex& a, const VirtualVertex& middle, const VirtualVertex& b) const
+{
+  const glm::dvec3 drawn = 0.5 * (a.Position + b.Position);
+  return !this->IsDrawnWell(drawn, middle) && this->IsDrawnWell(drawn, middle, TestedParts) &&
+    this->AreNeighbours(a, middle) && this->AreNeighbours(middle, b) && !this->MayTurn(a, middle) &&
+    !this->MayTurn(middle, b);
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::Stretch EdgeSubdivision::MakeStretch(const ImagedPoint& a, const ImagedPoint& b)
+{
+  return { { a.Point, b.Point }, { a.Image->Position, b.Image->Position }, { a.Image, b.Image } };
+}
+
+//------------------------------------------------------------------------------
+std::array<EdgeSubdivision::Stretch, 2> EdgeSubdivision::Halve(
+  const Stretch& part, const VirtualVertex& middle)
+{
+  const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
+  const glm::dvec3 drawn = 0.5 * (part.Drawn[0] + part.Drawn[1]);
+  return { { { { part.Point[0], point }, { part.Drawn[0], drawn }, { part.Image[0], &middle } },
+    { { point, part.Point[1] }, { drawn, part.Drawn[1] }, { &middle, part.Image[1] } } } };
+}
+
+//------------------------------------------------------------------------------
+// The shape of a part of an edge, as far as its middle tells it.
+EdgeSubdivision::Shape EdgeSubdivision::JudgeMiddle(
+  const Stretch& part, const VirtualVertex& middle, int depth) const
+{
+  if (middle.State != ImageState::Found)
+  {
+    return Shape::Open;
+  }
+  if (!this->IsDrawnWell(0.5 * (part.Drawn[0] + part.Drawn[1]), middle))
+  {
+    return Shape::Bent;
+  }
+  const bool isSampled = this->AreNeighbours(*part.Image[0], middle) &&
+    this->AreNeighbours(middle, *part.Image[1]) && !this->MayTurn(*part.Image[0], *part.Image[1]);
+  return depth == DeepestLevel || isSampled ? Shape::Straight : Shape::Undecided;
+}
+
+//------------------------------------------------------------------------------
 EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth)
 {
   // A copy, because the next entry may overwrite this one in the cache.
   const VirtualVertex middle =
     this->FindMiddle(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]);
-  if (middle.State != ImageState::Found)
+  Shape shape = this->JudgeMiddle(part, middle, depth);
+  if (shape == Shape::Undecided)
   {
-    return Shape::Open;
+    shape = Shape::Straight;
+    for (const Stretch& half : Halve(part, middle))
+    {
+      shape = shape == Shape::Straight ? this->FindShape(half, depth + 1) : shape;
+    }
   }
-  const glm::dvec3 drawn = 0.5 * (part.Drawn[0] + part.Drawn[1]);
-  if (!this->IsDrawnWell(drawn, middle))
-  {
-    return Shape::Bent;
-  }
-  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-  const double angle =
-    glm::length(glm::normalize(part.Drawn[0] - eye) - glm::normalize(part.Drawn[1] - eye));
-  if (depth == DeepestLevel ||
-    (this->AreNeighbours(*part.Image[0], *part.Image[1]) && !MayTurnTwice(angle, this->Tolerance)))
-  {
-    return Shape::Straight;
-  }
-  const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
-  const Shape first = this->FindShape(
-    { { part.Point[0], point }, { part.Drawn[0], drawn }, { part.Image[0], &middle } }, depth + 1);
-  return first != Shape::Straight
-    ? first
-    : this->FindShape(
-        { { point, part.Point[1] }, { drawn, part.Drawn[1] }, { &middle, part.Image[1] } },
-        depth + 1);
+  return shape;
 }
 
 //------------------------------------------------------------------------------
 EdgeSubdivision::Shape EdgeSubdivision::FindShape(const glm::dvec3& a,
   const VirtualVertex& imageOfA, const glm::dvec3& b, const VirtualVertex& imageOfB)
 {
-  return this->FindShape(
-    { { a, b }, { imageOfA.Position, imageOfB.Position }, { &imageOfA, &imageOfB } }, 0);
+  return this->FindShape(MakeStretch({ -1, a, &imageOfA }, { -1, b, &imageOfB }), 0);
 }
 
 //------------------------------------------------------------------------------
@@ -251,10 +325,12 @@ void EdgeSubdivision::MoveOntoEdge(
 {
   glm::dvec3 point[2] = { a.Point, b.Point };
   VirtualVertex end[2] = { *a.Image, *b.Image };
+  bool isStraight = false;
   for (int depth = 0; depth <= DeepestLevel; ++depth)
   {
-    const Shape shape =
-      depth == DeepestLevel ? Shape::Straight : this->FindShape(point[0], end[0], point[1], end[1]);
+    const Shape shape = isStraight || depth == DeepestLevel
+      ? Shape::Straight
+      : this->FindShape(point[0], end[0], point[1], end[1]);
     if (shape == Shape::Open)
     {
       return;
@@ -268,6 +344,7 @@ void EdgeSubdivision::MoveOntoEdge(
       return;
     }
     const VirtualVertex middle = this->FindMiddle(point[0], end[0], point[1], end[1]);
+    isStraight = this->AreHalvesSmooth(end[0], middle, end[1]);
     const int half = l < 0.5 ? 0 : 1;
     point[1 - half] = 0.5 * (point[0] + point[1]);
     end[1 - half] = middle;
@@ -292,6 +369,14 @@ void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size
 }
 
 //------------------------------------------------------------------------------
+std::uint64_t EdgeSubdivision::MakeKey(std::int32_t a, std::int32_t b)
+{
+  const auto low = static_cast<std::uint64_t>(std::min(a, b));
+  const auto high = static_cast<std::uint64_t>(std::max(a, b));
+  return low << 32 | high;
+}
+
+//------------------------------------------------------------------------------
 // The edge's entry in the table, or a free entry for it.
 EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 {
@@ -305,9 +390,35 @@ EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 }
 
 //------------------------------------------------------------------------------
+bool EdgeSubdivision::IsKnown(std::int32_t a, std::int32_t b)
+{
+  return this->FindEdge(MakeKey(a, b)).Round == this->Round;
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::AddEdge(const Edge& edge)
+{
+  this->FindEdge(edge.Key) = edge;
+  if (2 * ++this->EdgeCount > this->Edges.size())
+  {
+    this->GrowEdges();
+  }
+}
+
+//------------------------------------------------------------------------------
+// Adds an edge that is known to be straight without a test, if it is new.
+void EdgeSubdivision::AddStraight(std::int32_t a, std::int32_t b)
+{
+  if (!this->IsKnown(a, b))
+  {
+    this->AddEdge({ MakeKey(a, b), NotSplit, this->Round, true });
+  }
+}
+
+//------------------------------------------------------------------------------
 void EdgeSubdivision::GrowEdges()
 {
-  std::vector<Edge> before(2 * this->Edges.size(), Edge{ 0, NotSplit, this->Round - 1 });
+  std::vector<Edge> before(2 * this->Edges.size(), Edge{ 0, NotSplit, this->Round - 1, false });
   before.swap(this->Edges);
   for (const Edge& edge : before)
   {
@@ -326,31 +437,31 @@ std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
   {
     return NotSplit;
   }
-  const auto low = static_cast<std::uint64_t>(std::min(a, b));
-  const auto high = static_cast<std::uint64_t>(std::max(a, b));
-  const std::uint64_t key = low << 32 | high;
-  Edge& edge = this->FindEdge(key);
-  if (edge.Round == this->Round)
+  const Edge& known = this->FindEdge(MakeKey(a, b));
+  if (known.Round == this->Round)
   {
-    return edge.Middle;
+    return known.Middle;
   }
   const Node& first = this->Nodes[static_cast<std::size_t>(a)];
   const Node& second = this->Nodes[static_cast<std::size_t>(b)];
   const Shape shape = this->FindShape(first.Point, first.Vertex, second.Point, second.Vertex);
-  std::int32_t result = NotSplit;
   this->Failed = this->Failed || shape == Shape::Open;
   this->IsFull = this->IsFull || (shape == Shape::Bent && this->Nodes.size() >= MostNodes);
-  if (shape == Shape::Bent && !this->IsFull)
+  if (shape != Shape::Bent || this->IsFull)
   {
-    result = static_cast<std::int32_t>(this->Nodes.size());
-    const Node node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point),
-      this->FindMiddle(first.Point, first.Vertex, second.Point, second.Vertex) };
-    this->Nodes.push_back(node);
+    this->AddEdge({ MakeKey(a, b), NotSplit, this->Round, shape == Shape::Straight });
+    return NotSplit;
   }
-  edge = { key, result, this->Round };
-  if (2 * ++this->EdgeCount > this->Edges.size())
+  const auto result = static_cast<std::int32_t>(this->Nodes.size());
+  const Node node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point),
+    this->FindMiddle(first.Point, first.Vertex, second.Point, second.Vertex) };
+  const bool isSmooth = this->AreHalvesSmooth(first.Vertex, node.Vertex, second.Vertex);
+  this->Nodes.push_back(node);
+  this->AddEdge({ MakeKey(a, b), result, this->Round, isSmooth });
+  if (isSmooth)
   {
-    this->GrowEdges();
+    this->AddStraight(a, result);
+    this->AddStraight(result, b);
   }
   return result;
 }
@@ -376,38 +487,67 @@ void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& 
 }
 
 //------------------------------------------------------------------------------
-void EdgeSubdivision::PrepareLevel()
+// Solves the points of the sides of some parts of a level that have to be tested.
+void EdgeSubdivision::PrepareLevel(std::size_t begin, std::size_t end)
 {
-  this->LevelSides.clear();
-  for (const NodeIds& part : this->Level)
+  this->Tested.clear();
+  for (std::size_t i = begin; i < end; ++i)
   {
+    const NodeIds& part = this->Level[i];
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const Node& a = this->Nodes[static_cast<std::size_t>(part[k])];
-      const Node& b = this->Nodes[static_cast<std::size_t>(part[(k + 1) % 3])];
-      this->LevelSides.push_back(GetEnds(a.Point, a.Vertex, b.Point, b.Vertex));
+      const std::size_t next = (k + 1) % 3;
+      if (!this->IsKnown(part[k], part[next]))
+      {
+        const Node& a = this->Nodes[static_cast<std::size_t>(part[k])];
+        const Node& b = this->Nodes[static_cast<std::size_t>(part[next])];
+        this->Tested.push_back(MakeStretch({ -1, a.Point, &a.Vertex }, { -1, b.Point, &b.Vertex }));
+      }
     }
   }
-  this->PrepareMiddles(this->LevelSides.data(), this->LevelSides.size());
+  this->PrepareShapes();
 }
 
 //------------------------------------------------------------------------------
-// Divides a triangle level by level, so that the middles of a level are solved side by side.
+// Divides a triangle level by level, so that the points of a level are solved side by side.
 void EdgeSubdivision::Divide(const Cell& cell)
 {
   this->Level.assign(1, { 0, 1, 2 });
   for (int depth = 0; !this->Level.empty() && !this->Failed; ++depth)
   {
-    if (depth < DeepestLevel)
-    {
-      this->PrepareLevel();
-    }
     this->NextLevel.clear();
-    for (const NodeIds& part : this->Level)
+    for (std::size_t i = 0; i < this->Level.size(); ++i)
     {
-      this->DividePart(cell, part, depth);
+      if (i % PartsAtOnce == 0 && depth < DeepestLevel)
+      {
+        this->PrepareLevel(i, std::min(i + PartsAtOnce, this->Level.size()));
+      }
+      this->DividePart(cell, this->Level[i], depth);
     }
     this->Level.swap(this->NextLevel);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Adds the edges between middles of sides, which are half as long as the side that they are
+// parallel to, if that one is smooth.
+void EdgeSubdivision::AddParallels(const NodeIds& nodes, const NodeIds& middle)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::int32_t a = middle[(k + 1) % 3];
+    const std::int32_t b = middle[(k + 2) % 3];
+    if (a == NotSplit || b == NotSplit ||
+      !this->FindEdge(MakeKey(nodes[(k + 1) % 3], nodes[(k + 2) % 3])).IsSmooth)
+    {
+      continue;
+    }
+    const VirtualVertex& first = this->Nodes[static_cast<std::size_t>(a)].Vertex;
+    const VirtualVertex& last = this->Nodes[static_cast<std::size_t>(b)].Vertex;
+    if (this->AreNeighbours(first, last) && !this->MayTurn(first, last))
+    {
+      this->AddStraight(a, b);
+    }
   }
 }
 
@@ -420,6 +560,7 @@ void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes, int dep
   {
     middle[k] = this->Split(nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth);
   }
+  this->AddParallels(nodes, middle);
   const auto splits =
     std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
   if (splits == 0)

@@ -6,12 +6,14 @@
  *
  * An edge is divided in the middle unless the images of points on it lie on the virtual edge within
  * a tolerance; its halves are then treated in the same way. The tested points are its middle, the
- * middles of its halves and so on, until their sight points are as close as the membrane's
- * vertices, between which the membrane has no waves. The result depends on the edge alone, on its
- * two ends and their images, so neighbours agree on every point and no cracks appear. A triangle is
- * divided at the middles of its divided edges until none of its edges needs division, or until it
- * has MostNodes: its parts are then as they are, with larger errors, and there may be cracks of
- * that size next to its neighbours.
+ * middles of its halves and so on, until the sight points of neighbours among these points and the
+ * ends are as close as the membrane's vertices, between which the membrane has no waves. Halves
+ * whose ends are that close are not tested if the middle was off by at most TestedParts tolerances:
+ * a curve leaves its chord by the square of the chord's length. The result depends on the edge
+ * alone, on its two ends and their images, so neighbours agree on every point and no cracks appear.
+ * A triangle is divided at the middles of its divided edges until none of its edges needs division,
+ * or until it has MostNodes: its parts are then as they are, with larger errors, and there may be
+ * cracks of that size next to its neighbours.
  */
 #pragma once
 
@@ -20,6 +22,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace meniscus
@@ -39,6 +42,13 @@ public:
   /** Points of one triangle, which take 10 MB. */
   static constexpr std::size_t MostNodes = 65536;
 
+  /**
+   * An edge that was off by at most this many tolerances has halves that are off by a quarter of
+   * that, if its bend is the same everywhere. The rest of the tolerance is for bends that change:
+   * below waves of four facets, the shortest ones, halves are off by 1.1 tolerances at most.
+   */
+  static constexpr double TestedParts = 1.5;
+
   /** `tolerance` is an angle in radians at the eye. */
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
   ~EdgeSubdivision();
@@ -46,7 +56,7 @@ public:
   EdgeSubdivision& operator=(const EdgeSubdivision&) = delete;
 
   /**
-   * Solves middles of the sides of polygons side by side, which IsStraight would solve one by one.
+   * Solves the points of the sides of polygons side by side that IsStraight would solve one by one.
    * The answers are the same with and without it.
    */
   void PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides);
@@ -113,6 +123,8 @@ private:
     std::uint64_t Key;
     std::int32_t Middle;
     std::uint32_t Round; ///< number of the primitive that the entry belongs to
+    /** True if edges of half the length, along this one or parallel to it, need no test. */
+    bool IsSmooth;
   };
   /** Nodes of a part of a triangle. */
   using NodeIds = std::array<std::int32_t, 3>;
@@ -139,25 +151,38 @@ private:
     const glm::dvec3& b, const VirtualVertex& imageOfB);
   void SearchIfLost(const glm::dvec3& point, VirtualVertex& image);
   void PrepareMiddles(const Ends* ends, std::size_t count);
-  void PrepareLevel();
+  void PrepareShapes();
+  void PrepareLevel(std::size_t begin, std::size_t end);
   enum class Shape
   {
     Straight,
     Bent,
-    Open ///< a point has no image
+    Open,     ///< a point has no image
+    Undecided ///< the halves have to be tested
   };
+  static Stretch MakeStretch(const ImagedPoint& a, const ImagedPoint& b);
+  static std::array<Stretch, 2> Halve(const Stretch& part, const VirtualVertex& middle);
+  Shape JudgeMiddle(const Stretch& part, const VirtualVertex& middle, int depth) const;
   Shape FindShape(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
     const VirtualVertex& imageOfB);
   Shape FindShape(const Stretch& part, int depth);
   /** True if `image` is within `parts` times the tolerance of `drawn`, seen from the eye. */
   bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image, double parts = 1.0) const;
   bool AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const;
+  bool MayTurn(const VirtualVertex& a, const VirtualVertex& b) const;
+  bool AreHalvesSmooth(
+    const VirtualVertex& a, const VirtualVertex& middle, const VirtualVertex& b) const;
   double GetSquaredSize(std::int32_t facet) const;
   void Start(const std::array<ImagedPoint, 3>& corners, std::size_t count);
+  static std::uint64_t MakeKey(std::int32_t a, std::int32_t b);
   Edge& FindEdge(std::uint64_t key);
+  bool IsKnown(std::int32_t a, std::int32_t b);
+  void AddEdge(const Edge& edge);
+  void AddStraight(std::int32_t a, std::int32_t b);
   void GrowEdges();
   std::int32_t Split(std::int32_t a, std::int32_t b, int depth);
   void Divide(const Cell& cell);
+  void AddParallels(const NodeIds& nodes, const NodeIds& middle);
   void DividePart(const Cell& cell, const NodeIds& nodes, int depth);
   void DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth);
   template <std::size_t N>
@@ -175,7 +200,11 @@ private:
   /** Parts of a triangle that are to be divided, and their parts. */
   std::vector<NodeIds> Level;
   std::vector<NodeIds> NextLevel;
-  std::vector<Ends> LevelSides;
+  /** Edges that are tested next, those after them, and images of their ends. */
+  std::vector<Stretch> Tested;
+  std::vector<Stretch> NextTested;
+  std::vector<Ends> TestedEnds;
+  std::deque<VirtualVertex> TestedImages;
   std::vector<VirtualVertex> Searched; ///< kept so that its memory is reused
   std::vector<Edge> Edges; ///< the size is a power of two; at most half of the entries belong to
                            ///< this round

@@ -290,6 +290,43 @@ TEST(RefractionPass, AMembraneOutOfViewCostsNothing)
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 2);
 }
 
+// Only the pixels that the membrane's bounds may cover are drawn.
+TEST(RefractionPass, MembranesInAnyPartOfThePicture)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  const auto isFloor = [](const Sight&, int) { return 1.0; };
+  vtkCamera* camera = pool.GetCamera();
+  // Half of it out of the picture, on each side, above and below.
+  for (const double at : { -3.0, 3.0 })
+  {
+    camera->SetFocalPoint(at, 0.0, 0.0);
+    camera->SetPosition(at, 0.0, EyeHeight);
+    ExpectColors(pool, "aside", isFloor);
+    camera->SetFocalPoint(0.0, at, 0.0);
+    camera->SetPosition(0.0, at, EyeHeight);
+    ExpectColors(pool, "above and below", isFloor);
+  }
+  // A part of it behind the eye.
+  camera->SetPosition(0.0, -2.0, 1.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  ExpectColors(pool, "around the eye", isFloor);
+  // A small part of a picture in a small part of the window.
+  camera->SetPosition(0.0, 0.0, 2.0 * EyeHeight);
+  camera->SetFocalPoint(1.0, -2.0, 0.0);
+  pool.GetRenderer()->SetViewport(0.4, 0.2, 1.0, 0.8);
+  const ByteImage small = pool.Render();
+  pool.GetRenderer()->SetViewport(0.0, 0.0, 1.0, 1.0);
+  pool.Scene.GetWindow()->SetSize(Size * 3 / 5, Size * 3 / 5);
+  const ByteImage alone = pool.Render();
+  for (const auto& [y, x] : Product(Size * 3 / 5, Size * 3 / 5))
+  {
+    ASSERT_EQ(small.GetPixel(x + Size * 2 / 5, y + Size / 5)[0], alone.GetPixel(x, y)[0])
+      << x << " " << y;
+  }
+}
+
 TEST(RefractionPass, TheClippingRangeHoldsWhatTheRendererDoesNotKnow)
 {
   Pool pool;

@@ -74,6 +74,75 @@ TEST(EdgeSubdivision, LargeTrianglesBelowWavesAreDivided)
 }
 
 //------------------------------------------------------------------------------
+// Places between the tested ones: sides of the parts, in quarters, below waves of 42 facets and of
+// four facets, the shortest that a curved membrane shows well.
+TEST(EdgeSubdivision, PartsAreDrawnWithinTheTolerance)
+{
+  const double tolerance = 1e-4; // in radians
+  const std::array<glm::dvec3, 3> corners = { glm::dvec3(-10.0, -70.0, -5.0),
+    glm::dvec3(12.0, -71.0, -10.0), glm::dvec3(-5.0, -60.0, 15.0) };
+  const glm::dvec3 eye(60.0, 260.0, -130.0);
+  struct Waves
+  {
+    double Amplitude;
+    double K;
+    int Cells;
+  };
+  for (const Waves& waves : { Waves{ 2.0, 0.12, 96 }, Waves{ 0.02, 0.3142, 24 } })
+  {
+    SCOPED_TRACE(waves.K);
+    reference::HeightField field;
+    field.Side = 120.0;
+    field.Amplitude = waves.Amplitude;
+    field.K = waves.K;
+    CurvedMembraneSolver geometry;
+    const reference::MembraneMesh mesh = field.MakeMesh(waves.Cells);
+    ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+    ASSERT_EQ(geometry.SetEye(eye, 1.0, 1.333), EyeStatus::Ready);
+    const ImagedTriangle triangle(geometry, corners);
+    EdgeSubdivision division(geometry, tolerance);
+    ImageMesh images;
+    ASSERT_TRUE(division.AddTriangle(triangle.Get(), 0, images));
+    EXPECT_GT(images.GetNumberOfCells(), 30u);
+    const auto placeOf = [&corners](const ImagePoint& point)
+    {
+      glm::dvec3 place(0.0);
+      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
+      {
+        place += point.Weight[k] * corners[static_cast<std::size_t>(point.Source[k])];
+      }
+      return place;
+    };
+    std::size_t places = 0;
+    std::size_t beyond = 0;
+    double largest = 0.0;
+    std::vector<VirtualVertex> found;
+    for (std::size_t i = 0; i < images.Connectivity.size(); ++i)
+    {
+      const auto at = [&images](std::size_t k)
+      { return images.Points[static_cast<std::size_t>(images.Connectivity[k])]; };
+      const ImagePoint a = at(i);
+      const ImagePoint b = at(i % 3 == 2 ? i - 2 : i + 1);
+      for (const double s : { 0.25, 0.5, 0.75 })
+      {
+        ASSERT_EQ(
+          geometry.FindImages(glm::mix(placeOf(a), placeOf(b), s), found), ImageState::Found);
+        const glm::dvec3 drawn =
+          glm::normalize(glm::mix(a.Vertex.Position, b.Vertex.Position, s) - eye);
+        const double error =
+          glm::length(drawn - glm::normalize(found.front().Position - eye)) / tolerance;
+        ++places;
+        beyond += error > 1.0;
+        largest = std::max(largest, error);
+      }
+    }
+    // Between the tested places the image deviates little more than at them, and rarely.
+    EXPECT_LE(largest, 1.2);
+    EXPECT_LE(static_cast<double>(beyond), 0.02 * static_cast<double>(places));
+  }
+}
+
+//------------------------------------------------------------------------------
 // A tolerance that would need 2^28 parts: the division ends, and tells it.
 TEST(EdgeSubdivision, ATriangleHasSoManyNodesAndIsCounted)
 {
