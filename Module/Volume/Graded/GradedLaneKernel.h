@@ -54,12 +54,12 @@ Number Load(const double* from)
   return result;
 }
 
-/** Whole numbers, as numbers. */
-Number Load(const std::int32_t* from)
+/** Faces of links, as numbers. */
+Number LoadFaces(const std::int32_t* links)
 {
   Whole result;
-  std::memcpy(&result, from, sizeof(result));
-  return __builtin_convertvector(result, Number);
+  std::memcpy(&result, links, sizeof(result));
+  return __builtin_convertvector(result & 3, Number);
 }
 
 /** Four numbers of each lane's row of the table, from the k-th on. */
@@ -124,8 +124,7 @@ Number SizeOf(Number x)
 /** The first of two numbers that are packed by GradedCellRow::PackUpwards(). */
 Number FirstOfPair(Number packed)
 {
-  return reinterpret_cast<Number>(
-    reinterpret_cast<Mask>(packed) & (Mask{} - (std::int64_t{ 1 } << 32)));
+  return packed;
 }
 
 Number SecondOfPair(Number packed)
@@ -153,7 +152,6 @@ struct Vector
   friend Vector operator+(Vector a, Vector b) { return { a.X + b.X, a.Y + b.Y, a.Z + b.Z }; }
   friend Vector operator*(Number f, Vector a) { return { f * a.X, f * a.Y, f * a.Z }; }
   friend Vector operator*(double f, Vector a) { return Splat(f) * a; }
-  Number Size() const { return SizeOf(this->X) + SizeOf(this->Y) + SizeOf(this->Z); }
 };
 
 Number Product(Vector a, Vector b)
@@ -230,6 +228,16 @@ struct Exit
   Vector Gradient;
 };
 
+/** Time at which a weight is 0. */
+struct Root
+{
+  Number Time;
+  /** Change of the time in the last step of Newton's method. */
+  Number Change;
+  /** The larger one of the weight's rates at the beginning and before that step. */
+  Number LargestRate;
+};
+
 /** Powers of a time over their factorials, from the first on. */
 struct Powers
 {
@@ -262,9 +270,9 @@ struct Series
 
   /**
    * Time at which the exit's weight is 0: the first three terms of the root as a series in the
-   * curvature, and a step of Newton's method, whose change is returned.
+   * curvature, and a step of Newton's method.
    */
-  Number Solve(const Exit& exit, Number& t) const
+  Root Solve(const Exit& exit) const
   {
     const Number d2 = Product(exit.Gradient, this->Force);
     const Number c2 = 0.5 * d2;
@@ -274,13 +282,13 @@ struct Series
     const Number perFall = -1.0 / exit.Rate;
     const Number straight = exit.Weight * perFall;
     const Number bend = straight * perFall * (c2 + straight * c3);
-    t = straight * (1.0 + bend * (1.0 + 2.0 * bend));
+    const Number t = straight * (1.0 + bend * (1.0 + 2.0 * bend));
     const Number square = t * t;
     const Number curve = t * ((c2 + t * c3) + square * (c4 + t * c5));
     const Number slope = t * ((d2 + t * (3.0 * c3)) + square * (4.0 * c4 + t * (5.0 * c5)));
-    const Number change = (exit.Weight + t * (curve + exit.Rate)) / (slope + exit.Rate);
-    t = t - change;
-    return change;
+    const Number endRate = slope + exit.Rate;
+    const Number change = (exit.Weight + t * (curve + exit.Rate)) / endRate;
+    return { t - change, change, LargerOf(exit.Rate, endRate) };
   }
   /** Place from the beginning. */
   Vector GetWay(Vector momentum, const Powers& t) const
@@ -299,10 +307,10 @@ struct Series
    * Product of the force and the integral of the place, without the fifth term, which does not
    * change the integral of n^2.
    */
-  Number IntegrateAlongForce(Vector momentum, Number squaredForce, const Powers& t) const
+  Number IntegrateAlongForce(Vector momentum, const Powers& t) const
   {
     return t.Second * Product(this->Force, momentum) +
-      (t.Third * squaredForce +
+      (t.Third * Product(this->Force, this->Force) +
         (t.Fourth * Product(this->Force, this->Second) +
           t.Fifth * Product(this->Force, this->Third)));
   }
@@ -316,11 +324,9 @@ struct Series
 /** Where a ray is in its cell at the beginning of a step. */
 struct Begin
 {
-  void Read(const GradedLanes& lanes, const Coefficients& cell, int i)
+  void Read(const GradedLanes& lanes, const Coefficients& cell, Vector momentum, int i)
   {
-    this->Place = LoadVector(lanes.Place, i);
-    this->Momentum = LoadVector(lanes.Momentum, i);
-    const Number entry = Load(lanes.Entry + i);
+    const Number entry = LoadFaces(lanes.Links + i);
     const Vector w = LoadVector(lanes.Weights, i);
     const Number zero = Splat(0.0);
     this->Weights[0] = Choose(entry > 0.0, w.X, zero);
@@ -329,7 +335,7 @@ struct Begin
     this->Weights[3] = Choose(entry > 2.0, zero, w.Z);
     for (int k = 0; k < 3; ++k)
     {
-      this->Rates[k + 1] = Product(cell.GetGradient(k), this->Momentum);
+      this->Rates[k + 1] = Product(cell.GetGradient(k), momentum);
     }
     this->Rates[0] = -(this->Rates[1] + this->Rates[2] + this->Rates[3]);
   }
@@ -344,8 +350,6 @@ struct Begin
       Exit::FirstOf(exitBy(2, cell.GetGradient(1)), exitBy(3, cell.GetGradient(2))));
   }
 
-  Vector Place;
-  Vector Momentum;
   Number Weights[4];
   Number Rates[4];
 };
@@ -361,116 +365,120 @@ Vector OthersThan(Number face, const Number (&ofFaces)[4])
 struct LaneStep
 {
   void FindExit(const GradedLanes& lanes, int i);
-  void FindTime() { this->Change = this->Way.Solve(this->End, this->Time); }
-  void Move();
-  void Finish(GradedLanes& lanes, int i) const;
+  void FindTime();
+  void Move(GradedLanes& lanes, int i) const;
 
   /** Coefficients of the cell that count at the end. */
   Vector Gradients[3];
-  Number SquaredSize;
-  Number Bounds;
+  Number Times;
+  Number HigherTerms;
   Begin Start;
   Exit End;
   Series Way;
+  /** Not a number if the time has no proof. */
   Number Time;
-  Number Change;
-  /** Way to the end, the momentum there, and the integral of n^2. */
-  Vector EndWay;
-  Vector EndMomentum;
-  Number Path;
-  /** Squares of the momentum and of the force at the beginning. */
-  Number SquaredMomentum;
-  Number SquaredForce;
+  /** Twice the largest sum of the higher terms of a weight. */
+  Number Higher;
 };
 
 void LaneStep::FindExit(const GradedLanes& lanes, int i)
 {
   Coefficients cell;
   cell.Read(lanes.Rows + i);
-  this->Start.Read(lanes, cell, i);
+  const Vector momentum = LoadVector(lanes.Momentum, i);
+  this->Start.Read(lanes, cell, momentum, i);
   this->End = this->Start.FindExit(cell);
-  this->Way.Read(cell, this->Start.Place, this->Start.Momentum);
+  this->Way.Read(cell, LoadVector(lanes.Place, i), momentum);
   for (int k = 0; k < 3; ++k)
   {
     this->Gradients[k] = cell.GetGradient(k);
   }
-  this->SquaredSize = cell[Row::SquaredSize];
-  this->Bounds = cell[Row::NormAndLargestGradient];
+  this->Times = cell[Row::Times];
+  this->HigherTerms = cell[Row::HigherTerms];
 }
 
-void LaneStep::Move()
+void LaneStep::FindTime()
 {
-  const Vector momentum = this->Start.Momentum;
-  const Powers t(this->Time);
-  this->EndWay = this->Way.GetWay(momentum, t);
-  this->EndMomentum = this->Way.GetMomentum(momentum, t);
-  this->SquaredMomentum = Product(momentum, momentum);
-  this->SquaredForce = Product(this->Way.Force, this->Way.Force);
-  this->Path = 0.5 *
-    (this->SquaredMomentum * t.First +
-      this->Way.IntegrateAlongForce(momentum, this->SquaredForce, t) +
-      Product(this->EndMomentum, this->EndWay));
+  const Root root = this->Way.Solve(this->End);
+  const Number linear = FirstOfPair(this->HigherTerms);
+  const Number cubic = SecondOfPair(this->HigherTerms) * (root.Time * root.Time);
+  // The weight of the exit falls all the way (GradedPassage::IsFirst): its rate is below the larger
+  // one of those at both ends and twice its terms above the first order. Newton's method has
+  // changed the rate at the end by less than the last change's share of GradedStepBounds' K.
+  constexpr double changeOfRate = GradedPassage::LastChange / GradedPassage::Rounding;
+  const Mask isRoot = (SizeOf(root.Change) <= GradedPassage::LastChange * root.Time) &
+    (root.Time <= FirstOfPair(this->Times)) &
+    (3.0 * cubic + changeOfRate * linear < -root.LargestRate);
+  this->Time = Choose(isRoot, root.Time, Splat(std::numeric_limits<double>::quiet_NaN()));
+  this->Higher = root.Time * (linear + cubic);
 }
 
-void LaneStep::Finish(GradedLanes& lanes, int i) const
+void LaneStep::Move(GradedLanes& lanes, int i) const
 {
   const Begin& begin = this->Start;
-  const Exit& exit = this->End;
-  const Number t = this->Time;
-  const Number square = t * t;
-
-  // Bounds, in sums of the sizes of components. The higher terms are at most 1 / 6 of the exponent
-  // times (1 + exponent / 20 + ...).
-  const Number exponent = FirstOfPair(this->Bounds) * square;
-  const Number length = begin.Momentum.Size() * t;
-  const Number bend = this->Way.Force.Size() * square;
-  const Number reach = SecondOfPair(this->Bounds) * (length + bend);
-  const Number higher = reach * (0.4 * exponent + 2.0 * GradedPassage::Rounding);
-  Number ends[4] = { Splat(0.0), Product(this->Gradients[0], this->EndWay),
-    Product(this->Gradients[1], this->EndWay), Product(this->Gradients[2], this->EndWay) };
+  const Vector momentum = LoadVector(lanes.Momentum, i);
+  const Powers t(this->Time);
+  const Vector way = this->Way.GetWay(momentum, t);
+  const Vector endMomentum = this->Way.GetMomentum(momentum, t);
+  Number ends[4] = { Splat(0.0), Product(this->Gradients[0], way), Product(this->Gradients[1], way),
+    Product(this->Gradients[2], way) };
   ends[0] = -(ends[1] + ends[2] + ends[3]);
-  Number above[4];
+  Number tangents[4];
   for (int k = 0; k < 4; ++k)
   {
     ends[k] = begin.Weights[k] + ends[k];
-    above[k] = SmallerOf(ends[k], begin.Weights[k] + t * begin.Rates[k]);
+    tangents[k] = begin.Weights[k] + t.First * begin.Rates[k];
   }
-  const Vector kept = OthersThan(exit.Face, ends);
-  const Vector least = OthersThan(exit.Face, above);
+  const Vector kept = OthersThan(this->End.Face, ends);
+  const Vector ahead = OthersThan(this->End.Face, tangents);
   const Number excess = (kept.X + kept.Y) + (kept.Z - 1.0);
-  // The sixth term is exponent^2 / 360 of the second, the seventh exponent^3 / 5040 of the first.
-  const Mask isExact = exponent * exponent * (exponent * length + 7.0 * bend) <=
-    5040.0 * GradedLanes::LargestRest * length;
-  // The weight of the exit falls all the way (GradedPassage::IsFirst).
-  const Number endRate = Product(exit.Gradient, this->EndMomentum);
-  const Number leastRate = -1.2 * reach * exponent;
-  constexpr double glideHeight = GradedPassage::GlideHeight;
-  constexpr double share = GradedPassage::LongestShare;
-  const Mask isLong = (square * this->SquaredMomentum > share * share * this->SquaredSize) |
-    (square * square * this->SquaredForce > 64.0 * glideHeight * glideHeight);
   const Number shortSteps = Load(lanes.ShortSteps + i);
-  const Number run = Choose(isLong, Splat(0.0), shortSteps + 1.0);
-  const Number stepsLeft = Load(lanes.StepsLeft + i);
+  const Number run = Choose(t.First > SecondOfPair(this->Times), Splat(0.0), shortSteps + 1.0);
   // Numbers that are not finite make the excess one of them.
-  const Mask isFirst = (SmallerOf(SmallerOf(least.X, least.Y), least.Z) > higher) &
-    (SizeOf(excess) < GradedPassage::LastChange);
-  const Mask isRoot = (SizeOf(this->Change) <= GradedPassage::LastChange * t) &
-    (t * LargerOf(exit.Rate, endRate) < leastRate);
-  const Mask mayGoOn = (run <= GradedLanes::MostShortSteps) & (stepsLeft > 0.0);
-  const Mask isDone = (isFirst & isRoot) & (isExact & mayGoOn);
+  const Number least = SmallerOf(
+    SmallerOf(SmallerOf(kept.X, ahead.X), SmallerOf(kept.Y, ahead.Y)), SmallerOf(kept.Z, ahead.Z));
+  const Mask isDone = (least > this->Higher) & (SizeOf(excess) < GradedPassage::LastChange) &
+    (run <= GradedLanes::MostShortSteps);
 
-  StoreVector(lanes.Place, i, Choose(isDone, begin.Place + this->EndWay, begin.Place));
-  StoreVector(lanes.Momentum, i, Choose(isDone, this->EndMomentum, begin.Momentum));
+  const Number path = Load(lanes.OpticalPath + i);
+  const Number ofStep = 0.5 *
+    (Product(momentum, momentum) * t.First + this->Way.IntegrateAlongForce(momentum, t) +
+      Product(endMomentum, way));
+  const Vector place = LoadVector(lanes.Place, i);
+  StoreVector(lanes.Place, i, Choose(isDone, place + way, place));
+  StoreVector(lanes.Momentum, i, Choose(isDone, endMomentum, momentum));
   StoreVector(
     lanes.Weights, i, Choose(isDone, (1.0 - excess) * kept, LoadVector(lanes.Weights, i)));
-  const Number path = Load(lanes.OpticalPath + i);
-  Store(lanes.OpticalPath + i, Choose(isDone, path + this->Path, path));
-  Store(lanes.StepsLeft + i, Choose(isDone, stepsLeft - 1.0, stepsLeft));
+  Store(lanes.OpticalPath + i, Choose(isDone, path + ofStep, path));
   Store(lanes.ShortSteps + i, Choose(isDone, run, shortSteps));
-  Store(lanes.Exit + i, Choose(isDone, exit.Face, Splat(-1.0)));
+  Store(lanes.Exit + i, Choose(isDone, this->End.Face, Splat(-1.0)));
+}
+
+/** Takes lanes to the cells behind their exits, and notes those that have to wait. */
+template <bool IsWatching>
+void PassOn(GradedLanes& lanes, int begin, int end)
+{
+  int waiting = lanes.WaitingCount;
+  for (int lane = begin; lane < end; ++lane)
+  {
+    const std::int32_t exit = lanes.Exit[lane];
+    const std::int32_t link = lanes.Rows[lane]->Links[exit & 3];
+    if ((exit | link) < 0)
+    {
+      lanes.Waiting[waiting++] = lane;
+      continue;
+    }
+    const std::int32_t cell = link >> 2;
+    const GradedCellRow* const row = lanes.Table + cell;
+    Fetch(*row);
+    lanes.Links[lane] = link;
+    lanes.Rows[lane] = IsWatching && lanes.Watched[cell] ? lanes.Impassable : row;
+  }
+  lanes.WaitingCount = waiting;
 }
 
 /** Steps of all lanes. */
+template <bool IsWatching>
 void StepAll(GradedLanes& lanes)
 {
   LaneStep steps[GradedLanes::Size / Width];
@@ -483,13 +491,33 @@ void StepAll(GradedLanes& lanes)
   {
     steps[group].FindTime();
   }
-  for (int group = 0; group < groups; ++group)
+  lanes.WaitingCount = 0;
+  // Lanes pass on while later ones move: their exits are known by then, and rows are on their way.
+  constexpr int later = 2;
+  for (int group = 0; group < groups + later; ++group)
   {
-    steps[group].Move();
+    if (group < groups)
+    {
+      steps[group].Move(lanes, group * Width);
+    }
+    if (group >= later)
+    {
+      const int begin = (group - later) * Width;
+      const int end = begin + Width;
+      PassOn<IsWatching>(lanes, begin, end < lanes.Count ? end : lanes.Count);
+    }
   }
-  for (int group = 0; group < groups; ++group)
+}
+
+void StepAll(GradedLanes& lanes)
+{
+  if (lanes.Watched)
   {
-    steps[group].Finish(lanes, group * Width);
+    StepAll<true>(lanes);
+  }
+  else
+  {
+    StepAll<false>(lanes);
   }
 }
 

@@ -35,35 +35,28 @@ public:
 
   void Run(InstructionSet set)
   {
-    const GradedCellRow* const rows = &this->Walk.Medium.Table->GetRow(0);
-    const std::uint8_t* const watched = this->Watch ? this->Watch->Cells->data() : nullptr;
-    std::fill_n(this->Lanes.Rows, GradedLanes::Size, rows);
-    while (this->Lanes.Count < GradedLanes::Size && this->BeginNext(this->Lanes.Count))
+    GradedLanes& lanes = this->Lanes;
+    lanes.Table = &this->Walk.Medium.Table->GetRow(0);
+    lanes.Watched = this->Watch ? this->Watch->Cells->data() : nullptr;
+    lanes.Impassable = &GetImpassableRow();
+    std::fill_n(lanes.Rows, GradedLanes::Size, lanes.Table);
+    while (lanes.Count < GradedLanes::Size && this->BeginNext(lanes.Count))
     {
-      ++this->Lanes.Count;
+      ++lanes.Count;
     }
-    while (this->Lanes.Count > 0)
+    while (lanes.Count > 0)
     {
-      StepLanes(this->Lanes, set);
-      for (int lane = 0; lane < this->Lanes.Count; ++lane)
+      this->StopLanes();
+      StepLanes(lanes, set);
+      ++this->Round;
+      // The last lane takes the place of one that ends: it has had its turn.
+      for (int i = lanes.WaitingCount - 1; i >= 0; --i)
       {
-        const std::int32_t exit = this->Lanes.Exit[lane];
-        const std::int32_t link = this->Lanes.Rows[lane]->Links[exit & 3];
-        if (exit >= 0 && link >= 0)
-        {
-          const std::int32_t cell = link >> 2;
-          Fetch(rows[cell]);
-          this->Cells[lane] = cell;
-          this->Lanes.Entry[lane] = link & 3;
-          this->Lanes.Rows[lane] = watched && watched[cell] ? &GetImpassableRow() : rows + cell;
-          continue;
-        }
+        const int lane = lanes.Waiting[i];
+        const std::int32_t exit = lanes.Exit[lane];
         if (!(exit >= 0 ? this->Leave(lane, exit) : this->GoOn(lane)) && !this->BeginNext(lane))
         {
-          // The last lane takes the place, and has its turn in it.
-          const int last = --this->Lanes.Count;
-          this->MoveLane(last, lane);
-          --lane;
+          this->MoveLane(--lanes.Count, lane);
         }
       }
     }
@@ -88,13 +81,25 @@ private:
     return this->Watch && (*this->Watch->Cells)[static_cast<std::size_t>(cell)] != 0;
   }
 
-  /** Begins to load a row that the next step needs. */
-  static void Fetch(const GradedCellRow& row)
+  /** Lets the lanes stay that have taken the largest number of steps. */
+  void StopLanes()
   {
-    constexpr int perLine = 8;
-    for (int column = 0; column < GradedCellRow::Size; column += perLine)
+    if (this->Round < this->FirstLastRound)
     {
-      __builtin_prefetch(row.Values + column);
+      return;
+    }
+    this->FirstLastRound = std::numeric_limits<std::int64_t>::max();
+    for (int lane = 0; lane < this->Lanes.Count; ++lane)
+    {
+      const std::int64_t last = this->LastRounds[lane];
+      if (this->Round >= last)
+      {
+        this->Lanes.Rows[lane] = &GetImpassableRow();
+      }
+      else
+      {
+        this->FirstLastRound = std::min(this->FirstLastRound, last);
+      }
     }
   }
 
@@ -136,8 +141,9 @@ private:
   bool Leave(int lane, int face)
   {
     Path& path = this->Paths[lane];
-    this->Lanes.Entry[lane] = face;
-    this->Take(lane);
+    std::int32_t& link = this->Lanes.Links[lane];
+    link = (link & ~3) | face;
+    this->Take(lane, this->Round);
     if (this->Walk.LeaveMesh(face, path) && !this->Walk.EnterMesh(path))
     {
       this->Walk.Finish(path);
@@ -152,7 +158,7 @@ private:
    */
   bool GoOn(int lane)
   {
-    this->Take(lane);
+    this->Take(lane, this->Round - 1);
     Path& path = this->Paths[lane];
     double& shortSteps = this->Lanes.ShortSteps[lane];
     // The search of a zigzag begins anew, and is not to be interrupted.
@@ -189,30 +195,29 @@ private:
       lanes.Momentum[axis][lane] = path.Momentum[axis];
       lanes.Weights[axis][lane] = path.Place.Weights[axis + (axis >= path.Place.Entry ? 1 : 0)];
     }
-    lanes.Entry[lane] = path.Place.Entry;
+    lanes.Links[lane] = static_cast<std::int32_t>(4 * path.Cell + path.Place.Entry);
     lanes.OpticalPath[lane] = 0.0;
-    lanes.StepsLeft[lane] = static_cast<double>(this->Walk.MaximumNumberOfSteps - path.Steps);
-    this->Cells[lane] = static_cast<std::int32_t>(path.Cell);
-    lanes.Rows[lane] = this->IsWatched(path.Cell) ? &GetImpassableRow()
-                                                  : &this->Walk.Medium.Table->GetRow(path.Cell);
+    lanes.Rows[lane] = this->IsWatched(path.Cell) ? lanes.Impassable : lanes.Table + path.Cell;
     Fetch(*lanes.Rows[lane]);
+    this->LastRounds[lane] = this->Round + this->Walk.MaximumNumberOfSteps - path.Steps;
+    this->FirstLastRound = std::min(this->FirstLastRound, this->LastRounds[lane]);
     return true;
   }
 
-  /** Gives the lane's steps to its path. */
-  void Take(int lane)
+  /** Gives the lane's steps before a round to its path. */
+  void Take(int lane, std::int64_t round)
   {
     Path& path = this->Paths[lane];
     const GradedLanes& lanes = this->Lanes;
-    const std::int64_t steps = this->Walk.MaximumNumberOfSteps - path.Steps -
-      static_cast<std::int64_t>(lanes.StepsLeft[lane]);
+    const std::int64_t steps =
+      this->Walk.MaximumNumberOfSteps - path.Steps - (this->LastRounds[lane] - round);
     if (steps == 0)
     {
       return;
     }
     path.ForgetZigzag();
-    path.Cell = this->Cells[lane];
-    path.Place.Entry = lanes.Entry[lane];
+    path.Cell = lanes.Links[lane] / 4;
+    path.Place.Entry = lanes.Links[lane] % 4;
     path.Place.Weights.fill(0.0);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -237,15 +242,14 @@ private:
       lanes.Momentum[axis][to] = lanes.Momentum[axis][from];
       lanes.Weights[axis][to] = lanes.Weights[axis][from];
     }
-    for (double* const values : { lanes.OpticalPath, lanes.StepsLeft, lanes.ShortSteps })
+    for (double* const values : { lanes.OpticalPath, lanes.ShortSteps })
     {
       values[to] = values[from];
     }
-    lanes.Entry[to] = lanes.Entry[from];
-    lanes.Exit[to] = lanes.Exit[from];
+    lanes.Links[to] = lanes.Links[from];
     lanes.Rows[to] = lanes.Rows[from];
     std::swap(this->Paths[to], this->Paths[from]);
-    this->Cells[to] = this->Cells[from];
+    this->LastRounds[to] = this->LastRounds[from];
   }
 
   const GradedRayWalk& Walk;
@@ -258,7 +262,11 @@ private:
 
   GradedLanes Lanes{};
   Path Paths[GradedLanes::Size];
-  std::int32_t Cells[GradedLanes::Size] = {};
+  /** Number of rounds of steps up to now. */
+  std::int64_t Round = 0;
+  /** Rounds after which the lanes have taken the largest number of steps, and the first of them. */
+  std::int64_t LastRounds[GradedLanes::Size] = {};
+  std::int64_t FirstLastRound = std::numeric_limits<std::int64_t>::max();
 };
 
 //------------------------------------------------------------------------------

@@ -8,8 +8,6 @@
 #include "Volume/Graded/GradedCell.h"
 #include "Volume/Graded/GradedCellTable.h"
 
-#include <cstring>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
@@ -365,26 +363,6 @@ TEST(GradedRayWalk, PlanesOfSymmetryDoNotTrap)
   }
   ExpectAllThrough(lens.Statistics);
   EXPECT_LT(lens.Statistics.Steps, 2 * 1600 * 100);
-}
-
-TEST(GradedCellRow, PackedNumbersAreRoundedUp)
-{
-  for (const double first : { 0.0, 1.0, 1.0 + 0x1p-52, 3.7e-9, 2.9e200 })
-  {
-    for (const double second : { 0.0, 1.0, 7.3e-5, 1.0e300 })
-    {
-      const double packed = GradedCellRow::PackUpwards(first, second);
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &packed, sizeof(bits));
-      const std::uint64_t halves[2] = { bits & 0xFFFFFFFF00000000u, bits << 32 };
-      double values[2];
-      std::memcpy(values, halves, sizeof(values));
-      EXPECT_GE(values[0], first);
-      EXPECT_LE(values[0], first * (1.0 + 0x1p-20));
-      EXPECT_GE(values[1], second);
-      EXPECT_LE(values[1], second * (1.0 + 0x1p-20));
-    }
-  }
 }
 
 // A gas: each ray has the same result whatever goes on in the other lanes, with any instructions,
