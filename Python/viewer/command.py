@@ -88,8 +88,8 @@ def _add_look(parser):
                         "cmocean, colorcet or trame-colormaps where they are installed")
     parser.add_argument("--opacity", type=float, nargs="+", metavar="VALUE",
                         help="opacities from 0 to 1 at equal distances over the range, each over a "
-                         "tenth of the mesh's diagonal; default: the rarer a value, the more "
-                         "opaque")
+                        "tenth of the mesh's diagonal; default: the rarer a value, the more "
+                        "opaque")
     parser.add_argument("--blend", metavar="MODE", offers=BLEND_MODES,
                         help="blend mode: " + ", ".join(BLEND_MODES) + "; default: composite, with "
                         "--isovalues isosurface")
