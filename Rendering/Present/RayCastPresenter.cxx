@@ -45,6 +45,18 @@ void SampleDepths(std::vector<float>& depths, int width, int height, const int (
   }
 }
 
+/**
+ * Source of the shader that blends an image into the framebuffer.
+ * @param biased for images that are composited later.
+ */
+std::string ComposeSource(bool biased)
+{
+  std::string source = vtkTetrahedraComposeFS;
+  vtkShaderProgram::Substitute(
+    source, "//VTK::ColorBias::Dec", biased ? "#define HAS_COLOR_BIAS" : "");
+  return source;
+}
+
 /** The box with `margin` more pixels on each side, as far as the image reaches. */
 RayCastImageBox Grown(const RayCastImageBox& box, int margin, const int (&size)[2])
 {
@@ -357,14 +369,16 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   this->LimitToFilled(viewport);
+  const bool biased = output.ColorBias > 0.0f;
+  std::unique_ptr<vtkOpenGLQuadHelper>& composer = biased ? this->BiasedComposer : this->Composer;
   const std::string error = output.Selecting
     ? ReadyQuad(this->Window, this->Selector, []() { return vtkTetrahedraSelectFS; })
-    : ReadyQuad(this->Window, this->Composer, []() { return vtkTetrahedraComposeFS; });
+    : ReadyQuad(this->Window, composer, [biased]() { return ComposeSource(biased); });
   if (!error.empty())
   {
     return error;
   }
-  vtkOpenGLQuadHelper* drawer = (output.Selecting ? this->Selector : this->Composer).get();
+  vtkOpenGLQuadHelper* drawer = (output.Selecting ? this->Selector : composer).get();
   // Devices that blend into 8 bits round more than once: Mesa's rasterisers do, and an NVIDIA H200
   // is up to 1.26 steps off. A picture that is composited later is rounded by the shader, which has
   // to know all of the sum.
@@ -376,7 +390,10 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   }
   else
   {
-    drawer->Program->SetUniformf("colorBias", output.ColorBias);
+    if (biased)
+    {
+      drawer->Program->SetUniformf("colorBias", output.ColorBias);
+    }
     const float corner[2] = { static_cast<float>(viewport[0]), static_cast<float>(viewport[1]) };
     drawer->Program->SetUniform2f("corner", corner);
     drawer->Program->SetUniformi("hasUnder", hasUnder ? 1 : 0);
@@ -384,7 +401,10 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
   const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
-  this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
+  // With one filter for both, a software rasteriser need not compute the size of a texel.
+  const int filter = whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  this->Image->SetMagnificationFilter(filter);
+  this->Image->SetMinificationFilter(filter);
   this->Image->Activate();
   drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
   // A sampler wants a texture even where it is not read.
@@ -450,6 +470,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Depth.Release(owner);
   this->Under.Release(owner);
   this->Composer.reset();
+  this->BiasedComposer.reset();
   this->Selector.reset();
   this->DepthWriter.reset();
   this->Image = nullptr;

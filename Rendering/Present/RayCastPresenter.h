@@ -116,6 +116,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Image;
   OpenGLImageMean Mean;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
+  std::unique_ptr<vtkOpenGLQuadHelper> BiasedComposer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthWriter;
   int Size[2] = { 0, 0 };

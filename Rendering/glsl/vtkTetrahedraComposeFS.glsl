@@ -8,12 +8,16 @@ in vec2 texCoord;
 
 //VTK::Output::Dec
 
+// Defines HAS_COLOR_BIAS where images are composited later. It is not the uniform that tells,
+// because Mesa's rasterisers compute both branches of a condition.
+//VTK::ColorBias::Dec
+
 uniform sampler2D image;
 // Contents of a framebuffer of 8 bits from the viewport's corner on, in place of blending.
 uniform sampler2D under;
 uniform vec2 corner;
 uniform bool hasUnder;
-// Bias of an image that is composited later, in steps of 1/255; 0 if it is not.
+// Bias of an image that is composited later, in steps of 1/255.
 uniform float colorBias;
 
 const float STEPS = 255.0;
@@ -42,7 +46,11 @@ vec4 biasForCompositing(vec4 exact)
 void main()
 {
   vec4 color = texture(image, texCoord);
-  bool biased = colorBias > 0.0 && color.a > 0.0;
+#ifdef HAS_COLOR_BIAS
+  bool biased = color.a > 0.0;
+#else
+  const bool biased = false;
+#endif
   if (hasUnder)
   {
     color += (1.0 - color.a) * texelFetch(under, ivec2(gl_FragCoord.xy - corner), 0);

@@ -253,7 +253,12 @@ void AddAll(ShaderFolder& folder)
     }
   }
   folder.AddFragment("place", vtkTetrahedraPlaceFS);
-  folder.AddFragment("compose", vtkTetrahedraComposeFS);
+  for (const char* bias : { "", "#define HAS_COLOR_BIAS" })
+  {
+    std::string source = vtkTetrahedraComposeFS;
+    ReplaceAll(source, "//VTK::ColorBias::Dec", bias);
+    folder.AddFragment("compose", source);
+  }
   folder.AddFragment("select", vtkTetrahedraSelectFS);
   folder.AddFragment("depth", vtkTetrahedraDepthFS);
   folder.AddFragment("membrane", MembraneShaderSource(false));
