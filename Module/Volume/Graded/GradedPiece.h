@@ -43,6 +43,9 @@ public:
   /** Barycentric weights of the ends in the cell. */
   std::array<double, 4> BeginWeights{};
   std::array<double, 4> EndWeights{};
+  /** Optical path of the ray up to the ends. It falls in an inverted cell. */
+  double BeginPath = 0.0;
+  double EndPath = 0.0;
 
   /**
    * Largest distance of the part between two shares of the time from its chord, both at the same

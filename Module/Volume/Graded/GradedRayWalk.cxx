@@ -466,6 +466,7 @@ int GradedRayWalk::CrossCell(Path& path) const
   }
   way.MoveTo(time);
   const std::array<double, 4> end = way.GetWeights(face);
+  const double opticalPath = path.Result->OpticalPath;
   if (this->Medium.IsStraight && !path.IsSearching())
   {
     path.AddStraight(cell, passed, end);
@@ -487,7 +488,7 @@ int GradedRayWalk::CrossCell(Path& path) const
   }
   if (path.Visitor && !path.IsSearching() && !cell.IsFlat)
   {
-    path.IsEnded = !this->TellArc(way, time, end, path);
+    path.IsEnded = !this->TellArc(way, time, end, opticalPath, path);
   }
   path.Place.Weights = end;
   if (face < 0 && !path.IsSearching())
@@ -554,14 +555,19 @@ glm::dvec3 GradedRayWalk::PlaceIn(std::int64_t cell, const std::array<double, 4>
 }
 
 //------------------------------------------------------------------------------
-/** Tells the visitor of the way in a cell. Returns false if the ray is to end. */
-bool GradedRayWalk::TellArc(
-  GradedPassage& way, double time, const std::array<double, 4>& end, const Path& path) const
+/**
+ * Tells the visitor of the way in a cell. Returns false if the ray is to end.
+ * @param opticalPath of the ray up to the beginning of the way.
+ */
+bool GradedRayWalk::TellArc(GradedPassage& way, double time, const std::array<double, 4>& end,
+  double opticalPath, const Path& path) const
 {
   GradedArc arc(way, time);
   arc.Cell = path.Cell;
   arc.BeginWeights = path.Place.Weights;
   arc.EndWeights = end;
+  arc.BeginPath = opticalPath;
+  arc.EndPath = path.Result->OpticalPath;
   arc.Begin = this->PlaceOf(path);
   arc.End = this->PlaceIn(path.Cell, end);
   return path.Visitor->VisitArc(arc);

@@ -187,8 +187,8 @@ private:
     const GradedRay& ray, GradedRayStatistics& statistics, Path& path) const;
   bool Begin(const GradedRay& ray, GradedRayResult& result, GradedRayStatistics& statistics,
     Path& path) const;
-  bool TellArc(
-    GradedPassage& way, double time, const std::array<double, 4>& end, const Path& path) const;
+  bool TellArc(GradedPassage& way, double time, const std::array<double, 4>& end,
+    double opticalPath, const Path& path) const;
   void Finish(Path& path) const;
   bool MayBeInside(const glm::dvec3& place) const;
   bool BeginInside(Path& path) const;

@@ -133,6 +133,7 @@ VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays, Instruc
   , Scale(MakeErrorScale(medium))
   , Set(set)
   , Lights(rays)
+  , Reached(rays, 0.0)
 {
 }
 
@@ -158,12 +159,15 @@ double VolumeLight::CountParts(double lower, double upper, double error) const
 //------------------------------------------------------------------------------
 void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
 {
-  const auto number = static_cast<std::size_t>(arc.Cell);
-  const GradedCell& cell = arc.GetCell();
-  if (cell.IsInverted)
+  double& reached = this->Reached[ray];
+  const double passed = reached - arc.BeginPath;
+  reached = std::max(reached, std::max(arc.BeginPath, arc.EndPath));
+  if (!(arc.EndPath > arc.BeginPath + std::max(passed, 0.0)))
   {
     return;
   }
+  const auto number = static_cast<std::size_t>(arc.Cell);
+  const GradedCell& cell = arc.GetCell();
   const bool ofCells = this->Medium.HasCellScalars;
   const auto& vertices = this->Medium.Mesh->GetCells()[number].Vertices;
   std::array<double, 4> scalars;
@@ -176,13 +180,13 @@ void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
   const double gradient = ofCells ? 0.0 : glm::length(cell.AddGradients(scalars));
   const double time = arc.GetTime();
   const double sixth = this->Medium.Mesh->GetRadius() * time / 6.0;
-  double from = 0.0;
-  double scalar = scalarAt(arc.BeginWeights);
+  double from = passed > 0.0 ? passed / (arc.EndPath - arc.BeginPath) : 0.0;
+  double scalar = scalarAt(arc.WeightsAt(from));
   const double last = scalarAt(arc.EndWeights);
   const double share = 1.0 /
     this->CountParts(std::min(scalar, last), std::max(scalar, last),
       0.125 * SquaredRatio * gradient * arc.GetLargestForce() * time * time);
-  double index = glm::length(arc.DirectionAt(0.0));
+  double index = glm::length(arc.DirectionAt(from));
   while (from < end)
   {
     const double to = NextShare(from, end, std::min(share, LongestTime(arc, index) / time));

@@ -78,8 +78,9 @@ public:
     const EmittingMedium& medium, std::size_t rays, InstructionSet set = BestInstructionSet());
 
   /**
-   * Adds an arc of a ray behind those that it has, in a cell whose scalars are finite. Arcs in
-   * inverted cells, in which light goes backwards, add nothing.
+   * Adds an arc of a ray behind those that it has, in a cell whose scalars are finite. In an
+   * inverted cell light goes backwards: as for straight rays, the part of the path before the
+   * largest optical path reached has been passed already and is not passed again.
    * @param end share of the time at which the ray ends; 1 for the whole arc.
    */
   void Add(std::size_t ray, GradedArc& arc, double end);
@@ -103,6 +104,8 @@ private:
   /** Segments that wait for their integration, in the order in which they came. */
   std::vector<Record> Records;
   std::vector<KeptLight> Lights;
+  /** Largest optical path that each ray has reached. */
+  std::vector<double> Reached;
 };
 
 }

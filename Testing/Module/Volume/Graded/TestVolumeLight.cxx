@@ -321,6 +321,40 @@ TEST(VolumeLight, NothingBendsIsTheStraightIntegral)
   }
 }
 
+// Where cells overlap, the one that the ray entered first counts up to its exit: smoke is as dense
+// as the way through the cube is long.
+TEST(VolumeLight, FoldsArePassedOnce)
+{
+  MeshArrays arrays = CenteredGrid(4, 1.0);
+  // A vertex within the cube is on the far side of its neighbours.
+  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
+  {
+    if (arrays.PointAt(static_cast<std::int64_t>(p / 3)) == glm::dvec3(0.0))
+    {
+      arrays.Points[p] = 0.7;
+      arrays.Points[p + 1] = 0.1;
+    }
+  }
+  RandomNumbers random(8);
+  LitScene scene(
+    arrays, [](const glm::dvec3&) { return 1.7; }, [](const glm::dvec3&) { return 0.0; }, Smoke);
+  for (const bool isStraight : { false, true })
+  {
+    scene.Medium.IsStraight = isStraight;
+    for (int i = 0; i < 500; ++i)
+    {
+      const glm::dvec3 target(random.Uniform(-0.3, 0.75), random.Uniform(-0.3, 0.4), 0.0);
+      const glm::dvec3 direction = glm::normalize(glm::dvec3(
+        random.Uniform(-0.2, 0.2), random.Uniform(-0.2, 0.2), random.Uniform() < 0.5 ? -1.0 : 1.0));
+      const OpaqueSight sight =
+        scene.See({ scene.RayFrom(target - 3.0 * direction, direction) }).front();
+      const double transmittance = std::exp(-0.7 * 2.0 / std::abs(direction.z));
+      EXPECT_NEAR(sight.Light.Values[3], transmittance, PictureError);
+    }
+  }
+  EXPECT_GT(scene.Statistics.InvertedSteps, 100);
+}
+
 // A wall hides the medium behind it, wherever it cuts the arc of a cell.
 TEST(VolumeLight, EndsAtAWall)
 {
