@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bitset>
 #include <limits>
+#include <utility>
 
 namespace meniscus
 {
@@ -71,6 +72,10 @@ std::int64_t RefractedRayStack::GetBytes() const
 void RefractedRayStack::Build(
   const std::vector<Interface>& interfaces, const View& view, const RangeLoop& loop)
 {
+  if (interfaces.size() != this->Interfaces.size())
+  {
+    this->Blocks.clear(); // they have other numbers of legs
+  }
   this->Interfaces = interfaces;
   if (view.Width != this->Of.Width || view.Height != this->Of.Height)
   {
@@ -100,11 +105,12 @@ void RefractedRayStack::Build(
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
-      StackBlock block(this->Interfaces.size(), this->Set);
+      std::unique_ptr<StackBlock> block = this->TakeBlock();
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        sums[tile] = this->TraceTile(static_cast<int>(tile), sight, block);
+        sums[tile] = this->TraceTile(static_cast<int>(tile), sight, *block);
       }
+      this->PutBack(std::move(block));
     });
   glm::dvec3 sum(0.0);
   this->StepBounds = AxisBox();
@@ -116,6 +122,27 @@ void RefractedRayStack::Build(
   }
   const double length = glm::length(sum);
   this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
+}
+
+//------------------------------------------------------------------------------
+/** Returns a block of an earlier thread, with the patches that it met, or a new one. */
+std::unique_ptr<StackBlock> RefractedRayStack::TakeBlock()
+{
+  const std::lock_guard<std::mutex> lock(this->BlocksMutex);
+  if (this->Blocks.empty())
+  {
+    return std::make_unique<StackBlock>(this->Interfaces.size(), this->Set);
+  }
+  std::unique_ptr<StackBlock> block = std::move(this->Blocks.back());
+  this->Blocks.pop_back();
+  return block;
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayStack::PutBack(std::unique_ptr<StackBlock> block)
+{
+  const std::lock_guard<std::mutex> lock(this->BlocksMutex);
+  this->Blocks.push_back(std::move(block));
 }
 
 //------------------------------------------------------------------------------
@@ -438,20 +465,20 @@ void RefractedRayStack::SetLanes(std::size_t number, StackBlock& block, Counts& 
 template <typename Meet>
 void RefractedRayStack::VisitFacets(std::size_t number, StackBlock& block, const Meet& meet) const
 {
-  const Interface& interface = this->Interfaces[number];
+  const RefractingSurface& surface = *this->Interfaces[number].Surface;
   RayBlock& lanes = block.Lanes;
   const double rayLength = lanes.Length[0];
   const RayRange all{ 0, lanes.Count };
   const auto tracerOf = [&](std::int32_t facet) -> const PatchIntersector&
-  { return block.GetTracer(interface, number, facet, rayLength); };
-  const auto request = [&interface](std::int32_t facet)
-  { interface.Surface->GetPatches().PrefetchPatch(facet); };
+  { return block.GetTracer(surface, facet, rayLength); };
+  const auto request = [&surface](std::int32_t facet)
+  { surface.GetPatches().PrefetchPatch(facet); };
   double farthest = Infinity;
   FacetBoxes* facets = block.FindFacets(number);
   if (!facets || (number > 0 && facets->Count > ManyFacets))
   {
     InvertDirections(this->Set, lanes);
-    interface.Surface->GetTree().Visit(
+    surface.GetTree().Visit(
       block.Tube, farthest,
       [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
       [&](std::int32_t facet, const TubeRange&) { return meet(tracerOf(facet), all); });
