@@ -214,7 +214,7 @@ void RefractedRayStack::PrepareTile(int tile, bool mayShow)
 //------------------------------------------------------------------------------
 /**
  * Leaves out the rays of a tile, none of which shows the mesh behind the first interface.
- * @param farthest bound of the depths at which rays that may show the mesh meet it.
+ * @param farthest as in RefractedRayTiles::SetFarthest().
  * @param untraced the blocks with rays that may meet it.
  */
 void RefractedRayStack::ClearTile(int tile, double farthest, TileSquares untraced)
@@ -335,7 +335,7 @@ RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showin
     }
     Counts counts;
     this->MeetFirst(first, StackBlock::Side, block, counts);
-    farthest = std::max(farthest, block.Lanes.GetFarthest());
+    farthest = std::max(farthest, this->FindFarthestSight(sight, block));
     const bool isMet = block.Lanes.IsAnyHit();
     const bool isTraced = isMet && showing.Refracted && this->TraceBlock(&sight, block, counts);
     hasShown = !isMet || (isTraced && block.EndBeside(this->MeshCenter, this->MeshHalf));
@@ -371,6 +371,26 @@ void RefractedRayStack::MeetFirst(
   this->SetLanes(0, block, sums);
   this->MeetInterface(0, block, sums);
   std::copy_n(block.Lanes.Last, StackBlock::Size, block.Sights);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Largest depth at which rays of a block, which have met the first interface, meet it; -infinity if
+ * none of them comes to the bounds of the mesh before, infinite if one that does passes it.
+ */
+double RefractedRayStack::FindFarthestSight(
+  const StackVisibility& sight, const StackBlock& block) const
+{
+  if (block.Lanes.Count == 0)
+  {
+    return -Infinity;
+  }
+  const double farthest = block.Lanes.GetFarthest();
+  TubeBounds tube = block.Tube;
+  const glm::dvec3 toSurface = this->ToSurface(0);
+  tube.StartLow -= toSurface;
+  tube.StartHigh -= toSurface;
+  return sight.MeetsBounds(tube, farthest - this->Of.EyeDepth) ? farthest : -Infinity;
 }
 
 //------------------------------------------------------------------------------

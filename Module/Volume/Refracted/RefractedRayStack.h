@@ -146,6 +146,7 @@ private:
     return this->Of.Center - this->Interfaces[number].Surface->GetMembrane().GetOrigin();
   }
   void MeetFirst(const glm::ivec2& first, int side, StackBlock& block, Counts& sums) const;
+  double FindFarthestSight(const StackVisibility& sight, const StackBlock& block) const;
   bool MeetsFirst(const glm::ivec2& pixel, StackBlock& block) const;
   bool TraceBlock(const StackVisibility* sight, StackBlock& block, Counts& sums) const;
   bool MayShowMesh(const StackVisibility& sight, StackBlock& block) const;
