@@ -34,6 +34,7 @@ MembraneStatus RefractingSurface::SetMembrane(
   {
     this->Topology = ++last;
   }
+  this->Shape = ++last;
   this->Parts = SurfaceParts::Facets;
   this->Prepare(parts, loop);
   return status;

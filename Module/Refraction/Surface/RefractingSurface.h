@@ -65,6 +65,8 @@ public:
    * process have the same.
    */
   std::int64_t GetTopology() const { return this->Topology; }
+  /** Number of the shape: no two shapes of surfaces in a process have the same. */
+  std::int64_t GetShape() const { return this->Shape; }
 
   /** The patch of a facet; with `flipped`, the same points with the opposite normals. */
   CurvedPatch GetPatch(std::int32_t facet, bool flipped) const;
@@ -134,6 +136,7 @@ private:
   CurvedPatches Patches;
   SurfaceParts Parts = SurfaceParts::Facets;
   std::int64_t Topology = 0;
+  std::int64_t Shape = 0;
   std::int64_t PatchesOf = -1; ///< topology that the patches were built for
   std::vector<PatchBounds> Bounds;
   std::vector<PatchSlant> Slants;

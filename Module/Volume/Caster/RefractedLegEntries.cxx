@@ -67,34 +67,39 @@ RefractedLegEntries::RefractedLegEntries(const RefractedScene& scene, const Tetr
 }
 
 //------------------------------------------------------------------------------
-/** Computes the drawn part of a leg. Returns false if there is none. */
-bool RefractedLegEntries::SetPart(
-  const TileLeg& leg, LegBlock& legs, int ray, LegBatch::Origin& origin) const
+/** Computes the drawn parts of the legs of a square. */
+void RefractedLegEntries::SetParts(const TileLeg& leg, LegBlock& legs) const
 {
   const RayFrame& frame = this->Rays.GetFrame();
-  const double depth = legs.Depth[ray];
-  const double whole = legs.End[ray] - depth;
-  double start = std::max(0.0, frame.NearDepth - depth);
-  double end = whole;
-  // A window depth of 1 means that nothing opaque is drawn there. The far plane bounds drawn
-  // geometry, not refracted rays, so it is no limit.
-  const int column = leg.Box.Left + legs.Pixel[ray] % TileSize;
-  const int row = leg.Box.Bottom + legs.Pixel[ray] / TileSize;
-  const float window =
-    leg.OpaqueDepth ? leg.OpaqueDepth[std::int64_t{ row } * this->Rays.GetWidth() + column] : 1.0f;
-  if (window < 1.0f)
+  double opaque[LegBlock::Size];
+  std::fill_n(opaque, LegBlock::Size, Infinity);
+  for (int i = 0; leg.OpaqueDepth && i < LegBlock::Size; ++i)
   {
-    end = std::min(end, frame.DepthAt(2.0 * window - 1.0) - depth);
+    // A window depth of 1 means that nothing opaque is drawn there. The far plane bounds drawn
+    // geometry, not refracted rays, so it is no limit. Rays outside of the image do not exist.
+    const int column = leg.Box.Left + legs.Pixel[i] % TileSize;
+    const int row = leg.Box.Bottom + legs.Pixel[i] / TileSize;
+    const float window = legs.Exists[i] != 0
+      ? leg.OpaqueDepth[std::int64_t{ row } * this->Rays.GetWidth() + column]
+      : 1.0f;
+    if (window < 1.0f)
+    {
+      opaque[i] = frame.DepthAt(2.0 * window - 1.0);
+    }
+  }
+  for (int i = 0; i < LegBlock::Size; ++i)
+  {
+    legs.DrawnFrom[i] = std::max(0.0, frame.NearDepth - legs.Depth[i]);
+    legs.DrawnTo[i] = std::min(legs.End[i], opaque[i]) - legs.Depth[i];
   }
   for (const RayClippingPlane& plane : this->ClippingPlanes)
   {
-    const RayLeg line = legs.Get(ray);
-    ClipLine(plane, line.Begin, line.Step, start, end);
+    for (int i = 0; i < LegBlock::Size; ++i)
+    {
+      const RayLeg line = legs.Get(i);
+      ClipLine(plane, line.Begin, line.Step, legs.DrawnFrom[i], legs.DrawnTo[i]);
+    }
   }
-  legs.DrawnFrom[ray] = start;
-  legs.DrawnTo[ray] = end;
-  origin = { legs.Pixel[ray], whole < Infinity && end == whole };
-  return start < end;
 }
 
 //------------------------------------------------------------------------------
@@ -107,6 +112,7 @@ void RefractedLegEntries::SiftLegs(
 {
   LegBlock& legs = workspace.Legs;
   TestLegs(this->Box, this->Set, legs);
+  this->SetParts(leg, legs);
   const int count = legs.Count;
   legs.Count = 0;
   for (int i = 0; i < count; ++i)
@@ -123,9 +129,11 @@ void RefractedLegEntries::SiftLegs(
     {
       continue;
     }
-    const auto kept = static_cast<std::size_t>(legs.Count);
-    if (this->SetPart(leg, legs, i, workspace.Origins[kept]))
+    if (legs.DrawnFrom[i] < legs.DrawnTo[i])
     {
+      const auto kept = static_cast<std::size_t>(legs.Count);
+      workspace.Origins[kept] = { pixel,
+        legs.End[i] < Infinity && legs.DrawnTo[i] == legs.End[i] - legs.Depth[i] };
       workspace.Ends[kept] = end;
       if (legs.Count != i)
       {
@@ -251,6 +259,7 @@ void RefractedLegEntries::Collect(
       }
       continue;
     }
+    this->Legs.PrefetchSquare(leg.Number, leg.Tile, square + 1);
     FindLegs(this->Legs, leg.Tile, corner, leg.Number, this->Set, workspace.Legs);
     this->SiftLegs(leg, job, joined, workspace);
     if (workspace.Legs.Count > 0)

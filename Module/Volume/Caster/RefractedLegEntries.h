@@ -153,7 +153,7 @@ public:
 private:
   void SiftLegs(
     const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
-  bool SetPart(const TileLeg& leg, LegBlock& legs, int ray, LegBatch::Origin& origin) const;
+  void SetParts(const TileLeg& leg, LegBlock& legs) const;
   bool FindEntryInside(const LegBlock& legs, int ray, std::int32_t end, PacketEntry& entry) const;
   void GroupLegs(Workspace& workspace) const;
   void AddToGroup(unsigned int number, LegBlock& chosen, Workspace& workspace) const;

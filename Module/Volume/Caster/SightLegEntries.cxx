@@ -86,7 +86,7 @@ void SightLegEntries::Limit(int column, int row, double end, PacketRay& ray) con
 }
 
 //------------------------------------------------------------------------------
-/** True if all rays that may show the mesh end at the first interface, in front of it. */
+/** True if all rays that may come to the mesh end at the first interface, in front of it. */
 bool SightLegEntries::EndBefore(const BoundsInFrame& mesh) const
 {
   // Larger than the relative rounding error of vertices by their grid.
@@ -105,11 +105,18 @@ bool SightLegEntries::EndBefore(const BoundsInFrame& mesh) const
 }
 
 //------------------------------------------------------------------------------
-/** True if a ray of a tile that may show the mesh reaches the depth before the next interface. */
+/** True if a ray of a tile that may come to the mesh reaches the depth before the interface. */
 bool SightLegEntries::ReachDepth(int tile, double depth) const
 {
   // An entry is used if it is before the end, both in single precision.
   return this->Rays.FromPivot(depth) < this->Rays.FromPivot(this->Legs.GetFarthestEnd(tile));
+}
+
+//------------------------------------------------------------------------------
+bool SightLegEntries::MayShow(int tile) const
+{
+  return !this->Raster.IsEmpty(tile) &&
+    (this->Legs.GetNumberOfLegs() == 1 || this->ReachDepth(tile, this->Raster.NearestDepth(tile)));
 }
 
 //------------------------------------------------------------------------------
@@ -174,9 +181,7 @@ void SightLegEntries::Collect(
   workspace.IsTaken = false;
   const RefractedRay* next =
     this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
-  if (!this->Raster.IsEmpty(leg.Tile) &&
-    (this->Legs.GetNumberOfLegs() == 1 ||
-      this->ReachDepth(leg.Tile, this->Raster.NearestDepth(leg.Tile))))
+  if (this->MayShow(leg.Tile))
   {
     if (leg.Selected)
     {

@@ -42,6 +42,8 @@ public:
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }
+  /** False if no sight ray of a tile comes to the mesh before the first interface. */
+  bool MayShow(int tile) const;
   /**
    * Depth from which distances along a leg count, in grid units from the pivot of the leg's frame:
    * of leg 0, the given depth.

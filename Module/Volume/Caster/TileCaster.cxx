@@ -328,6 +328,18 @@ void TileCaster::CastLegs(TileLeg leg, TileWork& work) const
 }
 
 //------------------------------------------------------------------------------
+/** True if several legs of a tile's rays may meet the mesh, or if a medium fades one of them. */
+bool TileCaster::JoinsLegs(int tile) const
+{
+  int meeting = this->Sight.MayShow(tile) ? 1 : 0;
+  for (int leg = 1; leg < this->Legs.GetNumberOfLegs(tile); ++leg)
+  {
+    meeting += this->Legs.MayShow(leg, tile) ? 1 : 0;
+  }
+  return this->Legs.GetNumberOfLegs(tile) > 1 && (meeting > 1 || this->Input.Medium);
+}
+
+//------------------------------------------------------------------------------
 RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
@@ -341,8 +353,8 @@ RayStatistics TileCaster::Cast(
     return work.Sums;
   }
   this->SetPictureOptics(work.Job);
-  work.Job.KeepsValues = legs > 1;
-  if (work.Job.KeepsValues)
+  work.Job.KeepsValues = this->JoinsLegs(tile);
+  if (legs > 1)
   {
     workspace.Joined.Clear(work.Job.Blending);
   }

@@ -186,6 +186,7 @@ private:
   struct TileWork;
   void SetPictureOptics(PacketJob& job) const;
   TileLeg FirstLeg(int tile, const float* opaqueDepth) const;
+  bool JoinsLegs(int tile) const;
   void CastLegs(TileLeg leg, TileWork& work) const;
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,

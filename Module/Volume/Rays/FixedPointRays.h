@@ -296,10 +296,12 @@ inline PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::d
 {
   PacketRay ray;
   const double fine = this->Fine ? 1.0 : 0.0;
+  // In loops over rays, products by the same factors.
+  const double perUnit = 1.0 / this->GridUnit;
+  const double slopePerUnit = perUnit / GridPerDepth;
   for (int axis = 0; axis < 2; ++axis)
   {
-    const AxisOfRay made =
-      this->MakeAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth));
+    const AxisOfRay made = this->MakeAxis(origin[axis] * perUnit, slope[axis] * slopePerUnit);
     ray.Offset[axis] = made.Offset;
     ray.Slope[axis] = made.Slope;
     ray.Fraction[axis] = FractionOf(fine * made.Fraction);

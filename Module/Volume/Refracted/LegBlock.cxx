@@ -209,6 +209,11 @@ void TestLegs(const LegBox& box, InstructionSet set, LegBlock& block)
 //------------------------------------------------------------------------------
 void FindFrames(const RefractionFrames& frames, InstructionSet set, LegBlock& block)
 {
+  if (frames.IsFirstEnough())
+  {
+    std::fill_n(block.Frame, block.Count, 0);
+    return;
+  }
   RunLanes(FrameKernel{ frames }, set, block);
 }
 

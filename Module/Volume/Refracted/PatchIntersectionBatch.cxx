@@ -48,8 +48,14 @@ struct StartKernel
     float x = flatX;
     float y = flatY;
     float height = 0.0f;
+    float before[3] = { x, y, height };
+    float lastMove = 0.0f;
     for (int step = 0; step < Steps; ++step)
     {
+      lastMove = height - before[2];
+      before[0] = x;
+      before[1] = y;
+      before[2] = height;
       const float c = 1.0f - x - y;
       const float products[3] = { x * y, y * c, c * x };
       const float shift = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
@@ -61,6 +67,13 @@ struct StartKernel
       x = flatX + (height * rayByX - besideX);
       y = flatY + (height * rayByY - besideY);
     }
+    // Steps shrink by a factor that hardly changes: the sum of all that would follow (Aitken).
+    const float move = height - before[2];
+    const float difference = lastMove - move;
+    const float rest = difference != 0.0f ? move / difference : 0.0f;
+    x += rest * (x - before[0]);
+    y += rest * (y - before[1]);
+    height += rest * move;
     // Otherwise the patch is far from flat for this ray.
     const bool isNearX = std::fabs(x - flatX) < Farthest;
     const bool isNearY = std::fabs(y - flatY) < Farthest;
@@ -136,19 +149,23 @@ struct RefractKernel
   {
     const glm::dvec3 direction = lanes.GetDirection(i);
     const double length = glm::length(direction);
-    const glm::dvec3 sight = direction / length;
+    const glm::dvec3 sight = (1.0 / length) * direction;
     const glm::dvec3 normal =
       glm::normalize(glm::dvec3(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]));
     // From behind, light passes from the interior into the exterior.
     const double facing = glm::dot(sight, normal);
     const double sign = facing > 0.0 ? -1.0 : 1.0;
-    const double ratio = facing > 0.0 ? 1.0 / this->Ratio : this->Ratio;
+    const double inverse = 1.0 / this->Ratio;
+    const double ratio = facing > 0.0 ? inverse : this->Ratio;
+    const double perRatio = facing > 0.0 ? this->Ratio : inverse;
     const double cosine = sign * facing;
     const double radicand = RefractionRadicand(cosine, ratio);
+    // Eq. 2.2: a unit vector but for rounding, and of no use to rays that are totally reflected.
+    const double root = std::sqrt(std::fabs(radicand));
+    const glm::dvec3 along = ratio * sight - (ratio * cosine + root) * (sign * normal);
     // A point that is drawn at a distance behind the sight point is that distance times n2 / n1
     // away along the refracted ray (Eq. 2.4).
-    const glm::dvec3 step =
-      length / ratio * RefractionDirection(sight, sign * normal, ratio, cosine, radicand);
+    const glm::dvec3 step = length * perRatio * along;
     lanes.Normal[0][i] = step.x;
     lanes.Normal[1][i] = step.y;
     lanes.Normal[2][i] = step.z;

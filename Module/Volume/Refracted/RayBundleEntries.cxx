@@ -3,6 +3,7 @@
 #include "Volume/Refracted/RayBundleEntries.h"
 
 #include "Common/BlockLoop.h"
+#include "Common/Prefetch.h"
 #include "Simd/InstructionSets.h"
 #include "Simd/LaneLoop.h"
 #include "Volume/Mesh/CellFaces.h"
@@ -19,6 +20,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -33,6 +35,31 @@ namespace
 constexpr double GridMargin = 324.0;
 static_assert(
   0.5 + 0.5 + FixedPointRays::RoundingOfRay < GridMargin, "rounding of vertices and rays");
+
+/** Smallest depth from which on entries of the lines of some blocks are collected. */
+// Several extremes, which do not wait for each other.
+double FindFirst(const LineBlock* blocks, std::size_t count)
+{
+  constexpr int width = 4;
+  double first[width];
+  std::fill_n(first, width, std::numeric_limits<double>::infinity());
+  for (const LineBlock* lines = blocks; lines != blocks + count; ++lines)
+  {
+    int line = 0;
+    for (; line + width <= lines->Count; line += width)
+    {
+      for (int lane = 0; lane < width; ++lane)
+      {
+        first[lane] = std::min(first[lane], lines->From[line + lane]);
+      }
+    }
+    for (; line < lines->Count; ++line)
+    {
+      first[0] = std::min(first[0], lines->From[line]);
+    }
+  }
+  return std::min(std::min(first[0], first[1]), std::min(first[2], first[3]));
+}
 
 }
 
@@ -102,10 +129,6 @@ struct RayBundleEntries::Bundle
   double PerDepth;
 
   double ShareAt(double depth) const { return (depth - this->First) * this->PerDepth; }
-  static glm::dvec2 Between(const glm::dvec2 (&ends)[2], double share)
-  {
-    return ends[0] + share * (ends[1] - ends[0]);
-  }
   /** Loop body for one face. */
   void operator()(FaceBlock& faces, int i) const
   {
@@ -230,42 +253,135 @@ RayBundleEntries::Bundle RayBundleEntries::Bound(
 }
 
 //------------------------------------------------------------------------------
-/** Faces by which lines of the bundle may enter, in the order of the tree. */
+/**
+ * The planes around a bundle: the sides of its rectangles, which are linear in the depth, and its
+ * first and last depth. In normalised model coordinates and single precision.
+ */
+class RayBundleEntries::BundlePlanes
+{
+public:
+  /**
+   * @param toFrame map from normalised model coordinates to the frame.
+   * @param margin distance in the frame by which lines of the bundle may be outside.
+   */
+  BundlePlanes(const Bundle& bundle, const glm::dmat3& toFrame, double margin)
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      glm::dvec3 across(0.0);
+      across[axis] = 1.0;
+      const double lower = bundle.PerDepth * (bundle.Lower[1][axis] - bundle.Lower[0][axis]);
+      const double upper = bundle.PerDepth * (bundle.Upper[1][axis] - bundle.Upper[0][axis]);
+      this->Add(-across + glm::dvec3(0.0, 0.0, lower), lower * bundle.First - bundle.Lower[0][axis],
+        toFrame, margin);
+      this->Add(across - glm::dvec3(0.0, 0.0, upper), bundle.Upper[0][axis] - upper * bundle.First,
+        toFrame, margin);
+    }
+    this->Add({ 0.0, 0.0, 1.0 }, bundle.Last, toFrame, margin);
+    this->Add({ 0.0, 0.0, -1.0 }, -bundle.First, toFrame, margin);
+  }
+
+  /** False if the box of a node is beyond a plane. */
+  bool MayMeet(const BoundaryTree::Node& node) const
+  {
+    const glm::vec3 center = node.Center;
+    const glm::vec3 half = node.Half;
+    // Apart from the comparisons, which the compiler does not vectorise.
+    float beyond[Size];
+    for (int k = 0; k < Size; ++k)
+    {
+      beyond[k] = this->Normal[0][k] * center.x + this->Normal[1][k] * center.y +
+        this->Normal[2][k] * center.z - this->Reach[0][k] * half.x - this->Reach[1][k] * half.y -
+        this->Reach[2][k] * half.z - this->Most[k];
+    }
+    float farthest[Size / 2];
+    for (int k = 0; k < Size / 2; ++k)
+    {
+      farthest[k] = std::max(beyond[k], beyond[k + Size / 2]);
+    }
+    return !(
+      std::max(std::max(farthest[0], farthest[1]), std::max(farthest[2], farthest[3])) > 0.0f);
+  }
+
+private:
+  /** Room for whole registers; the last ones hold nothing back. */
+  static constexpr int Size = 8;
+
+  /**
+   * Adds the half-space in which the product with `normal`, a vector of the frame, is at most
+   * `most`.
+   */
+  void Add(const glm::dvec3& normal, double most, const glm::dmat3& toFrame, double margin)
+  {
+    // Six products and their sums of numbers within 1 times the normal's components, each of which
+    // is rounded: less than ten roundings.
+    constexpr double rounding = 10.0 * 2.0 * std::numeric_limits<float>::epsilon();
+    const glm::dvec3 model = normal * toFrame;
+    double size = std::fabs(most);
+    double moved = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Normal[axis][this->Count] = static_cast<float>(model[axis]);
+      this->Reach[axis][this->Count] = static_cast<float>(std::fabs(model[axis]));
+      size += std::fabs(model[axis]);
+      moved += std::fabs(normal[axis]) * margin;
+    }
+    this->Most[this->Count++] = static_cast<float>(most + moved + rounding * size);
+  }
+
+  int Count = 0;
+  float Normal[3][Size] = {};
+  float Reach[3][Size] = {};
+  float Most[Size] = {};
+};
+
+//------------------------------------------------------------------------------
+/**
+ * Faces by which lines of the bundle may enter, in the order of the tree. Nodes, faces and vertices
+ * are far apart in memory: they are requested before their use.
+ */
 void RayBundleEntries::FindFaces(const Bundle& bundle, Workspace& workspace) const
 {
+  workspace.Leaves.clear();
   workspace.Found.clear();
   const double margin = GridMargin * this->Frame.Rays.GetGridUnit();
+  const BundlePlanes planes(bundle, this->ToFrame, margin);
   const std::vector<BoundaryTree::Node>& nodes = this->Tree.GetNodes();
+  const std::vector<BoundaryFace>& faces = this->Tree.GetFaces();
   std::size_t at = 0;
   while (at < nodes.size())
   {
     const BoundaryTree::Node& node = nodes[at];
-    const glm::dvec3 center = this->ToFrame * glm::dvec3(node.Center);
-    const glm::dvec3 half = this->Reach * glm::dvec3(node.Half) + margin;
-    const double first = std::max(center.z - half.z, bundle.First);
-    const double last = std::min(center.z + half.z, bundle.Last);
-    bool meets = first <= last;
-    if (meets)
-    {
-      const double near = bundle.ShareAt(first);
-      const double far = bundle.ShareAt(last);
-      const glm::dvec2 lower =
-        glm::min(Bundle::Between(bundle.Lower, near), Bundle::Between(bundle.Lower, far));
-      const glm::dvec2 upper =
-        glm::max(Bundle::Between(bundle.Upper, near), Bundle::Between(bundle.Upper, far));
-      meets = center.x + half.x >= lower.x && center.x - half.x <= upper.x &&
-        center.y + half.y >= lower.y && center.y - half.y <= upper.y;
-    }
+    const auto next = static_cast<std::size_t>(node.Skip);
+    Prefetch(nodes.data() + next);
+    const bool meets = planes.MayMeet(node);
     if (meets && node.Face >= 0)
     {
-      const PacketFace face = EnteredFace(
-        this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)], this->Frame.Rays.GetFrame());
-      if (this->MayFace(face, bundle))
-      {
-        workspace.Found.push_back({ face, center, half });
-      }
+      Prefetch(&faces[static_cast<std::size_t>(node.Face)]);
+      workspace.Leaves.push_back(static_cast<std::int32_t>(at));
     }
-    at = meets ? at + 1 : static_cast<std::size_t>(node.Skip);
+    at = meets ? at + 1 : next;
+  }
+  const auto faceOf = [&](std::size_t leaf) -> const BoundaryFace&
+  {
+    const BoundaryTree::Node& node = nodes[static_cast<std::size_t>(workspace.Leaves[leaf])];
+    return faces[static_cast<std::size_t>(node.Face)];
+  };
+  constexpr std::size_t ahead = 8;
+  for (std::size_t leaf = 0; leaf < workspace.Leaves.size(); ++leaf)
+  {
+    for (int k = 0; k < 3 && leaf + ahead < workspace.Leaves.size(); ++k)
+    {
+      const std::int32_t vertex = faceOf(leaf + ahead).Vertices[static_cast<std::size_t>(k)];
+      Prefetch(&this->Frame.Vertices[static_cast<std::size_t>(vertex)]);
+    }
+    const PacketFace face = EnteredFace(faceOf(leaf), this->Frame.Rays.GetFrame());
+    if (this->MayFace(face, bundle))
+    {
+      const BoundaryTree::Node& node = nodes[static_cast<std::size_t>(workspace.Leaves[leaf])];
+      workspace.Found.push_back({ face, this->ToFrame * glm::dvec3(node.Center),
+        this->Reach * glm::dvec3(node.Half) + margin });
+    }
   }
 }
 
@@ -376,14 +492,7 @@ void RayBundleEntries::Collect(
   const LineBlock* blocks, std::size_t count, Workspace& workspace, double last) const
 {
   last = std::clamp(last, -this->Frame.Extent, this->Frame.Extent);
-  double first = last;
-  for (const LineBlock* lines = blocks; lines != blocks + count; ++lines)
-  {
-    for (int i = 0; i < lines->Count; ++i)
-    {
-      first = std::min(first, std::max(lines->From[i], -this->Frame.Extent));
-    }
-  }
+  const double first = std::min(last, std::max(FindFirst(blocks, count), -this->Frame.Extent));
   workspace.NumberOfHits = 0;
   const Bundle all = this->Bound(blocks, count, first, last);
   this->FindFaces(all, workspace);

@@ -81,6 +81,8 @@ public:
     /** Adds an entry, with its face. */
     void Add(std::int32_t ray, const PacketEntry& entry);
 
+    /** Nodes of the faces whose boxes lines of the bundle may meet. */
+    std::vector<std::int32_t> Leaves;
     struct FoundFace
     {
       PacketFace Face;
@@ -116,6 +118,7 @@ public:
 
 private:
   struct Bundle;
+  class BundlePlanes;
   Bundle Bound(const LineBlock* blocks, std::size_t count, double first, double last) const;
   void FindFaces(const Bundle& bundle, Workspace& workspace) const;
   void SortFaces(const Bundle& bundle, Workspace& workspace) const;

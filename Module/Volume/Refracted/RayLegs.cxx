@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/RayLegs.h"
 
+#include "Common/Prefetch.h"
+
 #include <glm/geometric.hpp>
 
 namespace meniscus
@@ -44,6 +46,21 @@ int RayLegs::GetNumberOfLegs(int tile) const
     ++number;
   }
   return number;
+}
+
+//------------------------------------------------------------------------------
+void RayLegs::PrefetchSquare(int leg, int tile, int square) const
+{
+  constexpr int side = RefractedRayTiles::SquareSize;
+  if (square < RefractedRayTiles::SquaresOfTile && this->MayShow(leg, tile, square))
+  {
+    const RefractedRay* rays = this->GetTile(leg, tile) +
+      RefractedRayTiles::RowOfSquare(square) * TileSize + RefractedRayTiles::ColumnOfSquare(square);
+    for (int row = 0; row < side; ++row)
+    {
+      Prefetch(rays + row * TileSize, side * sizeof(RefractedRay));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -111,17 +111,24 @@ public:
   {
     return this->Refracted[static_cast<std::size_t>(leg) - 1]->GoesOn(tile, square);
   }
-  /** False if none of these legs may meet the mesh. */
+  /** False if none of the legs of a tile, or of a square of it, may meet the mesh. */
+  bool MayShow(int leg, int tile) const
+  {
+    return this->Refracted[static_cast<std::size_t>(leg) - 1]->MayShow(tile);
+  }
   bool MayShow(int leg, int tile, int square) const
   {
     return this->Refracted[static_cast<std::size_t>(leg) - 1]->MayShow(tile, square);
   }
 
   /**
-   * Largest depth at which a ray of a tile that may show the mesh meets the first interface;
-   * infinite if one passes it.
+   * Largest depth at which a ray of a tile that may come to the mesh before meets the first
+   * interface: infinite if one passes it, -infinity if there is none.
    */
   double GetFarthestEnd(int tile) const { return this->Refracted.front()->GetFarthest(tile); }
+
+  /** Requests the rays of a square, if they are to be read; `square` may be behind the last one. */
+  void PrefetchSquare(int leg, int tile, int square) const;
 
   /** Lower left pixel of a tile. */
   int GetLeft(int tile) const { return tile % this->Columns * this->Pitch; }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bitset>
 #include <limits>
+#include <utility>
 
 namespace meniscus
 {
@@ -71,6 +72,10 @@ std::int64_t RefractedRayStack::GetBytes() const
 void RefractedRayStack::Build(
   const std::vector<Interface>& interfaces, const View& view, const RangeLoop& loop)
 {
+  if (interfaces.size() != this->Interfaces.size())
+  {
+    this->Blocks.clear(); // they have other numbers of legs
+  }
   this->Interfaces = interfaces;
   if (view.Width != this->Of.Width || view.Height != this->Of.Height)
   {
@@ -100,11 +105,12 @@ void RefractedRayStack::Build(
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
-      StackBlock block(this->Interfaces.size(), this->Set);
+      std::unique_ptr<StackBlock> block = this->TakeBlock();
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        sums[tile] = this->TraceTile(static_cast<int>(tile), sight, block);
+        sums[tile] = this->TraceTile(static_cast<int>(tile), sight, *block);
       }
+      this->PutBack(std::move(block));
     });
   glm::dvec3 sum(0.0);
   this->StepBounds = AxisBox();
@@ -116,6 +122,27 @@ void RefractedRayStack::Build(
   }
   const double length = glm::length(sum);
   this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
+}
+
+//------------------------------------------------------------------------------
+/** Returns a block of an earlier thread, with the patches that it met, or a new one. */
+std::unique_ptr<StackBlock> RefractedRayStack::TakeBlock()
+{
+  const std::lock_guard<std::mutex> lock(this->BlocksMutex);
+  if (this->Blocks.empty())
+  {
+    return std::make_unique<StackBlock>(this->Interfaces.size(), this->Set);
+  }
+  std::unique_ptr<StackBlock> block = std::move(this->Blocks.back());
+  this->Blocks.pop_back();
+  return block;
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayStack::PutBack(std::unique_ptr<StackBlock> block)
+{
+  const std::lock_guard<std::mutex> lock(this->BlocksMutex);
+  this->Blocks.push_back(std::move(block));
 }
 
 //------------------------------------------------------------------------------
@@ -187,7 +214,7 @@ void RefractedRayStack::PrepareTile(int tile, bool mayShow)
 //------------------------------------------------------------------------------
 /**
  * Leaves out the rays of a tile, none of which shows the mesh behind the first interface.
- * @param farthest bound of the depths at which rays that may show the mesh meet it.
+ * @param farthest as in RefractedRayTiles::SetFarthest().
  * @param untraced the blocks with rays that may meet it.
  */
 void RefractedRayStack::ClearTile(int tile, double farthest, TileSquares untraced)
@@ -308,7 +335,7 @@ RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showin
     }
     Counts counts;
     this->MeetFirst(first, StackBlock::Side, block, counts);
-    farthest = std::max(farthest, block.Lanes.GetFarthest());
+    farthest = std::max(farthest, this->FindFarthestSight(sight, block));
     const bool isMet = block.Lanes.IsAnyHit();
     const bool isTraced = isMet && showing.Refracted && this->TraceBlock(&sight, block, counts);
     hasShown = !isMet || (isTraced && block.EndBeside(this->MeshCenter, this->MeshHalf));
@@ -344,6 +371,26 @@ void RefractedRayStack::MeetFirst(
   this->SetLanes(0, block, sums);
   this->MeetInterface(0, block, sums);
   std::copy_n(block.Lanes.Last, StackBlock::Size, block.Sights);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Largest depth at which rays of a block, which have met the first interface, meet it; -infinity if
+ * none of them comes to the bounds of the mesh before, infinite if one that does passes it.
+ */
+double RefractedRayStack::FindFarthestSight(
+  const StackVisibility& sight, const StackBlock& block) const
+{
+  if (block.Lanes.Count == 0)
+  {
+    return -Infinity;
+  }
+  const double farthest = block.Lanes.GetFarthest();
+  TubeBounds tube = block.Tube;
+  const glm::dvec3 toSurface = this->ToSurface(0);
+  tube.StartLow -= toSurface;
+  tube.StartHigh -= toSurface;
+  return sight.MeetsBounds(tube, farthest - this->Of.EyeDepth) ? farthest : -Infinity;
 }
 
 //------------------------------------------------------------------------------
@@ -438,20 +485,20 @@ void RefractedRayStack::SetLanes(std::size_t number, StackBlock& block, Counts& 
 template <typename Meet>
 void RefractedRayStack::VisitFacets(std::size_t number, StackBlock& block, const Meet& meet) const
 {
-  const Interface& interface = this->Interfaces[number];
+  const RefractingSurface& surface = *this->Interfaces[number].Surface;
   RayBlock& lanes = block.Lanes;
   const double rayLength = lanes.Length[0];
   const RayRange all{ 0, lanes.Count };
   const auto tracerOf = [&](std::int32_t facet) -> const PatchIntersector&
-  { return block.GetTracer(interface, number, facet, rayLength); };
-  const auto request = [&interface](std::int32_t facet)
-  { interface.Surface->GetPatches().PrefetchPatch(facet); };
+  { return block.GetTracer(surface, facet, rayLength); };
+  const auto request = [&surface](std::int32_t facet)
+  { surface.GetPatches().PrefetchPatch(facet); };
   double farthest = Infinity;
   FacetBoxes* facets = block.FindFacets(number);
   if (!facets || (number > 0 && facets->Count > ManyFacets))
   {
     InvertDirections(this->Set, lanes);
-    interface.Surface->GetTree().Visit(
+    surface.GetTree().Visit(
       block.Tube, farthest,
       [this, &lanes](const AxisBox& box) { return MeetsBox(box, this->Set, lanes); },
       [&](std::int32_t facet, const TubeRange&) { return meet(tracerOf(facet), all); });

@@ -16,6 +16,8 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace meniscus
@@ -122,6 +124,8 @@ private:
     bool Refracted;
   };
 
+  std::unique_ptr<StackBlock> TakeBlock();
+  void PutBack(std::unique_ptr<StackBlock> block);
   TileSum TraceTile(int tile, const StackVisibility& sight, StackBlock& block);
   void PrepareTile(int tile, bool mayShow);
   void ClearTile(int tile, double farthest, TileSquares untraced);
@@ -142,6 +146,7 @@ private:
     return this->Of.Center - this->Interfaces[number].Surface->GetMembrane().GetOrigin();
   }
   void MeetFirst(const glm::ivec2& first, int side, StackBlock& block, Counts& sums) const;
+  double FindFarthestSight(const StackVisibility& sight, const StackBlock& block) const;
   bool MeetsFirst(const glm::ivec2& pixel, StackBlock& block) const;
   bool TraceBlock(const StackVisibility* sight, StackBlock& block, Counts& sums) const;
   bool MayShowMesh(const StackVisibility& sight, StackBlock& block) const;
@@ -156,6 +161,9 @@ private:
   View Of;
   int Columns = 0;
   InstructionSet Set = BestInstructionSet();
+  /** Blocks that no thread uses. */
+  std::vector<std::unique_ptr<StackBlock>> Blocks;
+  std::mutex BlocksMutex;
   glm::dmat3 WorldToFrame{ 1.0 };
   /** Bounds of the mesh along the world's axes, relative to the view's origin. */
   glm::dvec3 MeshCenter{ 0.0 };

@@ -103,8 +103,8 @@ public:
     this->Showing[at] = static_cast<TileSquares>(this->Showing[at] | (mayShow ? 1u : 0u) << square);
   }
   /**
-   * Sets a bound of the depths at which those rays of a tile meet the interface that may show the
-   * mesh; infinite, as in a new tile, if one of them passes it.
+   * Sets a bound of the depths at which those rays of a tile meet the interface that may come to
+   * the mesh before; infinite, as in a new tile, if one of them passes the interface.
    */
   void SetFarthest(int tile, double depth)
   {
@@ -115,6 +115,7 @@ public:
   {
     return (this->GoingOn[static_cast<std::size_t>(tile)] >> square & 1u) != 0;
   }
+  bool MayShow(int tile) const { return this->Showing[static_cast<std::size_t>(tile)] != 0; }
   bool MayShow(int tile, int square) const
   {
     return (this->Showing[static_cast<std::size_t>(tile)] >> square & 1u) != 0;

@@ -101,6 +101,8 @@ public:
     const double component = isZ ? along.z : (isX ? along.x : along.y);
     return (isZ ? 0 : (isX ? 2 : 4)) + (component < 0.0 ? 1 : 0);
   }
+  /** True if all rays belong to the first frame. */
+  bool IsFirstEnough() const { return this->Needed == 1; }
   const RefractionFrame& Get(int index) const
   {
     return this->Frames[static_cast<std::size_t>(index)];

@@ -330,23 +330,24 @@ void StackBlock::FindFrameSteps(
 
 //------------------------------------------------------------------------------
 const PatchIntersector& StackBlock::GetTracer(
-  const Interface& interface, std::size_t number, std::int32_t facet, double rayLength)
+  const RefractingSurface& surface, std::int32_t facet, double rayLength)
 {
+  const std::int64_t shape = surface.GetShape();
   // The upper bits of this product differ for facets that are close to each other.
   const std::uint32_t key =
-    static_cast<std::uint32_t>(facet) + 7919u * static_cast<std::uint32_t>(number);
+    static_cast<std::uint32_t>(facet) + 7919u * static_cast<std::uint32_t>(shape);
   std::uint16_t& place = this->Places[key * 2654435769u >> (32 - PlaceBits)];
   if (place < this->Kept.size())
   {
     KeptPatch& kept = this->Kept[place];
-    if (kept.Number == number && kept.Facet == facet)
+    if (kept.Shape == shape && kept.Facet == facet)
     {
       kept.Tracer.SetRayLength(rayLength);
       return kept.Tracer;
     }
   }
-  const KeptPatch added{ number, facet,
-    PatchIntersector(interface.Surface->GetPatches().GetPatch(facet), rayLength, this->Set) };
+  const KeptPatch added{ shape, facet,
+    PatchIntersector(surface.GetPatches().GetPatch(facet), rayLength, this->Set) };
   place = static_cast<std::uint16_t>(this->NextPlace);
   this->NextPlace = (this->NextPlace + 1) % KeptPatches;
   if (this->Kept.size() < KeptPatches)

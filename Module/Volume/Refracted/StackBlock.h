@@ -137,7 +137,7 @@ struct StackBlock
   }
   /** Intersector of a patch, for rays of the length `rayLength`. */
   const PatchIntersector& GetTracer(
-    const Interface& interface, std::size_t number, std::int32_t facet, double rayLength);
+    const RefractingSurface& surface, std::int32_t facet, double rayLength);
 
   InstructionSet Set;
   int Count = 0;
@@ -158,15 +158,15 @@ struct StackBlock
   BundleFacets Facets;
 
 private:
-  /** A patch that an earlier block met. */
+  /** A patch that earlier rays met, of this image or another one. */
   struct KeptPatch
   {
-    std::size_t Number; ///< of the interface
+    std::int64_t Shape; ///< RefractingSurface::GetShape()
     std::int32_t Facet;
     PatchIntersector Tracer;
   };
-  static constexpr std::uint32_t KeptPatches = 1024;
-  static constexpr int PlaceBits = 12;
+  static constexpr std::uint32_t KeptPatches = 2048;
+  static constexpr int PlaceBits = 13;
   /** The latest patches, and the place among them of the next one. */
   std::vector<KeptPatch> Kept;
   std::uint32_t NextPlace = 0;

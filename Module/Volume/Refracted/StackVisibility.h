@@ -83,6 +83,11 @@ public:
   bool MayShowMeshUnrefracted(const CornerRays& rays) const;
   /** True if all of these rays, on straight ways, reach the bounds of the mesh. */
   bool AllMeetBoundsUnrefracted(const CornerRays& rays) const;
+  /** False if no ray of a tube reaches the bounds of the mesh up to the parameter `last`. */
+  bool MeetsBounds(const TubeBounds& rays, double last) const
+  {
+    return this->Mesh.Meets(rays, last);
+  }
   /**
    * True if either none of these rays meets the first interface, or all do, and before they reach
    * the bounds of the mesh.

@@ -17,6 +17,12 @@ void TestSurface::Set(const MembraneInput& input)
 //------------------------------------------------------------------------------
 Sheet::Sheet(const std::function<double(double, double)>& height, int cells)
 {
+  this->SetHeight(height, cells);
+}
+
+//------------------------------------------------------------------------------
+void Sheet::SetHeight(const std::function<double(double, double)>& height, int cells)
+{
   std::vector<double> points;
   std::vector<std::int64_t> triangles;
   for (const auto& [j, i] : Product(cells + 1, cells + 1))

@@ -31,6 +31,8 @@ struct TestSurface
 struct Sheet : TestSurface
 {
   Sheet(const std::function<double(double, double)>& height, int cells);
+  /** Makes the same surface another sheet. */
+  void SetHeight(const std::function<double(double, double)>& height, int cells);
 };
 
 /** A closed sphere about the origin with its own normals; patches reproduce it. */

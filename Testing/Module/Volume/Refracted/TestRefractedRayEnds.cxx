@@ -211,6 +211,7 @@ TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
   int traced = 0;
   int shown = 0;
   int ends = 0;
+  int hidden = 0;
   for (int i = 0; i < 24; ++i)
   {
     RefractedRayStack::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 4.0),
@@ -218,12 +219,16 @@ TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
     RefractedRayStack all;
     SetMesh(view, Everywhere);
     all.Build(water, view);
-    const WorldBox box{ random.Point(glm::dvec3(-0.3, -0.3, -1.0), glm::dvec3(0.3, 0.3, -0.6)),
+    // Every third box is above the waves, where rays show it before they are refracted.
+    const bool isAbove = i % 3 == 0;
+    const double height = isAbove ? 1.2 : 0.0;
+    const WorldBox box{ random.Point(
+                          glm::dvec3(-0.3, -0.3, height - 1.0), glm::dvec3(0.3, 0.3, height - 0.6)),
       random.Point(glm::dvec3(0.1), glm::dvec3(0.2)) };
     RefractedRayStack some;
     SetMesh(view, box);
     some.Build(water, view);
-    traced += blocks - static_cast<int>(some.GetNumberOfUntracedBlocks());
+    traced += isAbove ? 0 : blocks - static_cast<int>(some.GetNumberOfUntracedBlocks());
     const RayLegs legs = LegsOf(all, view);
     const RayLegs fewer = LegsOf(some, view);
     std::vector<bool> shows(blocks, false);
@@ -235,27 +240,32 @@ TEST(RefractedRayStack, BlocksBesideTheMeshAreNotTraced)
       const WorldRay sight = LegOf(legs, view, column, row, 0);
       const double end = RayOf(all.GetRays()[0], column, row).Depth;
       const bool isStraight = box.Meets(sight.Start, sight.Direction, 1e30);
-      const bool comes =
-        box.Meets(ray.Start, ray.Direction, 1e30) || box.Meets(sight.Start, sight.Direction, end);
+      const bool isBehind = box.Meets(ray.Start, ray.Direction, 1e30);
+      const bool isBefore = box.Meets(sight.Start, sight.Direction, end);
       const auto block = static_cast<std::size_t>(row / side * (Size / side) + column / side);
-      shows[block] = shows[block] || isStraight || comes;
+      shows[block] = shows[block] || (!isAbove && (isStraight || isBehind));
       const double farthest = fewer.GetFarthestEnd(row / TileSize * Columns + column / TileSize);
-      EXPECT_TRUE(!comes || end <= farthest);
-      ends += comes && farthest < 1e30 ? 1 : 0;
+      EXPECT_TRUE(!isBefore || end <= farthest);
+      ends += isBefore && farthest < 1e30 ? 1 : 0;
+      hidden += isBehind && farthest < -1e30 ? 1 : 0;
     }
     shown += static_cast<int>(std::count(shows.begin(), shows.end(), true));
   }
   EXPECT_GT(ends, 1000);
+  EXPECT_GT(hidden, 1000);
   EXPECT_GT(shown, 24);
   EXPECT_GE(traced, shown);
   // Bounds add a ring of blocks: a square of n x n becomes one of (n + 2) x (n + 2), n at least 3.
   EXPECT_LT(traced, shown * 25 / 9);
 }
 
-/** Tiles that showed the mesh hold nothing of it after another view, in an image of any size. */
+/**
+ * Tiles that showed the mesh hold nothing of it after another view, in an image of any size, and
+ * nothing is left of a surface that has got another shape.
+ */
 TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
 {
-  const Sheet front(Shapes[2], 12);
+  Sheet front(Shapes[2], 12);
   const Sheet back([](double x, double y) { return Shapes[2](y, x) - 0.4; }, 9);
   const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
   Random random(31);
@@ -263,6 +273,7 @@ TEST(RefractedRayStack, BuildsDoNotDependOnEarlierOnes)
   int met = 0;
   for (int i = 0; i < 24; ++i)
   {
+    front.SetHeight([i](double x, double y) { return 0.1 * i * Shapes[2](x, y); }, 12);
     RefractedRayStack::View view = LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), 2.0),
       random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), false, Size);
     view.Width = i % 3 == 0 ? Size - 13 : Size;
