@@ -54,7 +54,7 @@ public:
     return *std::max_element(sides.begin(), sides.end());
   }
 
-  /** If a triangle is slender, `corner` is the one opposite to its longest side. */
+  /** If a triangle is slender, `corner` is the corner opposite to its longest side. */
   bool IsSlender(const Corners& corners, std::size_t& corner) const
   {
     if (!this->Slender)

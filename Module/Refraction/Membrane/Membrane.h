@@ -52,7 +52,7 @@ struct MembraneReport
   std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero, not finite or
                                      ///< different at joined vertices
   std::size_t DifferentNormals = 0;  ///< given normals that differ between joined vertices, or are
-                                     ///< those of a facet; computed
+                                     ///< a facet's; computed
   std::size_t WildNormals = 0;       ///< given normals that cannot belong to the surface; computed
   std::size_t JoinedVertices = 0;    ///< replaced by another vertex at the same place
   std::size_t NonManifoldFacets = 0; ///< kept, but not joined across edges of three or more facets

@@ -4,7 +4,7 @@
  * Directions in which points are seen through a medium that bends light.
  *
  * Method:
- * 1. The directions around those of all points are divided into a grid. A ray is followed along
+ * 1. The directions around all points are divided into a grid. A ray is followed along
  *    each of them once, and its corners are kept.
  * 2. A plane at the depth of a point is met by the rays of a triangle of the grid at the corners of
  *    a triangle. If that one has the point in it, the point is seen in about that direction. Where

@@ -95,7 +95,7 @@ public:
   const GradedCell& GetCell() const { return this->Cell; }
   /** At least the norm of the force's derivative; 0 for a parabola. */
   double GetForceNorm() const { return this->Norm; }
-  /** At least the size of the force within a time, at most that of the exit that was found. */
+  /** At least the size of the force within a time, which is at most the time of the exit found. */
   double GetLargestForce(double time) const;
   /** Integral of n^2 along the way there, from its value at the beginning. */
   double IntegrateSquare(double square) const;

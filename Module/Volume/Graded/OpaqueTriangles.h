@@ -53,7 +53,7 @@ public:
   /** Box around all triangles. */
   const AxisBox& GetBounds() const { return this->Bounds; }
 
-  /** Find the first triangle on a piece of a path; of equally near ones that of lowest number. */
+  /** Find the first triangle on a piece of a path; of equally near ones the lowest number. */
   bool Meet(const GradedLeg& leg, OpaqueHit& hit) const;
   bool Meet(GradedArc& arc, OpaqueHit& hit) const;
 

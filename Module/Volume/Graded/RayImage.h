@@ -26,7 +26,7 @@ struct AffinePixelVector
 };
 
 /**
- * Rays of an image: parallel ones, those of one eye, or any that are affine in the pixel. Places
+ * Rays of an image: parallel rays, rays of one eye, or any that are affine in the pixel. Places
  * are in the units of the mesh. Pixels are numbered from 0 on.
  */
 class RayImage
@@ -72,8 +72,8 @@ public:
    */
   glm::dvec2 Project(const glm::dvec3& place) const;
   /**
-   * True if a direction and that of a pixel's ray, both of unit length, differ by less than a
-   * length, which is below 1.
+   * True if a direction and the direction of a pixel's ray, both of unit length, differ by less
+   * than a length, which is below 1.
    */
   bool IsNearRay(const glm::dvec2& pixel, const glm::dvec3& direction, double length) const;
 

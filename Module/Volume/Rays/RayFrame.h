@@ -73,8 +73,8 @@ struct RayFrame
   double SmallestCell = 1.0;
   /**
    * Depth = dot(share, DepthNumerator) / dot(share, DepthDenominator) between the planes, where the
-   * share of the far plane, x, is the window depth in [0, 1], and that of the near plane, y, the
-   * rest of 1. The denominator of the near plane is 1.
+   * share of the far plane, x, is the window depth in [0, 1], and the share of the near plane, y,
+   * the rest of 1. The denominator of the near plane is 1.
    */
   glm::dvec2 DepthNumerator{ 0.0 };
   glm::dvec2 DepthDenominator{ 1.0 };

@@ -56,8 +56,7 @@ void ExpectError(const std::string& part,
 {
   PaneScene scene;
   change(scene, scene.GetRayCaster());
-  auto told = vtkSmartPointer<ErrorObserver>::New();
-  told->Observe(scene.GetRayCaster());
+  const auto told = ObserveErrors(scene.GetRayCaster());
   const FloatImage picture = scene.RenderFloat();
   ASSERT_EQ(told->Errors.size(), 1u) << part << told->GetText();
   EXPECT_TRUE(HasText(told->Errors.front(), part));
@@ -212,8 +211,7 @@ TEST(TetrahedraRayCastMembraneList, PaneSeenFromTheOtherSide)
     PaneScene scene;
     vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
     SetIndices(mapper, { { 1.0, 1.5 }, { 1.5, behind } });
-    auto told = vtkSmartPointer<ErrorObserver>::New();
-    told->Observe(mapper);
+    const auto told = ObserveErrors(mapper);
     LookAt(scene.GetRenderer(), Block, 30.0, -60.0);
     const FloatImage picture = scene.RenderFloat();
     EXPECT_TRUE(told->Errors.empty()) << told->GetText();
@@ -230,8 +228,7 @@ TEST(TetrahedraRayCastMembraneList, ErrorsGoAwayWithTheirCause)
   PaneScene scene;
   vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   const FloatImage before = scene.RenderFloat();
-  auto told = vtkSmartPointer<ErrorObserver>::New();
-  told->Observe(mapper);
+  const auto told = ObserveErrors(mapper);
   mapper->GetInterfaces()->GetInterface(1)->SetExteriorIndexOfRefraction(1.4);
   scene.RenderFloat();
   EXPECT_EQ(told->Errors.size(), 1u);
@@ -244,8 +241,7 @@ TEST(TetrahedraRayCastMembraneList, MessagesNameTheInterface)
 {
   PaneScene scene;
   scene.Lower->GetPolys()->InsertNextCell({ 0, 0, 1 });
-  auto told = vtkSmartPointer<ErrorObserver>::New();
-  told->Observe(scene.GetRayCaster());
+  const auto told = ObserveErrors(scene.GetRayCaster());
   scene.RenderFloat();
   scene.RenderFloat();
   ASSERT_EQ(told->Warnings.size(), 1u);
@@ -261,8 +257,7 @@ TEST(TetrahedraRayCastMembraneList, NativeWhereTheDeviceHasNoRoom)
     vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
     mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
     meniscus::DeviceTableLimits::SetLargest(mapper, 4 * Size * Size - (fits ? 0 : 1));
-    auto told = vtkSmartPointer<ErrorObserver>::New();
-    told->Observe(mapper);
+    const auto told = ObserveErrors(mapper);
     scene.RenderFloat();
     EXPECT_EQ(mapper->GetActiveBackend(),
       fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE);

@@ -292,8 +292,7 @@ TEST(TetrahedraRayCastTrueCells, ARoomEndsWithinItsBudgetAndReportsItsError)
   double last = 1.0;
   for (const double budget : { 1.5, 3.0, 8.0, 0.0 })
   {
-    auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    told->Observe(mapper);
+    const auto told = ObserveErrors(mapper);
     mapper->SetMaximumNumberOfPieces(static_cast<vtkTypeInt64>(budget * fixed));
     const FloatImage image = scene.RenderFloat();
     const double limit = budget > 0.0 ? budget * fixed : 100000.0;

@@ -292,8 +292,7 @@ TEST(TetrahedraRayCastBadNumbers, Lights)
     light->SetFocalPoint(0.0, 0.0, 0.0);
     edit(light);
     scene.GetRenderer()->AddLight(light);
-    auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    told->Observe(scene.GetRayCaster());
+    const auto told = ObserveErrors(scene.GetRayCaster());
     scene.RenderBytes();
     EXPECT_TRUE(told->Errors.empty()) << told->GetText();
     ASSERT_EQ(told->Warnings.empty(), std::string(words).empty()) << words;
@@ -329,8 +328,7 @@ TEST(TetrahedraRayCastBadNumbers, ClippingPlanes)
     RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
     scene.GetRayCaster()->AddClippingPlane(good);
     scene.GetRayCaster()->AddClippingPlane(bad);
-    vtkNew<ErrorObserver> told;
-    told->Observe(scene.GetRayCaster());
+    const auto told = ObserveErrors(scene.GetRayCaster());
     const ByteImage image = scene.RenderBytes();
     EXPECT_TRUE(HasText(told->GetText(), "clipping plane 1 is not finite"));
     EXPECT_EQ(*std::max_element(image.Rgb.begin(), image.Rgb.end()), 0);

@@ -493,8 +493,7 @@ TEST_P(TetrahedraRayCastShadowsMatrix, HasClosedForm)
   for (const bool isClipped : { false, true })
   {
     MatrixScene drawn(tested, isClipped);
-    vtkNew<ErrorObserver> observer;
-    observer->Observe(drawn.Scene.GetRayCaster());
+    const auto observer = ObserveErrors(drawn.Scene.GetRayCaster());
     int visible = 0;
     for (const LightKind kind : LightKinds)
     {

@@ -24,9 +24,9 @@ struct MediumSegment
 /** Segments of rays that were cut by other means than the packets' walk. */
 struct MediumSegmentList
 {
-  /** Those of each ray front to back, ray after ray. */
+  /** The segments of each ray front to back, ray after ray. */
   const MediumSegment* Segments;
-  /** One number per ray: that of the segment after its last one. */
+  /** One number per ray: the number of the segment after its last one. */
   const std::int32_t* Ends;
   std::int32_t NumberOfRays;
   /** Four numbers per ray: premultiplied colour and transmittance of its segments. */
