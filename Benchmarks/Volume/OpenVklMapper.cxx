@@ -15,6 +15,7 @@
 #include <vtkRayCastImageDisplayHelper.h>
 #include <vtkRenderer.h>
 #include <vtkSMPTools.h>
+#include <vtkTetra.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
@@ -44,6 +45,12 @@ constexpr int BlockHeight = 2;
 
 /** Nodes of the tables of functions. */
 constexpr int Nodes = 4096;
+
+/**
+ * Nominal lengths that an interval has at most. Open VKL's is the size of the smallest cell, 0
+ * beside flat ones, where its renderers would take no sample at all.
+ */
+constexpr float LargestCount = 1024.0f;
 
 /** Opacity at which a ray ends. */
 constexpr float FullOpacity = 0.999f;
@@ -206,6 +213,18 @@ private:
     vklRelease(data);
   }
 
+  // Open VKL finds no value in tetrahedra of the other orientation, which VTK draws like all
+  // others.
+  static bool IsTurned(vtkUnstructuredGrid* grid, vtkIdList* corners)
+  {
+    double points[4][3];
+    for (int i = 0; i < 4; ++i)
+    {
+      grid->GetPoint(corners->GetId(i), points[i]);
+    }
+    return vtkTetra::ComputeVolume(points[0], points[1], points[2], points[3]) < 0.0;
+  }
+
   void SetPoints(vtkUnstructuredGrid* grid)
   {
     const vtkIdType count = grid->GetNumberOfPoints();
@@ -241,6 +260,12 @@ private:
       starts[i] = static_cast<std::uint32_t>(corners.size());
       types[i] = static_cast<std::uint8_t>(grid->GetCellType(i));
       cells->GetCellAtId(i, ids);
+      if (types[i] == VTK_TETRA && IsTurned(grid, ids))
+      {
+        const vtkIdType first = ids->GetId(0);
+        ids->SetId(0, ids->GetId(1));
+        ids->SetId(1, first);
+      }
       corners.insert(corners.end(), ids->begin(), ids->end());
     }
     this->SetArray(this->Volume, "index", corners.size(), VKL_UINT, corners.data());
@@ -334,7 +359,13 @@ private:
   void March(const VKLInterval8& interval, Mask valid, PacketColors& colors) const
   {
     float begin[Lanes];
-    std::copy(interval.tRange.lower, interval.tRange.lower + Lanes, begin);
+    float step[Lanes];
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      begin[lane] = interval.tRange.lower[lane];
+      const float length = interval.tRange.upper[lane] - begin[lane];
+      step[lane] = std::max(interval.nominalDeltaT[lane], length / LargestCount) / this->Rate;
+    }
     while (true)
     {
       bool any = false;
@@ -346,7 +377,7 @@ private:
         valid[lane] = begin[lane] < end && colors.Opacity[lane] < FullOpacity ? valid[lane] : 0;
         if (valid[lane])
         {
-          const float next = std::min(begin[lane] + interval.nominalDeltaT[lane] / this->Rate, end);
+          const float next = std::min(begin[lane] + step[lane], end);
           const float middle = 0.5f * (begin[lane] + next);
           places.x[lane] = this->Origin.x[lane] + middle * this->Direction.x[lane];
           places.y[lane] = this->Origin.y[lane] + middle * this->Direction.y[lane];
