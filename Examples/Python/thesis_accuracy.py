@@ -205,7 +205,7 @@ def draw_worst(size):
     facets = common.vtkExtractEdges()
     facets.SetInputData(flat)
     facets.Update()
-    renderer = common.make_renderer((BACKGROUND, BACKGROUND))
+    renderer = common.make_renderer()
     edges = common.make_actor(facets.GetOutput(), (1.0, 0.85, 0.2))
     edges.GetProperty().LightingOff()
     edges.GetProperty().SetLineWidth(2.0)
