@@ -7,6 +7,8 @@
 #include "VolumeScene.h"
 
 #include <vtkAppendFilter.h>
+#include <vtkParametricFunctionSource.h>
+#include <vtkParametricTorus.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterface.h>
@@ -14,6 +16,8 @@
 #include <vtkRefractionPass.h>
 #include <vtkSphereSource.h>
 #include <vtkStripper.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
 
 using namespace meniscus::test;
@@ -397,6 +401,49 @@ TEST(RefractionPassWavesLimit, RipplesLightAsFlatWater)
   const auto atTheEye = pool.AddLight({ 0.0, 1.0, 0.0 }, 0.5, true);
   atTheEye->SetLightTypeToHeadlight();
   expectSame("light that follows the camera", 0);
+}
+
+/**
+ * A torus has facets that the light grazes, some that face away from it, and some without area,
+ * where its ends meet: VTK does not draw all of their triangles.
+ */
+TEST(RefractionPassWavesLimit, RipplesLightATorusAsFlatWater)
+{
+  WavePool pool(MakeRipples(), 300);
+  vtkNew<vtkParametricTorus> shape;
+  vtkNew<vtkParametricFunctionSource> torus;
+  torus->SetParametricFunction(shape);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(0.0, -60.0, 0.0);
+  transform->Scale(30.0, 30.0, 30.0);
+  transform->RotateX(70.0);
+  vtkNew<vtkTransformPolyDataFilter> placed;
+  placed->SetTransform(transform);
+  placed->SetInputConnection(torus->GetOutputPort());
+  pool.Filter->SetInputConnection(placed->GetOutputPort());
+  const auto expectSame = [&](const std::string& what)
+  {
+    // The normals of the coarser one are up to 14 degrees off those of its facets.
+    for (const int resolution : { 13, 50 })
+    {
+      torus->SetUResolution(resolution);
+      torus->SetVResolution(resolution);
+      pool.Pass->SetNumberOfLightCells(0);
+      const ByteImage byPlane = pool.Render();
+      EXPECT_GT(MeanOf(byPlane), 0.02) << what;
+      pool.Pass->SetNumberOfLightCells(100000);
+      EXPECT_LT(DifferenceOf(pool.Render(), byPlane), 2.5 / 255.0) << what << ", " << resolution;
+    }
+    pool.GetRenderer()->RemoveAllLights();
+  };
+  pool.AddLight(SunAt(0.0), 0.8, true);
+  expectSame("sun above");
+  pool.AddLight(SunAt(45.0), 0.8, true);
+  expectSame("sun");
+  pool.AddLight(SunAt(75.0), 1.2, true);
+  expectSame("low sun");
+  pool.AddLight({ 10.0, 60.0, -20.0 }, 0.8, false);
+  expectSame("lamp");
 }
 
 /** A sphere, from where it faces the sun to where it faces away, has the light of exact rays. */
