@@ -36,6 +36,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace
@@ -52,6 +53,10 @@ constexpr char PathName[] = "RefractionLightPath";
 constexpr double FarAway = 1e4;
 constexpr double FarTolerance = 1e-6;
 constexpr double NearTolerance = 5e-3; // the view's default
+
+// Rounding error of the mean of interpolated points, in largest coordinates: up to four roundings
+// of half an epsilon in each of two means.
+constexpr double Rounding = 4.0 * std::numeric_limits<double>::epsilon();
 
 //------------------------------------------------------------------------------
 /** Calls `body(cell, number of points, point ids)` for polygons and strips of `data`. */
@@ -134,6 +139,11 @@ std::vector<CellLight> GatherLight(
   {
     return received; // no image at all
   }
+  double reach = 0.0;
+  for (int i = 0; i < 6; ++i)
+  {
+    reach = std::max(reach, std::fabs(images->GetBounds()[i]));
+  }
   ForSurfaces(images,
     [&](vtkIdType cell, vtkIdType size, const vtkIdType* points, bool isStrip)
     {
@@ -154,9 +164,11 @@ std::vector<CellLight> GatherLight(
       {
         return;
       }
-      // In front of the membrane, sight points are the points themselves.
+      // In front of the membrane, sight points are the points themselves, within rounding where
+      // the membrane cuts a cell.
       const glm::dvec3 behind = middle - place;
-      const double path = glm::length(behind);
+      const double length = glm::length(behind);
+      const double path = length > Rounding * reach ? length : 0.0;
       const glm::dvec3 toLight = path > 0.0 ? behind / path : glm::normalize(light - place);
       const double own = glm::length(areas[source]);
       const double cosine = own > 0.0 ? glm::dot(areas[source], toLight) / own : 0.0;

@@ -8,7 +8,9 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkOpenGLCellToVTKCellMap.h"
 #include "vtkPoints.h"
+#include "vtkProperty.h"
 #include "vtkSmartPointer.h"
 
 #include <glm/geometric.hpp>
@@ -212,28 +214,22 @@ void LitMesh::AddTriangles(std::size_t start, int divisions, vtkCellArray* trian
 //------------------------------------------------------------------------------
 std::vector<std::int32_t> LitMesh::ListPrimitives(vtkPolyData* images) const
 {
-  std::vector<std::int32_t> primitives;
   vtkDataArray* sources = images->GetCellData()->GetArray("SourceCellId");
   if (!sources)
   {
-    return primitives;
+    return {};
   }
-  const auto add = [&primitives](vtkIdType count, std::int32_t face)
+  // VTK does not draw triangles of polygons two of whose corners are at one place. The table is
+  // made as the mapper makes its own.
+  vtkCellArray* cells[4] = { images->GetVerts(), images->GetLines(), images->GetPolys(),
+    images->GetStrips() };
+  vtkNew<vtkOpenGLCellToVTKCellMap> drawn;
+  drawn->Update(cells, VTK_SURFACE, images->GetPoints());
+  std::vector<std::int32_t> primitives(drawn->GetSize());
+  for (std::size_t i = 0; i < primitives.size(); ++i)
   {
-    primitives.insert(
-      primitives.end(), static_cast<std::size_t>(std::max<vtkIdType>(count, 0)), face);
-  };
-  ForEachCell(images->GetVerts(), [&add](vtkIdType size, const vtkIdType*) { add(size, -1); });
-  ForEachCell(images->GetLines(), [&add](vtkIdType size, const vtkIdType*) { add(size - 1, -1); });
-  vtkIdType cell = images->GetNumberOfVerts() + images->GetNumberOfLines();
-  for (vtkCellArray* cells : { images->GetPolys(), images->GetStrips() })
-  {
-    ForEachCell(cells,
-      [&](vtkIdType size, const vtkIdType*)
-      {
-        const auto source = static_cast<std::size_t>(sources->GetComponent(cell++, 0));
-        add(size - 2, source < this->FirstFaces.size() ? this->FirstFaces[source] : -1);
-      });
+    const auto source = static_cast<std::size_t>(sources->GetComponent(drawn->GetValue(i), 0));
+    primitives[i] = source < this->FirstFaces.size() ? this->FirstFaces[source] : -1;
   }
   return primitives;
 }

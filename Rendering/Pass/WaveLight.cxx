@@ -12,6 +12,24 @@
 
 namespace meniscus
 {
+namespace
+{
+
+/** Vector and path at a point of lit geometry; zeros after an error. */
+std::array<float, 4> ValueAt(vtkPolyData* lit, vtkIdType point)
+{
+  vtkDataArray* vectors = lit->GetPointData()->GetArray("RefractionLightVector");
+  vtkDataArray* paths = lit->GetPointData()->GetArray("RefractionLightPath");
+  std::array<float, 4> value{};
+  for (int c = 0; vectors && paths && c < 4; ++c)
+  {
+    value[static_cast<std::size_t>(c)] =
+      static_cast<float>(c < 3 ? vectors->GetComponent(point, c) : paths->GetComponent(point, 0));
+  }
+  return value;
+}
+
+}
 
 //------------------------------------------------------------------------------
 /** Divides the object if it or the number of cells changed. Returns false without an object. */
@@ -36,8 +54,9 @@ bool WaveLight::UpdateMesh(vtkRefractedGeometryFilter* filter, int cells)
 }
 
 //------------------------------------------------------------------------------
-/** Gives the membranes and interfaces of the object to a light, if it has others. */
-void WaveLight::SetScene(vtkRefractedLightFilter* light, vtkRefractedGeometryFilter* filter) const
+/** Computes the light of a source on triangles behind the membranes of the object. */
+void WaveLight::Compute(vtkRefractedLightFilter* light, vtkRefractedGeometryFilter* filter,
+  const WaveSource& source, vtkPolyData* lit)
 {
   const int membranes = filter->GetNumberOfMembranes();
   bool isKnown = light->GetNumberOfMembranes() == membranes;
@@ -53,12 +72,40 @@ void WaveLight::SetScene(vtkRefractedLightFilter* light, vtkRefractedGeometryFil
       light->AddMembraneData(vtkPolyData::SafeDownCast(filter->GetInputDataObject(1, i)));
     }
   }
-  if (light->GetInputDataObject(0, 0) != this->Mesh.GetCells())
+  if (light->GetInputDataObject(0, 0) != lit)
   {
-    light->SetInputData(this->Mesh.GetCells());
+    light->SetInputData(lit);
   }
   light->SetInterfaces(filter->GetInterfaces());
   light->LightVectorsOn();
+  light->SetLightPosition(source.Place.data());
+  light->SetPositional(source.IsPositional);
+  light->Update();
+}
+
+//------------------------------------------------------------------------------
+/** Reads the light at the points of the mesh; of those with a patch, on the patch. */
+void WaveLight::ReadValues(
+  Source& source, vtkRefractedGeometryFilter* filter, const WaveSource& wanted)
+{
+  vtkPolyData* output = source.Filter->GetOutput();
+  source.Values.resize(static_cast<std::size_t>(output->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < source.Values.size(); ++i)
+  {
+    source.Values[i] = ValueAt(output, static_cast<vtkIdType>(i));
+  }
+  source.Patches.Build(output);
+  const std::vector<vtkIdType>& points = source.Patches.GetPoints();
+  if (points.empty())
+  {
+    return;
+  }
+  Compute(source.PatchFilter, filter, wanted, source.Patches.GetPatches());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    source.Values[static_cast<std::size_t>(points[i])] =
+      ValueAt(source.PatchFilter->GetOutput(), LightPatches::MiddleOf(i));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -79,14 +126,12 @@ void WaveLight::Update(
   for (Source& source : this->Sources)
   {
     const WaveSource& wanted = sources[number++];
-    this->SetScene(source.Filter, filter);
-    source.Filter->SetLightPosition(wanted.Place.data());
-    source.Filter->SetPositional(wanted.IsPositional);
-    source.Filter->Update();
+    Compute(source.Filter, filter, wanted, this->Mesh.GetCells());
     const vtkMTimeType time = source.Filter->GetOutput()->GetMTime();
     if (time != source.Time)
     {
       source.Time = time;
+      ReadValues(source, filter, wanted);
       ++this->Updates;
       this->IsUploaded = false;
     }
@@ -102,17 +147,12 @@ std::vector<float> WaveLight::ListPlaces() const
   values.reserve(4 * places.size() * this->Sources.size());
   for (const Source& source : this->Sources)
   {
-    vtkPointData* data = source.Filter->GetOutput()->GetPointData();
-    vtkDataArray* vectors = data->GetArray("RefractionLightVector");
-    vtkDataArray* paths = data->GetArray("RefractionLightPath");
     for (const vtkIdType place : places)
     {
-      // After an error there is no light.
-      for (int c = 0; c < 3; ++c)
-      {
-        values.push_back(vectors ? static_cast<float>(vectors->GetComponent(place, c)) : 0.0f);
-      }
-      values.push_back(paths ? static_cast<float>(paths->GetComponent(place, 0)) : 0.0f);
+      const auto point = static_cast<std::size_t>(place);
+      const std::array<float, 4> value =
+        point < source.Values.size() ? source.Values[point] : std::array<float, 4>{};
+      values.insert(values.end(), value.begin(), value.end());
     }
   }
   return values;

@@ -4,6 +4,7 @@
 
 #include "Filters/Object/ObjectSurface.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
+#include "Rendering/Pass/LightPatches.h"
 #include "Rendering/Pass/LitMesh.h"
 
 #include "vtkNew.h"
@@ -32,8 +33,9 @@ struct WaveSource
 
 /**
  * Light of lamps in front of a membrane on an object behind it. A vtkRefractedLightFilter computes
- * it for the cells of a LitMesh, and the shader vtkTrueSpaceLighting.glsl reads it from tables. It
- * is computed again when a light, the membrane or the object changes.
+ * it for the cells of a LitMesh, another one for patches across the light where it grazes them, and
+ * the shader vtkTrueSpaceLighting.glsl reads it from tables. It is computed again when a light, the
+ * membrane or the object changes.
  */
 class WaveLight
 {
@@ -61,11 +63,17 @@ private:
   struct Source
   {
     vtkNew<vtkRefractedLightFilter> Filter;
-    vtkMTimeType Time = 0; ///< of the filter's output that is in the tables
+    LightPatches Patches;
+    vtkNew<vtkRefractedLightFilter> PatchFilter;
+    vtkMTimeType Time = 0;                    ///< of the filter's output that is in the tables
+    std::vector<std::array<float, 4>> Values; ///< vector and path at the points of the mesh
   };
 
   bool UpdateMesh(vtkRefractedGeometryFilter* filter, int cells);
-  void SetScene(vtkRefractedLightFilter* light, vtkRefractedGeometryFilter* filter) const;
+  static void Compute(vtkRefractedLightFilter* light, vtkRefractedGeometryFilter* filter,
+    const WaveSource& source, vtkPolyData* lit);
+  static void ReadValues(
+    Source& source, vtkRefractedGeometryFilter* filter, const WaveSource& wanted);
   std::vector<float> ListPlaces() const;
 
   ObjectSurfaces Surfaces;

@@ -6,6 +6,8 @@
 
 #include "VTKTestBasics.h"
 
+#include <vtkTriangleFilter.h>
+
 namespace
 {
 
@@ -124,6 +126,56 @@ TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
     RecordProperty("relative_rms_" + std::to_string(static_cast<int>(depth)),
       std::to_string(std::sqrt(squares / signal)));
   }
+}
+
+/** Light vectors of cells that a flat membrane cuts: their parts are lit through it and without. */
+TEST(RefractedLight, CellsCutByTheMembraneHaveTheLightOfTheirParts)
+{
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(MakeGrid(41, 60.0, 0.0));
+  triangles->Update();
+  vtkPolyData* slope = triangles->GetOutput();
+  for (vtkIdType i = 0; i < slope->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 place = PointOf(slope, i);
+    slope->GetPoints()->SetPoint(i, place.x, 0.31 * place.x + 0.17 * place.z + 0.1, place.z);
+  }
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(0.3, 1.0, 0.2));
+  auto filter = MakeLight(slope, MakeFlatMembrane(), sun);
+  filter->LightVectorsOn();
+  filter->Update();
+  const double cosine = std::sqrt(1.0 - (1.0 - sun.y * sun.y) / (Water * Water));
+  const glm::dvec3 behind =
+    MakeTransmittance(sun.y) * sun.y / cosine * glm::dvec3(sun.x / Water, cosine, sun.z / Water);
+  vtkDataArray* vectors = filter->GetOutput()->GetCellData()->GetArray("RefractionLightVector");
+  int cut = 0;
+  for (vtkIdType i = 0; i < slope->GetNumberOfCells(); ++i)
+  {
+    vtkNew<vtkIdList> ids;
+    slope->GetCellPoints(i, ids);
+    std::array<double, 3> heights;
+    for (int k = 0; k < 3; ++k)
+    {
+      heights[static_cast<std::size_t>(k)] = PointOf(slope, ids->GetId(k)).y;
+    }
+    std::sort(heights.begin(), heights.end());
+    const auto [low, middle, high] = heights;
+    double inFront = low > 0.0 ? 1.0 : 0.0;
+    if (low < 0.0 && high > 0.0)
+    {
+      ++cut;
+      inFront = middle < 0.0 ? high * high / ((high - low) * (high - middle))
+                             : 1.0 - low * low / ((high - low) * (middle - low));
+    }
+    // Corners in front that are less than a fiftieth of a cell are not cut off.
+    const double tolerance = inFront > 0.0 && inFront < 0.02 ? 0.05 : 5.0 * Parallel;
+    const glm::dvec3 expected = inFront * sun + (1.0 - inFront) * behind;
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(vectors->GetComponent(i, c), expected[c], tolerance) << i << " " << inFront;
+    }
+  }
+  EXPECT_GE(cut, 80);
 }
 
 TEST(RefractedLight, OneSideOfAClosedSurface)
