@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 namespace meniscus
 {
@@ -36,8 +37,11 @@ constexpr double SquaredRatio = 1.32;
  */
 constexpr double ShortestShare = 1.0 / 4096.0;
 
-/** Step of the search for the number of an arc's segments, of which there are few too many so. */
-constexpr double Growth = 1.19;
+/**
+ * Factors by which the number of an arc's segments is searched, coarse ones first. There are too
+ * many by up to the last one.
+ */
+constexpr double Growths[] = { 2.83, 1.68, 1.19 };
 
 /** Transmittance at which a ray ends: that of a mapper that ends no ray early. */
 constexpr float LeastTransmittance = 1.0e-30f;
@@ -156,13 +160,23 @@ VolumeLight::~VolumeLight() = default;
  */
 double VolumeLight::CountParts(double lower, double upper, double error) const
 {
-  double parts = 1.0;
-  double ofPart = error;
-  while (ofPart > LargestScalarError &&
-    this->Scale.Bound(lower - error, upper + error, ofPart) > LargestPictureError)
+  const auto isSeen = [&](double parts)
   {
-    parts *= Growth;
-    ofPart /= Growth * Growth;
+    const double ofPart = error / (parts * parts);
+    return ofPart > LargestScalarError &&
+      this->Scale.Bound(lower - error, upper + error, ofPart) > LargestPictureError;
+  };
+  double parts = 1.0;
+  if (isSeen(parts))
+  {
+    for (const double growth : Growths)
+    {
+      while (isSeen(parts * growth))
+      {
+        parts *= growth;
+      }
+    }
+    parts *= *std::rbegin(Growths);
   }
   return parts;
 }
