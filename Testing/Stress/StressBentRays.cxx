@@ -3,6 +3,7 @@
 #include "StressBentRays.h"
 
 #include "GradedPathCheck.h"
+#include "StressBentLight.h"
 #include "Volume/Graded/GradedRayWalk.h"
 #include "Volume/Graded/QuadraticIndex.h"
 #include "Volume/Graded/RefractiveIndex.h"
@@ -79,9 +80,15 @@ public:
     tally.Steps = this->Sums.Steps;
     tally.Rays = this->Sums.Rays;
     reference::GradedPathCheck check(this->MakeReference());
+    const StressBentLight light(this->Mesh, this->Random);
     for (std::size_t ray = 0; ray < this->Rays.size(); ++ray)
     {
-      const std::string fault = this->JudgeRay(ray, ends[ray], check);
+      std::string fault = this->JudgeRay(ray, ends[ray], check);
+      if (fault.empty())
+      {
+        this->Medium.MaximumNumberOfSteps = JudgedSteps;
+        fault = light.Judge(this->Medium, this->Rays[ray]);
+      }
       if (!fault.empty() && ++tally.Wrong == 1)
       {
         std::ostringstream text;

@@ -396,10 +396,9 @@ void SeeTriangles(const GradedRayWalk& walk, const OpaqueTriangles& triangles,
       visitors.emplace_back(triangles, *cells, light, i);
     }
     FollowWatched(walk, *cells, rays, visitors, statistics, results, faces);
-    const std::vector<KeptLight>& lights = light.Finish();
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
-      results[i].Light = lights[i];
+      results[i].Light = light.Get(i);
     }
   }
   else if (cells)

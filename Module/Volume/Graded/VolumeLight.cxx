@@ -2,24 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/VolumeLight.h"
 
+#include "Simd/SimdDouble.h"
 #include "Volume/Graded/GradedCell.h"
-#include "Volume/Packet/Kernels/KeptValues.h"
-#include "Volume/Packet/Kernels/PacketKernels.h"
+#include "Volume/Packet/Models/CompositeModel.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 namespace meniscus
 {
 namespace
 {
-
-/** Segments that are kept before they are integrated: 4 MiB. */
-constexpr std::size_t MostRecords = std::size_t{ 1 } << 18;
 
 /**
  * Largest (a^2 + N) T^2 of a segment: its square is 470 times 2^-24. It keeps a T, and so the
@@ -39,8 +37,11 @@ constexpr double SquaredRatio = 1.32;
  */
 constexpr double ShortestShare = 1.0 / 4096.0;
 
-/** Step of the search for the number of an arc's segments, of which there are few too many so. */
-constexpr double Growth = 1.19;
+/**
+ * Factors by which the number of an arc's segments is searched, coarse ones first. There are too
+ * many by up to the last one.
+ */
+constexpr double Growths[] = { 2.83, 1.68, 1.19 };
 
 /** Transmittance at which a ray ends: that of a mapper that ends no ray early. */
 constexpr float LeastTransmittance = 1.0e-30f;
@@ -53,6 +54,16 @@ double LongestTime(const GradedArc& arc, double index)
 {
   const double turn = arc.GetLargestForce() / (LeastRatio * index);
   return std::sqrt(LargestTurn / (turn * turn + arc.GetForceNorm()));
+}
+
+PacketJob JobOf(const EmittingMedium& medium)
+{
+  PacketJob job{};
+  job.Blending = BlendMode::Composite;
+  job.Intervals = medium.Intervals->data();
+  job.NumberOfIntervals = static_cast<std::int32_t>(medium.Intervals->size());
+  job.TerminationTransmittance = LeastTransmittance;
+  return job;
 }
 
 TransferFunctionPoint PointOf(const PacketInterval& interval, float scalar)
@@ -92,50 +103,54 @@ double NextShare(double from, double end, double longest)
 
 }
 
-/** Segments ray by ray, for the rays that have some. */
-struct VolumeLight::SortedRecords
+/** The model of composite blending, for one ray at a time. */
+class VolumeLight::Blending : public CompositeModel<SimdDouble>
 {
-  std::vector<MediumSegment> Segments;
-  std::vector<std::size_t> Rays;
-  std::vector<std::int32_t> Ends;
-
-  SortedRecords(const std::vector<Record>& records, std::size_t rays)
-    : Segments(records.size())
+public:
+  explicit Blending(const EmittingMedium& medium)
+    : CompositeModel<SimdDouble>(JobOf(medium))
   {
-    std::vector<std::int32_t> next(rays, 0);
-    for (const Record& record : records)
+  }
+
+  void Load(const Sum& sum)
+  {
+    for (int channel = 0; channel < 3; ++channel)
     {
-      ++next[static_cast<std::size_t>(record.Ray)];
+      this->Color[channel].V = sum.Color[channel];
     }
-    std::int32_t sum = 0;
-    for (std::size_t ray = 0; ray < rays; ++ray)
+    this->Transmittance.V = sum.Transmittance;
+  }
+  void Save(Sum& sum) const
+  {
+    for (int channel = 0; channel < 3; ++channel)
     {
-      const std::int32_t count = next[ray];
-      next[ray] = sum;
-      sum += count;
-      if (count > 0)
-      {
-        this->Rays.push_back(ray);
-        this->Ends.push_back(sum);
-      }
+      sum.Color[channel] = this->Color[channel].V;
     }
-    for (const Record& record : records)
+    sum.Transmittance = this->Transmittance.V;
+  }
+
+  /** Adds a segment with the scalars of its ends and its world length. */
+  void AddSegment(double from, double to, double length)
+  {
+    SimdDouble::Mask goesOn = this->Begin(this->IsOn(), { from }, { to }, { length }, nullptr);
+    while (goesOn.Bit)
     {
-      const std::int32_t place = next[static_cast<std::size_t>(record.Ray)]++;
-      this->Segments[static_cast<std::size_t>(place)] = record.Segment;
+      goesOn = this->Advance(goesOn);
     }
   }
 };
 
 //------------------------------------------------------------------------------
-VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays, InstructionSet set)
+VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays)
   : Medium(medium)
   , Scale(MakeErrorScale(medium))
-  , Set(set)
-  , Lights(rays)
-  , Reached(rays, 0.0)
+  , Model(std::make_unique<Blending>(medium))
+  , Sums(rays)
 {
 }
+
+//------------------------------------------------------------------------------
+VolumeLight::~VolumeLight() = default;
 
 //------------------------------------------------------------------------------
 /**
@@ -145,13 +160,23 @@ VolumeLight::VolumeLight(const EmittingMedium& medium, std::size_t rays, Instruc
  */
 double VolumeLight::CountParts(double lower, double upper, double error) const
 {
-  double parts = 1.0;
-  double ofPart = error;
-  while (ofPart > LargestScalarError &&
-    this->Scale.Bound(lower - error, upper + error, ofPart) > LargestPictureError)
+  const auto isSeen = [&](double parts)
   {
-    parts *= Growth;
-    ofPart /= Growth * Growth;
+    const double ofPart = error / (parts * parts);
+    return ofPart > LargestScalarError &&
+      this->Scale.Bound(lower - error, upper + error, ofPart) > LargestPictureError;
+  };
+  double parts = 1.0;
+  if (isSeen(parts))
+  {
+    for (const double growth : Growths)
+    {
+      while (isSeen(parts * growth))
+      {
+        parts *= growth;
+      }
+    }
+    parts *= *std::rbegin(Growths);
   }
   return parts;
 }
@@ -159,9 +184,9 @@ double VolumeLight::CountParts(double lower, double upper, double error) const
 //------------------------------------------------------------------------------
 void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
 {
-  double& reached = this->Reached[ray];
-  const double passed = reached - arc.BeginPath;
-  reached = std::max(reached, std::max(arc.BeginPath, arc.EndPath));
+  Sum& sum = this->Sums[ray];
+  const double passed = sum.Reached - arc.BeginPath;
+  sum.Reached = std::max(sum.Reached, std::max(arc.BeginPath, arc.EndPath));
   if (!(arc.EndPath > arc.BeginPath + std::max(passed, 0.0)))
   {
     return;
@@ -187,6 +212,7 @@ void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
     this->CountParts(std::min(scalar, last), std::max(scalar, last),
       0.125 * SquaredRatio * gradient * arc.GetLargestForce() * time * time);
   double index = glm::length(arc.DirectionAt(from));
+  this->Model->Load(sum);
   while (from < end)
   {
     const double to = NextShare(from, end, std::min(share, LongestTime(arc, index) / time));
@@ -194,51 +220,25 @@ void VolumeLight::Add(std::size_t ray, GradedArc& arc, double end)
     const double indexTo = glm::length(arc.DirectionAt(to));
     const double scalarTo = scalarAt(arc.WeightsAt(to));
     const double length = (to - from) * sixth * (index + 4.0 * middle + indexTo);
-    this->Records.push_back({ static_cast<std::int32_t>(ray),
-      { static_cast<float>(scalar), static_cast<float>(scalarTo), static_cast<float>(length) } });
+    this->Model->AddSegment(scalar, scalarTo, length);
     from = to;
     scalar = scalarTo;
     index = indexTo;
   }
-  if (this->Records.size() >= MostRecords)
-  {
-    this->Integrate();
-  }
+  this->Model->Save(sum);
 }
 
 //------------------------------------------------------------------------------
-const std::vector<KeptLight>& VolumeLight::Finish()
+KeptLight VolumeLight::Get(std::size_t ray) const
 {
-  this->Integrate();
-  return this->Lights;
-}
-
-//------------------------------------------------------------------------------
-/** Integrates the segments that wait. */
-void VolumeLight::Integrate()
-{
-  const SortedRecords sorted(this->Records, this->Lights.size());
-  this->Records.clear();
-  const std::size_t rays = sorted.Rays.size();
-  constexpr std::size_t numbers = std::size(KeptLight().Values);
-  std::vector<float> values(numbers * rays);
-  PacketJob job{};
-  job.Blending = BlendMode::Composite;
-  job.Intervals = this->Medium.Intervals->data();
-  job.NumberOfIntervals = static_cast<std::int32_t>(this->Medium.Intervals->size());
-  job.TerminationTransmittance = LeastTransmittance;
-  MediumSegmentList list{};
-  list.Segments = sorted.Segments.data();
-  list.Ends = sorted.Ends.data();
-  list.NumberOfRays = static_cast<std::int32_t>(rays);
-  list.Values = values.data();
-  IntegrateSegments(job, list, this->Set);
-  for (std::size_t i = 0; i < rays; ++i)
+  const Sum& sum = this->Sums[ray];
+  KeptLight light;
+  for (int channel = 0; channel < 3; ++channel)
   {
-    KeptLight behind;
-    std::copy_n(&values[numbers * i], numbers, behind.Values);
-    JoinValues(job.Blending, behind.Values, this->Lights[sorted.Rays[i]].Values);
+    light.Values[channel] = static_cast<float>(sum.Color[channel]);
   }
+  light.Values[3] = static_cast<float>(sum.Transmittance);
+  return light;
 }
 
 }

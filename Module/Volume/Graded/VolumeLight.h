@@ -4,14 +4,15 @@
  * Light of a medium that emits and absorbs, along bent rays.
  *
  * The arc of a ray in a cell is cut into segments along which the scalar is taken as linear in the
- * length, and the packets' model of composite blending integrates these. With the ray parameter s
- * of GradedCell.h, dx/ds = p, |p| = n, dp/ds = F and the norm N of F's derivative, a segment of the
- * time T has two errors:
+ * length, and the packets' model of composite blending integrates these. It does so in double
+ * precision: an arc may have hundreds of segments, which are alike, so that all of them would round
+ * the transmittance to the same side. With the ray parameter s of GradedCell.h, dx/ds = p, |p| = n,
+ * dp/ds = F and the norm N of F's derivative, a segment of the time T has two errors:
  * 1. The scalar q. With the length l, the second derivative of q by l is grad q * F' / n^2, where
  *    F' is the part of F across the ray. Linear interpolation is off by at most l^2 / 8 times the
  *    largest of it: T^2 / 8 |grad q| |F| (largest n / smallest n)^2. The arc is divided until this
  *    is seen as no more than LargestPictureError on the medium's ErrorScale, or is no more than the
- *    rounding of scalars. More segments than needed would not help: each is rounded.
+ *    rounding of scalars.
  * 2. The length, which is the integral of |p| by Simpson's rule: T^5 / 2880 times the largest
  *    fourth derivative of |p| by s. The first four derivatives of |p| by p are at most 1, 1 / n,
  *    2 / (sqrt(3) n^2) and 3 / n^3; those of p by s are F, at most N n, N |F| and N^2 n. With a =
@@ -22,15 +23,13 @@
  */
 #pragma once
 
-#include "Simd/InstructionSets.h"
 #include "Volume/Graded/GradedPiece.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/ErrorScale.h"
-#include "Volume/Packet/Data/MediumSegments.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -70,12 +69,11 @@ public:
    */
   static constexpr double LargestPictureError = 0x1p-18;
 
-  /**
-   * @param rays number of rays.
-   * @param set instruction set of the integration.
-   */
-  VolumeLight(
-    const EmittingMedium& medium, std::size_t rays, InstructionSet set = BestInstructionSet());
+  /** @param rays number of rays. */
+  VolumeLight(const EmittingMedium& medium, std::size_t rays);
+  ~VolumeLight();
+  VolumeLight(const VolumeLight&) = delete;
+  VolumeLight& operator=(const VolumeLight&) = delete;
 
   /**
    * Adds an arc of a ray behind those that it has, in a cell whose scalars are finite. In an
@@ -85,27 +83,25 @@ public:
    */
   void Add(std::size_t ray, GradedArc& arc, double end);
 
-  /** Light of each ray by all of its arcs. */
-  const std::vector<KeptLight>& Finish();
+  /** Light of a ray by the arcs that it has. */
+  KeptLight Get(std::size_t ray) const;
 
 private:
-  struct Record
+  /** State of a ray. */
+  struct Sum
   {
-    std::int32_t Ray;
-    MediumSegment Segment;
+    double Color[3] = { 0.0, 0.0, 0.0 };
+    double Transmittance = 1.0;
+    /** Largest optical path reached. */
+    double Reached = 0.0;
   };
-  struct SortedRecords;
+  class Blending;
   double CountParts(double lower, double upper, double error) const;
-  void Integrate();
 
   EmittingMedium Medium;
   ErrorScale Scale;
-  InstructionSet Set;
-  /** Segments that wait for their integration, in the order in which they came. */
-  std::vector<Record> Records;
-  std::vector<KeptLight> Lights;
-  /** Largest optical path that each ray has reached. */
-  std::vector<double> Reached;
+  std::unique_ptr<Blending> Model;
+  std::vector<Sum> Sums;
 };
 
 }

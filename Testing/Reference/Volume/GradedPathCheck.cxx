@@ -399,18 +399,20 @@ std::vector<GradedPathCheck::Crossing> GradedPathCheck::FindCrossings() const
     }
     const Real tolerance = PlaceError * (1.0L + size);
     distance = fall != 0.0L ? Dot(corners[0], normal) / fall : 0.0L;
-    if (!(fall < 0.0L) || least < -tolerance || distance < -tolerance)
+    // The place is a mean of the corners by quotients of triple products of the direction and two
+    // corners, which are at most 2 from the ray.
+    const Real longest = std::max({ Distance(corners[0], corners[1]),
+      Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
+    const Real error = PlaceError * (1.0L + 4.0L * longest / -fall);
+    // A ray that leaves the mesh at a vertex may enter again by a face that it grazes there, whose
+    // crossing may be behind it by its error.
+    if (!(fall < 0.0L) || least < -tolerance || distance < -std::max(tolerance, error))
     {
       continue;
     }
     // A face that is seen edge-on, and a place on the face, are no certain crossings.
     const bool isCertain =
       !this->HasPassedFold && least > tolerance && distance > tolerance * Length(normal) / -fall;
-    // The place is a mean of the corners by quotients of triple products of the direction and two
-    // corners, which are at most 2 from the ray.
-    const Real longest = std::max({ Distance(corners[0], corners[1]),
-      Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
-    const Real error = PlaceError * (1.0L + 4.0L * longest / -fall);
     crossings.push_back({ distance, error, static_cast<std::int64_t>(f), isCertain });
   }
   std::sort(crossings.begin(), crossings.end(),

@@ -5,13 +5,11 @@
 namespace meniscus
 {
 
-// Defined once per set, by PacketKernelsOfSet.cxx.in, PacketFadedKernelsOfSet.cxx.in and
-// MediumSegmentKernelsOfSet.cxx.in.
+// Defined once per set, by PacketKernelsOfSet.cxx.in and PacketFadedKernelsOfSet.cxx.in.
 #define MENISCUS_DECLARE_KERNELS(name, label, isSupported, target)                                 \
   void CastPackets##name(const PacketJob& job);                                                    \
   void CastFadedPackets##name(const PacketJob& job);                                               \
-  void FindEntries##name(PacketSpanJob& job);                                                      \
-  void IntegrateSegments##name(const PacketJob& job, const MediumSegmentList& list);
+  void FindEntries##name(PacketSpanJob& job);
 MENISCUS_INSTRUCTION_SETS(MENISCUS_DECLARE_KERNELS)
 #undef MENISCUS_DECLARE_KERNELS
 
@@ -35,16 +33,6 @@ void FindEntries(PacketSpanJob& job, InstructionSet set)
   constexpr void (*kernels[])(PacketSpanJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
 #undef MENISCUS_KERNEL
   kernels[static_cast<int>(set)](job);
-}
-
-//------------------------------------------------------------------------------
-void IntegrateSegments(const PacketJob& job, const MediumSegmentList& list, InstructionSet set)
-{
-#define MENISCUS_KERNEL(name, label, isSupported, target) IntegrateSegments##name,
-  constexpr void (*kernels[])(
-    const PacketJob&, const MediumSegmentList&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
-#undef MENISCUS_KERNEL
-  kernels[static_cast<int>(set)](job, list);
 }
 
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "Simd/InstructionSets.h"
-#include "Volume/Packet/Data/MediumSegments.h"
 #include "Volume/Packet/Data/PacketJob.h"
 
 namespace meniscus
@@ -21,13 +20,5 @@ void CastPackets(const PacketJob& job, InstructionSet set);
  * @pre GetInstructionSets() has the set
  */
 void FindEntries(PacketSpanJob& job, InstructionSet set);
-
-/**
- * Integrates colour and attenuation along segments, as composite blending does with one scalar and
- * without light.
- * @param job of which the intervals and the transmittance that ends a ray are used.
- * @pre GetInstructionSets() has the set
- */
-void IntegrateSegments(const PacketJob& job, const MediumSegmentList& list, InstructionSet set);
 
 }
