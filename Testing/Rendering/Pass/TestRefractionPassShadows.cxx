@@ -5,6 +5,10 @@
 #include "FlatPoolLamps.h"
 #include "VTKTestBasics.h"
 
+#include <vtkAppendFilter.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkStripper.h>
+
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
 
@@ -74,6 +78,7 @@ public:
       this->Pass->AddRefraction(this->Membrane, actor, filter);
       this->Sources.emplace_back(source);
       this->Actors.push_back(actor);
+      this->Filters.emplace_back(filter);
     }
   }
 
@@ -174,12 +179,41 @@ public:
   std::vector<Ball> Balls;
   std::vector<vtkSmartPointer<vtkSphereSource>> Sources;
   std::vector<vtkSmartPointer<vtkActor>> Actors;
+  std::vector<vtkSmartPointer<vtkRefractedGeometryFilter>> Filters;
 };
 
 Lamp SunAt(double degrees)
 {
   const double angle = vtkMath::RadiansFromDegrees(degrees);
   return Distant(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+}
+
+/** A sheet of quadrilaterals with a twist, z = middle + twist x y, on [-1, 1]^2. */
+vtkSmartPointer<vtkPolyData> MakeTwistedSheet(double middle, double twist, int cells)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  vtkNew<vtkCellArray> polygons;
+  for (const auto& [j, i] : Product(cells + 1, cells + 1))
+  {
+    const double x = 2.0 * i / cells - 1.0;
+    const double y = 2.0 * j / cells - 1.0;
+    points->InsertNextPoint(x, y, middle + twist * x * y);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(-twist * y, -twist * x, 1.0));
+    normals->InsertNextTuple(&normal.x);
+    const vtkIdType corner = j * (cells + 1) + i;
+    if (i < cells && j < cells)
+    {
+      polygons->InsertNextCell({ corner, corner + 1, corner + cells + 2, corner + cells + 1 });
+    }
+  }
+  auto sheet = vtkSmartPointer<vtkPolyData>::New();
+  sheet->SetPoints(points);
+  sheet->SetPolys(polygons);
+  sheet->GetPointData()->SetNormals(normals);
+  return sheet;
 }
 
 int CountDifferences(const ByteImage& a, const ByteImage& b)
@@ -335,4 +369,125 @@ TEST(RefractionPassShadows, OnlyOpaqueSurfacesCastShadows)
   EXPECT_EQ(differences(), 0);
   property->SetRepresentationToSurface();
   EXPECT_GT(differences(), 300);
+}
+
+/** Strips, the surface of a grid, and blocks cast the shadow of polygons. */
+TEST(RefractionPassShadows, ObjectsOfAllKindsCastShadows)
+{
+  BallPool pool({ { { 0.1, -0.05, -0.8 }, 0.35 } });
+  const auto messages = ObserveErrors(pool.Pass);
+  pool.LookFrom(1.5, -0.8);
+  pool.SetLamps({ SunAt(45.0) });
+  pool.Pass->ShadowsOn();
+  const ByteImage right = pool.Render();
+  const auto countOnFloor = [&]()
+  {
+    const ByteImage image = pool.Render();
+    int count = 0;
+    for (const auto& [y, x] : Product(Size, Size))
+    {
+      const Sight sight = SightOf(pool.GetCamera(), x, y);
+      const Shown shown = pool.ShownBy(sight);
+      const bool isFloor = sight.OnMembrane && shown.IsCertain && shown.Ball < 0;
+      count += isFloor && image.GetPixel(x, y)[0] != right.GetPixel(x, y)[0] ? 1 : 0;
+    }
+    return count;
+  };
+  vtkNew<vtkStripper> strips;
+  strips->SetInputConnection(pool.Sources[0]->GetOutputPort());
+  strips->Update();
+  pool.Filters[0]->SetInputConnection(strips->GetOutputPort());
+  EXPECT_EQ(countOnFloor(), 0) << "strips";
+  vtkNew<vtkAppendFilter> grid;
+  grid->SetInputConnection(pool.Sources[0]->GetOutputPort());
+  pool.Filters[0]->SetInputConnection(grid->GetOutputPort());
+  EXPECT_EQ(countOnFloor(), 0) << "grid";
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(1, strips->GetOutput());
+  pool.Filters[0]->SetInputDataObject(0, blocks);
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputConnection(pool.Filters[0]->GetOutputPort());
+  pool.Actors[0]->SetMapper(mapper);
+  EXPECT_EQ(countOnFloor(), 0) << "blocks";
+  EXPECT_TRUE(messages->Errors.empty()) << messages->GetText();
+}
+
+/** Polygons are divided in other ways where they are drawn than where light is followed. */
+TEST(RefractionPassShadows, TwistedPolygonsDoNotShadeThemselves)
+{
+  BallPool pool({});
+  const auto countDifferences = [&pool]()
+  {
+    pool.Pass->ShadowsOff();
+    const ByteImage plain = pool.Render();
+    pool.Pass->ShadowsOn();
+    return CountDifferences(pool.Render(), plain);
+  };
+  for (const double twist : { 0.3, -0.3 })
+  {
+    pool.Filter->SetInputData(MakeTwistedSheet(-0.8, twist, 5));
+    for (const double degrees : { 0.0, 50.0 })
+    {
+      pool.SetLamps({ SunAt(degrees) });
+      EXPECT_EQ(countDifferences(), 0) << twist << " " << degrees;
+    }
+  }
+}
+
+/** Places that are not finite, cells without area and without points, and objects without cells. */
+TEST(RefractionPassShadows, BadObjectsCastNoShadow)
+{
+  BallPool pool({ { { 0.1, -0.05, -0.8 }, 0.35 } });
+  pool.SetLamps({ SunAt(45.0) });
+  pool.Pass->ShadowsOn();
+  pool.Actors[0]->VisibilityOff();
+  const ByteImage floor = pool.Render();
+  pool.Actors[0]->VisibilityOn();
+  vtkNew<vtkPolyData> empty;
+  pool.Filters[0]->SetInputData(empty);
+  EXPECT_EQ(CountDifferences(pool.Render(), floor), 0) << "empty";
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, -0.5);
+  points->InsertNextPoint(0.5, 0.0, -0.5);
+  points->InsertNextPoint(1.0, 0.0, -0.5);
+  points->InsertNextPoint(0.0, std::nan(""), -0.5);
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell({ 0, 1, 2 });
+  cells->InsertNextCell({ 0, 1, 3 });
+  cells->InsertNextCell({ 0, 1, 3, 2 });
+  cells->InsertNextCell({ 1, 1 });
+  vtkNew<vtkPolyData> bad;
+  bad->SetPoints(points);
+  bad->SetPolys(cells);
+  pool.Filters[0]->SetInputData(bad);
+  pool.Filters[0]->SetGlobalWarningDisplay(0);
+  EXPECT_LT(CountDifferences(pool.Render(), floor), 30) << "bad cells";
+  pool.Filters[0]->SetGlobalWarningDisplay(1);
+  // Nothing at all.
+  pool.Floor->VisibilityOff();
+  pool.Actors[0]->VisibilityOff();
+  pool.Render();
+}
+
+/** Objects that VTK does not light cast shadows, too. */
+TEST(RefractionPassShadows, ObjectsWithoutLightingCastShadows)
+{
+  BallPool pool({ { { 0.1, -0.05, -0.8 }, 0.35 } });
+  pool.SetLamps({ SunAt(60.0) });
+  pool.Pass->ShadowsOn();
+  const ByteImage lit = pool.Render();
+  pool.Actors[0]->GetProperty()->LightingOff();
+  const ByteImage flat = pool.Render();
+  int dark = 0;
+  for (const auto& [y, x] : Product(Size, Size))
+  {
+    const Sight sight = SightOf(pool.GetCamera(), x, y);
+    const Shown shown = pool.ShownBy(sight);
+    if (sight.OnMembrane && shown.IsCertain && shown.Ball < 0)
+    {
+      ASSERT_EQ(flat.GetPixel(x, y)[0], lit.GetPixel(x, y)[0]) << x << " " << y;
+      dark += flat.GetPixel(x, y)[0] < 255.0 * Ambient * Albedo[0] + 1.5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(dark, 60);
 }
