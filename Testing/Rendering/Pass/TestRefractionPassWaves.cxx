@@ -45,6 +45,14 @@ double TransmittanceOf(double cosine, double before, double behind)
   return 1.0 - 0.5 * (s * s + p * p);
 }
 
+struct Ray
+{
+  glm::dvec3 Start;
+  glm::dvec3 Along; ///< unit vector
+
+  glm::dvec3 At(double distance) const { return this->Start + distance * this->Along; }
+};
+
 /** A square floor under waves, seen from above. The sun's rays reach it through the waves. */
 class WavePool
 {
@@ -116,20 +124,8 @@ public:
     return meniscus::test::ReadBytes(this->Scene.GetWindow());
   }
 
-  /** Place on the floor that a pixel shows, by the exact waves. */
-  glm::dvec3 PlaceOf(int x, int y) const
-  {
-    const SightLeg leg = this->LegOf(x, y);
-    return leg.Start + (this->Middle.y - leg.Start.y) / leg.Along.y * leg.Along;
-  }
-
-  /** The part in the water of a pixel's sight ray. */
-  struct SightLeg
-  {
-    glm::dvec3 Start;
-    glm::dvec3 Along;
-  };
-  SightLeg LegOf(int x, int y) const
+  /** Ray behind the waves that a pixel shows, by the exact waves. */
+  Ray RayOf(int x, int y) const
   {
     const double scale =
       std::tan(vtkMath::RadiansFromDegrees(0.5 * ViewAngle)) * 2.0 / this->Pixels;
@@ -138,8 +134,14 @@ public:
     const glm::dvec3 sight = glm::normalize(glm::dvec3(
       -(x + 0.5 - 0.5 * this->Pixels) * scale, -1.0, (y + 0.5 - 0.5 * this->Pixels) * scale));
     const glm::dvec3 start = this->Waves.Intersect(eye, sight, EyeHeight);
-    const auto end = this->Waves.Refract(eye, start, 1.0);
-    return { start, *end - start };
+    return { start, glm::normalize(*this->Waves.Refract(eye, start, 1.0) - start) };
+  }
+
+  /** Place on the floor that a pixel shows, by the exact waves. */
+  glm::dvec3 PlaceOf(int x, int y) const
+  {
+    const Ray ray = this->RayOf(x, y);
+    return ray.At((this->Middle.y - ray.Start.y) / ray.Along.y);
   }
 
   HeightField Waves;
@@ -229,8 +231,8 @@ public:
   /** True if a pixel shows the floor, and not the ball or its edge. */
   bool ShowsFloor(int x, int y) const
   {
-    const SightLeg leg = this->LegOf(x, y);
-    return !ShadingBall.IsMet(leg.Start, leg.Along, 1.1 * ShadingBall.Radius);
+    const Ray ray = this->RayOf(x, y);
+    return !ShadingBall.IsMet(ray.Start, ray.Along, 1.1 * ShadingBall.Radius);
   }
 };
 
