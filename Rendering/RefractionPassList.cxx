@@ -28,6 +28,15 @@ vtkPolyDataMapper* Refraction::GetMapper() const
 }
 
 //------------------------------------------------------------------------------
+bool Refraction::CastsShadows() const
+{
+  auto* actor = vtkActor::SafeDownCast(this->Object);
+  return this->Filter && !this->IsReflection && actor && this->GetMapper() &&
+    actor->GetVisibility() && actor->GetProperty()->GetRepresentation() == VTK_SURFACE &&
+    !actor->HasTranslucentPolygonalGeometry();
+}
+
+//------------------------------------------------------------------------------
 std::vector<double> Refraction::ListRelativeIndices() const
 {
   if (this->Filter)

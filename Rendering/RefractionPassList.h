@@ -43,12 +43,16 @@ struct Refraction
   std::shared_ptr<WaveLight> Waves{};
   /** True if its shader reads the light from tables. */
   bool ReadsTables = false;
+  /** True if objects cast shadows on it. */
+  bool HasShadows = false;
   /** Array of sight points that its mapper's shader gets. */
   std::string SightArray{};
 
   vtkVolume* GetVolume() const { return vtkVolume::SafeDownCast(this->Object); }
   /** Mapper of an object; null for others. */
   vtkPolyDataMapper* GetMapper() const;
+  /** True for visible, opaque surfaces behind the membrane. */
+  bool CastsShadows() const;
   /** Index of refraction behind each interface, relative to the medium in front of the first. */
   std::vector<double> ListRelativeIndices() const;
 

@@ -9,6 +9,7 @@
 #include "Rendering/Pass/ObjectShader.h"
 #include "Rendering/Pass/PictureSize.h"
 #include "Rendering/Pass/RefractionTarget.h"
+#include "Rendering/Pass/ShadowCasters.h"
 #include "Rendering/Pass/TrueSpaceLighting.h"
 #include "Rendering/Pass/ViewBounds.h"
 #include "Rendering/Property/MediumUniforms.h"
@@ -43,6 +44,8 @@
 #include "vtkVolume.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -91,8 +94,16 @@ public:
   meniscus::WaveLight* Tables = nullptr;
   vtkTypeInt64 LightUpdates = 0;
 
+  /** Objects that hide light, by the membrane in front of them. */
+  std::map<vtkActor*, meniscus::ShadowCasters> Casters;
+  /** Those whose tables are active; null for none. */
+  meniscus::ShadowCasters* Shadows = nullptr;
+  vtkTypeInt64 ShadowUpdates = 0;
+
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
   void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
+  void ActivateShadows(const meniscus::Refraction* refraction, vtkShaderProgram* program);
+  void ForgetCasters(bool areWanted);
 };
 
 meniscusObjectMacro(vtkRefractionPass, ScenePass, vtkRenderPass, Internals->ScenePass);
@@ -103,6 +114,8 @@ meniscusGetInternalMacro(
   vtkRefractionPass, vtkTypeInt64, NumberOfMembranesSkipped() const, Skipped);
 meniscusGetInternalMacro(
   vtkRefractionPass, vtkTypeInt64, NumberOfLightUpdates() const, LightUpdates);
+meniscusGetInternalMacro(
+  vtkRefractionPass, vtkTypeInt64, NumberOfShadowUpdates() const, ShadowUpdates);
 meniscusGetInternalMacro(
   vtkRefractionPass, vtkTypeInt64, NumberOfSkippedLights() const, SkippedLights);
 meniscusGetInternalMacro(vtkRefractionPass, vtkMTimeType, ShaderStageMTime(), ShaderTime);
@@ -128,6 +141,39 @@ void vtkRefractionPass::vtkInternals::ActivateTables(
   if (tables)
   {
     tables->Activate(program, areSurfaces);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Activates the tables of what hides light from an object; null for none. */
+void vtkRefractionPass::vtkInternals::ActivateShadows(
+  const meniscus::Refraction* refraction, vtkShaderProgram* program)
+{
+  meniscus::ShadowCasters* shadows =
+    refraction && refraction->IsLitInTrueSpace && refraction->HasShadows
+    ? &this->Casters[refraction->Membrane]
+    : nullptr;
+  if (this->Shadows && shadows != this->Shadows)
+  {
+    this->Shadows->Deactivate();
+  }
+  this->Shadows = shadows;
+  if (shadows)
+  {
+    shadows->Activate(program, static_cast<int>(refraction - this->Refractions.All.data()));
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Forgets what hides light behind membranes that are no longer drawn, or all if it is unwanted. */
+void vtkRefractionPass::vtkInternals::ForgetCasters(bool areWanted)
+{
+  const std::vector<vtkActor*> membranes = this->Refractions.ListMembranes();
+  for (auto entry = this->Casters.begin(); entry != this->Casters.end();)
+  {
+    const bool isKept =
+      areWanted && std::find(membranes.begin(), membranes.end(), entry->first) != membranes.end();
+    entry = isKept ? std::next(entry) : this->Casters.erase(entry);
   }
 }
 
@@ -217,7 +263,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
       const meniscus::Refraction* refraction = this->Internals->Refractions.Find(prop);
       if (refraction && refraction->IsLitInTrueSpace)
       {
-        meniscus::LightInTrueSpace(sources, refraction->ReadsTables);
+        meniscus::LightInTrueSpace(sources, refraction->ReadsTables, refraction->HasShadows);
       }
       meniscus::SeeThroughMedium(sources);
       break;
@@ -244,6 +290,7 @@ bool vtkRefractionPass::SetShaderParameters(
       program, object, refraction->ListRelativeIndices(), this->LightAttenuation);
     internals.ActivateTables(refraction->ReadsTables ? refraction->Waves.get() : nullptr, program,
       object->GetProperty()->GetRepresentation() == VTK_SURFACE);
+    internals.ActivateShadows(refraction, program);
   }
   return true;
 }
@@ -280,6 +327,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
   }
   this->UpdateMedium();
   this->ChooseLighting();
+  internals.ForgetCasters(this->Shadows && this->Lighting == TRUE_SPACE);
   this->NumberOfRenderedProps = 0;
   if (internals.ScenePass)
   {
@@ -390,6 +438,7 @@ void vtkRefractionPass::DrawObjects(
     internals.Translucent->Render(&objects);
     this->PostRender(&objects);
     internals.ActivateTables(nullptr, nullptr, false);
+    internals.ActivateShadows(nullptr, nullptr);
     this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
   }
   this->DrawVolumes(renderer, membrane, meniscus::MembranePart::Behind);
@@ -484,13 +533,52 @@ void vtkRefractionPass::UpdateLighting(vtkRenderer* renderer, vtkActor* membrane
     vtkWarningMacro(<< warning << ".");
   }
   internals.LastLightWarning = warning;
+  const bool hasShadows = this->Shadows && this->UpdateShadows(renderer, membrane);
   for (meniscus::Refraction& refraction : internals.Refractions.All)
   {
     if (refraction.Membrane == membrane && refraction.IsLitInTrueSpace)
     {
       this->UpdateWaves(renderer, refraction);
+      if (refraction.HasShadows != hasShadows)
+      {
+        refraction.HasShadows = hasShadows;
+        internals.ShaderTime.Modified();
+      }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/** Takes over what casts shadows behind a membrane. Returns false if nothing does. */
+bool vtkRefractionPass::UpdateShadows(vtkRenderer* renderer, vtkActor* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  std::vector<meniscus::ShadowCasters::Caster> found;
+  int number = 0;
+  for (const meniscus::Refraction& refraction : internals.Refractions.All)
+  {
+    if (refraction.Membrane == membrane && refraction.CastsShadows())
+    {
+      refraction.Filter->Update();
+      found.push_back({ number, refraction.Filter->GetInputDataObject(0, 0) });
+    }
+    ++number;
+  }
+  meniscus::ShadowCasters& casters = internals.Casters[membrane];
+  const vtkTypeInt64 before = casters.GetNumberOfUpdates();
+  casters.Update(found);
+  internals.ShadowUpdates += casters.GetNumberOfUpdates() - before;
+  if (casters.IsEmpty())
+  {
+    return false;
+  }
+  const std::string error =
+    casters.Upload(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()));
+  if (!error.empty())
+  {
+    vtkErrorMacro("Shadows are not drawn: " << error << ".");
+  }
+  return error.empty();
 }
 
 //------------------------------------------------------------------------------
@@ -570,6 +658,10 @@ void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
       refraction.Waves->Release(window);
     }
   }
+  for (auto& entry : internals.Casters)
+  {
+    entry.second.Release(window);
+  }
   if (internals.Reflection)
   {
     internals.Reflection->ReleaseGraphicsResources(window);
@@ -597,8 +689,10 @@ void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Lighting: " << (this->Lighting == TRUE_SPACE ? "TRUE_SPACE" : "VIRTUAL_SPACE")
      << "\n";
   os << indent << "LightAttenuation: " << (this->LightAttenuation ? "on" : "off") << "\n";
+  os << indent << "Shadows: " << (this->Shadows ? "on" : "off") << "\n";
   os << indent << "NumberOfLightCells: " << this->NumberOfLightCells << "\n";
   os << indent << "NumberOfLightUpdates: " << this->GetNumberOfLightUpdates() << "\n";
+  os << indent << "NumberOfShadowUpdates: " << this->GetNumberOfShadowUpdates() << "\n";
   os << indent << "NumberOfSkippedLights: " << this->GetNumberOfSkippedLights() << "\n";
   os << indent << "AdjustClippingRange: " << (this->AdjustClippingRange ? "on" : "off") << "\n";
   os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";

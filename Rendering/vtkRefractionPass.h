@@ -267,8 +267,8 @@ public:
    * membrane or an object changes, not when the camera moves; NumberOfLightCells is its resolution.
    * Lights that follow the camera, and objects of several blocks, are lit by the plane above.
    *
-   * Not modelled: shadows, and light that the membrane reflects back into the water. The material
-   * is the ambient, diffuse and specular one; physically based shading has no effect.
+   * Not modelled: light that the membrane reflects back into the water. The material is the
+   * ambient, diffuse and specular one; physically based shading has no effect.
    */
   void SetLighting(int lighting);
   vtkGetMacro(Lighting, int);
@@ -288,6 +288,31 @@ public:
 
   /** @{ */
   /**
+   * Set/Get whether objects behind a membrane cast shadows on each other and on themselves, with
+   * TRUE_SPACE: in the light of all lights, in the medium and in front of it. All visible objects
+   * of the same membrane cast shadows whose actors are opaque surfaces; wireframes, translucent
+   * objects, volumes, mirror images and actors of the renderer cast none. What is in a shadow has
+   * the light's ambient part only.
+   *
+   * The shader follows the light's way from each pixel through a tree of the objects' triangles, so
+   * that edges are as sharp as the pixels. The way is that of the light's ray: straight, or bent at
+   * the flat membrane or at the plane that fits its points best. Through waves it is the mean ray
+   * at the point that vtkRefractedLightFilter has found; where waves send light to a point on
+   * several ways, all of it or none is in shadow. The part of an object in front of the membrane
+   * casts a shadow on what is behind it.
+   *
+   * On facets that face away from a light while their smooth normals do not, the object's next
+   * facet on the way casts no shadow: the lit side of round objects ends smoothly. The tree is made
+   * again if an object changes, appears or disappears, not for lights, membranes or the camera. The
+   * time of a frame grows with the pixels of the objects and the lights. Default is off.
+   */
+  vtkSetMacro(Shadows, bool);
+  vtkGetMacro(Shadows, bool);
+  vtkBooleanMacro(Shadows, bool);
+  /** @} */
+
+  /** @{ */
+  /**
    * Set/Get the number of cells into which each object is divided for its light through a membrane
    * that is not flat, with TRUE_SPACE. Details of the light that are smaller than a cell are not
    * resolved. The time that a light, a membrane or an object that changed takes is proportional to
@@ -303,6 +328,9 @@ public:
    * through a membrane that is not flat. A camera that moves does not add to it.
    */
   vtkTypeInt64 GetNumberOfLightUpdates() const;
+
+  /** Number of times since construction that a tree of the objects that cast shadows was made. */
+  vtkTypeInt64 GetNumberOfShadowUpdates() const;
 
   /** Number of lights left out since construction: see SetLighting(). */
   vtkTypeInt64 GetNumberOfSkippedLights() const;
@@ -363,6 +391,7 @@ private:
   void ChooseLighting();
   void UpdateLighting(vtkRenderer* renderer, vtkActor* membrane);
   void UpdateWaves(vtkRenderer* renderer, meniscus::Refraction& refraction);
+  bool UpdateShadows(vtkRenderer* renderer, vtkActor* membrane);
 
   bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
@@ -373,6 +402,7 @@ private:
   bool InfiniteMedium = false;
   int Lighting = VIRTUAL_SPACE;
   bool LightAttenuation = true;
+  bool Shadows = false;
   int NumberOfLightCells = 100000;
 
   class vtkInternals;

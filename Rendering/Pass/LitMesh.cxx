@@ -3,6 +3,7 @@
 #include "Rendering/Pass/LitMesh.h"
 
 #include "Filters/Common/CellLoop.h"
+#include "Rendering/Pass/SurfacePoint.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -28,13 +29,6 @@ namespace
 
 /** More divisions of a side are finer than the colours of a picture of that width. */
 constexpr int MostDivisions = 2048;
-
-glm::dvec3 PointOf(vtkPolyData* data, vtkIdType i)
-{
-  glm::dvec3 point;
-  data->GetPoint(i, &point.x);
-  return point;
-}
 
 /** Points of grids on sides of triangles, by the ends of the side, its divisions and the place. */
 class SharedPoints

@@ -25,6 +25,17 @@ namespace meniscus
 class LitMesh
 {
 public:
+  /** A triangle of a polygon or a strip. */
+  struct Face
+  {
+    std::array<vtkIdType, 3> Corners;
+    vtkIdType Source;
+    double Length; ///< of the longest side
+  };
+
+  /** Triangles of a surface by their sources; parameters as of Build(). */
+  static std::vector<Face> ListFaces(vtkPolyData* surface, vtkIdTypeArray* sources);
+
   /**
    * Divides the polygons and strips of a surface into about `cells` cells, and no fewer than its
    * triangles. Triangles with coordinates that are not finite are left out.
@@ -50,14 +61,6 @@ public:
   std::vector<std::int32_t> ListPrimitives(vtkPolyData* images) const;
 
 private:
-  struct Face
-  {
-    std::array<vtkIdType, 3> Corners;
-    vtkIdType Source;
-    double Length; ///< of the longest side
-  };
-
-  static std::vector<Face> ListFaces(vtkPolyData* surface, vtkIdTypeArray* sources);
   void AddTriangles(std::size_t start, int divisions, vtkCellArray* triangles) const;
 
   vtkNew<vtkPolyData> Cells;

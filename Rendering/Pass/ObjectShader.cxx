@@ -5,6 +5,7 @@
 #include "Rendering/Pass/PlateUniforms.h"
 
 #include "vtkMediumTransmittance.h"
+#include "vtkRefractionShadows.h"
 #include "vtkTrueSpaceLighting.h"
 
 #include "vtkDataObject.h"
@@ -80,14 +81,15 @@ void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint)
 }
 
 //------------------------------------------------------------------------------
-void LightInTrueSpace(const ShaderSources& sources, bool readsTables)
+void LightInTrueSpace(const ShaderSources& sources, bool readsTables, bool hasShadows)
 {
   PassOn(sources, "vec3", "truePosition");
   PassOn(sources, "vec3", "trueNormal");
   PassOn(sources, "vec3", "sightPoint");
   AppendToShader(sources.Fragment, Declarations,
-    std::string("#define HAS_LIT_TABLES ") + (readsTables ? "1\n" : "0\n") + PlateShaderSource() +
-      vtkTrueSpaceLighting);
+    std::string("#define HAS_LIT_TABLES ") + (readsTables ? "1\n" : "0\n") +
+      "#define HAS_SHADOWS " + (hasShadows ? "1\n" : "0\n") + PlateShaderSource() +
+      (hasShadows ? vtkRefractionShadows : "") + vtkTrueSpaceLighting);
   AppendToShader(sources.Fragment, "  //VTK::Light::Impl",
     "  gl_FragData[0].rgb = lightInTrueSpace(ambientColor, diffuseColor, truePositionVSOutput,\n"
     "    trueNormalVSOutput, sightPointVSOutput, refractionDepthVSOutput > 0.0);");

@@ -33,7 +33,8 @@ void MapTrueArrays(vtkPolyDataMapper* mapper, const std::string& sightPoint);
 /**
  * Replaces the lighting of a refracted object; before SeeThroughMedium().
  * @param readsTables whether lights have tables: WaveLight.
+ * @param hasShadows whether objects hide light: ShadowCasters.
  */
-void LightInTrueSpace(const ShaderSources& sources, bool readsTables);
+void LightInTrueSpace(const ShaderSources& sources, bool readsTables, bool hasShadows);
 
 }

@@ -228,6 +228,51 @@ LightRay readLight(LitPlace place, int table, vec4 light, vec3 point)
 }
 #endif
 
+#if HAS_SHADOWS
+// True if an object is on the way of a light to a point: behind the membrane, and in front of it
+// where the way bends.
+bool isShadowed(vec4 light, LightRay ray, vec3 start, int spared)
+{
+  const float endless = 1.0e30;
+  bool isNear = light.w != 0.0;
+  if (ray.inMedium <= 0.0 || heightOfLight(light) <= 0.0)
+  {
+    return isHidden(start, ray.toLight, isNear ? length(light.xyz - start) : endless, spared);
+  }
+  return isHidden(start, ray.toLight, ray.inMedium, spared) ||
+    isHidden(start + ray.inMedium * ray.toLight, -ray.fromLight,
+      isNear ? ray.path - ray.inMedium : endless, 0);
+}
+
+// Where the ways to the light begin, and how many hits of the object's own triangles they spare.
+struct ShadowStart
+{
+  vec3 point;
+  int spared;
+};
+
+// The way begins on the light's side of the facet, beyond the error of heights above it. A point
+// whose facet turns away from the light, but not its smooth normal, is at the edge of the lit side
+// of a round body: its light leaves the body through one other facet. `away` has the facet's sine
+// by that its direction may be off: the error of places over the distance of pixels.
+ShadowStart startOfShadow(vec3 position, vec3 toViewer, vec3 toLight)
+{
+  vec3 right = dFdx(position);
+  vec3 above = dFdy(position);
+  vec3 facet = cross(right, above);
+  float area = length(facet);
+  vec3 unit = area > 0.0 ? facet / area : toLight;
+  unit = dot(unit, toViewer) < 0.0 ? -unit : unit;
+  float away = shadowRounding * max(length(right), length(above)) / max(area, 1.0e-37);
+  float facing = dot(unit, toLight);
+  ShadowStart start;
+  start.point =
+    position + (facing < 0.0 ? -1.0 : 1.0) * (shadowRounding + shadowTwist) * unit;
+  start.spared = facing <= away ? 1 : 0;
+  return start;
+}
+#endif
+
 // Phong's model as VTK has it: light of all lights that the surface reflects to the eye.
 vec3 lightInTrueSpace(
   vec3 ambient, vec3 diffuse, vec3 position, vec3 givenNormal, vec3 sightPoint, bool isBehind)
@@ -270,6 +315,12 @@ vec3 lightInTrueSpace(
     vec3 arriving = strength * trueLightColor[i];
     arriving *= lightIsFaded ? seenThroughMedium(ray.inMedium) : vec3(1.0);
     float facing = dot(normal, ray.toLight);
+#if HAS_SHADOWS
+    ShadowStart start = startOfShadow(position, toViewer, ray.toLight);
+    bool isDark =
+      facing > 0.0 && isShadowed(trueLightPosition[i], ray, start.point, start.spared);
+    facing = isDark ? 0.0 : facing;
+#endif
     if (facing > 0.0)
     {
       float mirrored = max(dot(reflect(-ray.toLight, normal), toViewer), 0.0);

@@ -4,7 +4,7 @@
 import math
 
 import meniscus
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkLookupTable
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -114,12 +114,13 @@ class Pool:
     """A pool [-1, 1]^2 below z = 0, lit by the sun through its water."""
 
     def __init__(self, height, attenuation, cells=128, lights=112):
-        self.lights = lights  # cells along each side of the floor, which have their own light
+        self.lights = lights  # cells along each side of the floor
         self.water = common.make_height_field(
             (-1, -1, 0), (1, -1, 0), (-1, 1, 0), (cells, cells), height)
         self.renderer = common.make_renderer(((0.80, 0.88, 0.95), (0.35, 0.58, 0.85)))
         self.renderer.AutomaticLightCreationOff()
         light = vtkLight()
+        light.SetLightTypeToSceneLight()
         light.SetPosition(*(10 * c for c in SUN))
         light.SetIntensity(1.0)
         self.renderer.AddLight(light)
@@ -129,6 +130,9 @@ class Pool:
         self.refraction = meniscus.vtkRefractionPass()
         self.refraction.SetReflectionTexture(make_sky())
         self.refraction.SetAttenuationCoefficients(*attenuation)
+        self.refraction.SetLightingToTrueSpace()
+        self.refraction.LightAttenuationOff()
+        self.refraction.ShadowsOn()
         self.renderer.SetPass(self.refraction)
 
     def add_sides(self, texture):
@@ -170,23 +174,11 @@ class Pool:
 
     def add_lit(self, data, texture, brightest):
         """Adds an object whose colours are texture times light through the water."""
-        light = meniscus.vtkRefractedLightFilter()
-        light.SetInputData(data)
-        light.SetMembraneData(self.water)
-        light.SetLightPosition(*SUN)
-        actor = self.add(light.GetOutputPort())
-        gray = vtkLookupTable()
-        gray.SetRampToLinear()
-        gray.SetHueRange(0.12, 0.12)
-        gray.SetSaturationRange(0.0, 0.0)
-        gray.SetValueRange(0.38, 1.0)
-        gray.Build()
-        actor.GetMapper().SetScalarModeToUsePointFieldData()
-        actor.GetMapper().SelectColorArray("RefractionIrradiance")
-        actor.GetMapper().SetLookupTable(gray)
-        actor.GetMapper().SetScalarRange(0.0, brightest)
+        actor = self.add_data(data)
         actor.SetTexture(texture)
-        actor.GetProperty().LightingOff()
+        look = actor.GetProperty()
+        look.SetAmbient(0.38)
+        look.SetDiffuse(0.62 / brightest)
 
     def add(self, port):
         """Adds an object and returns its actor."""
@@ -195,6 +187,7 @@ class Pool:
         refracted.SetMembraneData(self.water)
         refracted.SetCamera(self.renderer.GetActiveCamera())
         refracted.SetAngularTolerance(0.03)
+        refracted.TrueGeometryOn()
         mapper = vtkPolyDataMapper()
         mapper.SetInputConnection(refracted.GetOutputPort())
         actor = vtkActor()
@@ -202,11 +195,14 @@ class Pool:
         self.refraction.AddRefraction(self.surface, actor, refracted)
         return actor
 
-    def add_colored(self, data, color):
-        """Adds an object of one colour, lit by the sun without caustics."""
+    def add_data(self, data):
         producer = vtkTrivialProducer()
         producer.SetOutput(data)
-        actor = self.add(producer.GetOutputPort())
+        return self.add(producer.GetOutputPort())
+
+    def add_colored(self, data, color):
+        """Adds an object of one colour, lit by the sun through the water."""
+        actor = self.add_data(data)
         actor.GetMapper().ScalarVisibilityOff()
         look = actor.GetProperty()
         look.SetColor(*color)
@@ -279,6 +275,7 @@ def draw_frames(size, frames):
             return sum(a * math.sin(k * x + l * y + p - n * turn) for a, k, l, p, n in SWELL)
 
         pool = Pool(height, (0.60, 0.10, 0.05), 64, 56)
+        pool.refraction.SetNumberOfLightCells(20000)  # of each object, for each frame
         pool.add_sides(tiles)
         pool.add_colored(make_ball((0.45, 0.3, -0.53), 0.22), (0.95, 0.35, 0.15))
         pool.add_colored(make_ball((-0.4, -0.1, 0.04 + height(-0.4, -0.1)), 0.19),
