@@ -291,15 +291,15 @@ public:
    * Set/Get whether objects behind a membrane cast shadows on each other and on themselves, with
    * TRUE_SPACE: in the light of all lights, in the medium and in front of it. All visible objects
    * of the same membrane cast shadows whose actors are opaque surfaces; wireframes, translucent
-   * objects, volumes, mirror images and actors of the renderer cast none. What is in a shadow has
-   * the light's ambient part only.
+   * objects, volumes, mirror images and actors of the renderer cast none. Points
+   * in shadow get the light's ambient part only.
    *
    * The shader follows the light's way from each pixel through a tree of the objects' triangles, so
    * that edges are as sharp as the pixels. The way is that of the light's ray: straight, or bent at
    * the flat membrane or at the plane that fits its points best. Through waves it is the mean ray
    * at the point that vtkRefractedLightFilter has found; where waves send light to a point on
    * several ways, all of it or none is in shadow. The part of an object in front of the membrane
-   * casts a shadow on what is behind it.
+   * casts a shadow on the objects behind the membrane.
    *
    * On facets that face away from a light while their smooth normals do not, the object's next
    * facet on the way casts no shadow: the lit side of round objects ends smoothly. The tree is made

@@ -47,8 +47,8 @@ constexpr int BlockHeight = 2;
 constexpr int Nodes = 4096;
 
 /**
- * Nominal lengths that an interval has at most. Open VKL's is the size of the smallest cell, 0
- * beside flat ones, where its renderers would take no sample at all.
+ * An interval is taken to be at most this many nominal lengths long. Open VKL's nominal length is
+ * the size of the smallest cell. Beside flat cells it is 0, and its renderers take no sample.
  */
 constexpr float LargestCount = 1024.0f;
 
@@ -117,12 +117,14 @@ public:
         static_cast<float>(opacity->GetValue(value) / unit) };
     }
     this->Low = static_cast<float>(range[0]);
-    this->Scale = static_cast<float>(Nodes / std::max(range[1] - range[0], 1e-300));
+    this->Step = static_cast<float>((range[1] - range[0]) / Nodes);
   }
 
   Entry At(float value) const
   {
-    const float place = std::clamp((value - this->Low) * this->Scale, 0.0f, float(Nodes));
+    // Values that are all equal are at the first node.
+    const float place =
+      this->Step > 0.0f ? std::clamp((value - this->Low) / this->Step, 0.0f, float(Nodes)) : 0.0f;
     const int node = std::min(static_cast<int>(place), Nodes - 1);
     const float share = place - static_cast<float>(node);
     const Entry& below = this->Entries[node];
@@ -160,11 +162,11 @@ public:
   }
 
 private:
-  float ValueOf(int node) const { return this->Low + static_cast<float>(node) / this->Scale; }
+  float ValueOf(int node) const { return this->Low + static_cast<float>(node) * this->Step; }
 
   std::vector<Entry> Entries;
   float Low = 0.0f;
-  float Scale = 1.0f;
+  float Step = 0.0f;
 };
 
 //------------------------------------------------------------------------------
@@ -455,9 +457,19 @@ public:
       double range[2];
       grid->GetPointData()->GetScalars()->GetFiniteRange(range);
       this->Function.Make(look, range);
-      this->Mesh->SetVisibleRanges(this->Function.VisibleRanges());
+      const std::vector<vkl_range1f> ranges = this->Function.VisibleRanges();
+      this->Visible = !ranges.empty();
+      if (this->Visible)
+      {
+        this->Mesh->SetVisibleRanges(ranges);
+      }
       this->Look = look;
       this->LookTime.Modified();
+    }
+    // Without ranges, Open VKL would return all values.
+    if (!this->Visible)
+    {
+      return;
     }
     this->Cast(renderer);
     this->Display->RenderTexture(volume, renderer, this->Memory, this->Size, this->Size,
@@ -541,6 +553,7 @@ private:
   std::unique_ptr<VklMesh> Mesh;
   FunctionTable Function;
   double Rate = 1.0;
+  bool Visible = false;
   vtkNew<vtkRayCastImageDisplayHelper> Display;
   std::vector<unsigned char> Image;
   int Memory[2] = {};

@@ -48,8 +48,8 @@ struct RayCastRefraction
 /** Opacity at which a ray ends, unless the application chooses another one. */
 constexpr double DefaultTerminationOpacity = 1.0 - 1.0 / 131072.0;
 /**
- * The same in images that interaction makes coarse. The error of a pixel is at most what is left,
- * 1/512, and half a level of 8 bits is 1/510.
+ * Opacity at which a ray ends in images that interaction makes coarse. The light behind that end is
+ * lost: at most 1/512 of full scale, less than half a level of 8 bits (1/510).
  */
 constexpr double CoarseTerminationOpacity = 1.0 - 1.0 / 512.0;
 

@@ -13,8 +13,8 @@ namespace meniscus
 bool MayBeInView(vtkRenderer* renderer, const double bounds[6]);
 
 /**
- * Rectangle of the pixels that a box may cover in a picture of a width and a height: the whole
- * picture if a part of the box is beside or behind the eye.
+ * Rectangle of the pixels that a box may cover in a picture of this width and height. It is the
+ * whole picture if a corner of the box is not in front of the eye.
  */
 vtkRecti FindPixels(vtkRenderer* renderer, const double bounds[6], const int (&size)[2]);
 

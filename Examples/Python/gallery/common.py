@@ -149,6 +149,18 @@ def make_renderer(background=NIGHT):
     return renderer
 
 
+def make_dense(mesh, look, light, reach, scattering):
+    """A volume of a dense, dull medium that shadows itself; `light` is its ambient and diffuse
+    share."""
+    look.SetAmbient(light[0])
+    look.SetDiffuse(light[1])
+    look.SetSpecular(0.0)
+    volume = make_volume(mesh, look)
+    volume.GetMapper().SetGlobalIlluminationReach(reach)
+    volume.GetMapper().SetVolumetricScatteringBlending(scattering)
+    return volume
+
+
 def add_lights(renderer, *places):
     """Lights at places relative to the camera: direction, colour and intensity."""
     renderer.AutomaticLightCreationOff()

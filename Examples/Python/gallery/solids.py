@@ -110,13 +110,7 @@ def cut_open(mesh):
 def make_wax(mesh, colors):
     """A volume of a dense medium that shadows itself."""
     look = common.make_look(colors, common.make_opacity(((0.0, 0.9), (1.0, 0.9))), 0.12)
-    look.SetAmbient(0.6)
-    look.SetDiffuse(1.3)
-    look.SetSpecular(0.0)
-    volume = common.make_volume(mesh, look)
-    volume.GetMapper().SetGlobalIlluminationReach(0.4)
-    volume.GetMapper().SetVolumetricScatteringBlending(1.0)
-    return volume
+    return common.make_dense(mesh, look, (0.6, 1.3), 0.4, 1.0)
 
 
 def draw_duck(_data, size):

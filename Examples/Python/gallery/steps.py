@@ -66,13 +66,7 @@ def make_metal(mesh):
     colors = common.make_colors(common.SIGNED, -0.15, 0.15)
     opacity = common.make_opacity(((-0.3, 1.0), (-0.05, 0.8), (0.0, 0.6), (0.05, 0.8), (0.3, 1.0)))
     look = common.make_look(colors, opacity, 0.04)
-    look.SetAmbient(0.7)
-    look.SetDiffuse(0.8)
-    look.SetSpecular(0.0)
-    volume = common.make_volume(mesh, look)
-    volume.GetMapper().SetGlobalIlluminationReach(0.3)
-    volume.GetMapper().SetVolumetricScatteringBlending(2.0)
-    return volume
+    return common.make_dense(mesh, look, (0.7, 0.8), 0.3, 2.0)
 
 
 def draw_blow(data, size):

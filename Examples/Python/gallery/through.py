@@ -15,8 +15,8 @@ from . import common, volumes
 # Of the lens: glass between two caps of spheres, in the unit of the combustor's mesh.
 CURVATURE = 16.0
 APERTURE = 2.9  # radius
-TARGET = (8.6, 0.7, 27.8)  # what is enlarged
-DISTANCE = 13.0  # of the lens from it
+TARGET = (8.6, 0.7, 27.8)  # point under the middle of the lens
+DISTANCE = 13.0  # from the lens to the target
 
 
 def draw_lens(data, size):
