@@ -14,7 +14,6 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkPolyData.h"
 #include "vtkShaderProgram.h"
-#include "vtkSmartPointer.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -91,6 +90,11 @@ struct ShadowCasters::Box
   glm::dvec3 Upper;
   std::size_t Index; ///< of the triangle
 };
+
+bool ShadowCasters::Source::operator==(const Source& other) const
+{
+  return this->Number == other.Number && this->Surface == other.Surface && this->Time == other.Time;
+}
 
 //------------------------------------------------------------------------------
 std::vector<ShadowCasters::Source> ShadowCasters::ListSources(const std::vector<Caster>& casters)

@@ -5,6 +5,7 @@
 #include "Filters/Object/ObjectSurface.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <map>
@@ -57,11 +58,7 @@ private:
     vtkSmartPointer<vtkPolyData> Surface;
     vtkMTimeType Time;
 
-    bool operator==(const Source& other) const
-    {
-      return this->Number == other.Number && this->Surface == other.Surface &&
-        this->Time == other.Time;
-    }
+    bool operator==(const Source& other) const;
   };
   struct Box;
 
