@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compiles each header by itself, without precompiled headers: a header includes what it uses.
 
-usage: check_headers.py BUILD...
+usage: check_headers.py BUILD... [HEADER.h...]
 
-The flags are those of compile_commands.json in the build folders. The headers of Module, Filters
-and Rendering are checked.
+The flags are those of compile_commands.json in the build folders. The named headers are checked,
+or all of Module, Filters and Rendering.
 """
 import concurrent.futures
 import json
@@ -17,6 +17,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FOLDERS = ("Module", "Filters", "Rendering")
 # Headers for another processor, and lists that are included in the middle of a source.
 LEFT_OUT = {"Module/Simd/SimdNEON.h", "Module/Simd/SimdAVX2.h", "Module/Simd/SimdAVX512.h",
             "Module/Simd/SimdRowLoads.h"}
@@ -79,17 +80,24 @@ def check(header, flags):
     return result.stderr if result.returncode else ""
 
 
+def headers_among(names):
+    """The named headers, or all, without the headers that cannot stand by themselves."""
+    if not names:
+        names = subprocess.run(
+            ["git", "-c", "safe.directory=" + ROOT, "ls-files"] + [f + "/*.h" for f in FOLDERS],
+            cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    return [name for name in names if name.split("/")[0] in FOLDERS and name not in LEFT_OUT
+            and os.path.exists(os.path.join(ROOT, name))]
+
+
 def main():
-    """Checks all headers; returns the number of headers that fail."""
-    if len(sys.argv) < 2:
+    """Checks the headers; returns the number of headers that fail."""
+    names = [word for word in sys.argv[1:] if word.endswith(".h")]
+    builds = [word for word in sys.argv[1:] if word not in names]
+    if not builds:
         sys.exit(__doc__)
-    flags = flags_of_folders(sys.argv[1:])
-    patterns = [folder + "/*.h" for folder in ("Module", "Filters", "Rendering")]
-    listed = subprocess.run(
-        ["git", "-c", "safe.directory=" + ROOT, "ls-files"] + patterns,
-        cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
-    jobs = [(name, find_flags(flags, os.path.dirname(name))) for name in listed
-            if name not in LEFT_OUT]
+    flags = flags_of_folders(builds)
+    jobs = [(name, find_flags(flags, os.path.dirname(name))) for name in headers_among(names)]
     jobs = [job for job in jobs if job[1]]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         messages = list(pool.map(lambda job: check(*job), jobs))
