@@ -12,6 +12,7 @@
 #include "Rendering/Integral/BentVolume.h"
 #include "Rendering/Integral/SchlierenArrays.h"
 #include "Rendering/Integral/SeenObjects.h"
+#include "Rendering/Integral/SurfaceTexture.h"
 
 #include "vtkDataSet.h"
 #include "vtkFloatArray.h"
@@ -24,6 +25,7 @@
 #include "vtkPolyData.h"
 #include "vtkScalarsToColors.h"
 #include "vtkTable.h"
+#include "vtkTexture.h"
 #include "vtkVolumeProperty.h"
 
 #include <glm/geometric.hpp>
@@ -52,6 +54,7 @@ public:
   meniscus::InputBlocks VolumeScalars;
   meniscus::BentVolume Volume;
   meniscus::SeenObjects Objects;
+  meniscus::SurfaceTexture Texture;
   std::vector<meniscus::OpaqueSight> Sights;
   std::vector<glm::dvec3> Eyes;
   meniscus::GradedRayStatistics Statistics;
@@ -64,6 +67,7 @@ meniscusSetClampMacro(vtkTetrahedraMirage, Ambient, double, 0.0, 1.0);
 meniscusSetClampMacro(
   vtkTetrahedraMirage, OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
 meniscusObjectMacro(vtkTetrahedraMirage, LookupTable, vtkScalarsToColors, LookupTable);
+meniscusObjectMacro(vtkTetrahedraMirage, Texture, vtkTexture, Texture);
 meniscusObjectMacro(vtkTetrahedraMirage, VolumeProperty, vtkVolumeProperty, VolumeProperty);
 
 //------------------------------------------------------------------------------
@@ -117,8 +121,14 @@ void vtkTetrahedraMirage::SetObjectData(vtkDataSet* objects)
 vtkMTimeType vtkTetrahedraMirage::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();
-  time = this->LookupTable ? std::max(time, this->LookupTable->GetMTime()) : time;
-  return this->VolumeProperty ? std::max(time, this->VolumeProperty->GetMTime()) : time;
+  const auto include = [&time](vtkObject* object)
+  { time = object ? std::max(time, object->GetMTime()) : time; };
+  include(this->LookupTable);
+  include(this->VolumeProperty);
+  include(this->Texture);
+  include(this->Texture ? this->Texture->GetInputAlgorithm() : nullptr);
+  include(this->Texture ? this->Texture->GetInput() : nullptr);
+  return time;
 }
 
 //------------------------------------------------------------------------------
@@ -188,8 +198,13 @@ bool vtkTetrahedraMirage::ReadVolume()
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
+/** Reads the objects and their texture. Returns false after an error. */
+bool vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
 {
+  if (!this->TellError(this->Internals->Texture.Read(this->Texture)))
+  {
+    return false;
+  }
   meniscus::SeenObjects& read = this->Internals->Objects;
   vtkNew<vtkPolyData> nothing;
   read.Read(objects ? objects : nothing.GetPointer(), this->Medium->GetMesh());
@@ -202,6 +217,11 @@ void vtkTetrahedraMirage::ReadObjects(vtkDataSet* objects)
   {
     vtkWarningMacro(<< "The objects have no polygons; the picture shows the background alone.");
   }
+  else if (objects && this->Texture && !read.HasTextureCoordinates())
+  {
+    vtkWarningMacro(<< "The objects have no texture coordinates; the texture is not seen.");
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -274,6 +294,7 @@ void vtkTetrahedraMirage::WriteArrays(vtkImageData* output)
   this->PlaceImage(output);
   meniscus::ObjectShading shading;
   shading.LookupTable = this->LookupTable;
+  shading.Texture = &this->Internals->Texture;
   shading.LightDirection = glm::make_vec3(this->LightDirection);
   shading.Ambient = this->Ambient;
   shading.Background = glm::make_vec3(this->BackgroundColor);
@@ -309,14 +330,10 @@ int vtkTetrahedraMirage::RequestData(
     this->TellError(hasSubject ? "" : "There are neither objects nor a volume property") &&
     this->CollectVolume(vtkDataObject::GetData(inputs[0])) &&
     this->UpdateView(vtkDataObject::GetData(inputs[0]), meniscus::ShareOfMedium) &&
-    this->ReadVolume())
+    this->ReadVolume() && this->ReadObjects(objects) && this->TraceRays())
   {
-    this->ReadObjects(objects);
-    if (this->TraceRays())
-    {
-      this->WriteArrays(output);
-      return 1;
-    }
+    this->WriteArrays(output);
+    return 1;
   }
   return this->GetAbortExecute() ? 1 : 0;
 }
@@ -326,6 +343,7 @@ void vtkTetrahedraMirage::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "LookupTable: " << this->LookupTable << "\n";
+  os << indent << "Texture: " << this->Texture << "\n";
   os << indent << "VolumeProperty: " << this->VolumeProperty << "\n";
   os << indent << "VolumeArrayName: " << (this->VolumeArrayName ? this->VolumeArrayName : "(none)")
      << "\n";

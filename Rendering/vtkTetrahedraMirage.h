@@ -14,8 +14,10 @@
  * both sides are seen; of a grid its outer faces. Lines and vertices are not seen. Objects are
  * coloured by the active scalars of their cells or, without any, of their points, as by vtkMapper:
  * unsigned char values are colours, and others are mapped by LookupTable. Objects without scalars
- * are white. Polygons are flat: their colour is multiplied by Ambient + (1 - Ambient) times the
- * cosine of the angle between their normal and the light of LightDirection.
+ * are white. With a Texture, these colours are multiplied by those of its image at the texture
+ * coordinates of the points, wrapped and interpolated as the vtkTexture says. Polygons are flat:
+ * their colour is multiplied by Ambient + (1 - Ambient) times the cosine of the angle between their
+ * normal and the light of LightDirection.
  *
  * With a VolumeProperty, the medium itself is seen as well: smoke, glowing gas. Its array
  * VolumeArrayName, mapped by the property's functions of component 0, is drawn as by composite
@@ -40,12 +42,13 @@
  * `Color` has the medium over the object or the background; the other arrays are those of the
  * object, also where the medium hides it.
  *
- * **Bad input.** Warnings: objects without polygons, which show the background alone; points that
- * are not finite, whose polygons are left out; rays that were stopped. GetStatistics() counts them,
- * and the pixels that see the back of a polygon, which all do if the eye is in a closed object. An
- * eye in the mesh is fine. Errors, with an empty output, besides those of the base class: neither
- * objects nor a volume property; a volume without its array, or with one in other data sets than
- * the index; a property whose numbers permit no picture.
+ * **Bad input.** Warnings: objects without polygons, which show the background alone; a texture
+ * for objects without texture coordinates, which is not seen; points that are not finite, whose
+ * polygons are left out; rays that were stopped. GetStatistics() counts them, and the pixels that
+ * see the back of a polygon, which all do if the eye is in a closed object. An eye in the mesh is
+ * fine. Errors, with an empty output, besides those of the base class: neither
+ * objects nor a volume property; a texture without an image of two dimensions; a volume without its
+ * array, or with one in other data sets than the index; a property whose numbers permit no picture.
  *
  * Rays are traced in parallel by vtkSMPTools; results do not depend on the number of threads.
  *
@@ -62,6 +65,7 @@
 class vtkDataSet;
 class vtkScalarsToColors;
 class vtkTable;
+class vtkTexture;
 class vtkVolumeProperty;
 
 class VTKMENISCUS_EXPORT vtkTetrahedraMirage : public vtkBentRayAlgorithm
@@ -92,6 +96,16 @@ public:
    */
   void SetLookupTable(vtkScalarsToColors* table);
   vtkScalarsToColors* GetLookupTable();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the picture on the objects: an image of two dimensions, which the point data's texture
+   * coordinates place. Its opacity is ignored, and so are the texture's UseSRGBColorSpace and
+   * Mipmap. Null, the default, stands for none.
+   */
+  void SetTexture(vtkTexture* texture);
+  vtkTexture* GetTexture();
   /** @} */
 
   /** @{ */
@@ -152,7 +166,7 @@ public:
   double GetStatistic(const char* name);
   /** @} */
 
-  /** Includes the times of the camera, of the lookup table and of the volume property. */
+  /** Includes the times of camera, lookup table, texture with its source, and volume property. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -173,7 +187,7 @@ private:
 
   bool CollectVolume(vtkDataObject* mesh);
   bool ReadVolume();
-  void ReadObjects(vtkDataSet* objects);
+  bool ReadObjects(vtkDataSet* objects);
   bool TraceRays();
   void WriteArrays(vtkImageData* output);
 
@@ -181,6 +195,7 @@ private:
   double Ambient = 0.3;
   double BackgroundColor[3] = { 0.0, 0.0, 0.0 };
   vtkSmartPointer<vtkScalarsToColors> LookupTable;
+  vtkSmartPointer<vtkTexture> Texture;
   vtkSmartPointer<vtkVolumeProperty> VolumeProperty;
   char* VolumeArrayName = nullptr;
   int OpacityModel = ATTENUATION_COEFFICIENT;

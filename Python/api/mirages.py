@@ -18,7 +18,7 @@ from .surfaces import surface_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from vtkmodules.vtkRenderingCore import vtkVolumeProperty
+    from vtkmodules.vtkRenderingCore import vtkTexture, vtkVolumeProperty
 
     from .types import Mesh, Surface
 
@@ -36,7 +36,8 @@ _IMAGES = {
 def mirage(
     mesh: Mesh, /, objects: Surface | None, scalars: str | None = None,
     image: str | Sequence[str] = "color", *, quantity: str = "density",
-    volume: vtkVolumeProperty | None = None, volume_scalars: str | None = None,
+    texture: vtkTexture | None = None, volume: vtkVolumeProperty | None = None,
+    volume_scalars: str | None = None,
     size: Sequence[int] = (256, 256), direction: Sequence[float] = (0.0, 0.0, -1.0),
     up: Sequence[float] = (0.0, 1.0, 0.0), camera: Any = None, **properties: Any,
 ) -> Any:
@@ -52,6 +53,8 @@ def mirage(
         none), "depth" (its distance, NaN for none), "direction" of the ray at its end and, with a
         volume, "rgba", its premultiplied colour and opacity; or a list of them.
     quantity: meaning of the scalars, "density" of a gas or "refractive_index".
+    texture: picture on the objects, at the texture coordinates of their points; its colours are
+        multiplied by those of the scalars. pyvista.Texture is one.
     volume: property by which the mesh itself is seen along the bent rays, such as smoke or flames.
     volume_scalars: name of the array of points or cells that it maps; default: that of scalars.
     size: width and height of the image in pixels.
@@ -70,6 +73,7 @@ def mirage(
         raise ValueError('volume_scalars and the image "rgba" need a volume')
     rays = vtkTetrahedraMirage()
     connect_medium(rays, 0, "mesh", mesh, scalars, quantity)
+    rays.SetTexture(texture)
     rays.SetVolumeProperty(volume)
     rays.SetVolumeArrayName(volume_scalars)
     if hasattr(objects, "GetOutputPort"):

@@ -5,6 +5,7 @@
 #include "Common/FiniteVector.h"
 #include "Filters/Common/NamedArray.h"
 #include "Filters/Object/ObjectTopology.h"
+#include "Rendering/Integral/SurfaceTexture.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -12,15 +13,15 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
-#include "vtkLookupTable.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkScalarsToColors.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -44,21 +45,12 @@ glm::dvec3 PointOf(vtkDataSet* data, vtkIdType point)
 
 }
 
-/** Colours of the objects' cells or points; null if they have no scalars. */
+/** Colours of the objects' cells or points, and texture coordinates; null if there are none. */
 struct SeenObjects::Colors
 {
   vtkSmartPointer<vtkUnsignedCharArray> Values;
   bool AreOfPoints = false;
-
-  glm::dvec3 At(vtkIdType tuple) const
-  {
-    glm::dvec3 color;
-    for (int k = 0; k < 3; ++k)
-    {
-      color[k] = this->Values->GetTypedComponent(tuple, k) / 255.0;
-    }
-    return color;
-  }
+  vtkDataArray* TextureCoordinates = nullptr;
 };
 
 //------------------------------------------------------------------------------
@@ -101,7 +93,13 @@ void SeenObjects::Read(vtkDataSet* objects, const TetrahedralMesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-SeenObjects::Colors SeenObjects::MapColors(vtkScalarsToColors* table) const
+bool SeenObjects::HasTextureCoordinates() const
+{
+  return this->Surface.Data->GetPointData()->GetTCoords() != nullptr;
+}
+
+//------------------------------------------------------------------------------
+SeenObjects::Colors SeenObjects::MapColors(const ObjectShading& shading) const
 {
   Colors colors;
   vtkPolyData* data = this->Surface.Data;
@@ -113,34 +111,49 @@ SeenObjects::Colors SeenObjects::MapColors(vtkScalarsToColors* table) const
   }
   if (scalars)
   {
-    vtkNew<vtkLookupTable> ofRange;
-    ofRange->SetRange(scalars->GetRange());
-    ofRange->Build();
-    vtkScalarsToColors* chosen = table ? table : ofRange.GetPointer();
-    colors.Values.TakeReference(chosen->MapScalars(scalars, VTK_COLOR_MODE_DEFAULT, 0));
+    colors.Values = MapToColors(scalars, shading.LookupTable, VTK_COLOR_MODE_DEFAULT);
+  }
+  if (shading.Texture && !shading.Texture->IsEmpty())
+  {
+    colors.TextureCoordinates = data->GetPointData()->GetTCoords();
   }
   return colors;
+}
+
+//------------------------------------------------------------------------------
+/** Colour of the surface at a hit, without light. */
+glm::dvec3 SeenObjects::SurfaceColorOf(
+  const OpaqueHit& hit, const Colors& colors, const ObjectShading& shading) const
+{
+  const auto number = static_cast<std::size_t>(hit.Triangle);
+  const auto& corners = this->Corners[number];
+  glm::dvec3 color(colors.AreOfPoints ? 0.0 : 1.0);
+  if (colors.Values && !colors.AreOfPoints)
+  {
+    color = GetColor(colors.Values, this->Polygons[number]);
+  }
+  glm::dvec2 coordinates(0.0);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (colors.AreOfPoints)
+    {
+      color += hit.Weights[i] * GetColor(colors.Values, corners[i]);
+    }
+    for (int k = 0; colors.TextureCoordinates && k < 2; ++k)
+    {
+      const bool exists = k < colors.TextureCoordinates->GetNumberOfComponents();
+      coordinates[k] +=
+        exists ? hit.Weights[i] * colors.TextureCoordinates->GetComponent(corners[i], k) : 0.0;
+    }
+  }
+  return colors.TextureCoordinates ? color * shading.Texture->At(coordinates) : color;
 }
 
 //------------------------------------------------------------------------------
 glm::dvec3 SeenObjects::ColorOf(
   const OpaqueHit& hit, const Colors& colors, const ObjectShading& shading) const
 {
-  const auto number = static_cast<std::size_t>(hit.Triangle);
-  const auto& corners = this->Corners[number];
-  glm::dvec3 color(1.0);
-  if (colors.Values && colors.AreOfPoints)
-  {
-    color = glm::dvec3(0.0);
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      color += hit.Weights[i] * colors.At(corners[i]);
-    }
-  }
-  else if (colors.Values)
-  {
-    color = colors.At(this->Polygons[number]);
-  }
+  const auto& corners = this->Corners[static_cast<std::size_t>(hit.Triangle)];
   const glm::dvec3 first = PointOf(this->Surface.Data, corners[0]);
   const glm::dvec3 normal = glm::cross(PointOf(this->Surface.Data, corners[1]) - first,
     PointOf(this->Surface.Data, corners[2]) - first);
@@ -150,7 +163,8 @@ glm::dvec3 SeenObjects::ColorOf(
   // Light shines on the side that is seen if it falls from there.
   const double side = hit.IsFront ? -1.0 : 1.0;
   const double cosine = sizes > 0.0 ? std::max(0.0, side * glm::dot(normal, light) / sizes) : 0.0;
-  return color * (shading.Ambient + (1.0 - shading.Ambient) * cosine);
+  return this->SurfaceColorOf(hit, colors, shading) *
+    (shading.Ambient + (1.0 - shading.Ambient) * cosine);
 }
 
 //------------------------------------------------------------------------------
@@ -176,7 +190,7 @@ void SeenObjects::Write(const std::vector<OpaqueSight>& sights, const std::vecto
   auto* places = AddPointArray<vtkDoubleArray>(output, "Position", 3);
   auto* depths = AddPointArray<vtkFloatArray>(output, "Depth", 1);
   auto* directions = AddPointArray<vtkFloatArray>(output, "Direction", 3);
-  const Colors colors = this->MapColors(shading.LookupTable);
+  const Colors colors = this->MapColors(shading);
   for (std::size_t i = 0; i < sights.size(); ++i)
   {
     const auto number = static_cast<vtkIdType>(i);

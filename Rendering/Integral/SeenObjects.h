@@ -18,15 +18,18 @@
 class vtkDataSet;
 class vtkImageData;
 class vtkScalarsToColors;
-class vtkUnsignedCharArray;
 
 namespace meniscus
 {
+
+class SurfaceTexture;
 
 /** Light and colours of a picture of objects. */
 struct ObjectShading
 {
   vtkScalarsToColors* LookupTable = nullptr;
+  /** Null or an empty one for none. */
+  const SurfaceTexture* Texture = nullptr;
   /** 0 for light along the ray. */
   glm::dvec3 LightDirection{ 0.0 };
   double Ambient = 1.0;
@@ -42,6 +45,7 @@ public:
   const OpaqueTriangles& GetTriangles() const { return this->Triangles; }
   /** True if a triangle may be in the box around the mesh. */
   bool MayBeInMesh() const { return this->InMesh; }
+  bool HasTextureCoordinates() const;
   /** Polygons with a point that is not finite or does not exist. */
   std::int64_t GetNumberOfBrokenCells() const { return this->BrokenCells; }
 
@@ -56,7 +60,9 @@ private:
   struct Colors;
   glm::dvec3 ColorOf(
     const OpaqueHit& hit, const Colors& colors, const ObjectShading& shading) const;
-  Colors MapColors(vtkScalarsToColors* table) const;
+  glm::dvec3 SurfaceColorOf(
+    const OpaqueHit& hit, const Colors& colors, const ObjectShading& shading) const;
+  Colors MapColors(const ObjectShading& shading) const;
   glm::dvec3 PlaceOf(const OpaqueHit& hit) const;
 
   ObjectSurfaces Surfaces;

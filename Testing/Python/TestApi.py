@@ -14,10 +14,11 @@ import meniscus
 import numpy
 from meniscus.viewer.colors import COLOR_MAPS, fill_colors, find_colors, list_colors, make_table
 from TestRayIntegral import make_block
-from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPiecewiseFunction
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource
 from vtkmodules.vtkRenderingCore import (
-    vtkCamera, vtkColorTransferFunction, vtkVolumeProperty)
+    vtkCamera, vtkColorTransferFunction, vtkTexture, vtkVolumeProperty)
 
 INDEX = 1.333
 # Water in the plane z = 0, wound towards positive z.
@@ -254,6 +255,24 @@ class TestRays(unittest.TestCase):
                 meniscus.mirage(self.block, wall, "density", **wrong)
         with self.assertRaisesRegex(TypeError, "A surface is a dataset"):
             meniscus.mirage(self.block, 3, "density")
+
+    def test_mirage_of_a_texture(self):
+        """A wall of the texture's four texels, upright in the picture."""
+        wall = vtkPlaneSource()
+        wall.SetOrigin(0, 0, -1)
+        wall.SetPoint1(2, 0, -1)
+        wall.SetPoint2(0, 1, -1)
+        texels = numpy.array([[[9, 8, 7], [255, 0, 0]], [[0, 255, 0], [0, 0, 255]]], numpy.uint8)
+        image = vtkImageData()
+        image.SetDimensions(2, 2, 1)
+        image.GetPointData().SetScalars(numpy_to_vtk(texels.reshape(-1, 3), deep=True))
+        texture = vtkTexture()
+        texture.SetInputData(image)
+        seen = meniscus.mirage(self.block, wall, "density", texture=texture, GladstoneDale=0.0,
+                               Ambient=1, size=(4, 2))
+        numpy.testing.assert_array_equal(seen, numpy.repeat(texels, 2, axis=1))
+        with self.assertRaisesRegex(ValueError, "no image"):
+            meniscus.mirage(self.block, wall, "density", texture=vtkTexture())
 
     def test_mirage_of_a_volume(self):
         """A block that attenuates by its density, 1 + z over [0, 3], and emits white light."""
