@@ -12,7 +12,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkVolumeProperty, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingVolume import (
     vtkProjectedTetrahedraMapper, vtkUnstructuredGridVolumeRayCastMapper,
     vtkUnstructuredGridVolumeZSweepMapper)
@@ -103,6 +103,24 @@ def _measure(window: Any, camera: Any, frames: int) -> tuple[float, float, Any]:
     return first, statistics.median(times), _grab(window)
 
 
+def _limit_opacities(look: Any) -> Any:
+    """A copy of a volume property with opacities of at most 1, where VTK's mappers cut them off.
+    Opacities and unit distance are divided by the largest opacity: the medium stays the same."""
+    limited = vtkVolumeProperty()
+    limited.DeepCopy(look)
+    opacity = limited.GetScalarOpacity()
+    node, largest = [0.0] * 4, 1.0
+    for index in range(opacity.GetSize()):
+        opacity.GetNodeValue(index, node)
+        largest = max(largest, node[1])
+    for index in range(opacity.GetSize()):
+        opacity.GetNodeValue(index, node)
+        node[1] /= largest
+        opacity.SetNodeValue(index, node)
+    limited.SetScalarOpacityUnitDistance(limited.GetScalarOpacityUnitDistance() / largest)
+    return limited
+
+
 def difference(first: Any, second: Any) -> float:
     """Root mean square of the difference of two pictures on a black background."""
     first, second = first.astype(float), second.astype(float)
@@ -121,9 +139,10 @@ def compare_mappers(
     each from another view, of which the median time is taken.
 
     Yields pairs of a Comparison and its picture, ours first; the picture is an array of rows from
-    below, columns, and colours as uint8. The volume has its mapper again in the end.
+    below, columns, and colours as uint8. In the end the volume has its mapper and its property
+    again.
     """
-    ours, camera = volume.GetMapper(), renderer.GetActiveCamera()
+    ours, look, camera = volume.GetMapper(), volume.GetProperty(), renderer.GetActiveCamera()
     adjusts, distance = ours.GetAutoAdjustSampleDistances(), ours.GetImageSampleDistance()
     try:
         ours.AutoAdjustSampleDistancesOff()
@@ -131,6 +150,7 @@ def compare_mappers(
         first, median, reference = _measure(window, camera, frames)
         yield Comparison(OURS, median, first, 0.0), reference
         grid = make_grid()
+        volume.SetProperty(_limit_opacities(look))
         for name in mappers:
             mapper = _make_mapper(name, grid, in_points)
             if hasattr(mapper, "AutoAdjustSampleDistancesOff"):
@@ -142,3 +162,4 @@ def compare_mappers(
         ours.SetAutoAdjustSampleDistances(adjusts)
         ours.SetImageSampleDistance(distance)
         volume.SetMapper(ours)
+        volume.SetProperty(look)

@@ -330,15 +330,27 @@ class TestCompare(Case):
     def test_the_scene_stays(self):
         scene = make_scene(make_parser().parse([self.mesh, "--array", "z"]))
         mapper, camera = scene.volume.GetMapper(), scene.renderer.GetActiveCamera().GetPosition()
+        look = scene.volume.GetProperty()
         distance = 0.5
         mapper.SetImageSampleDistance(distance)
         pairs = list(contest.compare_on(scene, (120, 80)))
         self.assertIs(scene.volume.GetMapper(), mapper)
+        self.assertIs(scene.volume.GetProperty(), look)
         self.assertEqual(mapper.GetImageSampleDistance(), distance)
         self.assertEqual(scene.renderer.GetActiveCamera().GetPosition(), camera)
         for found, picture in pairs:
             self.assertEqual(picture.shape, (40, 60, 3))
             self.assertGreater(numpy.ptp(picture), 20, found)
+
+    def test_opacities_above_one(self):
+        """The same medium for all mappers, though VTK's cut opacities off at 1."""
+        scene = make_scene(make_parser().parse(
+            [self.mesh, "--array", "z", "--opacity", "0", "0.9"]))
+        self.assertGreater(scene.volume.GetProperty().GetScalarOpacity().GetValue(
+            scene.get_range()[1]), 1.0)
+        (_, ours), *others = contest.compare_on(scene, (240, 160))
+        for found, picture in others:  # cut off, 0.13 of the light
+            self.assertLess(abs(picture.mean() / ours.mean() - 1.0), 0.1, found)
 
 
 if __name__ == "__main__":
