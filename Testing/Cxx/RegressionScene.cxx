@@ -3,35 +3,14 @@
 #include "RegressionScene.h"
 #include "StrictImage.h"
 
-#include <vtkActor.h>
 #include <vtkActor2D.h>
 #include <vtkAlgorithmOutput.h>
-#include <vtkCamera.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
 #include <vtkImageMapper.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRegressionTestImage.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkTetrahedraRayCastMapper.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <vtksys/SystemTools.hxx>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <iostream>
-#include <string>
 
 namespace meniscus::test
 {
@@ -50,9 +29,11 @@ std::string FolderOfBaselines(int argc, char* argv[])
 }
 
 //------------------------------------------------------------------------------
-int Finish(int argc, char* argv[], VolumeScene& scene, int result)
+int Finish(int argc, char* argv[], VolumeScene& scene)
 {
   constexpr int threshold = 1; // grey levels: rounding to 8 bits
+  scene.GetWindow()->Render();
+  const int result = vtkRegressionTestImage(scene.GetWindow());
   if (result == vtkRegressionTester::DO_INTERACTOR)
   {
     scene.GetWindow()->SetOffScreenRendering(0);

@@ -11,9 +11,6 @@
 #include "VolumeScene.h"
 #include "WaterParts.h"
 
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
 class vtkImageData;
 class vtkTetrahedraRayCastMapper;
 
@@ -34,11 +31,11 @@ public:
 };
 
 /**
- * Exit status of a test for a result of vtkRegressionTestImage. Opens the window if the test is
- * interactive (-I). With the argument --strict, each pixel must also be within one grey level of
- * the baseline or of one of its alternates.
+ * Draws the scene and returns the exit status of its test by vtkRegressionTestImage. Opens the
+ * window if the test is interactive (-I). With the argument --strict, each pixel must also be
+ * within one grey level of the baseline or of one of its alternates.
  */
-int Finish(int argc, char* argv[], VolumeScene& scene, int result);
+int Finish(int argc, char* argv[], VolumeScene& scene);
 
 /** Mapper of the scene's volume, for a mesh, seen from a direction in degrees. */
 vtkSmartPointer<vtkTetrahedraRayCastMapper> ShowMesh(

@@ -3,13 +3,8 @@
 // Virtual geometry behind two surfaces: a checked floor in a ball of glass, upside down.
 #include "RegressionScene.h"
 
-#include <vtkNew.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractingInterfaceCollection.h>
-#include <vtkRegressionTestImage.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSphereSource.h>
 
 using namespace meniscus::test;
 
@@ -35,6 +30,5 @@ int TestRefractedGeometryInterfaces(int argc, char* argv[])
   filter->SetCamera(scene.GetRenderer()->GetActiveCamera());
   filter->SetImagesToFirstImage();
   SetFlatColor(AddSurface(scene, filter->GetOutputPort()), 1.0, 1.0, 1.0);
-  scene.GetWindow()->Render();
-  return Finish(argc, argv, scene, vtkRegressionTestImage(scene.GetWindow()));
+  return Finish(argc, argv, scene);
 }

@@ -82,6 +82,31 @@ double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
 }
 
 //------------------------------------------------------------------------------
+void ExpectSameLight(vtkRefractedLightFilter* filter, const std::vector<double>& truth, double size)
+{
+  vtkPolyData* floor = filter->GetOutput();
+  vtkDataArray* irradiance = floor->GetCellData()->GetArray("RefractionIrradiance");
+  const double cells = std::sqrt(static_cast<double>(truth.size()));
+  double squares = 0.0;
+  double signal = 0.0;
+  double bounds[6];
+  for (vtkIdType i = 0; i < floor->GetNumberOfCells(); ++i)
+  {
+    floor->GetCellBounds(i, bounds);
+    const auto bin = [&](int axis)
+    { return std::floor((0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]) / size + 0.5) * cells); };
+    const double expected = truth[static_cast<std::size_t>(bin(2) * cells + bin(0))];
+    squares += std::pow(irradiance->GetTuple1(i) - expected, 2.0);
+    signal += expected * expected;
+  }
+  const double error = std::sqrt(squares / signal);
+  EXPECT_LT(error, 0.005) << floor->GetBounds()[2];
+  ::testing::Test::RecordProperty(
+    "relative_rms_" + std::to_string(static_cast<int>(-floor->GetBounds()[2])),
+    std::to_string(error));
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane()
 {
   return MakeMembrane(meniscus::reference::MakeSquare(200.0, 8, 0.0));

@@ -54,6 +54,13 @@ public:
 double FindLargestLampError(vtkRefractedLightFilter* filter, double height,
   const std::function<double(double)>& radius, const std::function<double(double)>& transmittance);
 
+/**
+ * Expects that the irradiance of the cells of a square grid of side `size`, as of MakeGrid(), has
+ * the truth, in rows along x, up to 0.005 of its root mean square.
+ */
+void ExpectSameLight(
+  vtkRefractedLightFilter* filter, const std::vector<double>& truth, double size);
+
 /** A flat membrane of side 200, with eight cells along a side. */
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane();
 

@@ -3,15 +3,13 @@
 """A volume seen through several interfaces: an isosurface behind a pane, and behind a ball, is
 where the filter Refracted Geometry puts its contour; rows that do not fit are an error."""
 import PluginTesting
+import TestRayCastMembrane
 from PluginTesting import covered, screenshot
 from paraview import simple
+from TestRayCastMembrane import EYE, SHARE_OF_OUTLINES, VALUE
 
-EYE = [6, -9, 40]
-VALUE = 200.0
 PANE = [0, 1.0, 1.5, 1, 1.5, 1.333]
 BALL = [0, 1.0, 1.1, 0, 1.0, 1.1]
-# Share of the covered pixels along the outlines, as in TestRayCastMembrane.py.
-SHARE_OF_OUTLINES = 0.05
 
 
 def sheet(height, slope):
@@ -23,12 +21,7 @@ def sheet(height, slope):
 
 
 def show(view, grid):
-    display = simple.Show(grid, view)
-    display.SetRepresentationType("Volume (Exact)")
-    simple.ColorBy(display, ("POINTS", "RTData"))
-    view.CameraPosition = EYE
-    view.CameraFocalPoint = [0, 0, 0]
-    view.CameraViewUp = [0, 1, 0]
+    display = TestRayCastMembrane.show(view, grid)
     display.BlendMode = "Isosurface"
     display.IsosurfaceValues = [VALUE]
     opacity = simple.GetOpacityTransferFunction("RTData")

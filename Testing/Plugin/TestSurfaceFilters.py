@@ -48,6 +48,7 @@ def check_sight_rays(view):
         if leg == 0:
             first = sine(*ends)
         assert abs(index * sine(*ends) - first) < 1e-6, (cell, leg)
+    assert rays.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
     rays.FollowCamera = 1
     simple.Show(rays, view)
     view.CameraPosition = [1, 0, 3]
@@ -76,6 +77,17 @@ def check_cells():
             else:
                 assert abs(near[2] - LEVELS[1]) < 1e-6 and abs(math.dist(near, far) - 1.5) < 1e-6
     assert behind == 3 * 8, behind
+    assert cells.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
+
+
+def check_true_depths():
+    """A point seen straight down, one unit behind the surface: how deep it is by each meaning."""
+    seen = simple.PointSource(Center=[EYE[0], EYE[1], -1], NumberOfPoints=1, Radius=0)
+    truth = simple.TruePosition(Input=seen, Membrane=plane(8, 0), EyePosition=EYE)
+    for depth, length in (("Apparent", WATER), ("Optical", 1 / WATER), ("Geometric", 1)):
+        truth.Depth = depth
+        place = servermanager.Fetch(truth).GetPoint(0)
+        assert abs(place[2] + length) < 1e-6, (depth, place)
 
 
 def place_of_sight(eye, point):
@@ -187,6 +199,7 @@ def test():
     view.CameraViewUp = [0, 1, 0]
     check_sight_rays(view)
     check_cells()
+    check_true_depths()
     check_triangulation()
     check_depths()
     check_integral()

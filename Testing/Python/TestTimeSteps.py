@@ -6,13 +6,11 @@ import math
 import os
 import unittest
 
-from meniscus import vtkTetrahedraRayIntegral
 from VolumeWindow import make_wavelet, VolumeWindow
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkDoubleArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 try:
     from vtkmodules.vtkIOExodus import vtkExodusIIReader, vtkExodusIIWriter
@@ -87,32 +85,6 @@ class View(VolumeWindow):
 
 
 class TestTimeSteps(unittest.TestCase):
-    def test_files(self):
-        mesh = make_mesh()
-        names = ["time-step-%d.vtu" % step for step in range(STEPS)]
-        for step, name in enumerate(names):
-            writer = vtkXMLUnstructuredGridWriter()
-            writer.SetInputData(make_step(mesh, 0.2 * step))
-            writer.SetFileName(name)
-            self.assertEqual(writer.Write(), 1)
-        reader = vtkXMLUnstructuredGridReader()
-        view = View(reader)
-        rays = vtkTetrahedraRayIntegral()
-        rays.SetInputConnection(reader.GetOutputPort())
-        rays.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, SCALARS)
-        rays.SetImageSize(10, 10)
-        pictures = set()
-        for step, name in enumerate(names):
-            reader.SetFileName(name)
-            pictures.add(view.draw())
-            self.assertEqual(view.work(), (1, 0, step + 1))
-            rays.Update()
-            updates = ("NumberOfMeshBuilds", "NumberOfPointUpdates", "NumberOfScalarUpdates")
-            self.assertEqual([rays.GetStatistic(name) for name in updates], [1, 0, step + 1])
-        self.assertEqual(len(pictures), STEPS)
-        for name in names:
-            os.remove(name)
-
     @unittest.skipUnless(vtkExodusIIReader, "VTK has no reader of Exodus files")
     def test_exodus(self):
         name = "time-steps.exo"

@@ -156,36 +156,3 @@ TEST(StackPictures, VirtualPointsOfBallsAndLensesAreExact)
     EXPECT_LT(largest, 1e-6) << scene.View.Name;
   }
 }
-
-//------------------------------------------------------------------------------
-// A point at R / n from the centre of a ball is seen in the direction of n R on the same radius.
-TEST(StackPictures, AplanaticPointsAreSeenFartherOut)
-{
-  constexpr double radius = 40.0;
-  RandomNumbers random(32);
-  const StackPicture view = MakeBall("aplanatic ball", true, radius / Glass, 40.0).View;
-  const glm::dvec3& eye = view.Camera.GetEye();
-  std::vector<Point> points;
-  std::vector<glm::dvec3> truth;
-  for (int i = 0; i < 500; ++i)
-  {
-    const glm::dvec3 axis =
-      glm::normalize(glm::dvec3(random.Uniform(-0.6, 0.6), -1.0, random.Uniform(-0.6, 0.6)));
-    const glm::dvec3 point = (radius / Glass) * axis;
-    points.push_back({ point.x, point.y, point.z });
-    truth.push_back(radius * Glass * axis);
-  }
-  const auto filter = view.MakeFilter(MakePoints(points), false);
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 500);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    glm::dvec3 p(0.0);
-    filter->GetOutput()->GetPoint(static_cast<vtkIdType>(i), &p.x);
-    const glm::dvec3 sight = glm::normalize(p - eye);
-    largest = std::max(largest, glm::length(glm::cross(truth[i] - eye, sight)));
-  }
-  std::printf("aplanatic points: sight rays within %.1e\n", largest);
-  EXPECT_LT(largest, 1e-6);
-}

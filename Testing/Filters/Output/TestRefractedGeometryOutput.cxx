@@ -341,61 +341,17 @@ TEST(RefractedGeometryOutput, DoesNotDependOnTheNumberOfThreads)
 {
   const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 8.0, 3.0));
   const auto grid = MakeGrid(250, 150.0, -80.0);
-  std::vector<vtkSmartPointer<vtkPolyData>> outputs;
-  for (const int threads : { 1, 2, 5 })
-  {
-    vtkSMPTools::Initialize(threads);
-    const auto filter = MakeFilter(grid, membrane);
-    filter->Update();
-    outputs.emplace_back(filter->GetOutput());
-  }
-  vtkSMPTools::Initialize();
-  ASSERT_GT(outputs[0]->GetNumberOfPoints(), 60000);
-  for (std::size_t k = 1; k < outputs.size(); ++k)
-  {
-    ASSERT_EQ(outputs[k]->GetNumberOfPoints(), outputs[0]->GetNumberOfPoints());
-    for (vtkIdType i = 0; i < outputs[0]->GetNumberOfPoints(); ++i)
+  ExpectSameOnThreads(
+    [&]
     {
-      double a[3];
-      double b[3];
-      outputs[0]->GetPoint(i, a);
-      outputs[k]->GetPoint(i, b);
-      ASSERT_TRUE(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) << i;
-      ASSERT_EQ(PointArray(outputs[0], "SightFacet")->GetTuple1(i),
-        PointArray(outputs[k], "SightFacet")->GetTuple1(i));
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST(RefractedGeometryOutput, LargeOffsetsInDoubleAreHarmless)
-{
-  const double offset = 1e6;
-  auto mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
-  const auto grid = MakeGrid(5, 80.0, -50.0);
-  const auto near = MakeFilter(grid, MakeMembrane(mesh));
-  near->Update();
-  mesh.Translate({ offset, offset, offset });
-  const auto moved = MakeGrid(5, 80.0, -50.0);
-  for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 p = PointOf(moved, i);
-    moved->GetPoints()->SetPoint(i, p[0] + offset, p[1] + offset, p[2] + offset);
-  }
-  const auto far = MakeFilter(moved, MakeMembrane(mesh));
-  far->SetEyePosition(offset + 20.0, offset + 300.0, offset + 10.0);
-  far->Update();
-  ASSERT_EQ(far->GetOutput()->GetNumberOfPoints(), near->GetOutput()->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
-  {
-    const glm::dvec3 a = PointOf(near->GetOutput(), i);
-    const glm::dvec3 b = PointOf(far->GetOutput(), i);
-    for (int k = 0; k < 3; ++k)
-    {
-      // Coordinates of 1e6 are 1.2e-10 apart; grid, membrane and result are rounded to that.
-      EXPECT_NEAR(b[k] - offset, a[k], 2e-9);
-    }
-  }
+      const auto filter = MakeFilter(grid, membrane);
+      filter->Update();
+      auto values = ValuesOf(filter->GetOutput()->GetPoints()->GetData());
+      EXPECT_GT(values.size(), 3u * 60000u);
+      const auto facets = ValuesOf(PointArray(filter->GetOutput(), "SightFacet"));
+      values.insert(values.end(), facets.begin(), facets.end());
+      return values;
+    });
 }
 
 //------------------------------------------------------------------------------

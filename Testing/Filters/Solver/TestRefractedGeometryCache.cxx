@@ -70,13 +70,6 @@ TEST_F(RefractedGeometryCache, NothingChangedNothingRuns)
   EXPECT_FALSE(this->Executed);
 }
 
-TEST_F(RefractedGeometryCache, MovedObjectKeepsTheCells)
-{
-  this->Grid->GetPoints()->SetPoint(0, 1.0, -20.0, 3.0);
-  this->Grid->GetPoints()->Modified();
-  this->ExpectAfterUpdate({ 1, 1, 162 });
-}
-
 TEST_F(RefractedGeometryCache, MovedObjectIsNoticedByTheDataSetsTimeAlone)
 {
   const glm::dvec3 before = PointOf(this->Filter->GetOutput(), 0);

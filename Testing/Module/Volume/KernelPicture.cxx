@@ -7,7 +7,6 @@
 #include "Volume/Rays/PlacedVertices.h"
 #include "Volume/Rays/RayPivot.h"
 
-#include <algorithm>
 #include <cctype>
 
 namespace meniscus::test

@@ -5,6 +5,7 @@
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkTransformPolyDataFilter.h>
 
 using namespace meniscus::test;
@@ -257,14 +258,21 @@ TEST(TetrahedraRayCastMembraneInput, BackendAsAsked)
 
 TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
 {
-  // 2 texels per pixel: more than the mesh has, which is drawn on the device as before.
+  // 2 texels per pixel and interface: more than the mesh has, which is drawn on the device as
+  // before.
   const MembraneCase plane = MakePlaneCase(1.2, 4.0, 2);
-  for (const bool fits : { true, false })
+  for (const auto& [interfaces, fits] : Product(List(1, 2), List(true, false)))
   {
-    const auto prepare = [fits](vtkTetrahedraRayCastMapper* mapper)
+    const auto prepare = [interfaces = interfaces, fits = fits](vtkTetrahedraRayCastMapper* mapper)
     {
       mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-      meniscus::DeviceTableLimits::SetLargest(mapper, 2 * Size * Size - (fits ? 0 : 1));
+      meniscus::DeviceTableLimits::SetLargest(
+        mapper, 2 * interfaces * Size * Size - (fits ? 0 : 1));
+      if (interfaces == 2 && mapper->GetMembrane())
+      {
+        mapper->AddMembraneData(MakePlaneCase(1.1, 4.0, 2).Mesh);
+        mapper->GetInterfaces()->AddInterface(1.333, 1.5);
+      }
     };
     const Outcome straight = RenderWith(nullptr, prepare);
     EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));
@@ -321,23 +329,25 @@ TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
   EXPECT_EQ(scene.RenderFloat().Rgba, first.Rgba);
 }
 
-TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembrane)
+TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembranes)
 {
   const Grid grid = MakeBlock(2, WavyField(3.0));
   RayCastScene scene(grid, Smooth(), Size, Size);
   scene.GetRayCaster()->SetMembraneData(MakePlaneCase(1.2, 4.0, 2).Mesh);
-  const double wanted[6] = { -4.0, 4.0, -1.0, 1.2, -4.0, 4.0 };
+  scene.GetRayCaster()->AddMembraneData(MakePlaneCase(1.1, 5.0, 2).Mesh);
+  scene.GetRayCaster()->GetInterfaces()->AddInterface(1.333, 1.5);
+  const double wanted[6] = { -5.0, 5.0, -1.0, 1.2, -5.0, 5.0 };
   const double* bounds = scene.GetRayCaster()->GetBounds();
   for (int i = 0; i < 6; ++i)
   {
     EXPECT_DOUBLE_EQ(bounds[i], wanted[i]) << i;
   }
-  // The membrane stays where it is when the volume moves.
+  // Membranes stay where they are when the volume moves.
   scene.GetVolume()->SetPosition(1.0, 0.0, 0.0);
   LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   scene.RenderFloat();
-  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[0], -4.0);
-  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[1], 4.0);
+  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[0], -5.0);
+  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[1], 5.0);
 }
 
 TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)

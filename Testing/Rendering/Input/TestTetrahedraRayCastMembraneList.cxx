@@ -149,17 +149,6 @@ TEST(TetrahedraRayCastMembraneList, OneSurfaceListedTwiceIsReadOnce)
   EXPECT_EQ(mapper->GetMembrane(), nullptr);
 }
 
-TEST(TetrahedraRayCastMembraneList, BoundsHoldAllMembranes)
-{
-  PaneScene scene;
-  const double wanted[6] = { -4.0, 4.0, -1.0, 1.4, -4.0, 4.0 };
-  const double* bounds = scene.GetRayCaster()->GetBounds();
-  for (int i = 0; i < 6; ++i)
-  {
-    EXPECT_DOUBLE_EQ(bounds[i], wanted[i]) << i;
-  }
-}
-
 TEST(TetrahedraRayCastMembraneList, ListsThatCannotBeUsed)
 {
   using Mapper = vtkTetrahedraRayCastMapper;
@@ -246,24 +235,6 @@ TEST(TetrahedraRayCastMembraneList, MessagesNameTheInterface)
   scene.RenderFloat();
   ASSERT_EQ(told->Warnings.size(), 1u);
   EXPECT_TRUE(HasText(told->Warnings.front(), "Interface 1: 1 of 51 membrane triangles skipped"));
-}
-
-/** A device with too little room for the legs leaves the picture to the native backend. */
-TEST(TetrahedraRayCastMembraneList, NativeWhereTheDeviceHasNoRoom)
-{
-  for (const bool fits : { true, false })
-  {
-    PaneScene scene;
-    vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
-    mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-    meniscus::DeviceTableLimits::SetLargest(mapper, 4 * Size * Size - (fits ? 0 : 1));
-    const auto told = ObserveErrors(mapper);
-    scene.RenderFloat();
-    EXPECT_EQ(mapper->GetActiveBackend(),
-      fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE);
-    EXPECT_EQ(told->Warnings.size(), fits ? 0u : 1u);
-    EXPECT_TRUE(told->Errors.empty()) << told->GetText();
-  }
 }
 
 /** More legs than the graphics device has layers for their lists of entries. */

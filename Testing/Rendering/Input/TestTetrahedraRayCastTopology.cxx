@@ -149,24 +149,6 @@ Grid Apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
 
 } // anonymous namespace
 
-TEST(TetrahedraRayCastTopology, CellsGivenRepeatedlyCountOnce)
-{
-  for (const Grid& grid : { MakeCubeOfSix(RadialField()), MakeBlock(4, WavyField(3.0)) })
-  {
-    for (const int backend : Backends)
-    {
-      const FloatImage once = Draw(grid, backend).Image;
-      for (unsigned int seed = 0; seed < 2; ++seed)
-      {
-        vtkTypeInt64 copies = 0;
-        const Drawn drawn = Draw(Doubled(grid, seed, copies), backend);
-        ExpectSamePicture(drawn.Image, once, "seed " + std::to_string(seed));
-        EXPECT_EQ(drawn.Rejected, copies);
-      }
-    }
-  }
-}
-
 TEST(TetrahedraRayCastTopology, DoubledMeshMatchesTheReferenceOfTheMesh)
 {
   const Grid grid = MakeBlock(5, WavyField(3.0));
@@ -184,6 +166,7 @@ TEST(TetrahedraRayCastTopology, DoubledMeshMatchesTheReferenceOfTheMesh)
     ExpectMatch(
       CompareToReference(scene.RenderFloat(), truth.Image, *truth.Integrator, truth.RayOf),
       "doubled");
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfRejectedCells(), copies);
   }
 }
 

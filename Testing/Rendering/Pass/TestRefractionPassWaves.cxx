@@ -12,9 +12,7 @@
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
-#include <vtkSphereSource.h>
 #include <vtkStripper.h>
-#include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkTriangleFilter.h>
 

@@ -124,29 +124,6 @@ TEST(VolumePicker, LightDoesNotMatter)
 }
 
 //------------------------------------------------------------------------------
-/**
- * The distance from the centre, interpolated in cells of edge h = 2 / 40, is too large by at most
- * (3 h h) / (8 r): the surface r = 0.7 is met within that, over the cosine of the angle.
- */
-TEST(VolumePicker, SphericalIsosurface)
-{
-  auto property = MakeConstantProperty(0.9, 1.0, 1.0, 1.0, 1.0);
-  property->GetIsoSurfaceValues()->SetValue(0, 0.3);
-  property->GetIsoSurfaceValues()->SetValue(1, 0.7);
-  PickScene scene(MakeBlock(40, RadialField()), property);
-  scene.Mapper()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  scene.Chooser->SetPlaceToFirstVisible();
-  ASSERT_EQ(scene.Pick(), 1);
-  const double x = PlaceOf(Column);
-  const double y = PlaceOf(Row);
-  const double z = std::sqrt(0.49 - x * x - y * y);
-  const double h = 2.0 / 40.0;
-  EXPECT_NEAR(scene.Chooser->GetDepth(), 5.0 - z, 3.0 * h * h / (8.0 * 0.6) * 0.7 / z);
-  EXPECT_EQ(scene.Chooser->GetSurfaceIndex(), 1);
-  EXPECT_NEAR(scene.Chooser->GetValue(), 0.7, 1.0e-6);
-}
-
-//------------------------------------------------------------------------------
 /** A pane of glass shifts the ray: the true place behind it, and the length of the path. */
 TEST(VolumePicker, ThroughAPane)
 {

@@ -4,8 +4,6 @@
 #include "HostArithmetic.h"
 #include "RayCastScene.h"
 
-#include <optional>
-
 using namespace meniscus::test;
 
 namespace

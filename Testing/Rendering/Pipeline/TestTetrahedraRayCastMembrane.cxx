@@ -363,27 +363,6 @@ TEST(TetrahedraRayCastMembrane, Isosurfaces)
   }
 }
 
-TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
-{
-  const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
-  for (const double level : { 0.1, 1.3 })
-  {
-    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
-    test.LookAtBlock(30.0, 40.0);
-    test.Scene.GetRayCaster()->SetMembraneData(nullptr);
-    const FloatImage straight = test.Scene.RenderFloat();
-    test.Scene.GetRayCaster()->SetMembraneData(test.Membrane.Mesh);
-    test.SetIndices(1.333, 1.333);
-    EXPECT_EQ(test.Scene.RenderFloat().Rgba, straight.Rgba);
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfSightUpdates"), 0);
-
-    // Nearly equal indices: the code for refraction runs, but rays keep their direction.
-    test.SetIndices(1.333, 1.333 * (1.0 + 1e-15));
-    ExpectSamePicture(test.Scene.RenderFloat(), straight, "nearly equal indices");
-    EXPECT_EQ(test.Scene.GetRayCaster()->GetStatistic("NumberOfSightUpdates"), 1);
-  }
-}
-
 TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
 {
   // Gradients of cells and directional light, for which the lighting of the medium is exact.

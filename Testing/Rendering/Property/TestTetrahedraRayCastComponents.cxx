@@ -539,52 +539,6 @@ TEST(TetrahedraRayCastComponents, ChosenComponentOutOfRangeIsAnError)
   EXPECT_TRUE(HasText(errors->Errors[0], "none of number 2"));
 }
 
-TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
-{
-  const auto drawBoth = [](RayCastScene& scene, const std::string& what)
-  {
-    LookAt(scene.GetRenderer(), scene.MakeGrid()->GetBounds(), 30.0, 20.0);
-    const auto warnings = ObserveErrors(scene.GetRayCaster());
-    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-    const FloatImage fragments = scene.RenderFloat();
-    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-    ExpectSamePicture(scene.RenderFloat(), fragments, what);
-    EXPECT_EQ(scene.GetRayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE) << what;
-    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
-    EXPECT_TRUE(warnings->Warnings.empty()) << what;
-  };
-  for (const int number : { 2, 3, 4 })
-  {
-    const std::vector<int> all{ 0, 1, 2, 3 };
-    const Grid grid = MakeComponents<vtkDoubleArray>({ all.begin(), all.begin() + number }, 1.0);
-    RayCastScene scene(grid, Combine(MakeParts(number, FunctionKind::Smooth), Weights), Size, Size);
-    drawBoth(scene, std::to_string(number) + " independent");
-  }
-  // Dependent components, with and without gradients, seen from inside and clipped as well.
-  for (const std::vector<int>& components : { std::vector<int>{ 0, 3 }, { 0, 1, 2, 3 } })
-  {
-    for (const int gradients : { -1, 0, 1 })
-    {
-      const Grid grid = MakeComponents<vtkFloatArray>(components, 1.0);
-      const auto property = Combine(MakeParts(1, FunctionKind::Smooth), Weights);
-      property->IndependentComponentsOff();
-      property->SetShade(gradients >= 0);
-      if (gradients >= 0)
-      {
-        property->GetGradientOpacity()->AddPoint(0.0, 0.2);
-        property->GetGradientOpacity()->AddPoint(2.0, 1.0);
-      }
-      RayCastScene scene(grid, property, Size, Size);
-      scene.GetRayCaster()->SetGradients(std::max(gradients, 0));
-      const std::string what =
-        std::to_string(components.size()) + " dependent, gradients " + std::to_string(gradients);
-      drawBoth(scene, what);
-      AddClippingPlane(scene.GetRayCaster(), { { 0.3, 1.0, 0.2 }, {} });
-      drawBoth(scene, what + ", clipped");
-    }
-  }
-}
-
 TEST(TetrahedraRayCastComponents, DenseBeyondMeasureEnds)
 {
   // An attenuation beyond all resolution, and rays without early termination.

@@ -5,27 +5,7 @@
 // isosurfaces, and modes that show no light.
 #include "OpticsTruth.h"
 
-#include <vtkCellData.h>
-#include <vtkColorTransferFunction.h>
-#include <vtkContourValues.h>
-#include <vtkDoubleArray.h>
-#include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkPiecewiseFunction.h>
-#include <vtkPlane.h>
-#include <vtkPointData.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkVolumeMapper.h>
-#include <vtkVolumeProperty.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // A medium that bends light and is seen itself: smoke and glowing gas in pictures of mirages.
+#include "AbortedUpdate.h"
 #include "MirageScene.h"
 #include "VolumeFunctions.h"
 
@@ -310,25 +311,7 @@ TEST(MirageVolume, AbortEmptiesTheOutput)
   {
     Filter filter = MakeVolume(grid, MakePlain(0.5, { 1, 1, 1 }));
     filter->SetImageSize(Size, 200);
-    vtkNew<vtkCallbackCommand> abort;
-    double limit = most;
-    abort->SetClientData(&limit);
-    abort->SetCallback(
-      [](vtkObject* caller, unsigned long, void* data, void*)
-      {
-        auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
-        if (algorithm->GetProgress() > *static_cast<double*>(data))
-        {
-          algorithm->SetAbortExecute(1);
-        }
-      });
-    const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, abort);
-    filter->Update();
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-    filter->RemoveObserver(tag);
-    filter->SetAbortExecute(0);
-    filter->Modified();
-    filter->Update();
+    UpdateWithAbort(filter, most);
     ExpectStraight(filter, "after an abort");
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Images of a medium that bends light: closed forms, pipeline, input that cannot be used.
+#include "AbortedUpdate.h"
 #include "HardMeshes.h"
 #include "RayCastScene.h"
 
@@ -342,16 +343,7 @@ TEST(Schlieren, CompositeInputIsOneMedium)
 TEST(Schlieren, AbortEmptiesTheOutput)
 {
   Filter filter = MakeFilter(MakeBlock(4, IndexAt));
-  vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-    { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
-  const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, abort);
-  filter->Update();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  filter->RemoveObserver(tag);
-  filter->SetAbortExecute(0);
-  filter->Modified();
-  filter->Update();
+  UpdateWithAbort(filter, -1.0);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Size * Size);
 }
 

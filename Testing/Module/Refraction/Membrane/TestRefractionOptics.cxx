@@ -114,13 +114,6 @@ TEST(RefractionOptics, FresnelIsTheMeanOfBothPolarisations)
   }
 }
 
-TEST(RefractionOptics, BrewsterAngleLeavesHalfOfOnePolarisation)
-{
-  const double n = 1.5;
-  const double sine = (n * n - 1.0) / (n * n + 1.0);
-  EXPECT_NEAR(FresnelReflectance(std::cos(std::atan(n)), 1.0, n), 0.5 * sine * sine, Rounding);
-}
-
 TEST(RefractionOptics, FresnelLimits)
 {
   EXPECT_NEAR(FresnelReflectance(0.0, 1.0, 1.5), 1.0, Rounding);

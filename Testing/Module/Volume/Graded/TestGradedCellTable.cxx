@@ -8,8 +8,6 @@
 #include "Volume/Graded/GradedCellTable.h"
 #include "Volume/Graded/GradedPassage.h"
 
-#include <cstring>
-
 using namespace meniscus;
 using namespace meniscus::test;
 

@@ -7,11 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 using namespace meniscus;
 using namespace meniscus::test;
 
