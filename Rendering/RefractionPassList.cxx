@@ -10,10 +10,12 @@
 #include "vtkRefractingInterfaceCollection.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkRenderer.h"
 
 #include <algorithm>
 
@@ -86,6 +88,15 @@ std::string Refraction::ChooseLighting(bool isWanted)
   const bool isNew = missing != this->LightingError;
   this->LightingError = missing;
   return isNew ? missing : std::string();
+}
+
+//------------------------------------------------------------------------------
+void Refraction::PreparePlaces(vtkRenderer* renderer, LocalPlaces& places) const
+{
+  // The middle of the object, not of its images, is the same for each camera.
+  places.Prepare(static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()),
+    this->GetMapper()->GetInput(), { "TruePosition", this->SightArray },
+    LocalPlaces::MiddleOf(this->Filter->GetInputDataObject(0, 0)));
 }
 
 //------------------------------------------------------------------------------

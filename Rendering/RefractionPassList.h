@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rendering/Pass/LocalPlaces.h"
 #include "Rendering/Pass/WaveLight.h"
 
 #include "vtkActor.h"
@@ -61,6 +62,8 @@ struct Refraction
    * the text of a new error; empty if there is none.
    */
   std::string ChooseLighting(bool isWanted);
+  /** Prepares the places that the shader of an object gets that is lit in true space. */
+  void PreparePlaces(vtkRenderer* renderer, LocalPlaces& places) const;
 };
 
 /** Objects and volumes in the order in which they were added. */

@@ -82,6 +82,8 @@ public:
   meniscus::RefractionTarget Membrane;
   meniscus::MembraneComposer Composer;
   meniscus::TrueSpaceLighting Lighting;
+  /** Buffers of the objects that are lit in true space, while they are drawn. */
+  meniscus::LocalPlaces Places;
   /** Last time that an object's shader changed. */
   vtkTimeStamp ShaderTime;
   std::string LastLightWarning;
@@ -100,9 +102,8 @@ public:
   meniscus::ShadowCasters* Shadows = nullptr;
   vtkTypeInt64 ShadowUpdates = 0;
 
-  vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
-  void ActivateTables(meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces);
-  void ActivateShadows(const meniscus::Refraction* refraction, vtkShaderProgram* program);
+  void ActivateTables(
+    const meniscus::Refraction* refraction, vtkShaderProgram* program, const glm::dvec3& origin);
   void ForgetCasters(bool areWanted);
 };
 
@@ -121,46 +122,39 @@ meniscusGetInternalMacro(
 meniscusGetInternalMacro(vtkRefractionPass, vtkMTimeType, ShaderStageMTime(), ShaderTime);
 
 //------------------------------------------------------------------------------
-vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
-{
-  vtkTexture* texture =
-    this->Reflection ? this->Reflection.Get() : renderer->GetEnvironmentTexture();
-  return texture && texture->GetCubeMap() ? texture : nullptr;
-}
-
-//------------------------------------------------------------------------------
-/** Activates the tables of an object in place of another object's; null for none. */
+/**
+ * Activates the tables of an object, and of what hides light from it, in place of another object's;
+ * null for none.
+ * @param origin point that the object's places are relative to.
+ */
 void vtkRefractionPass::vtkInternals::ActivateTables(
-  meniscus::WaveLight* tables, vtkShaderProgram* program, bool areSurfaces)
+  const meniscus::Refraction* refraction, vtkShaderProgram* program, const glm::dvec3& origin)
 {
-  if (this->Tables && tables != this->Tables)
-  {
-    this->Tables->Deactivate();
-  }
-  this->Tables = tables;
-  if (tables)
-  {
-    tables->Activate(program, areSurfaces);
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Activates the tables of what hides light from an object; null for none. */
-void vtkRefractionPass::vtkInternals::ActivateShadows(
-  const meniscus::Refraction* refraction, vtkShaderProgram* program)
-{
+  meniscus::WaveLight* tables =
+    refraction && refraction->ReadsTables ? refraction->Waves.get() : nullptr;
   meniscus::ShadowCasters* shadows =
     refraction && refraction->IsLitInTrueSpace && refraction->HasShadows
     ? &this->Casters[refraction->Membrane]
     : nullptr;
+  if (this->Tables && tables != this->Tables)
+  {
+    this->Tables->Deactivate();
+  }
   if (this->Shadows && shadows != this->Shadows)
   {
     this->Shadows->Deactivate();
   }
+  this->Tables = tables;
   this->Shadows = shadows;
+  if (tables)
+  {
+    auto* object = static_cast<vtkActor*>(refraction->Object.Get());
+    tables->Activate(program, object->GetProperty()->GetRepresentation() == VTK_SURFACE, origin);
+  }
   if (shadows)
   {
-    shadows->Activate(program, static_cast<int>(refraction - this->Refractions.All.data()));
+    const auto number = static_cast<int>(refraction - this->Refractions.All.data());
+    shadows->Activate(program, number, origin);
   }
 }
 
@@ -274,7 +268,7 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
 
 //------------------------------------------------------------------------------
 bool vtkRefractionPass::SetShaderParameters(
-  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
+  vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
   vtkInternals& internals = *this->Internals;
   meniscus::SetMediumUniforms(program, internals.Medium);
@@ -286,11 +280,10 @@ bool vtkRefractionPass::SetShaderParameters(
   auto* object = vtkActor::SafeDownCast(prop);
   if (refraction && object)
   {
+    const glm::dvec3 origin = meniscus::LocalPlaces::OriginOf(mapper, "truePosition");
     internals.Lighting.SetUniforms(
-      program, object, refraction->ListRelativeIndices(), this->LightAttenuation);
-    internals.ActivateTables(refraction->ReadsTables ? refraction->Waves.get() : nullptr, program,
-      object->GetProperty()->GetRepresentation() == VTK_SURFACE);
-    internals.ActivateShadows(refraction, program);
+      program, object, refraction->ListRelativeIndices(), this->LightAttenuation, origin);
+    internals.ActivateTables(refraction, program, origin);
   }
   return true;
 }
@@ -437,10 +430,10 @@ void vtkRefractionPass::DrawObjects(
     internals.Opaque->Render(&objects);
     internals.Translucent->Render(&objects);
     this->PostRender(&objects);
-    internals.ActivateTables(nullptr, nullptr, false);
-    internals.ActivateShadows(nullptr, nullptr);
+    internals.ActivateTables(nullptr, nullptr, glm::dvec3(0.0));
     this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
   }
+  internals.Places.Clear();
   this->DrawVolumes(renderer, membrane, meniscus::MembranePart::Behind);
 }
 
@@ -502,7 +495,7 @@ void vtkRefractionPass::Compose(
     : internals.Mirrored.Color.Get();
   look.Normal = internals.Membrane.Color;
   look.Depth = internals.Membrane.Depth;
-  look.CubeMap = internals.FindCubeMap(renderer);
+  look.CubeMap = meniscus::FindCubeMap(renderer, internals.Reflection);
   look.Backdrop = internals.Medium.BackdropOf(background);
   using Model = meniscus::MembraneLook::Reflectances;
   static_assert(int(Model::None) == NONE && int(Model::Schlick) == SCHLICK &&
@@ -538,6 +531,7 @@ void vtkRefractionPass::UpdateLighting(vtkRenderer* renderer, vtkActor* membrane
   {
     if (refraction.Membrane == membrane && refraction.IsLitInTrueSpace)
     {
+      refraction.PreparePlaces(renderer, internals.Places);
       this->UpdateWaves(renderer, refraction);
       if (refraction.HasShadows != hasShadows)
       {

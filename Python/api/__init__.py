@@ -19,3 +19,13 @@ MODULES = {
     "true_positions": "points",
     "triangulate": "points",
 }
+# Packages without which a module cannot be loaded.
+PACKAGES = {
+    "volumes": ("numpy", "pyvista"),
+    "picking": ("numpy", "pyvista"),
+    "comparison": ("numpy", "pyvista"),
+    "refraction": ("numpy", "pyvista"),
+    "schlieren": ("numpy",),
+    "mirages": ("numpy",),
+    "points": ("numpy",),
+}

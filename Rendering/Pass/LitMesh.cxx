@@ -3,6 +3,7 @@
 #include "Rendering/Pass/LitMesh.h"
 
 #include "Filters/Common/CellLoop.h"
+#include "Rendering/Pass/LocalPlaces.h"
 #include "Rendering/Pass/SurfacePoint.h"
 
 #include "vtkCellArray.h"
@@ -129,6 +130,7 @@ std::vector<LitMesh::Face> LitMesh::ListFaces(vtkPolyData* surface, vtkIdTypeArr
 void LitMesh::Build(vtkPolyData* surface, vtkIdTypeArray* sources, int cells)
 {
   const std::vector<Face> faces = ListFaces(surface, sources);
+  this->Origin = LocalPlaces::MiddleOf(surface);
   this->Places.clear();
   this->Faces.clear();
   this->FirstFaces.assign(
@@ -162,7 +164,8 @@ void LitMesh::Build(vtkPolyData* surface, vtkIdTypeArray* sources, int cells)
     for (std::size_t k = 0; k < 3; ++k)
     {
       corners[k] = PointOf(surface, face.Corners[k]);
-      for (const double number : { corners[k].x, corners[k].y, corners[k].z, numbers[k] })
+      const glm::dvec3 near = corners[k] - this->Origin;
+      for (const double number : { near.x, near.y, near.z, numbers[k] })
       {
         this->Faces.push_back(static_cast<float>(number));
       }

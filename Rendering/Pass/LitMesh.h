@@ -6,6 +6,8 @@
 #include "vtkPolyData.h"
 #include "vtkType.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +50,8 @@ public:
   vtkPolyData* GetCells() const { return this->Cells; }
   /** Point of each place of each grid: rows of n + 1, n, ... 1 places from the first corner on. */
   const std::vector<vtkIdType>& GetPlaces() const { return this->Places; }
+  /** Point that the corners in GetFaces() are relative to: the middle of the surface. */
+  const glm::dvec3& GetOrigin() const { return this->Origin; }
   /**
    * Three texels of four numbers for each triangle: a corner and the number of divisions; the next
    * corner, which the rows lead to, and the first of its places; the last corner, and the number of
@@ -64,6 +68,7 @@ private:
   void AddTriangles(std::size_t start, int divisions, vtkCellArray* triangles) const;
 
   vtkNew<vtkPolyData> Cells;
+  glm::dvec3 Origin{ 0.0 };
   std::vector<vtkIdType> Places;
   std::vector<float> Faces;
   std::vector<std::int32_t> FirstFaces; ///< of the object's cells; -1 for none

@@ -27,6 +27,13 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
+vtkTexture* FindCubeMap(vtkRenderer* renderer, vtkTexture* chosen)
+{
+  vtkTexture* texture = chosen ? chosen : renderer->GetEnvironmentTexture();
+  return texture && texture->GetCubeMap() ? texture : nullptr;
+}
+
+//------------------------------------------------------------------------------
 std::string MembraneShaderSource(bool hasCubeMap)
 {
   std::string source = vtkRefractionMembraneFS;

@@ -45,6 +45,9 @@ struct MembraneLook
   std::vector<double> RelativeIndices{ 1.0 };
 };
 
+/** The chosen texture, or else the renderer's environment, if it is a cube map; otherwise null. */
+vtkTexture* FindCubeMap(vtkRenderer* renderer, vtkTexture* chosen);
+
 /** Fragment shader of membranes, with or without a cube map that they reflect. */
 std::string MembraneShaderSource(bool hasCubeMap);
 

@@ -20,6 +20,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -36,7 +37,7 @@ constexpr std::size_t MostBoxes = 16777216;
  * Share of the largest coordinate that bounds the error of a height above a plane in the shader.
  * The height is a sum of three products and a distance, with 4 roundings of up to sqrt(3) of the
  * largest coordinate; so are the roundings of the corner, the interpolated place and the plane,
- * with 2 each: 10 sqrt(3) roundings of 2^-24, and 2^-19 is 32. Boxes grow by the same.
+ * with 2 each: 10 sqrt(3) roundings of 2^-24, and 2^-19 is 32. The corners of boxes are less wrong.
  */
 constexpr double RoundingShare = 1.0 / 524288.0;
 
@@ -84,11 +85,14 @@ double LargestTwist(vtkPolyData* surface)
 
 }
 
+/** A triangle with its box. */
 struct ShadowCasters::Box
 {
   glm::dvec3 Lower;
   glm::dvec3 Upper;
   std::size_t Index; ///< of the triangle
+  std::array<glm::dvec3, 3> Corners;
+  int Number; ///< of its object
 };
 
 bool ShadowCasters::Source::operator==(const Source& other) const
@@ -142,17 +146,28 @@ void ShadowCasters::Update(const std::vector<Caster>& casters)
   std::vector<Box> boxes;
   for (const Source& source : this->Sources)
   {
-    this->AddTriangles(source, boxes);
+    ListTriangles(source, boxes);
     double& twist = this->Twists[source.Number];
     twist = std::max(twist, LargestTwist(source.Surface));
   }
-  double reach = 0.0;
+  this->Reach = 0.0;
+  if (!boxes.empty())
+  {
+    glm::dvec3 low = boxes.front().Lower;
+    glm::dvec3 high = boxes.front().Upper;
+    for (const Box& box : boxes)
+    {
+      low = glm::min(low, box.Lower);
+      high = glm::max(high, box.Upper);
+    }
+    this->Origin = 0.5 * low + 0.5 * high;
+    const glm::dvec3 far = high - this->Origin;
+    this->Reach = std::max({ far.x, far.y, far.z });
+  }
   for (const Box& box : boxes)
   {
-    const glm::dvec3 far = glm::max(glm::abs(box.Lower), glm::abs(box.Upper));
-    reach = std::max({ reach, far.x, far.y, far.z });
+    this->AddTriangle(box);
   }
-  this->Rounding = RoundingShare * reach;
   if (!boxes.empty() && boxes.size() <= MostBoxes / 2)
   {
     this->AddNode(boxes, 0, boxes.size());
@@ -160,26 +175,33 @@ void ShadowCasters::Update(const std::vector<Caster>& casters)
 }
 
 //------------------------------------------------------------------------------
-/** Adds the triangles of a surface; those without area hide nothing. */
-void ShadowCasters::AddTriangles(const Source& source, std::vector<Box>& boxes)
+/** Lists the triangles of a surface; those without area hide nothing. */
+void ShadowCasters::ListTriangles(const Source& source, std::vector<Box>& boxes)
 {
   for (const LitMesh::Face& face : LitMesh::ListFaces(source.Surface, nullptr))
   {
     const glm::dvec3 a = PointOf(source.Surface, face.Corners[0]);
     const glm::dvec3 b = PointOf(source.Surface, face.Corners[1]);
     const glm::dvec3 c = PointOf(source.Surface, face.Corners[2]);
-    const glm::dvec3 area = glm::cross(b - a, c - a);
-    const double size = glm::length(area);
-    if (!(size > 0.0))
+    if (glm::length(glm::cross(b - a, c - a)) > 0.0)
     {
-      continue;
+      boxes.push_back({ glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), boxes.size(),
+        { a, b, c }, source.Number });
     }
-    boxes.push_back({ glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), boxes.size() });
-    Append(this->Triangles, a, source.Number);
-    Append(this->Triangles, b, 0.0);
-    Append(this->Triangles, c, 0.0);
-    Append(this->Triangles, area / size, -glm::dot(area / size, a));
   }
+}
+
+//------------------------------------------------------------------------------
+void ShadowCasters::AddTriangle(const Box& box)
+{
+  const glm::dvec3 a = box.Corners[0] - this->Origin;
+  const glm::dvec3 b = box.Corners[1] - this->Origin;
+  const glm::dvec3 c = box.Corners[2] - this->Origin;
+  const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+  Append(this->Triangles, a, box.Number);
+  Append(this->Triangles, b, 0.0);
+  Append(this->Triangles, c, 0.0);
+  Append(this->Triangles, normal, -glm::dot(normal, a));
 }
 
 //------------------------------------------------------------------------------
@@ -196,9 +218,8 @@ void ShadowCasters::AddNode(std::vector<Box>& boxes, std::size_t first, std::siz
   const bool isLeaf = last - first == 1;
   // A tree of n boxes has 2 n - 1 nodes.
   const std::size_t next = this->Nodes.size() / 8 + 2 * (last - first) - 1;
-  Append(this->Nodes, low - this->Rounding, static_cast<double>(next));
-  Append(
-    this->Nodes, high + this->Rounding, isLeaf ? static_cast<double>(boxes[first].Index) : -1.0);
+  Append(this->Nodes, low - this->Origin, static_cast<double>(next));
+  Append(this->Nodes, high - this->Origin, isLeaf ? static_cast<double>(boxes[first].Index) : -1.0);
   if (!isLeaf)
   {
     const std::size_t middle = SplitAtMedian(boxes, first, last);
@@ -228,14 +249,21 @@ std::string ShadowCasters::Upload(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-void ShadowCasters::Activate(vtkShaderProgram* program, int number)
+void ShadowCasters::Activate(vtkShaderProgram* program, int number, const glm::dvec3& origin)
 {
   this->NodeTable.Activate(program, "shadowNodes");
   this->TriangleTable.Activate(program, "shadowTriangles");
   const auto twist = this->Twists.find(number);
   program->SetUniformi("shadowNumberOfNodes", static_cast<int>(this->NodeTable.GetNumberOfRows()));
   program->SetUniformi("shadowObject", number);
-  program->SetUniformf("shadowRounding", static_cast<float>(this->Rounding));
+  // Added to a place of the object, it leads to one of the tables.
+  const glm::dvec3 offset = origin - this->Origin;
+  const glm::dvec3 far = glm::abs(offset);
+  const double reach = this->Reach + std::max({ far.x, far.y, far.z });
+  const float between[3] = { static_cast<float>(offset.x), static_cast<float>(offset.y),
+    static_cast<float>(offset.z) };
+  program->SetUniform3f("shadowOffset", between);
+  program->SetUniformf("shadowRounding", static_cast<float>(RoundingShare * reach));
   program->SetUniformf(
     "shadowTwist", static_cast<float>(twist == this->Twists.end() ? 0.0 : twist->second));
 }

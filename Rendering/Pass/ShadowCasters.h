@@ -8,6 +8,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <glm/vec3.hpp>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -45,8 +47,13 @@ public:
 
   /** Uploads tables that changed. Returns an error or an empty string. */
   std::string Upload(vtkOpenGLRenderWindow* window);
-  /** Activates the tables for the fragments of an object. @pre Upload() had no error */
-  void Activate(vtkShaderProgram* program, int number);
+  /**
+   * Activates the tables for the fragments of an object.
+   * @param number as of Caster.
+   * @param origin point that the object's places are relative to.
+   * @pre Upload() had no error
+   */
+  void Activate(vtkShaderProgram* program, int number, const glm::dvec3& origin);
   void Deactivate();
   void Release(vtkWindow* window);
 
@@ -63,12 +70,15 @@ private:
   struct Box;
 
   std::vector<Source> ListSources(const std::vector<Caster>& casters);
-  void AddTriangles(const Source& source, std::vector<Box>& boxes);
+  static void ListTriangles(const Source& source, std::vector<Box>& boxes);
+  void AddTriangle(const Box& box);
   void AddNode(std::vector<Box>& boxes, std::size_t first, std::size_t last);
 
   ObjectSurfaces Surfaces;
   std::vector<Source> Sources;
   vtkTypeInt64 Updates = 0;
+  /** Point that the tables are relative to, in the middle of all triangles. */
+  glm::dvec3 Origin{ 0.0 };
   /** Four texels for each triangle: its corners, the first with the number, and its plane. */
   std::vector<float> Triangles;
   /**
@@ -76,8 +86,8 @@ private:
    * this one is missed; its high corner and the triangle in it, or -1.
    */
   std::vector<float> Nodes;
-  /** Bound for the rounding errors of heights above planes. */
-  double Rounding = 0.0;
+  /** Largest coordinate relative to Origin. */
+  double Reach = 0.0;
   /** By number: how far surfaces may be off the triangles, as polygons that are not flat have it.
    */
   std::map<int, double> Twists;

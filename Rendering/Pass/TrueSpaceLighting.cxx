@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -48,21 +49,37 @@ std::array<float, Size> ToFloats(const Numbers& numbers)
   return floats;
 }
 
+/** Numbers that begin with a place, which becomes relative to an origin. */
+template <std::size_t Size>
+std::array<double, Size> Relative(std::array<double, Size> numbers, const glm::dvec3& origin)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    numbers[i] -= origin[static_cast<int>(i)];
+  }
+  return numbers;
+}
+
 //------------------------------------------------------------------------------
 /**
- * True if the points of a surface are in a plane within the rounding errors of floats, and if its
- * normals equal the plane's normal within the errors that this gives to normals of facets.
+ * True if the points of a surface are in a plane within the rounding errors of its points, and of
+ * the floats in shaders, which are relative to a place near the surface. Its normals must equal the
+ * plane's normal within the errors that this gives to normals of facets.
  */
 bool LiesInPlane(vtkPolyData* surface, const double (&origin)[3], const double (&normal)[3])
 {
   double bounds[6];
   surface->GetBounds(bounds);
   double reach = 0.0;
-  for (const double bound : bounds)
+  double size = 0.0;
+  for (int i = 0; i < 3; ++i)
   {
-    reach = std::max(reach, std::fabs(bound));
+    reach = std::max({ reach, std::fabs(bounds[2 * i]), std::fabs(bounds[2 * i + 1]) });
+    size = std::max(size, 0.5 * (bounds[2 * i + 1] - bounds[2 * i]));
   }
-  const double slack = 4.0 * Rounding * reach;
+  const bool areFloats = surface->GetPoints()->GetDataType() == VTK_FLOAT;
+  const double rounding = areFloats ? Rounding : std::numeric_limits<double>::epsilon();
+  const double slack = 4.0 * (rounding * reach + Rounding * size);
   const vtkIdType points = surface->GetNumberOfPoints();
   for (vtkIdType i = 0; i < points; ++i)
   {
@@ -157,9 +174,10 @@ void TrueSpaceLighting::FitPlane(vtkActor* membrane)
   this->Reach = 0.0;
   if (const double* bounds = membrane->GetBounds())
   {
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < 3; ++i)
     {
-      this->Reach = std::max(this->Reach, std::fabs(bounds[i]));
+      this->Middle[i] = 0.5 * bounds[2 * i] + 0.5 * bounds[2 * i + 1];
+      this->Reach = std::max(this->Reach, 0.5 * (bounds[2 * i + 1] - bounds[2 * i]));
     }
   }
 }
@@ -179,14 +197,15 @@ double TrueSpaceLighting::HeightOf(const double (&position)[4]) const
 //------------------------------------------------------------------------------
 /**
  * True if the side of the surface on which a light is cannot be decided: its height is within the
- * rounding error of the sum of three products of floats.
+ * rounding error of the sum of three products of floats, which are relative to a place behind the
+ * membrane.
  */
-bool TrueSpaceLighting::IsOnSurface(const double (&position)[4], const double (&about)[3]) const
+bool TrueSpaceLighting::IsOnSurface(const double (&position)[4]) const
 {
   double size = position[3] * this->Reach;
-  for (const double coordinate : about)
+  for (int i = 0; i < 3; ++i)
   {
-    size = std::max(size, std::fabs(coordinate));
+    size = std::max(size, std::fabs(position[i] - position[3] * this->Middle[i]));
   }
   return !(std::fabs(this->HeightOf(position)) > 4.0 * Rounding * size);
 }
@@ -211,8 +230,7 @@ bool TrueSpaceLighting::Add(vtkLight* light)
   {
     position[i] = isPositional ? position[i] : -axis[i];
   }
-  const double about[3] = { position[0], position[1], position[2] };
-  if (this->IsOnSurface(position, about))
+  if (this->IsOnSurface(position))
   {
     return false;
   }
@@ -227,8 +245,8 @@ bool TrueSpaceLighting::Add(vtkLight* light)
   // The light of those that follow the camera would have to be computed for each frame.
   const bool isRead = this->HeightOf(position) > 0.0 && light->LightTypeIsSceneLight();
   const int table = isRead ? static_cast<int>(this->Waves.size()) : -1;
-  this->Lights.push_back(
-    { ToFloats<4>(position), ToFloats<3>(color), ToFloats<4>(cone), ToFloats<4>(falloff), table });
+  this->Lights.push_back({ { position[0], position[1], position[2], position[3] },
+    ToFloats<3>(color), ToFloats<4>(cone), ToFloats<4>(falloff), table });
   if (isRead)
   {
     this->Waves.push_back({ { position[0], position[1], position[2] }, isPositional });
@@ -274,7 +292,7 @@ std::string TrueSpaceLighting::Update(vtkRenderer* renderer, vtkActor* membrane)
 
 //------------------------------------------------------------------------------
 void TrueSpaceLighting::SetUniforms(vtkShaderProgram* program, vtkActor* object,
-  const std::vector<double>& indices, bool lightIsFaded) const
+  const std::vector<double>& indices, bool lightIsFaded, const glm::dvec3& origin) const
 {
   if (!program->IsUniformUsed("surfacePlane"))
   {
@@ -289,7 +307,7 @@ void TrueSpaceLighting::SetUniforms(vtkShaderProgram* program, vtkActor* object,
   { to.insert(to.end(), from.begin(), from.end()); };
   for (const Light& light : this->Lights)
   {
-    append(positions, light.Position);
+    append(positions, ToFloats<4>(Relative(light.Position, light.Position[3] * origin)));
     append(colors, light.Color);
     append(cones, light.Cone);
     append(falloffs, light.Falloff);
@@ -312,10 +330,15 @@ void TrueSpaceLighting::SetUniforms(vtkShaderProgram* program, vtkActor* object,
   const double* color = property->GetSpecularColor();
   const double share = property->GetSpecular();
   const double specular[3] = { share * color[0], share * color[1], share * color[2] };
-  program->SetUniform4f("surfacePlane", ToFloats<4>(this->Plane).data());
+  std::array<double, 4> plane = this->Plane;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    plane[3] += plane[i] * origin[static_cast<int>(i)];
+  }
+  program->SetUniform4f("surfacePlane", ToFloats<4>(plane).data());
   program->SetUniformf("surfaceIndex", static_cast<float>(indices.back()));
   SetPlateUniforms(program, indices);
-  program->SetUniform3f("trueEye", ToFloats<3>(this->Eye).data());
+  program->SetUniform3f("trueEye", ToFloats<3>(Relative(this->Eye, origin)).data());
   program->SetUniform3f("trueSpecular", ToFloats<3>(specular).data());
   program->SetUniformf("trueSpecularPower", static_cast<float>(property->GetSpecularPower()));
   program->SetUniformi("lightIsFaded", lightIsFaded ? 1 : 0);

@@ -6,6 +6,8 @@
 
 #include "vtkType.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <map>
 #include <string>
@@ -54,15 +56,17 @@ public:
    * Sets the uniforms of vtkTrueSpaceLighting.glsl, if the program uses them.
    * @param indices index of refraction behind each interface, relative to the medium in front of
    * the first.
+   * @param lightIsFaded whether the medium attenuates light on its way to the object.
+   * @param origin point that the object's places are relative to.
    */
   void SetUniforms(vtkShaderProgram* program, vtkActor* object, const std::vector<double>& indices,
-    bool lightIsFaded) const;
+    bool lightIsFaded, const glm::dvec3& origin) const;
 
 private:
-  /** A light in world coordinates, as the shader has it. */
+  /** A light in world coordinates. */
   struct Light
   {
-    std::array<float, 4> Position;
+    std::array<double, 4> Position;
     std::array<float, 3> Color;
     std::array<float, 4> Cone;
     std::array<float, 4> Falloff;
@@ -80,7 +84,7 @@ private:
   const Fit& FitOf(vtkPolyData* surface);
   void FitPlane(vtkActor* membrane);
   double HeightOf(const double (&position)[4]) const;
-  bool IsOnSurface(const double (&position)[4], const double (&about)[3]) const;
+  bool IsOnSurface(const double (&position)[4]) const;
   bool Add(vtkLight* light);
 
   /** By surface; a surface of another time is fitted again. */
@@ -91,7 +95,8 @@ private:
   std::array<double, 3> Eye{ 0.0, 0.0, 0.0 };
   /** Unit normal towards the eye, and the height of the origin. */
   std::array<double, 4> Plane{ 0.0, 0.0, 1.0, 0.0 };
-  /** Largest absolute coordinate of the membrane. */
+  /** Middle of the membrane's bounds, and half of their longest side. */
+  glm::dvec3 Middle{ 0.0 };
   double Reach = 0.0;
 };
 

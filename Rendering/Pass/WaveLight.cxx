@@ -182,8 +182,12 @@ std::string WaveLight::Upload(vtkOpenGLRenderWindow* window, vtkPolyData* images
 }
 
 //------------------------------------------------------------------------------
-void WaveLight::Activate(vtkShaderProgram* program, bool areSurfaces)
+void WaveLight::Activate(vtkShaderProgram* program, bool areSurfaces, const glm::dvec3& origin)
 {
+  const glm::dvec3 offset = origin - this->Mesh.GetOrigin();
+  const float between[3] = { static_cast<float>(offset.x), static_cast<float>(offset.y),
+    static_cast<float>(offset.z) };
+  program->SetUniform3f("litOffset", between);
   this->Faces.Activate(program, "litFaces");
   this->Places.Activate(program, "litPlaces");
   this->Primitives.Activate(program, "litPrimitives");

@@ -54,8 +54,13 @@ public:
 
   /** Uploads tables that changed. Returns an error or an empty string. */
   std::string Upload(vtkOpenGLRenderWindow* window, vtkPolyData* images);
-  /** Activates the tables and sets the uniforms of the shader. @pre Upload() had no error */
-  void Activate(vtkShaderProgram* program, bool areSurfaces);
+  /**
+   * Activates the tables and sets the uniforms of the shader.
+   * @param areSurfaces false for points and lines, which have no places in the tables.
+   * @param origin point that the object's places are relative to.
+   * @pre Upload() had no error
+   */
+  void Activate(vtkShaderProgram* program, bool areSurfaces, const glm::dvec3& origin);
   void Deactivate();
   void Release(vtkWindow* window);
 

@@ -6,6 +6,7 @@ uniform samplerBuffer shadowNodes;
 uniform samplerBuffer shadowTriangles;
 uniform int shadowNumberOfNodes;
 uniform int shadowObject;     // number of the object that is lit
+uniform vec3 shadowOffset;    // added to its places, it leads to those of the tables
 uniform float shadowRounding; // bound for the error of a height above a triangle's plane
 uniform float shadowTwist;    // how far the object may be off its triangles
 
@@ -30,19 +31,23 @@ bool meetsTriangle(int triangle, vec3 start, vec3 along, float most, out float n
 
 // True if a triangle is on the way of a length from a point. So many hits of the object's own
 // triangles do not count.
-bool isHidden(vec3 start, vec3 along, float most, int spared)
+bool isHidden(vec3 place, vec3 along, float most, int spared)
 {
+  vec3 start = place + shadowOffset;
   // A way across an axis is turned by 2^-60, which moves no place by a rounding.
   const float least = 8.7e-19;
   vec3 inverse = 1.0 / mix(along, vec3(least), lessThan(abs(along), vec3(least)));
+  // Boxes are larger by the error of places.
+  vec3 fromLow = start + shadowRounding;
+  vec3 fromHigh = start - shadowRounding;
   int node = 0;
   bool hides = false;
   while (node < shadowNumberOfNodes && !hides)
   {
     vec4 low = texelFetch(shadowNodes, 2 * node);
     vec4 high = texelFetch(shadowNodes, 2 * node + 1);
-    vec3 toLow = (low.xyz - start) * inverse;
-    vec3 toHigh = (high.xyz - start) * inverse;
+    vec3 toLow = (low.xyz - fromLow) * inverse;
+    vec3 toHigh = (high.xyz - fromHigh) * inverse;
     vec3 near = min(toLow, toHigh);
     vec3 far = max(toLow, toHigh);
     bool isMet = max(max(near.x, near.y), max(near.z, 0.0)) <=

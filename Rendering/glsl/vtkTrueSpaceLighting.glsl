@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Lighting of refracted geometry by its true positions and normals: see
-// Rendering/Pass/TrueSpaceLighting.h. Points and directions are in world coordinates.
+// Rendering/Pass/TrueSpaceLighting.h. Points are in world coordinates relative to a point near the
+// object (LocalPlaces.h), and directions in world coordinates.
 
 const int MAXIMUM_OF_LIGHTS = 16;
 
@@ -128,6 +129,7 @@ uniform samplerBuffer litPlaces;       // vector and path, for one light after a
 uniform isamplerBuffer litPrimitives;
 uniform int litPlacesOfLight;
 uniform int litNumberOfPrimitives;
+uniform vec3 litOffset; // added to a point, it leads to one of the faces
 uniform int trueLightTable[MAXIMUM_OF_LIGHTS]; // -1: none
 
 // Places of a grid around a point, and their weights.
@@ -145,8 +147,9 @@ int numberInGrid(int n, int column, int row)
 }
 
 // The place in the triangle, of those that the fragment's cell has, that contains the point.
-LitPlace findLitPlace(vec3 point)
+LitPlace findLitPlace(vec3 position)
 {
+  vec3 point = position + litOffset;
   LitPlace place;
   int primitive = gl_PrimitiveID + PrimitiveIDOffset;
   int face = primitive < litNumberOfPrimitives ? texelFetch(litPrimitives, primitive).r : -1;

@@ -19,6 +19,11 @@ constexpr int RaysOfCase = 32;
 constexpr int RaysOfLargeCase = 8;
 constexpr std::int64_t LargeCase = 50000;
 constexpr int JudgedSteps = 96;
+/**
+ * Distance from the place that is nearest to the mesh's centre, or from a place near a vertex, at
+ * which a ray begins. Such places are at most 1.2 radii from the centre: rays begin outside.
+ */
+constexpr double Before = 2.5;
 /** Steps after which a ray counts as stopped. */
 constexpr std::int64_t MostSteps = 4096;
 
@@ -133,7 +138,7 @@ private:
           (glm::dvec3(pixel.Origin[0], pixel.Origin[1], pixel.Origin[2]) - center) /
           this->Mesh.GetRadius();
         this->Rays.push_back(
-          { origin - (glm::dot(origin, direction) + 2.0) * direction, direction });
+          { origin - (glm::dot(origin, direction) + Before) * direction, direction });
         continue;
       }
       const auto vertex = static_cast<std::int64_t>(
@@ -143,7 +148,7 @@ private:
       const double off = i % 4 == 1 && this->Medium.OutsideIndex == 0.0 ? 0.0 : 0.2;
       this->Rays.push_back({ this->Mesh.GetPosition(vertex) +
           off * this->Random.GetDirection() * this->Mesh.GetHalfSize() / this->Mesh.GetRadius() -
-          2.0 * direction,
+          Before * direction,
         direction });
     }
   }

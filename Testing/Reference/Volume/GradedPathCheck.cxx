@@ -248,6 +248,10 @@ GradedPathCheck::Cell GradedPathCheck::MakeCell(std::size_t number) const
   {
     cell.Terms[edge] = this->Field.EdgeTerms[number][edge];
   }
+  for (const auto& [a, b] : Ends)
+  {
+    cell.Size = std::max(cell.Size, Distance(corners[a], corners[b]));
+  }
   Real widest = 0.0L;
   Real longest = 0.0L;
   for (std::size_t i = 0; i < 4; ++i)
@@ -257,7 +261,7 @@ GradedPathCheck::Cell GradedPathCheck::MakeCell(std::size_t number) const
       Cross(Sum(corners[(i + 2) % 4], -1.0L, base), Sum(corners[(i + 3) % 4], -1.0L, base));
     const Real volume = Dot(normal, Sum(corners[i], -1.0L, base));
     longest = std::max(longest, Distance(corners[i], base));
-    cell.Size = longest;
+    cell.Slenderness = cell.Size * cell.Size * cell.Size / std::abs(volume);
     if (Length(normal) > widest)
     {
       widest = Length(normal);
@@ -514,10 +518,14 @@ bool GradedPathCheck::GoThroughCell(std::int64_t number, const PlaceOnRay& from,
   const Flow flow(cell, begin, Sum(Vector{}, std::sqrt(square), Extend(from.Direction)), force);
   const Real time = flow.TimeAt(end, knowsPath ? path : 0.0L);
   const Real length = std::abs(time) * std::sqrt(square);
-  // Weights are sums of products of a gradient and the way.
-  const Real tolerance = error + turn * length +
-    PlaceError * *std::max_element(cell.Steepness.begin(), cell.Steepness.end()) * length *
-      cell.Size;
+  // The path under test has places of weights, each of which changes by a gradient times the way. A
+  // gradient is a product of two edges, of at most the square S of the size, over the volume V.
+  // The product is rounded by at most 2 sqrt(3) S; its quotient, its scalar product with the way
+  // and the sum of two powers of the time by 7 S: 10.5 roundings of S / V times the way. The volume
+  // is one for all, so that its error changes the time only. The place is the mean of the corners,
+  // at most the size away, by three such weights and one that is 1 minus their sum: 6 times 10.5
+  // roundings of 2^-53, less than 2^-47.
+  const Real tolerance = error + turn * length + PlaceError * cell.Slenderness * length;
   if (Distance(flow.PlaceAt(time), end) > tolerance)
   {
     return false;

@@ -78,8 +78,10 @@ private:
     Vector Force;
     Real Square;
     std::array<Real, 6> Terms;
-    /** Length of the longest of some edges. */
+    /** Length of the longest edge. */
     Real Size;
+    /** Cube of the length of the longest edge over six times the volume. */
+    Real Slenderness;
     bool IsFlat;
     /** A flat cell's normal; unit length or 0. */
     Vector Normal;
