@@ -38,4 +38,18 @@ void ForEachBlock(std::size_t count, const RangeLoop& loop, Body&& body)
     });
 }
 
+/** Calls body(i) for each i in [0, count), in the blocks of ForEachBlock(). */
+template <typename Body>
+void ForEachInBlocks(std::size_t count, const RangeLoop& loop, const Body& body)
+{
+  ForEachBlock(count, loop,
+    [&body](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
 }

@@ -81,14 +81,11 @@ std::vector<std::uint32_t> FindCoherentOrder(
   }
   const HilbertCurve curve(extent.Lower, extent.Upper);
   std::vector<MortonKey> keys(count);
-  ForEachBlock(count, loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(count, loop,
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const glm::dvec3 point = PointAt(points, i);
-        keys[i] = MakeMortonKey(IsFinite(point) ? curve.Code(point) : 0, i);
-      }
+      const glm::dvec3 point = PointAt(points, i);
+      keys[i] = MakeMortonKey(IsFinite(point) ? curve.Code(point) : 0, i);
     });
   SortByCode(keys, loop);
   order.resize(count);

@@ -22,4 +22,18 @@ inline void SerialLoop(std::size_t count, const RangeBody& body)
   body(0, count);
 }
 
+/** Calls body(i) for each i in [0, count), in the ranges of `loop`. */
+template <typename Body>
+void ForEachItem(std::size_t count, const RangeLoop& loop, const Body& body)
+{
+  loop(count,
+    [&body](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
 }

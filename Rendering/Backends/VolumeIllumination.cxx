@@ -227,31 +227,28 @@ void VolumeIllumination::Combine(const Request& request)
     static_cast<float>(isMedium ? NumberOfDirections : NumberOfDirections / 2);
   this->Values.assign(this->Starts.GetSize(), glm::vec3(1.0f));
   const std::vector<std::int32_t>& numbers = this->Starts.GetNumbers();
-  ForEachBlock(numbers.size(), ThreadedLoop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(numbers.size(), ThreadedLoop,
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
+      const auto start = static_cast<std::size_t>(numbers[i]);
+      glm::vec3& value = this->Values[start];
+      value.x = std::min(this->Ambient[start] / directions, 1.0f);
+      double sum = 0.0;
+      double weights = 0.0;
+      for (std::size_t number = 0; number < lights.size(); ++number)
       {
-        const auto start = static_cast<std::size_t>(numbers[i]);
-        glm::vec3& value = this->Values[start];
-        value.x = std::min(this->Ambient[start] / directions, 1.0f);
-        double sum = 0.0;
-        double weights = 0.0;
-        for (std::size_t number = 0; number < lights.size(); ++number)
+        const float transmittance = this->Lights[number].Transmittance[start];
+        if (static_cast<int>(number) == this->Brightest)
         {
-          const float transmittance = this->Lights[number].Transmittance[start];
-          if (static_cast<int>(number) == this->Brightest)
-          {
-            value.y = transmittance;
-            continue;
-          }
-          const glm::dvec3 place = this->Starts.GetPlace(numbers[i]) * rows;
-          const double weight = BrightnessAt(lights[number], place);
-          sum += weight * transmittance;
-          weights += weight;
+          value.y = transmittance;
+          continue;
         }
-        value.z = weights > 0.0 ? static_cast<float>(sum / weights) : 1.0f;
+        const glm::dvec3 place = this->Starts.GetPlace(numbers[i]) * rows;
+        const double weight = BrightnessAt(lights[number], place);
+        sum += weight * transmittance;
+        weights += weight;
       }
+      value.z = weights > 0.0 ? static_cast<float>(sum / weights) : 1.0f;
     });
   this->CombinedLights = lights;
   this->IsCombined = true;

@@ -149,14 +149,8 @@ std::vector<double> GatherValues(const InputBlocks& input, int component,
 {
   const ConcatenatedArray valueOf(input, component, points);
   std::vector<double> values(numbers.size());
-  ForEachBlock(values.size(), ThreadedLoop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        values[i] = valueOf(numbers[i]);
-      }
-    });
+  ForEachInBlocks(
+    values.size(), ThreadedLoop, [&](std::size_t i) { values[i] = valueOf(numbers[i]); });
   return values;
 }
 

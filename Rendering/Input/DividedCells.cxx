@@ -81,14 +81,8 @@ PointFields FieldsOf(
     const auto valueOf = [&](std::int32_t point)
     { return fields.IsLength ? array.GetComponent(point, component) : array(point); };
     std::vector<double> values(static_cast<std::size_t>(fields.NumberOfPoints));
-    ForEachBlock(values.size(), loop,
-      [&](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t p = first; p < last; ++p)
-        {
-          values[p] = valueOf(static_cast<std::int32_t>(p));
-        }
-      });
+    ForEachInBlocks(values.size(), loop,
+      [&](std::size_t p) { values[p] = valueOf(static_cast<std::int32_t>(p)); });
     fields.Values.push_back(std::move(values));
   }
   return fields;
@@ -318,17 +312,14 @@ std::vector<double> DividedCells::ComputePositions(
   const PointsView& view = points.GetView();
   const std::int64_t size = points.GetNumberOfPoints() + this->GetPoints().GetSize();
   std::vector<double> positions(3 * static_cast<std::size_t>(size));
-  ForEachBlock(static_cast<std::size_t>(size), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(static_cast<std::size_t>(size), loop,
+    [&](std::size_t p)
     {
-      for (std::size_t p = first; p < last; ++p)
-      {
-        const glm::dvec3 at = this->GetPoints().Interpolate(static_cast<std::int64_t>(p),
-          [&view](std::int32_t point) { return view[static_cast<std::size_t>(point)]; });
-        positions[3 * p] = at.x;
-        positions[3 * p + 1] = at.y;
-        positions[3 * p + 2] = at.z;
-      }
+      const glm::dvec3 at = this->GetPoints().Interpolate(static_cast<std::int64_t>(p),
+        [&view](std::int32_t point) { return view[static_cast<std::size_t>(point)]; });
+      positions[3 * p] = at.x;
+      positions[3 * p + 1] = at.y;
+      positions[3 * p + 2] = at.z;
     });
   return positions;
 }

@@ -80,14 +80,8 @@ void PointsSource::Copy(const std::vector<vtkDataSet*>& grids, const RangeLoop& 
   for (vtkDataSet* grid : grids)
   {
     const auto size = static_cast<std::size_t>(grid->GetNumberOfPoints());
-    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
-      [grid, next](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t p = first; p < last; ++p)
-        {
-          grid->GetPoint(static_cast<vtkIdType>(p), next + 3 * p);
-        }
-      });
+    ForEachInBlocks(size, IsThreadSafe(grid) ? loop : SerialLoop,
+      [grid, next](std::size_t p) { grid->GetPoint(static_cast<vtkIdType>(p), next + 3 * p); });
     next += 3 * size;
   }
   this->View = this->Copies.data();

@@ -505,16 +505,13 @@ void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop
   }
   this->Ids.resize(4 * size);
   this->Sources.resize(size);
-  loop(parts.size(),
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(parts.size(), loop,
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const std::vector<std::int64_t>& ids = parts[i].Tetrahedra.GetTetrahedra();
-        std::copy(ids.begin(), ids.end(), this->Ids.begin() + 4 * starts[i]);
-        std::copy(
-          parts[i].Sources.begin(), parts[i].Sources.end(), this->Sources.begin() + starts[i]);
-      }
+      const std::vector<std::int64_t>& ids = parts[i].Tetrahedra.GetTetrahedra();
+      std::copy(ids.begin(), ids.end(), this->Ids.begin() + 4 * starts[i]);
+      std::copy(
+        parts[i].Sources.begin(), parts[i].Sources.end(), this->Sources.begin() + starts[i]);
     });
   this->View.Cells = this->Ids.data();
   this->View.SourceCells = this->Sources.data();

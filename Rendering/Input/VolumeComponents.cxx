@@ -59,21 +59,18 @@ std::int64_t MarkUnknown(const VolumeInput& input, const InputBlocks& parts, int
     valuesOf.emplace_back(parts, c, input.GetInterpolatedPoints(FieldAssociation::Points));
   }
   std::atomic<std::int64_t> unknown(0);
-  PointLoop(points.size(),
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(points.size(), PointLoop,
+    [&](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
+      bool known = true;
+      for (const ConcatenatedArray& valueOf : valuesOf)
       {
-        bool known = true;
-        for (const ConcatenatedArray& valueOf : valuesOf)
-        {
-          known = known && std::isfinite(valueOf(points[v]));
-        }
-        if (!known)
-        {
-          values[v] = glm::vec3(NotANumber);
-          ++unknown;
-        }
+        known = known && std::isfinite(valueOf(points[v]));
+      }
+      if (!known)
+      {
+        values[v] = glm::vec3(NotANumber);
+        ++unknown;
       }
     });
   return unknown;
@@ -178,14 +175,9 @@ void VolumeComponents::TakeScalars(const VolumeInput& input, const InputBlocks& 
       parts, this->Others[other], input.GetInterpolatedPoints(FieldAssociation::Points));
     const ScalarNormalization& normalization = this->Normalizations[other];
     const auto at = static_cast<int>(other);
-    PointLoop(points.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t v = first; v < last; ++v)
-        {
-          this->Values[v][at] = static_cast<float>(normalization(valueOf(points[v])));
-        }
-      });
+    ForEachItem(points.size(), PointLoop,
+      [&](std::size_t v)
+      { this->Values[v][at] = static_cast<float>(normalization(valueOf(points[v]))); });
   }
 }
 
@@ -198,14 +190,11 @@ void VolumeComponents::TakeColors(const VolumeInput& input, const InputBlocks& p
   const ConcatenatedArray red(parts, 0, interpolated);
   const ConcatenatedArray green(parts, 1, interpolated);
   const ConcatenatedArray blue(parts, 2, interpolated);
-  PointLoop(points.size(),
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(points.size(), PointLoop,
+    [&](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const glm::dvec3 color(red(points[v]), green(points[v]), blue(points[v]));
-        this->Values[v] = glm::vec3(glm::clamp(scale * color, 0.0, 1.0));
-      }
+      const glm::dvec3 color(red(points[v]), green(points[v]), blue(points[v]));
+      this->Values[v] = glm::vec3(glm::clamp(scale * color, 0.0, 1.0));
     });
 }
 

@@ -370,14 +370,11 @@ InputReport VolumeInput::UpdateScalars(
   this->CellScalars.clear();
   std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
   normalized.resize(values.size());
-  ForEachBlock(values.size(), ThreadedLoop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(values.size(), ThreadedLoop,
+    [&](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        normalized[v] = std::isfinite(values[v]) ? static_cast<float>(normalization(values[v]))
-                                                 : std::numeric_limits<float>::quiet_NaN();
-      }
+      normalized[v] = std::isfinite(values[v]) ? static_cast<float>(normalization(values[v]))
+                                               : std::numeric_limits<float>::quiet_NaN();
     });
   this->BuiltPlace = input.Place;
   this->BuiltComponent = component;

@@ -239,14 +239,7 @@ bool WriteImages(const SchlierenRays& rays, const LightOfImage& light, const Tet
 {
   PixelWriter writer(rays, mesh, instruments, shadows, output);
   const auto height = static_cast<std::size_t>(output->GetDimensions()[1]);
-  ThreadedLoop(height,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t row = begin; row < end; ++row)
-      {
-        writer.WriteRow(row, light);
-      }
-    });
+  ForEachItem(height, ThreadedLoop, [&](std::size_t row) { writer.WriteRow(row, light); });
   writer.WriteShadows();
   return writer.WriteKnife();
 }

@@ -151,16 +151,13 @@ EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& ey
   const double ratio = exterior / interior;
   std::vector<RayKind> kinds(positions.size());
   this->Corners.resize(positions.size());
-  loop(positions.size(),
-    [this, &positions, &normals, &kinds, ratio](std::size_t begin, std::size_t end)
+  ForEachItem(positions.size(), loop,
+    [this, &positions, &normals, &kinds, ratio](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const RefractionRay ray =
-          ComputeRefractionRay(glm::normalize(positions[i] - this->Eye), normals[i], ratio);
-        this->Corners[i] = { positions[i], ray.Direction };
-        kinds[i] = ray.Kind;
-      }
+      const RefractionRay ray =
+        ComputeRefractionRay(glm::normalize(positions[i] - this->Eye), normals[i], ratio);
+      this->Corners[i] = { positions[i], ray.Direction };
+      kinds[i] = ray.Kind;
     });
   this->CountRays(kinds);
   return EyeStatus::Ready;

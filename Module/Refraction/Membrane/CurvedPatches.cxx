@@ -261,22 +261,11 @@ void CurvedPatches::Build(const Membrane& membrane, const RangeLoop& loop)
 void CurvedPatches::Refit(const RangeLoop& loop)
 {
   this->Curvature.resize(this->Surface->GetPositions().size());
-  loop(this->Curvature.size(),
-    [this](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        this->Curvature[i] = this->FitCurvature(static_cast<std::int32_t>(i));
-      }
-    });
-  loop(this->Patches.size(),
-    [this](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        this->FitFacet(this->Patches[i]);
-      }
-    });
+  ForEachItem(this->Curvature.size(), loop,
+    [this](std::size_t i)
+    { this->Curvature[i] = this->FitCurvature(static_cast<std::int32_t>(i)); });
+  ForEachItem(
+    this->Patches.size(), loop, [this](std::size_t i) { this->FitFacet(this->Patches[i]); });
 }
 
 //------------------------------------------------------------------------------

@@ -75,23 +75,20 @@ void RefractingSurface::BuildBoxes(const RangeLoop& loop)
   this->Bounds.resize(count);
   std::vector<AxisBox> boxes(count);
   const double slack = this->GetSlack(0.0);
-  loop(count,
-    [this, slack, &boxes](std::size_t begin, std::size_t end)
+  ForEachItem(count, loop,
+    [this, slack, &boxes](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+      PatchBounds& bounds = this->Bounds[i];
+      bounds.Bulge = BoundBulge(patch) + slack;
+      bounds.Normals = BoundNormals(patch);
+      bounds.Box = AxisBox();
+      const double reach = bounds.Bulge + PatchCrossings::Margin * patch.GetSize();
+      for (const glm::dvec3& corner : patch.Corner)
       {
-        const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
-        PatchBounds& bounds = this->Bounds[i];
-        bounds.Bulge = BoundBulge(patch) + slack;
-        bounds.Normals = BoundNormals(patch);
-        bounds.Box = AxisBox();
-        const double reach = bounds.Bulge + PatchCrossings::Margin * patch.GetSize();
-        for (const glm::dvec3& corner : patch.Corner)
-        {
-          bounds.Box.Add({ corner - reach, corner + reach });
-        }
-        boxes[i] = bounds.Box;
+        bounds.Box.Add({ corner - reach, corner + reach });
       }
+      boxes[i] = bounds.Box;
     });
   AxisBox whole;
   for (const AxisBox& box : boxes)
@@ -109,24 +106,21 @@ void RefractingSurface::BuildCrossings(const RangeLoop& loop)
   const std::size_t count = this->Surface.GetFacets().size();
   this->Slants.resize(count);
   std::vector<DirectionBox> normals(count);
-  loop(count,
-    [this, &normals](std::size_t begin, std::size_t end)
+  ForEachItem(count, loop,
+    [this, &normals](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+      PatchSlant& slant = this->Slants[i];
+      slant.Largest = PatchCrossings::BoundLargestSlant(patch);
+      if (slant.Largest < CommonSlant)
       {
-        const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
-        PatchSlant& slant = this->Slants[i];
-        slant.Largest = PatchCrossings::BoundLargestSlant(patch);
-        if (slant.Largest < CommonSlant)
-        {
-          slant.Largest = PatchCrossings(patch, HeightFrame()).GetLargestSlant();
-        }
-        const glm::dvec3 winding = glm::normalize(
-          glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
-        const glm::dvec3 normal = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
-        slant.Facing = glm::dot(winding, normal) < 0.0 ? -winding : winding;
-        normals[i] = this->Bounds[i].Normals;
+        slant.Largest = PatchCrossings(patch, HeightFrame()).GetLargestSlant();
       }
+      const glm::dvec3 winding = glm::normalize(
+        glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
+      const glm::dvec3 normal = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
+      slant.Facing = glm::dot(winding, normal) < 0.0 ? -winding : winding;
+      normals[i] = this->Bounds[i].Normals;
     });
   this->Steep.Build(this->Surface, this->Patches, normals);
 }

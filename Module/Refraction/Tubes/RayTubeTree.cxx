@@ -123,19 +123,16 @@ std::int32_t RayTubeTree::BuildNode(
 void RayTubeTree::Refit(
   const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop)
 {
-  loop(this->Nodes.size(),
-    [this, &bounds](std::size_t begin, std::size_t end)
+  ForEachItem(this->Nodes.size(), loop,
+    [this, &bounds](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      Node& node = this->Nodes[i];
+      for (int child = 0; child < Width; ++child)
       {
-        Node& node = this->Nodes[i];
-        for (int child = 0; child < Width; ++child)
+        ClearBounds(node, child);
+        if (node.Link[child] == NoNode && node.FirstFacet[child] != NoFacet)
         {
-          ClearBounds(node, child);
-          if (node.Link[child] == NoNode && node.FirstFacet[child] != NoFacet)
-          {
-            this->StoreBounds(node, child, bounds(node.FirstFacet[child]));
-          }
+          this->StoreBounds(node, child, bounds(node.FirstFacet[child]));
         }
       }
     });

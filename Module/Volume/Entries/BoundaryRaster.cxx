@@ -129,25 +129,21 @@ void BoundaryRaster::BoundFaces(const BoundaryRaster* coarse, const RangeLoop& l
   const double across = isKnown ? rays.GetWidth() / coarse->GetRays().GetWidth() : 1;
   this->Boxes.resize(faces);
   this->Extents.resize(isKnown ? 0 : faces);
-  loop(faces,
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(faces, loop,
+    [&](std::size_t f)
     {
-      for (std::size_t f = first; f < last; ++f)
+      if (isKnown)
       {
-        if (isKnown)
-        {
-          const Extent& extent = coarse->Extents[f];
-          this->Boxes[f] =
-            this->Faces.PixelsIn(across * glm::dvec2(extent.Lower[0], extent.Lower[1]),
-              across * glm::dvec2(extent.Upper[0], extent.Upper[1]));
-          continue;
-        }
-        const ProjectedFaces::Footprint seen =
-          this->Faces.BoundPixels(this->Faces.Project(static_cast<std::int32_t>(f)));
-        this->Boxes[f] = this->Faces.PixelsIn(seen);
-        this->Extents[f] = { { RoundedDown(seen.Lower.x), RoundedDown(seen.Lower.y) },
-          { RoundedUp(seen.Upper.x), RoundedUp(seen.Upper.y) } };
+        const Extent& extent = coarse->Extents[f];
+        this->Boxes[f] = this->Faces.PixelsIn(across * glm::dvec2(extent.Lower[0], extent.Lower[1]),
+          across * glm::dvec2(extent.Upper[0], extent.Upper[1]));
+        return;
       }
+      const ProjectedFaces::Footprint seen =
+        this->Faces.BoundPixels(this->Faces.Project(static_cast<std::int32_t>(f)));
+      this->Boxes[f] = this->Faces.PixelsIn(seen);
+      this->Extents[f] = { { RoundedDown(seen.Lower.x), RoundedDown(seen.Lower.y) },
+        { RoundedUp(seen.Upper.x), RoundedUp(seen.Upper.y) } };
     });
 }
 

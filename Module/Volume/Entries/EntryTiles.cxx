@@ -274,16 +274,7 @@ bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop
     }
   };
   const auto forEachBand = [&](const auto& body)
-  {
-    loop(bands.size(),
-      [&](std::size_t first, std::size_t last)
-      {
-        for (std::size_t band = first; band < last; ++band)
-        {
-          forEachTile(band, body);
-        }
-      });
-  };
+  { ForEachItem(bands.size(), loop, [&](std::size_t band) { forEachTile(band, body); }); };
   const std::size_t tiles =
     static_cast<std::size_t>(this->Rows) * static_cast<std::size_t>(this->Columns);
   std::vector<std::int32_t> next(tiles, 0);

@@ -224,14 +224,7 @@ std::vector<ApparentPlace> ApparentPlaces::Find(
 {
   this->LayGrid(points, loop);
   std::vector<ApparentPlace> places(points.size());
-  loop(points.size(),
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        places[i] = this->FindOne(points[i]);
-      }
-    });
+  ForEachItem(points.size(), loop, [&](std::size_t i) { places[i] = this->FindOne(points[i]); });
   return places;
 }
 

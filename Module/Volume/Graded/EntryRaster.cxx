@@ -89,14 +89,8 @@ EntryRaster::EntryRaster(const TetrahedralMesh& mesh, const BoundaryTree& tree,
   , Axis(image.GetAxis())
   , Faces(tree.GetFaces().size())
 {
-  loop(this->Faces.size(),
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        this->Faces[i] = this->Draw(tree.GetFaces()[i], mesh);
-      }
-    });
+  ForEachItem(this->Faces.size(), loop,
+    [&](std::size_t i) { this->Faces[i] = this->Draw(tree.GetFaces()[i], mesh); });
   this->Usable = std::none_of(this->Faces.begin(), this->Faces.end(),
     [](const Drawn& face) { return std::isnan(face.Least.x); });
   if (this->Usable)

@@ -152,17 +152,14 @@ void GradedCellTable::Build(const TetrahedralMesh& mesh, const std::vector<doubl
 {
   const auto& cells = mesh.GetCells();
   this->Rows.assign(cells.size(), GradedCellRow{});
-  loop(cells.size(),
-    [&](std::size_t begin, std::size_t end)
+  ForEachItem(cells.size(), loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = begin; c < end; ++c)
+      const auto number = static_cast<std::int64_t>(c);
+      if (mesh.IsActiveCell(number))
       {
-        const auto number = static_cast<std::int64_t>(c);
-        if (mesh.IsActiveCell(number))
-        {
-          this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number), cells[c],
-            mesh.GetPosition(cells[c].Vertices[0]));
-        }
+        this->Rows[c] = MakeRow(MakeGradedCell(mesh, squaredIndices, terms, number), cells[c],
+          mesh.GetPosition(cells[c].Vertices[0]));
       }
     });
 }

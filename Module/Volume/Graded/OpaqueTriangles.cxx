@@ -202,18 +202,15 @@ std::vector<std::uint8_t> OpaqueTriangles::FindCells(
 {
   const auto& cells = mesh.GetCells();
   std::vector<std::uint8_t> found(cells.size(), 0);
-  loop(cells.size(),
-    [&](std::size_t begin, std::size_t end)
+  ForEachItem(cells.size(), loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = begin; c < end; ++c)
+      CellCorners corners;
+      for (std::size_t i = 0; i < corners.size(); ++i)
       {
-        CellCorners corners;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-        {
-          corners[i] = mesh.GetPosition(cells[c].Vertices[i]);
-        }
-        found[c] = this->MayBeIn(corners) ? MayHaveTriangle : 0;
+        corners[i] = mesh.GetPosition(cells[c].Vertices[i]);
       }
+      found[c] = this->MayBeIn(corners) ? MayHaveTriangle : 0;
     });
   return found;
 }

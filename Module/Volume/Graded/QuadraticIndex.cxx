@@ -296,23 +296,20 @@ std::vector<EdgeTerms> ComputeEdgeTerms(
     return static_cast<float>(std::max(std::max(std::min(term, most), -most),
       -std::min(squaredIndices[first], squaredIndices[second])));
   };
-  loop(cells.size(),
-    [&](std::size_t begin, std::size_t end)
+  ForEachItem(cells.size(), loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = begin; c < end; ++c)
+      if (!mesh.IsActiveCell(static_cast<std::int64_t>(c)))
       {
-        if (!mesh.IsActiveCell(static_cast<std::int64_t>(c)))
+        return;
+      }
+      const auto& vertices = cells[c].Vertices;
+      std::size_t edge = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        for (std::size_t k = i + 1; k < 4; ++k)
         {
-          continue;
-        }
-        const auto& vertices = cells[c].Vertices;
-        std::size_t edge = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-        {
-          for (std::size_t k = i + 1; k < 4; ++k)
-          {
-            terms[c][edge++] = termOf(vertices[i], vertices[k]);
-          }
+          terms[c][edge++] = termOf(vertices[i], vertices[k]);
         }
       }
     });

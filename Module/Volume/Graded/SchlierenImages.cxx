@@ -533,25 +533,17 @@ void Shadowgraph::Compute(int width, int height, const RangeLoop& loop)
   this->Irradiance.resize(this->Landings.size());
   this->Alone.resize(static_cast<std::size_t>(height));
   this->Reaches.resize(static_cast<std::size_t>(height));
-  const auto forEach = [&loop](int count, const auto& body)
-  {
-    loop(static_cast<std::size_t>(count),
-      [&body](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          body(static_cast<int>(i));
-        }
-      });
-  };
-  forEach(height + 1, [this](int row) { this->FindCorners(row); });
-  forEach(height,
-    [this](int row)
+  const auto rows = static_cast<std::size_t>(height);
+  ForEachItem(
+    rows + 1, loop, [this](std::size_t row) { this->FindCorners(static_cast<int>(row)); });
+  ForEachItem(rows, loop,
+    [this](std::size_t row)
     {
-      this->FindDensities(row);
-      this->FindReach(row);
+      this->FindDensities(static_cast<int>(row));
+      this->FindReach(static_cast<int>(row));
     });
-  forEach((height + RowsPerBand - 1) / RowsPerBand, [this](int band) { this->FillBand(band); });
+  ForEachItem((rows + RowsPerBand - 1) / RowsPerBand, loop,
+    [this](std::size_t band) { this->FillBand(static_cast<int>(band)); });
   this->LightOffScreen = 0.0;
   for (std::size_t pixel = 0; pixel < this->Landings.size(); ++pixel)
   {

@@ -92,15 +92,12 @@ void ShadowStarts::BuildInCells(const TetrahedralMesh& mesh, const RangeLoop& lo
   const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
   this->Cells.resize(cells);
   this->Places.resize(cells);
-  ForEachBlock(cells, loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(cells, loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const bool isActive = mesh.IsActiveCell(static_cast<std::int64_t>(c));
-        this->Cells[c] = isActive ? static_cast<std::int32_t>(c) : -1;
-        this->Places[c] = PlaceIn(mesh, c);
-      }
+      const bool isActive = mesh.IsActiveCell(static_cast<std::int64_t>(c));
+      this->Cells[c] = isActive ? static_cast<std::int32_t>(c) : -1;
+      this->Places[c] = PlaceIn(mesh, c);
     });
   this->CollectNumbers();
 }
@@ -124,14 +121,7 @@ void ShadowStarts::FindCells(
 {
   const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
   std::vector<float> volumes(cells);
-  ForEachBlock(cells, loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        volumes[c] = VolumeOf(mesh, c);
-      }
-    });
+  ForEachInBlocks(cells, loop, [&](std::size_t c) { volumes[c] = VolumeOf(mesh, c); });
   const auto vertices = static_cast<std::size_t>(mesh.GetNumberOfVertices());
   this->Cells.assign(vertices, -1);
   std::vector<char> keeps(surfaces ? vertices : 0, 0);
@@ -163,19 +153,15 @@ void ShadowStarts::FindPlaces(
   const TetrahedralMesh& mesh, const RangeLoop& loop, const StartSurfaces* surfaces)
 {
   this->Places.resize(this->Cells.size());
-  ForEachBlock(this->Numbers.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(this->Numbers.size(), loop,
+    [&](std::size_t i)
     {
-      for (std::size_t i = first; i < last; ++i)
-      {
-        const std::int32_t vertex = this->Numbers[i];
-        const glm::dvec3 place = mesh.GetPosition(vertex);
-        const auto c = static_cast<std::size_t>(this->GetCell(vertex));
-        const bool keepsSide = !surfaces || KeepsSide(*surfaces, mesh.GetCells()[c], vertex);
-        const double share = keepsSide ? Share : -Share;
-        this->Places[static_cast<std::size_t>(vertex)] =
-          place + share * (CenterOf(mesh, c) - place);
-      }
+      const std::int32_t vertex = this->Numbers[i];
+      const glm::dvec3 place = mesh.GetPosition(vertex);
+      const auto c = static_cast<std::size_t>(this->GetCell(vertex));
+      const bool keepsSide = !surfaces || KeepsSide(*surfaces, mesh.GetCells()[c], vertex);
+      const double share = keepsSide ? Share : -Share;
+      this->Places[static_cast<std::size_t>(vertex)] = place + share * (CenterOf(mesh, c) - place);
     });
 }
 

@@ -15,21 +15,18 @@ std::vector<CellPassages> FindPassages(const TetrahedralMesh& mesh, const RangeL
 {
   const std::vector<TetrahedralMesh::Cell>& cells = mesh.GetCells();
   std::vector<CellPassages> passages(cells.size());
-  ForEachBlock(cells.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(cells.size(), loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      for (std::size_t face = 0; face < 4; ++face)
       {
-        for (std::size_t face = 0; face < 4; ++face)
-        {
-          const std::int32_t link = cells[c].Links[face];
-          const bool isMarked = link < TetrahedralMesh::NoNeighbor;
-          const std::int32_t there = isMarked ? TetrahedralMesh::MarkedLink(link) : link;
-          passages[c].Of[face] = { link,
-            there == TetrahedralMesh::NoNeighbor
-              ? cells[c].Vertices[face]
-              : cells[static_cast<std::size_t>(there / 4)].Vertices[there % 4] };
-        }
+        const std::int32_t link = cells[c].Links[face];
+        const bool isMarked = link < TetrahedralMesh::NoNeighbor;
+        const std::int32_t there = isMarked ? TetrahedralMesh::MarkedLink(link) : link;
+        passages[c].Of[face] = { link,
+          there == TetrahedralMesh::NoNeighbor
+            ? cells[c].Vertices[face]
+            : cells[static_cast<std::size_t>(there / 4)].Vertices[there % 4] };
       }
     });
   return passages;
@@ -40,15 +37,12 @@ void UpdateLinks(
   const TetrahedralMesh& mesh, std::vector<CellPassages>& passages, const RangeLoop& loop)
 {
   const std::vector<TetrahedralMesh::Cell>& cells = mesh.GetCells();
-  ForEachBlock(cells.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(cells.size(), loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      for (std::size_t face = 0; face < 4; ++face)
       {
-        for (std::size_t face = 0; face < 4; ++face)
-        {
-          passages[c].Of[face].Link = cells[c].Links[face];
-        }
+        passages[c].Of[face].Link = cells[c].Links[face];
       }
     });
 }

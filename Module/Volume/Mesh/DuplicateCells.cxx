@@ -96,14 +96,8 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
   const std::function<glm::dvec3(std::size_t)>& getPosition, const RangeLoop& loop)
 {
   std::vector<MortonKey> keys(count);
-  ForEachBlock(count, loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        keys[v] = MakeMortonKey(HashOf(getPosition(v)), v);
-      }
-    });
+  ForEachInBlocks(
+    count, loop, [&](std::size_t v) { keys[v] = MakeMortonKey(HashOf(getPosition(v)), v); });
   SortByCode(keys, loop);
   std::vector<std::int32_t> lowest(count);
   std::iota(lowest.begin(), lowest.end(), 0);

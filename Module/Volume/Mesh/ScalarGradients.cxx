@@ -221,14 +221,7 @@ std::vector<glm::vec3> ComputeVertexGradients(const TetrahedralMesh& mesh,
     }
   }
   std::vector<glm::vec3> gradients(sums.size());
-  ForEachBlock(sums.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        gradients[v] = GradientOf(sums[v]);
-      }
-    });
+  ForEachInBlocks(sums.size(), loop, [&](std::size_t v) { gradients[v] = GradientOf(sums[v]); });
   return gradients;
 }
 

@@ -191,14 +191,11 @@ void TetrahedralMesh::Builder::ValidateCells()
   const auto numberOfPoints = static_cast<std::size_t>(this->Input.NumberOfPoints);
   ResizeTable(this->Mesh.Cells, static_cast<std::size_t>(this->Input.NumberOfCells));
   this->Finite.resize(numberOfPoints);
-  ForEachBlock(numberOfPoints, this->Loop,
-    [this](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(numberOfPoints, this->Loop,
+    [this](std::size_t p)
     {
-      for (std::size_t p = first; p < last; ++p)
-      {
-        this->Finite[p] = IsFinite(this->Input.Points[p]);
-        this->Used[p].store(0, std::memory_order_relaxed);
-      }
+      this->Finite[p] = IsFinite(this->Input.Points[p]);
+      this->Used[p].store(0, std::memory_order_relaxed);
     });
   std::vector<RejectedCells> rejected(this->CellStarts.size());
   ForEachBlock(this->Input.NumberOfCells, this->Loop,
@@ -333,29 +330,26 @@ void TetrahedralMesh::Builder::TakeCodesOfCells(
   {
     codes[p].store(std::numeric_limits<std::uint32_t>::max(), std::memory_order_relaxed);
   }
-  ForEachBlock(this->Input.NumberOfCells, this->Loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(this->Input.NumberOfCells, this->Loop,
+    [&](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      const Quad& corners = this->CornersOf(c);
+      if (corners[0] < 0)
       {
-        const Quad& corners = this->CornersOf(c);
-        if (corners[0] < 0)
+        return;
+      }
+      glm::dvec3 center(0.0);
+      for (const std::int32_t corner : corners)
+      {
+        center += 0.25 * this->Input.Points[corner];
+      }
+      const std::uint32_t code = curve.Code(center);
+      for (const std::int32_t corner : corners)
+      {
+        std::uint32_t lowest = codes[corner].load(std::memory_order_relaxed);
+        while (code < lowest &&
+          !codes[corner].compare_exchange_weak(lowest, code, std::memory_order_relaxed))
         {
-          continue;
-        }
-        glm::dvec3 center(0.0);
-        for (const std::int32_t corner : corners)
-        {
-          center += 0.25 * this->Input.Points[corner];
-        }
-        const std::uint32_t code = curve.Code(center);
-        for (const std::int32_t corner : corners)
-        {
-          std::uint32_t lowest = codes[corner].load(std::memory_order_relaxed);
-          while (code < lowest &&
-            !codes[corner].compare_exchange_weak(lowest, code, std::memory_order_relaxed))
-          {
-          }
         }
       }
     });
@@ -374,15 +368,12 @@ void TetrahedralMesh::Builder::NumberVertices()
   this->VertexOfPoint.resize(this->Input.NumberOfPoints);
   ResizeTable(this->Mesh.SourcePoints, keys.size());
   ResizeTable(this->Mesh.Positions, keys.size());
-  ForEachBlock(keys.size(), this->Loop,
-    [this, &keys](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(keys.size(), this->Loop,
+    [this, &keys](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const std::size_t point = IndexOf(keys[v]);
-        this->VertexOfPoint[point] = static_cast<std::int32_t>(v);
-        this->Mesh.SourcePoints[v] = static_cast<std::int32_t>(point);
-      }
+      const std::size_t point = IndexOf(keys[v]);
+      this->VertexOfPoint[point] = static_cast<std::int32_t>(v);
+      this->Mesh.SourcePoints[v] = static_cast<std::int32_t>(point);
     });
   this->Mesh.RoundPositions(this->Input.Points, this->Loop);
 }
@@ -462,18 +453,15 @@ void TetrahedralMesh::Builder::NumberCells()
     });
   SortByCode(keys, this->Loop);
   ResizeTable(this->Mesh.SourceCells, this->Input.KeepSourceCells ? keys.size() : 0);
-  ForEachBlock(keys.size(), this->Loop,
-    [this, &keys](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(keys.size(), this->Loop,
+    [this, &keys](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      const std::size_t source = IndexOf(keys[c]);
+      this->Mesh.Cells[c].Vertices = this->CornersOf(source);
+      if (this->Input.KeepSourceCells)
       {
-        const std::size_t source = IndexOf(keys[c]);
-        this->Mesh.Cells[c].Vertices = this->CornersOf(source);
-        if (this->Input.KeepSourceCells)
-        {
-          this->Mesh.SourceCells[c] = this->Input.SourceCells ? this->Input.SourceCells[source]
-                                                              : static_cast<std::int32_t>(source);
-        }
+        this->Mesh.SourceCells[c] = this->Input.SourceCells ? this->Input.SourceCells[source]
+                                                            : static_cast<std::int32_t>(source);
       }
     });
   this->RemoveDuplicates(keys);
@@ -481,14 +469,8 @@ void TetrahedralMesh::Builder::NumberCells()
   {
     this->Mesh.Cells.shrink_to_fit(); // most of the input was left out
   }
-  ForEachBlock(this->Mesh.Cells.size(), this->Loop,
-    [this](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        this->Mesh.Cells[c].Links.fill(NoNeighbor);
-      }
-    });
+  ForEachInBlocks(this->Mesh.Cells.size(), this->Loop,
+    [this](std::size_t c) { this->Mesh.Cells[c].Links.fill(NoNeighbor); });
 }
 
 }

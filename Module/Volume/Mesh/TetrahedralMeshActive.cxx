@@ -145,19 +145,16 @@ bool TetrahedralMesh::SetActiveCells(
 //------------------------------------------------------------------------------
 void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
 {
-  ForEachBlock(this->Cells.size(), loop,
-    [this, &active](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(this->Cells.size(), loop,
+    [this, &active](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
+      this->IsActive.Set(c, active[c] != 0);
+      for (std::int32_t& link : this->Cells[c].Links)
       {
-        this->IsActive.Set(c, active[c] != 0);
-        for (std::int32_t& link : this->Cells[c].Links)
+        if (link != NoNeighbor)
         {
-          if (link != NoNeighbor)
-          {
-            const std::int32_t neighbor = link < NoNeighbor ? MarkedLink(link) : link;
-            link = active[neighbor / 4] ? neighbor : MarkedLink(neighbor);
-          }
+          const std::int32_t neighbor = link < NoNeighbor ? MarkedLink(link) : link;
+          link = active[neighbor / 4] ? neighbor : MarkedLink(neighbor);
         }
       }
     });

@@ -107,14 +107,11 @@ bool TetrahedralMesh::MeasurePoints(const PointsView& points, const RangeLoop& l
 void TetrahedralMesh::RoundPositions(const PointsView& points, const RangeLoop& loop)
 {
   const double scale = this->Radius > 0.0 ? 1.0 / PositionUnit / this->Radius : 0.0;
-  ForEachBlock(this->SourcePoints.size(), loop,
-    [this, &points, scale](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(this->SourcePoints.size(), loop,
+    [this, &points, scale](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const glm::dvec3 place = (points[this->SourcePoints[v]] - this->Center) * scale;
-        this->Positions[v] = { Rounded(place.x), Rounded(place.y), Rounded(place.z) };
-      }
+      const glm::dvec3 place = (points[this->SourcePoints[v]] - this->Center) * scale;
+      this->Positions[v] = { Rounded(place.x), Rounded(place.y), Rounded(place.z) };
     });
 }
 
@@ -243,14 +240,9 @@ bool TetrahedralMesh::TurnComponents(
   {
     return true;
   }
-  ForEachBlock(this->Cells.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        this->IsPositive.Set(c, this->IsPositive[c] != isMirrored(volumes[this->ComponentOf(c)]));
-      }
-    });
+  ForEachInBlocks(this->Cells.size(), loop,
+    [&](std::size_t c)
+    { this->IsPositive.Set(c, this->IsPositive[c] != isMirrored(volumes[this->ComponentOf(c)])); });
   for (BoundaryFace& face : this->Boundary)
   {
     const auto cell = static_cast<std::size_t>(face.CellFace) / 4;

@@ -30,15 +30,9 @@ public:
     : Ends(new std::atomic<std::uint32_t>[numberOfVertices])
     , Entries(new std::uint32_t[2 * cells.size()])
   {
-    ForEachBlock(numberOfVertices, loop,
-      [this](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t v = first; v < last; ++v)
-        {
-          this->Ends[v].store(0, std::memory_order_relaxed);
-        }
-      });
-    this->ForEachCell(cells.size(), loop,
+    ForEachInBlocks(numberOfVertices, loop,
+      [this](std::size_t v) { this->Ends[v].store(0, std::memory_order_relaxed); });
+    ForEachInBlocks(cells.size(), loop,
       [&](std::size_t c)
       {
         this->Ends[cells[c].Vertices[0]].fetch_add(1, std::memory_order_relaxed);
@@ -52,7 +46,7 @@ public:
       next += count;
     }
     // The start of each group moves to its end while the group is filled.
-    this->ForEachCell(cells.size(), loop,
+    ForEachInBlocks(cells.size(), loop,
       [&](std::size_t c)
       {
         const auto& v = cells[c].Vertices;
@@ -74,19 +68,6 @@ public:
   }
 
 private:
-  template <typename Body>
-  void ForEachCell(std::size_t count, const RangeLoop& loop, Body&& body)
-  {
-    ForEachBlock(count, loop,
-      [&body](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t c = first; c < last; ++c)
-        {
-          body(c);
-        }
-      });
-  }
-
   std::unique_ptr<std::atomic<std::uint32_t>[]> Ends;
   std::unique_ptr<std::uint32_t[]> Entries;
 };
@@ -291,14 +272,8 @@ public:
   void MarkPositive(BitTable& marks) const
   {
     marks.Assign(this->Orientation.size(), false);
-    ForEachBlock(this->Orientation.size(), this->Loop,
-      [this, &marks](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t c = first; c < last; ++c)
-        {
-          marks.Set(c, this->Orientation[c] > 0);
-        }
-      });
+    ForEachInBlocks(this->Orientation.size(), this->Loop,
+      [this, &marks](std::size_t c) { marks.Set(c, this->Orientation[c] > 0); });
   }
 
   /** Returns the number of links cut. */
@@ -460,14 +435,9 @@ private:
       return;
     }
     this->Components.resize(this->Cells.size());
-    ForEachBlock(this->Cells.size(), this->Loop,
-      [&](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t c = first; c < last; ++c)
-        {
-          this->Components[c] = numbers[this->PatchAt(static_cast<std::int32_t>(c))];
-        }
-      });
+    ForEachInBlocks(this->Cells.size(), this->Loop,
+      [&](std::size_t c)
+      { this->Components[c] = numbers[this->PatchAt(static_cast<std::int32_t>(c))]; });
   }
 
   /**
@@ -496,14 +466,11 @@ private:
       cancels[patch] = volumeOfSet[set].Cancels(NegligibleVolume);
       anyCancels = anyCancels || cancels[patch];
     }
-    ForEachBlock(this->Cells.size(), this->Loop,
-      [&](std::size_t, std::size_t first, std::size_t last)
+    ForEachInBlocks(this->Cells.size(), this->Loop,
+      [&](std::size_t c)
       {
-        for (std::size_t c = first; c < last; ++c)
-        {
-          this->Orientation[c] = static_cast<std::int8_t>(
-            this->Orientation[c] * signs[this->PatchAt(static_cast<std::int32_t>(c))]);
-        }
+        this->Orientation[c] = static_cast<std::int8_t>(
+          this->Orientation[c] * signs[this->PatchAt(static_cast<std::int32_t>(c))]);
       });
     return anyCancels ? this->TakeApart(cancels) : 0;
   }

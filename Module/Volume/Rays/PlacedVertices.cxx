@@ -14,14 +14,11 @@ void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalar
   const FixedPointRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices)
 {
   vertices.resize(mesh.GetFixedPositions().size());
-  ForEachBlock(vertices.size(), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(vertices.size(), loop,
+    [&](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const glm::ivec3 place = rays.Place(mesh.GetFixedPositions()[v]);
-        vertices[v] = { { place.x, place.y, place.z }, scalars.empty() ? 0.0f : scalars[v] };
-      }
+      const glm::ivec3 place = rays.Place(mesh.GetFixedPositions()[v]);
+      vertices[v] = { { place.x, place.y, place.z }, scalars.empty() ? 0.0f : scalars[v] };
     });
 }
 

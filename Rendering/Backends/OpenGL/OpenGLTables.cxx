@@ -33,16 +33,13 @@ std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
   // Rounded up to whole texels.
   const std::size_t size = CompactCellSize * cells.size();
   std::vector<std::int32_t> values((size + WideTexelSize - 1) / WideTexelSize * WideTexelSize);
-  ForEachBlock(cells.size(), ThreadedLoop,
-    [&cells, &values](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(cells.size(), ThreadedLoop,
+    [&cells, &values](std::size_t c)
     {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const auto& v = cells[c].Vertices;
-        std::int32_t* value = &values[CompactCellSize * c];
-        *value = v[0] ^ v[1] ^ v[2] ^ v[3];
-        std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
-      }
+      const auto& v = cells[c].Vertices;
+      std::int32_t* value = &values[CompactCellSize * c];
+      *value = v[0] ^ v[1] ^ v[2] ^ v[3];
+      std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
     });
   return values;
 }
@@ -281,19 +278,16 @@ std::string OpenGLTables::UploadVertices(
   constexpr std::int32_t largest = (std::int32_t{ 1 } << 30) - 1;
   const std::vector<glm::ivec3>& positions = mesh.GetFixedPositions();
   std::vector<std::int32_t> values(4 * positions.size());
-  ForEachBlock(positions.size(), ThreadedLoop,
-    [&](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(positions.size(), ThreadedLoop,
+    [&](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const glm::ivec3 p = glm::clamp(positions[v], -largest, largest);
-        const float scalar = scalars.empty() ? 0.0f : scalars[v];
-        std::int32_t* value = &values[4 * v];
-        value[0] = p.x;
-        value[1] = p.y;
-        value[2] = p.z;
-        std::memcpy(value + 3, &scalar, sizeof(scalar));
-      }
+      const glm::ivec3 p = glm::clamp(positions[v], -largest, largest);
+      const float scalar = scalars.empty() ? 0.0f : scalars[v];
+      std::int32_t* value = &values[4 * v];
+      value[0] = p.x;
+      value[1] = p.y;
+      value[2] = p.z;
+      std::memcpy(value + 3, &scalar, sizeof(scalar));
     });
   this->VertexUploads.Bump();
   const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
@@ -324,17 +318,14 @@ std::string OpenGLTables::UploadCellScalars(const std::vector<float>& scalars)
 std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
 {
   std::vector<float> values(4 * vectors.size());
-  ForEachBlock(vectors.size(), ThreadedLoop,
-    [&vectors, &values](std::size_t, std::size_t first, std::size_t last)
+  ForEachInBlocks(vectors.size(), ThreadedLoop,
+    [&vectors, &values](std::size_t v)
     {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        const glm::vec3& vector = vectors[v];
-        float* const value = &values[4 * v];
-        value[0] = vector.x;
-        value[1] = vector.y;
-        value[2] = vector.z;
-      }
+      const glm::vec3& vector = vectors[v];
+      float* const value = &values[4 * v];
+      value[0] = vector.x;
+      value[1] = vector.y;
+      value[2] = vector.z;
     });
   return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
 }
