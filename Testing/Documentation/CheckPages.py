@@ -21,7 +21,7 @@ COMMANDS = [
     (r"cmake --preset [a-z]+( |$)", []),  # checked below
     (r"cmake --build build(-[a-z]+)?$", ["scripts/common.sh"]),
     (r"cmake --install build --prefix ", ["Testing/InstallFresh.cmake"]),
-    (r"cmake -S \. -B build && cmake --build build && build/tutorial$",
+    (r"cmake -S \. -B build && cmake --build build && build/(tutorial|underwater)$",
      ["Testing/Consumer/CMakeLists.txt"]),
     (r"cmake -DVTK_MODULE_ENABLE_VTK_Meniscus=YES ", ["scripts/remote"]),
     (r"(xvfb-run -a -s -noreset )?ctest ", ["scripts/test"]),

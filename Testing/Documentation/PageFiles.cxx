@@ -50,7 +50,7 @@ void MakeWaves(vtkPolyData* plane)
   }
 }
 
-// The files of RunBlocks.py.
+// Two of the files of Examples/Python/guide_files.py.
 bool WriteFiles()
 {
   vtkNew<vtkParametricTorus> shape;

@@ -1,14 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the code blocks of a page of the documentation, concatenated to one program, in an empty
-folder with the data files that the pages read.
+folder with the files of Examples/Python/guide_files.py.
 
 Arguments: the page, the language of the blocks, the folder; then the pictures that must exist
 afterwards and must not be uniform. With --shown before the page, the page must show each picture,
 images/NAME.png next to the documentation, as the program draws it here; with --update it is copied
 there. A language `extract:LANGUAGE` only writes the blocks to the folder, to be compiled (cpp,
 cmake) or run by another program."""
-import math
 import os
 import re
 import shutil
@@ -20,8 +19,9 @@ SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py",
 LEAST_CONTRAST = 50
 # Largest difference of a pixel from the picture that a page shows: processors round differently.
 LARGEST_DIFFERENCE = 4
-# Points of mesh.vtu along an axis, from -10 to 10.
-POINTS = 25
+# The folder of the script that writes the files of the guides.
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
+                        "Python")
 
 
 def blocks(page, language):
@@ -32,67 +32,12 @@ def blocks(page, language):
     return found
 
 
-def ring_density(x, y, z):
-    """Two rings of radius 5 that are linked, each with a Gaussian profile."""
-    first = (math.hypot(x + 2.5, y) - 5) ** 2 + z ** 2
-    second = (math.hypot(x - 2.5, z) - 5) ** 2 + y ** 2
-    return math.exp(-first / 3) + math.exp(-second / 3)
-
-
-def make_field():
-    """The image of ring_density()."""
-    from vtkmodules.vtkCommonCore import vtkFloatArray
-    from vtkmodules.vtkCommonDataModel import vtkImageData
-
-    field, density = vtkImageData(), vtkFloatArray()
-    field.SetDimensions(POINTS, POINTS, POINTS)
-    field.SetOrigin(-10.0, -10.0, -10.0)
-    field.SetSpacing(*[20.0 / (POINTS - 1)] * 3)
-    density.SetName("density")
-    for p in range(field.GetNumberOfPoints()):
-        density.InsertNextValue(ring_density(*field.GetPoint(p)))
-    field.GetPointData().SetScalars(density)
-    return field
-
-
-def make_waves(plane):
-    """Adds waves to a plane, with their normals."""
-    points, normals = plane.GetPoints(), plane.GetPointData().GetNormals()
-    for p in range(points.GetNumberOfPoints()):
-        x, y, z = points.GetPoint(p)
-        points.SetPoint(p, x, y, z + 0.04 * math.sin(4 * x + y) + 0.03 * math.sin(2 * x - 5 * y))
-        along = -0.16 * math.cos(4 * x + y) - 0.06 * math.cos(2 * x - 5 * y)
-        across = -0.04 * math.cos(4 * x + y) + 0.15 * math.cos(2 * x - 5 * y)
-        length = math.sqrt(along ** 2 + across ** 2 + 1)
-        normals.SetTuple3(p, along / length, across / length, 1 / length)
-
-
 def write_files():
-    """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, waves that it
-    intersects; in ASCII, for every reader."""
-    from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
-    from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-    from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource, vtkPlaneSource
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
-
-    tetrahedra = vtkDataSetTriangleFilter()
-    tetrahedra.SetInputData(make_field())
-    torus = vtkParametricFunctionSource()
-    torus.SetParametricFunction(vtkParametricTorus())
-    water = vtkPlaneSource()
-    water.SetOrigin(-2.0, -2.0, 0.2)
-    water.SetPoint1(2.0, -2.0, 0.2)
-    water.SetPoint2(-2.0, 2.0, 0.2)
-    water.SetResolution(80, 80)
-    water.Update()
-    make_waves(water.GetOutput())
-    for name, writer, source in [("mesh.vtu", vtkXMLUnstructuredGridWriter(), tetrahedra),
-                                 ("object.vtp", vtkXMLPolyDataWriter(), torus),
-                                 ("water.vtp", vtkXMLPolyDataWriter(), water)]:
-        writer.SetInputConnection(source.GetOutputPort())
-        writer.SetDataModeToAscii()
-        writer.SetFileName(name)
-        writer.Write()
+    """Writes mesh.vtu, object.vtp and water.vtp, as a reader of the guides does."""
+    sys.path.insert(0, EXAMPLES)
+    import guide_files
+    sys.path.remove(EXAMPLES)
+    guide_files.write_files()
 
 
 def read_picture(name):
