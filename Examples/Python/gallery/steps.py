@@ -61,12 +61,24 @@ class Waves:
             yield values
 
 
-def make_metal(mesh):
+def make_metal(mesh, colors):
     """A dense medium, grey where nothing moves."""
-    colors = common.make_colors(common.SIGNED, -0.15, 0.15)
     opacity = common.make_opacity(((-0.3, 1.0), (-0.05, 0.8), (0.0, 0.6), (0.05, 0.8), (0.3, 1.0)))
     look = common.make_look(colors, opacity, 0.04)
     return common.make_dense(mesh, look, (0.7, 0.8), 0.3, 2.0)
+
+
+def add_legend(renderer, colors, height):
+    """The scale of the displacement, in a corner of a panel of that height."""
+    bar = common.make_bar(colors, "displacement (the blow: 1)", common.INK)
+    bar.SetOrientationToHorizontal()
+    bar.SetNumberOfLabels(2)
+    bar.SetPosition(0.06, 0.03)
+    bar.SetWidth(0.32)
+    bar.SetHeight(0.2)
+    bar.GetTitleTextProperty().SetFontSize(height // 30)
+    bar.GetLabelTextProperty().SetFontSize(height // 30)
+    renderer.AddViewProp(bar)
 
 
 def draw_blow(data, size):
@@ -75,7 +87,8 @@ def draw_blow(data, size):
     far = waves.places[:, 0].max() - waves.places[:, 0]
     mesh = data.can.NewInstance()
     mesh.ShallowCopy(data.can)
-    volume = make_metal(mesh)
+    colors = common.make_colors(common.SIGNED, -0.15, 0.15)
+    volume = make_metal(mesh, colors)
     pictures = []
     panel = (size[0] // 2, size[1] * 3 // 8)
     step = 0.2
@@ -91,6 +104,8 @@ def draw_blow(data, size):
                           ((1.0, 0.1, 0.6), (0.6, 0.75, 1.0), 0.6))
         common.look_from(renderer, (-6.5, -8.5, 14.5), (-3.1, 0.7, -15.9), (0, 1, 0), 19.6)
         common.add_label(renderer, f"t = {step * (number + 1):.0f}", 2 * panel[1], common.INK)
+        if not pictures:
+            add_legend(renderer, colors, 2 * panel[1])
         renderer.ResetCameraClippingRange()
         pictures.append(common.take(renderer, panel))
         renderer.RemoveVolume(volume)
