@@ -7,7 +7,7 @@
  * Moves each point of port 0, any vtkPointSet, to where an eye sees it through a mesh in which the
  * index of refraction n varies, port 1: along the ray from the eye that meets the point, at the
  * point's own straight distance. The result looks like the object from the eye, if each of its
- * points has one image; it is what vtkRefractedGeometryFilter makes behind surfaces. Cells and
+ * points has one image; vtkRefractedGeometryFilter does the same behind surfaces. Cells and
  * arrays are those of port 0.
  *
  * The mesh is read as vtkBentMediumAlgorithm describes.
@@ -15,12 +15,12 @@
  * A point may have several images, as in a mirage, or none, in a shadow of the medium. Images are
  * searched within SearchAngle of the straight direction, from a grid of SearchResolution^2 cells;
  * pairs of images within one cell of the grid may be missed. A point with several images is moved
- * to that nearest to its straight direction of those that are not mirrored; a point without an
- * image stays. Point arrays that are added:
+ * to the one nearest to its straight direction; mirrored images count only if there are no others.
+ * A point without an image stays. Point arrays that are added:
  * - `NumberOfImages`, int;
  * - `ImageOrientation`, signed char: 1, -1 for a mirrored image, 0 for none.
- * A warning counts points with several images or none, and GetStatistics() has the numbers. That
- * an image is hidden by other objects does not count.
+ * A warning counts points with several images or none, and GetStatistics() has the numbers. Images
+ * that other objects hide are counted, too.
  *
  * **Bad input.** Points that are not finite or at the eye have no image. Errors,
  * besides those of the mesh: an eye that is not finite, a search angle that is not in (0, 89.9)
@@ -64,8 +64,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the largest angle between an image and the straight direction to its point, in degrees.
-   * Default is 2, which is far more than air bends light.
+   * Set/Get the largest angle between an image and the straight direction to its point, in degrees,
+   * above 0 and below 89.9. Default is 2, which is far more than air bends light.
    */
   vtkSetMacro(SearchAngle, double);
   vtkGetMacro(SearchAngle, double);

@@ -267,8 +267,8 @@ public:
    * membrane or an object changes, not when the camera moves; NumberOfLightCells is its resolution.
    * Lights that follow the camera, and objects of several blocks, are lit by the plane above.
    *
-   * Not modelled: light that the membrane reflects back into the water. The material is the
-   * ambient, diffuse and specular one; physically based shading has no effect.
+   * Not modelled: light that the membrane reflects back into the medium behind it. The material
+   * has ambient, diffuse and specular shares; physically based shading has no effect.
    */
   void SetLighting(int lighting);
   vtkGetMacro(Lighting, int);
@@ -290,9 +290,9 @@ public:
   /**
    * Set/Get whether objects behind a membrane cast shadows on each other and on themselves, with
    * TRUE_SPACE: in the light of all lights, in the medium and in front of it. All visible objects
-   * of the same membrane cast shadows whose actors are opaque surfaces; wireframes, translucent
-   * objects, volumes, mirror images and actors of the renderer cast none. Points
-   * in shadow get the light's ambient part only.
+   * of the same membrane whose actors are opaque surfaces cast shadows; wireframes, translucent
+   * objects, volumes, mirror images and actors of the renderer cast none. Points in shadow get the
+   * light's ambient part only.
    *
    * The shader follows the light's way from each pixel through a tree of the objects' triangles, so
    * that edges are as sharp as the pixels. The way is that of the light's ray: straight, or bent at

@@ -7,15 +7,15 @@
  * Traces one ray per pixel backwards through a mesh in which the index of refraction n varies,
  * until it meets an object: a mirage over a road, things behind the hot air above a fire, or behind
  * a lens of graded index. Objects may stand before, behind and in the mesh. It needs neither a
- * window nor OpenGL. Mesh, rays and image are those of vtkBentRayAlgorithm; with BendRays off, the
- * picture is that without a medium.
+ * window nor OpenGL. vtkBentRayAlgorithm describes the mesh, the rays and the image; with BendRays
+ * off, rays are straight, as without a medium.
  *
- * Input port 1 has the objects, which are optional with a volume: a vtkDataSet, of whose polygons
- * both sides are seen; of a grid its outer faces. Lines and vertices are not seen. Objects are
- * coloured by the active scalars of their cells or, without any, of their points, as by vtkMapper:
- * unsigned char values are colours, and others are mapped by LookupTable. Objects without scalars
- * are white. Polygons are flat: their colour is multiplied by Ambient + (1 - Ambient) times the
- * cosine of the angle between their normal and the light of LightDirection.
+ * Input port 1 has the objects, a vtkDataSet: its polygons, seen from both sides, or the outer
+ * faces of a grid. Lines and vertices are not seen. With a volume, the port is optional. Objects
+ * are coloured by the active scalars of their cells or, without any, of their points, as by
+ * vtkMapper: unsigned char values are colours, and others are mapped by LookupTable. Objects
+ * without scalars are white. Polygons are flat: their colour is multiplied by Ambient + (1 -
+ * Ambient) times the cosine of the angle between their normal and the light of LightDirection.
  *
  * With a VolumeProperty, the medium itself is seen as well: smoke, glowing gas. Its array
  * VolumeArrayName, mapped by the property's functions of component 0, is drawn as by composite
@@ -96,8 +96,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the direction of parallel light that falls onto the objects, of any length. With
-   * (0, 0, 0), the default, it comes along the ray, as from a lamp at the eye.
+   * Set/Get the direction in which parallel light travels to the objects, of any length: (0, 0, -1)
+   * comes from above. With (0, 0, 0), the default, it comes along the ray, as from a lamp at the
+   * eye.
    */
   vtkSetVector3Macro(LightDirection, double);
   vtkGetVector3Macro(LightDirection, double);
@@ -113,7 +114,10 @@ public:
   /** @} */
 
   /** @{ */
-  /** Set/Get the colour of pixels that show no object, from 0 to 1. Default is (0, 0, 0). */
+  /**
+   * Set/Get the colour of pixels that show no object: red, green and blue, each from 0 to 1.
+   * Default is (0, 0, 0).
+   */
   vtkSetVector3Macro(BackgroundColor, double);
   vtkGetVector3Macro(BackgroundColor, double);
   /** @} */
