@@ -32,6 +32,9 @@ _CURVES = {"projection": [(0.0, 0.0), (1.0, 1.0)],
 BACKGROUND = ((0.93, 0.95, 0.97), (0.70, 0.76, 0.84))
 # Pixels from the left border of the bar to the right border of the window.
 BAR_ROOM = 100.0
+# An end of the colour map that is a smaller share of its range is 0 in the legend, which has three
+# digits: 0 to 1, not 2.4e-23 to 1.
+ROUND_OFF = 1e-6
 # The lamp that casts shadows: its place, as that of a camera light, and its intensity.
 SHADOW_LAMP = (-1.2, 1.6, 1.0)
 SHADOW_INTENSITY = 2.2
@@ -255,7 +258,8 @@ class MeshScene:
         contours.SetNumberOfContours(len(values))
         for index, value in enumerate(values):
             contours.SetValue(index, value)
-        self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), low, high))
+        ends = [0.0 if abs(end) < ROUND_OFF * (high - low) else end for end in (low, high)]
+        self.bar.SetLookupTable(make_table(look.GetRGBTransferFunction(), *ends))
         self.bar.SetNumberOfLabels(5 if low < high else 1)
         self.bar.SetTitle(self.get_title())
 

@@ -123,6 +123,9 @@ class Values(unittest.TestCase):
         scene.set_units("m", "K")
         self.assertEqual(scene.bar.GetTitle(), "T - 1e+15 (K)")
         self.assertEqual(scene.bar.GetLookupTable().GetRange(), (0.0, 2.0))
+        scene = make(make_image(numpy.maximum(0.125 * STEPS, 2.4e-23)))
+        self.assertEqual(scene.get_range(), (2.4e-23, 2.0))
+        self.assertEqual(scene.bar.GetLookupTable().GetRange(), (0.0, 2.0))
         for low, high, whole, name in (
                 (0.0, 1.0, False, "T"), (300.0, 300.001, False, "T"), (7.0, 7.0, False, "T"),
                 (-1e308, 1e308, False, "T / 1e+300"), (0.0, 1e-320, False, "T / 1e-300"),
