@@ -53,7 +53,7 @@ namespace
 {
 
 constexpr int StackPictureSize = 768;
-constexpr int Samples = 2; // pixels of the window per pixel of the picture, along a side
+constexpr int Samples = 4; // pixels of the window per pixel of the picture, along a side
 constexpr double Glass = 1.52;
 
 using Color = std::array<double, 3>;
