@@ -6,10 +6,10 @@
  *
  * The input is a vtkImageData of one slice whose point scalars, or the point array of
  * SetInputArrayToProcess(), are depths; its lower left pixel is the first one. The output has a
- * vertex for each pixel with a depth, on the ray through the middle of the pixel, in double
- * precision. Pixels whose depth is not finite or not positive, and pixels of the far plane in a
- * depth buffer, are left out. The other point arrays of the image are copied, and the point array
- * PixelId has the number of the pixel.
+ * vertex for each pixel with a depth, on the ray through the middle of the pixel, in world
+ * coordinates and double precision. Pixels whose depth is not finite or not positive, and pixels of
+ * the far plane in a depth buffer, are left out. The other point arrays of the image are copied,
+ * and the point array `PixelId` (vtkIdType) has the number of the pixel, from 0.
  *
  * VTK's vtkDepthImageToPointCloud is not used: it only takes depth buffers, draws the first and the
  * last pixel at the edges of the view instead of half a pixel inside, keeps depths that are not

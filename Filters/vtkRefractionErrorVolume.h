@@ -74,21 +74,21 @@ public:
   vtkTypeMacro(vtkRefractionErrorVolume, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** As in vtkRefractedGeometryFilter. */
+  /** Models of the membrane between its points, as in vtkRefractedGeometryFilter. */
   enum
   {
-    FLAT_FACETS = 0,
-    CURVED = 1
+    FLAT_FACETS = 0, ///< linear interpolation in each facet, the thesis's method
+    CURVED = 1       ///< smooth patches from positions and normals
   };
 
   /** Values of the array SampleState. */
   enum SampleStates
   {
-    MEASURED = 0,
-    NO_IMAGE = 1,
-    SEVERAL_IMAGES = 2,
-    NO_EXACT_POINT = 3,
-    NOT_FINITE = 4
+    MEASURED = 0,       ///< the sample has an error
+    NO_IMAGE = 1,       ///< outside the visible volume
+    SEVERAL_IMAGES = 2, ///< zones of convergence
+    NO_EXACT_POINT = 3, ///< the sight ray misses the exact surface or is totally reflected
+    NOT_FINITE = 4      ///< coordinates out of range
   };
 
   /** @{ */

@@ -53,12 +53,12 @@ public:
   vtkTypeMacro(vtkTetrahedraVolumePicker, vtkAbstractPropPicker);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Places on a ray. */
+  /** Places on a ray; the class comment says what they are in each blend mode. */
   enum
   {
-    FIRST_VISIBLE = 0,
-    OPACITY_REACHED = 1,
-    LARGEST_CONTRIBUTION = 2
+    FIRST_VISIBLE = 0,       ///< first place with opacity
+    OPACITY_REACHED = 1,     ///< the accumulated opacity reaches OpacityThreshold
+    LARGEST_CONTRIBUTION = 2 ///< largest contribution to the pixel
   };
 
   /** @{ */
@@ -117,8 +117,8 @@ public:
   /**
    * Properties of the picked place: index of its cell in the data set, the flat index of the data
    * set in a composite one, the index of its isosurface in the property, the scalar, and the depth,
-   * which is the distance along the ray from the camera (with parallel projection, from the plane
-   * through it). Indices are -1 and numbers NaN if there is none.
+   * which is the distance in world coordinates along the ray from the camera (with parallel
+   * projection, from the plane through it). Indices are -1 and numbers NaN if there is none.
    */
   vtkIdType GetCellId() { return this->GetCellIdOf(this->Place); }
   vtkIdType GetFlatBlockIndex() { return this->GetFlatBlockIndexOf(this->Place); }
