@@ -86,6 +86,8 @@ double LargestTwist(vtkPolyData* surface)
 
 struct ShadowCasters::Box
 {
+  bool operator<(const Box& other) const { return this->Index < other.Index; }
+
   glm::dvec3 Lower;
   glm::dvec3 Upper;
   std::size_t Index; ///< of the triangle
@@ -201,7 +203,10 @@ void ShadowCasters::AddNode(std::vector<Box>& boxes, std::size_t first, std::siz
     this->Nodes, high + this->Rounding, isLeaf ? static_cast<double>(boxes[first].Index) : -1.0);
   if (!isLeaf)
   {
-    const std::size_t middle = SplitAtMedian(boxes, first, last);
+    Box* const all = boxes.data();
+    const auto middle = static_cast<std::size_t>(
+      SplitAtMedian(all + first, all + last, [](const Box& box) { return box.Lower + box.Upper; }) -
+      all);
     this->AddNode(boxes, first, middle);
     this->AddNode(boxes, middle, last);
   }
