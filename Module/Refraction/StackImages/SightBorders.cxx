@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/StackImages/SightBorders.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -128,9 +130,8 @@ void AddCrossing(const SightBorders::Edge& edge, const RefractedPoint& first,
 //------------------------------------------------------------------------------
 double GetDepthInCell(const SubCell& sights, const glm::dvec2& place)
 {
-  const auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
   const glm::dvec2 origin = sights[0].B;
-  const double whole = cross(sights[1].B - origin, sights[2].B - origin);
+  const double whole = Cross(sights[1].B - origin, sights[2].B - origin);
   const glm::dvec3 u = sights[1].From.Ray - sights[0].From.Ray;
   const glm::dvec3 v = sights[2].From.Ray - sights[0].From.Ray;
   const double area = glm::length(glm::cross(u, v));
@@ -143,7 +144,7 @@ double GetDepthInCell(const SubCell& sights, const glm::dvec2& place)
   {
     const SubCellNode& from = sights[(k + 1) % 3];
     const SubCellNode& to = sights[(k + 2) % 3];
-    const double part = cross(to.B - from.B, place - from.B) / whole;
+    const double part = Cross(to.B - from.B, place - from.B) / whole;
     least = std::min(least, part * area / glm::length(to.From.Ray - from.From.Ray));
   }
   return least;
