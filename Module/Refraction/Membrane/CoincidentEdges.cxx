@@ -60,22 +60,20 @@ public:
   std::vector<std::int32_t> Of; ///< per vertex
 };
 
-std::vector<PlacedEdge> ListEdges(const std::vector<SurfaceEdge>& borders,
-  const std::vector<Facet>& facets, const std::vector<std::int32_t>& places)
+std::vector<PlacedEdge> ListEdges(
+  const std::vector<SurfaceEdge>& borders, const std::vector<std::int32_t>& places)
 {
   std::vector<PlacedEdge> edges;
   edges.reserve(borders.size());
   for (const SurfaceEdge& border : borders)
   {
-    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
-    const auto corner = static_cast<std::size_t>(border.Corner);
-    std::array<std::int32_t, 2> vertex{ facet[(corner + 1) % 3], facet[(corner + 2) % 3] };
+    std::array<std::int32_t, 2> vertex = border.Ends;
     if (places[static_cast<std::size_t>(vertex[0])] > places[static_cast<std::size_t>(vertex[1])])
     {
       std::swap(vertex[0], vertex[1]);
     }
     edges.push_back({ places[static_cast<std::size_t>(vertex[0])],
-      places[static_cast<std::size_t>(vertex[1])], vertex, facet[corner] });
+      places[static_cast<std::size_t>(vertex[1])], vertex, border.Opposite });
   }
   std::stable_sort(edges.begin(), edges.end(),
     [](const PlacedEdge& a, const PlacedEdge& b)
@@ -100,16 +98,14 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
   ends.reserve(2 * borders.size());
   for (const SurfaceEdge& border : borders)
   {
-    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
-    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 1) % 3]);
-    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 2) % 3]);
+    ends.insert(ends.end(), border.Ends.begin(), border.Ends.end());
   }
   const Places places(positions, std::move(ends));
   if (!places.HasShared)
   {
     return {};
   }
-  const std::vector<PlacedEdge> edges = ListEdges(borders, facets, places.Of);
+  const std::vector<PlacedEdge> edges = ListEdges(borders, places.Of);
   const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
   { return positions[static_cast<std::size_t>(vertex)]; };
   const double smooth = std::cos(CreaseAngle);

@@ -51,9 +51,7 @@ void SightBorders::AddSurface(const RefractionStack::Link& link, std::size_t leg
   std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
   for (const SurfaceEdge& border : membrane.GetPieces().Borders)
   {
-    const Membrane::Facet& facet = membrane.GetFacets()[static_cast<std::size_t>(border.Facet)];
-    const std::int32_t a = facet[static_cast<std::size_t>((border.Corner + 1) % 3)];
-    const std::int32_t b = facet[static_cast<std::size_t>((border.Corner + 2) % 3)];
+    const auto [a, b] = border.Ends;
     neighbours[a].push_back(b);
     neighbours[b].push_back(a);
     const glm::dvec3 from = positions[static_cast<std::size_t>(a)] + link.Shift;
