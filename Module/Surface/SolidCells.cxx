@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surface/SolidCells.h"
 
+#include "Common/DisjointSets.h"
 #include "Common/FiniteVector.h"
 #include "Surface/TetrahedronShape.h"
 
@@ -45,35 +46,6 @@ std::vector<FaceOfCell> ListFaces(const std::vector<Tetrahedron>& cells)
   std::sort(faces.begin(), faces.end());
   return faces;
 }
-
-/** Sets of cells that are joined one by one. */
-class CellSets
-{
-public:
-  explicit CellSets(std::size_t count)
-    : Parents(count)
-  {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      this->Parents[i] = i;
-    }
-  }
-
-  std::size_t Find(std::size_t cell)
-  {
-    while (this->Parents[cell] != cell)
-    {
-      this->Parents[cell] = this->Parents[this->Parents[cell]];
-      cell = this->Parents[cell];
-    }
-    return cell;
-  }
-
-  void Join(std::size_t a, std::size_t b) { this->Parents[this->Find(a)] = this->Find(b); }
-
-private:
-  std::vector<std::size_t> Parents;
-};
 
 double SixfoldVolumeOf(const TetrahedronCells& cells, const Tetrahedron& cell)
 {
@@ -324,7 +296,7 @@ std::size_t NumberRegions(const TriangleSurface& surface, TetrahedronCells& cell
   {
     walls.insert(Sorted(triangle));
   }
-  CellSets sets(cells.Cells.size());
+  DisjointSets sets(cells.Cells.size());
   const std::vector<FaceOfCell> faces = ListFaces(cells.Cells);
   std::set<Triangle> found;
   for (std::size_t f = 0; f < faces.size(); ++f)

@@ -4,6 +4,7 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceInput.h"
+#include "Volume/Mesh/InvertedCells.h"
 
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"

@@ -88,6 +88,8 @@ double LargestTwist(vtkPolyData* surface)
 /** A triangle with its box. */
 struct ShadowCasters::Box
 {
+  bool operator<(const Box& other) const { return this->Index < other.Index; }
+
   glm::dvec3 Lower;
   glm::dvec3 Upper;
   std::size_t Index; ///< of the triangle
@@ -222,7 +224,10 @@ void ShadowCasters::AddNode(std::vector<Box>& boxes, std::size_t first, std::siz
   Append(this->Nodes, high - this->Origin, isLeaf ? static_cast<double>(boxes[first].Index) : -1.0);
   if (!isLeaf)
   {
-    const std::size_t middle = SplitAtMedian(boxes, first, last);
+    Box* const all = boxes.data();
+    const auto middle = static_cast<std::size_t>(
+      SplitAtMedian(all + first, all + last, [](const Box& box) { return box.Lower + box.Upper; }) -
+      all);
     this->AddNode(boxes, first, middle);
     this->AddNode(boxes, middle, last);
   }

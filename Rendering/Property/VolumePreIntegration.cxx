@@ -5,7 +5,6 @@
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Rendering/Property/VolumePropertyTables.h"
-#include "Volume/Mesh/LongestEdge.h"
 
 #include "vtkMath.h"
 
@@ -45,13 +44,8 @@ void VolumePreIntegration::Update(const VolumeInput& input, const VolumeProperty
   const glm::dmat4& modelToWorld, const TableSize& size)
 {
   const TetrahedralMesh& mesh = input.GetMesh();
-  if (this->LongestEdgeOf != input.GetMeshVersion())
-  {
-    this->LongestEdge = ComputeLongestEdge(mesh, ThreadedLoop);
-    this->LongestEdgeOf = input.GetMeshVersion();
-  }
   const double needed =
-    this->LongestEdge * mesh.GetRadius() * LargestStretch(modelToWorld) * Allowance;
+    mesh.GetLongestEdge() * mesh.GetRadius() * LargestStretch(modelToWorld) * Allowance;
   const double built = this->Table.GetLongest();
   const bool lengthsServe = needed <= built * Allowance && needed >= 0.25 * built;
   if (this->Version != TableVersion() && lengthsServe &&

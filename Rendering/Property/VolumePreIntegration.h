@@ -38,9 +38,6 @@ public:
 
 private:
   PreIntegrationTable Table;
-  /** Length of the longest edge in units of the mesh's radius, and the version of that mesh. */
-  double LongestEdge = 0.0;
-  TableVersion LongestEdgeOf;
   TableVersion BuiltProperty;
   TableSize BuiltSize;
   TableVersion Version;

@@ -344,31 +344,25 @@ std::vector<InjectivityGrid::Cell> InjectivityGrid::JudgeAll(const Membrane& mem
   const CurvedPatches& patches, const Media& media, const RangeLoop& loop) const
 {
   std::vector<SlopedRay> atVertices(membrane.GetPositions().size());
-  loop(atVertices.size(),
-    [this, &membrane, &media, &atVertices](std::size_t begin, std::size_t end)
+  ForEachItem(atVertices.size(), loop,
+    [this, &membrane, &media, &atVertices](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        atVertices[i] =
-          this->MakeRay({ membrane.GetPositions()[i], membrane.GetNormals()[i] }, media);
-      }
+      atVertices[i] =
+        this->MakeRay({ membrane.GetPositions()[i], membrane.GetNormals()[i] }, media);
     });
   std::vector<Cell> judged(membrane.GetFacets().size());
-  loop(judged.size(),
-    [this, &membrane, &patches, &media, &atVertices, &judged](std::size_t begin, std::size_t end)
+  ForEachItem(judged.size(), loop,
+    [this, &membrane, &patches, &media, &atVertices, &judged](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
-        const Membrane::Facet& f = membrane.GetFacets()[i];
-        const auto atVertex = [&atVertices, &f](std::size_t k)
-        { return atVertices[static_cast<std::size_t>(f[k])]; };
-        judged[i] = this->Judge(patch,
-          { atVertex(0), atVertex(1), atVertex(2),
-            this->MakeRay(patch.EvaluateEdge(0, 0.5, 0.5), media),
-            this->MakeRay(patch.EvaluateEdge(1, 0.5, 0.5), media),
-            this->MakeRay(patch.EvaluateEdge(2, 0.5, 0.5), media) });
-      }
+      const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
+      const Membrane::Facet& f = membrane.GetFacets()[i];
+      const auto atVertex = [&atVertices, &f](std::size_t k)
+      { return atVertices[static_cast<std::size_t>(f[k])]; };
+      judged[i] = this->Judge(patch,
+        { atVertex(0), atVertex(1), atVertex(2),
+          this->MakeRay(patch.EvaluateEdge(0, 0.5, 0.5), media),
+          this->MakeRay(patch.EvaluateEdge(1, 0.5, 0.5), media),
+          this->MakeRay(patch.EvaluateEdge(2, 0.5, 0.5), media) });
     });
   return judged;
 }

@@ -54,7 +54,10 @@ void FlatMembraneSolver::Solve(
 }
 
 //------------------------------------------------------------------------------
-VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
+// Image in the first of the facets that `visit(local, test)` tests; a test returns the number from
+// which facets need no test.
+template <typename Visit>
+VirtualVertex FlatMembraneSolver::SolveAmong(const glm::dvec3& point, const Visit& visit) const
 {
   VirtualVertex vertex;
   vertex.Position = point;
@@ -66,7 +69,7 @@ VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
   }
   std::int32_t first = std::numeric_limits<std::int32_t>::max();
   CellHit firstHit{};
-  this->Tree.Visit(local, 0.0,
+  visit(local,
     [this, &local, &first, &firstHit](std::int32_t facet)
     {
       CellHit hit;
@@ -82,26 +85,23 @@ VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 }
 
 //------------------------------------------------------------------------------
+VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
+{
+  return this->SolveAmong(point,
+    [this](const glm::dvec3& local, const auto& test) { this->Tree.Visit(local, 0.0, test); });
+}
+
+//------------------------------------------------------------------------------
 VirtualVertex FlatMembraneSolver::SolvePointByBruteForce(const glm::dvec3& point) const
 {
-  VirtualVertex vertex;
-  vertex.Position = point;
-  const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
-  if (!this->IsInReach(local))
-  {
-    vertex.State = ImageState::NotFinite;
-    return vertex;
-  }
   const auto count = static_cast<std::int32_t>(this->GetMembrane().GetFacets().size());
-  for (std::int32_t facet = 0; facet < count; ++facet)
-  {
-    CellHit hit;
-    if (this->Cells.Contains(facet, local, hit))
+  return this->SolveAmong(point,
+    [count](const glm::dvec3&, const auto& test)
     {
-      return this->MakeVertex(local, facet, hit);
-    }
-  }
-  return vertex;
+      for (std::int32_t facet = 0; facet < count && test(facet) > facet; ++facet)
+      {
+      }
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -72,6 +72,8 @@ public:
   bool MayShow(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const;
 
 private:
+  template <typename Visit>
+  VirtualVertex SolveAmong(const glm::dvec3& point, const Visit& visit) const;
   bool IsInReach(const glm::dvec3& local) const
   {
     return RayTubeTree::IsInReach(local, this->GetMembrane().GetRadius());

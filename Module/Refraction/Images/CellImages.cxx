@@ -99,8 +99,7 @@ std::vector<bool> CellImages::FindWholeBehind(
   PlaneSights sights(planes, 0.5 * this->Tolerance, failed);
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     const std::size_t before = this->CountPlanesBefore(planes, ids, count);
     if (before > 0)
     {
@@ -117,16 +116,27 @@ std::vector<bool> CellImages::FindWholeBehind(
 }
 
 //------------------------------------------------------------------------------
-void CellImages::CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells,
-  std::size_t count, const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole,
-  ImageMesh& pieces, const RangeLoop& loop) const
+void CellImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
+  const RangeLoop& loop) const
 {
+  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
+  if (seams.empty())
+  {
+    return;
+  }
+  VisitPointsOnNeighbours(
+    seams, cells, count, isMapped, pieces, loop, [this]() { return this->MakeMove(); });
+  if (!closesSeams)
+  {
+    return;
+  }
   bool hasDiagonals = false;
   for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
   {
-    hasDiagonals = isMapped[i] && cells.Offsets[i + 1] - cells.Offsets[i] > 3;
+    hasDiagonals = isMapped[i] && cells.GetCell(i).Count > 3;
   }
-  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
+  SeamClosure closure(seams, hasDiagonals, this->GetEye(), this->Tolerance);
   closure.Collect(pieces, pieces.Points, false);
   closure.Collect(whole, this->Images, true);
   closure.Close(pieces, loop);

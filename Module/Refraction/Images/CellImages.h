@@ -26,6 +26,17 @@ struct ObjectCells
 {
   const std::int64_t* Offsets = nullptr;
   const std::int64_t* Connectivity = nullptr;
+
+  struct Cell
+  {
+    const std::int64_t* Ids;
+    std::size_t Count;
+  };
+  Cell GetCell(std::size_t i) const
+  {
+    return { this->Connectivity + this->Offsets[i],
+      static_cast<std::size_t>(this->Offsets[i + 1] - this->Offsets[i]) };
+  }
 };
 
 /** Number of cells by their treatment. */
@@ -45,7 +56,6 @@ struct CellReport
 
 class ParallelPlanes;
 class PlaneSights;
-struct Seam;
 
 /**
  * Images of the points and cells of an object, behind one interface or several. Holds the images of
@@ -117,11 +127,18 @@ public:
    * `closesSeams`, also closes the seams between them. The result does not depend on the threads
    * of `loop`, whose ranges are of blocks of work.
    */
-  virtual void MeetNeighbours(const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
-    const RangeLoop& loop) const = 0;
+  void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces, const RangeLoop& loop) const;
 
 protected:
+  /** Moves a point to the place between `low` and `high`, if neighbours draw it on that side. */
+  using MoveOntoSide =
+    std::function<void(std::int64_t low, std::int64_t high, double place, ImagePoint& point)>;
+  /** Makes a function for one thread. */
+  virtual MoveOntoSide MakeMove() const = 0;
+  /** Place of the eye in world coordinates. */
+  virtual glm::dvec3 GetEye() const = 0;
+
   /** Takes over an object's points (x, y, z each; borrowed), none of them solved. */
   void ResetPoints(const double* points, std::size_t count);
   glm::dvec3 GetPoint(std::int64_t id) const
@@ -152,10 +169,6 @@ protected:
    */
   std::vector<bool> FindWholeBehind(const ParallelPlanes& planes, const ObjectCells& cells,
     std::size_t begin, std::size_t end) const;
-  /** Closes the seams of the mapped polygons, seen from `eye` in world coordinates. */
-  void CloseSeams(const std::vector<Seam>& seams, const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, const glm::dvec3& eye, const ImageMesh& whole, ImageMesh& pieces,
-    const RangeLoop& loop) const;
 
   double Tolerance = 0.0;   ///< angle in radians at the eye
   std::vector<bool> Wanted; ///< by chunk; empty: all are wanted

@@ -69,6 +69,20 @@ struct ImageMesh
     this->Orientations.push_back(static_cast<signed char>(orientation));
   }
 
+  /** Adds a cell with points of its own, pointOf(0) to pointOf(count - 1), or turned round. */
+  template <typename PointOf>
+  void AddCell(std::size_t count, const PointOf& pointOf, bool turned, std::int64_t sourceCell,
+    int orientation)
+  {
+    const std::size_t first = this->Points.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Points.push_back(pointOf(i));
+      this->Connectivity.push_back(static_cast<std::int64_t>(first + (turned ? count - 1 - i : i)));
+    }
+    this->EndCell(sourceCell, orientation);
+  }
+
   /** Sizes of all arrays, to return to if later additions have to be discarded. */
   struct Mark
   {

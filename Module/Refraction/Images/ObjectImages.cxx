@@ -368,8 +368,7 @@ void ObjectImages::PrepareSides(const ObjectCells& cells, std::size_t begin, std
   std::vector<std::array<ImagedPoint, 2>> sides;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     const bool isOpen = !keepsPoints[static_cast<std::ptrdiff_t>(i - begin)] &&
       this->HaveOneRefractedImage(ids, count);
     const std::size_t open = isOpen ? count : 0;
@@ -401,8 +400,7 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
   CellReport report;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
@@ -454,8 +452,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       this->PrepareSides(cells, i, std::min(i + PreparedCells, end),
         keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division);
     }
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
@@ -494,42 +491,24 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 }
 
 //------------------------------------------------------------------------------
-void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
-  const RangeLoop& loop) const
+CellImages::MoveOntoSide ObjectImages::MakeMove() const
 {
-  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
-  if (seams.empty())
+  auto division = std::make_shared<EdgeSubdivision>(this->Geometry, this->Tolerance);
+  return [this, division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
   {
-    return;
-  }
-  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces, loop);
-  if (closesSeams)
-  {
-    const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces, loop);
-  }
+    if (this->HaveOneImage(point.Source.data(), 2) &&
+      this->FindSide(point.Source.data(), 2) == Side::Behind)
+    {
+      division->MoveOntoEdge(
+        this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
+    }
+  };
 }
 
 //------------------------------------------------------------------------------
-void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
-  const RangeLoop& loop) const
+glm::dvec3 ObjectImages::GetEye() const
 {
-  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces, loop,
-    [this]()
-    {
-      auto division = std::make_shared<EdgeSubdivision>(this->Geometry, this->Tolerance);
-      return [this, division](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
-      {
-        if (this->HaveOneImage(point.Source.data(), 2) &&
-          this->FindSide(point.Source.data(), 2) == Side::Behind)
-        {
-          division->MoveOntoEdge(
-            this->GetImagedPoint(low), this->GetImagedPoint(high), place, point.Vertex);
-        }
-      };
-    });
+  return this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
 }
 
 //------------------------------------------------------------------------------

@@ -71,9 +71,10 @@ public:
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
     unsigned char* isMapped) const override;
-  void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
-    const RangeLoop& loop) const override;
+
+protected:
+  MoveOntoSide MakeMove() const override;
+  glm::dvec3 GetEye() const override;
 
 private:
   enum class Side
@@ -133,9 +134,6 @@ private:
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
   std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
-  void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
-    const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces,
-    const RangeLoop& loop) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, EdgeSubdivision& division, ImageMesh& pieces) const;
 

@@ -4,6 +4,7 @@
 
 #include "Refraction/Images/PrimitiveContext.h"
 #include "Refraction/Images/UnrefractedPart.h"
+#include "Refraction/Membrane/CrossProduct.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/common.hpp>
@@ -14,25 +15,6 @@
 
 namespace meniscus
 {
-namespace
-{
-
-// Twice the signed area of a polygon.
-template <typename GetPlace>
-double GetArea(std::size_t count, const GetPlace& getPlace)
-{
-  double sum = 0.0;
-  for (std::size_t i = 2; i < count; ++i)
-  {
-    const glm::dvec2 u = getPlace(i - 1) - getPlace(0);
-    const glm::dvec2 v = getPlace(i) - getPlace(0);
-    sum += u.x * v.y - u.y * v.x;
-  }
-  return sum;
-}
-
-}
-
 //------------------------------------------------------------------------------
 PrimitiveMapper::PrimitiveMapper(const CurvedMembraneSolver& geometry, double tolerance,
   double nearest, double farthest, SharedNodes& shared)
@@ -284,7 +266,7 @@ void PrimitiveMapper::Emit(
   double area = 1.0;
   if (isLinear)
   {
-    area = GetArea(polygon.size(),
+    area = GetTwiceArea(polygon.size(),
       [&polygon](std::size_t i)
       {
         const Corner& corner = polygon[i];
@@ -313,7 +295,7 @@ void PrimitiveMapper::Emit(
   }
   if (!isLinear)
   {
-    area = GetArea(points.size(),
+    area = GetTwiceArea(points.size(),
       [&context, &points](std::size_t i)
       {
         const glm::dvec3 weight = context.GetWeight(points[i].Point);
@@ -329,22 +311,17 @@ void PrimitiveMapper::Emit(
   const bool facetTurned = glm::dot(facet, nodes[0].From.Ray) < 0.0;
   const bool imageTurned = (area < 0.0) != (sign < 0.0);
   const int orientation = facetTurned == imageTurned ? 1 : -1;
-  const auto first = static_cast<std::int64_t>(context.Images->Points.size());
-  const auto count = static_cast<std::int64_t>(polygon.size());
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     points[i].Point.Vertex.Orientation = static_cast<signed char>(orientation);
-    context.Images->Points.push_back(points[i].Point);
     if (context.IsOnMembrane)
     {
       context.IsOnMembrane->push_back((polygon[i].Limits & 1u) != 0);
     }
   }
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    context.Images->Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
-  }
-  context.Images->EndCell(context.SourceCell, orientation);
+  context.Images->AddCell(
+    points.size(), [&points](std::size_t i) { return points[i].Point; }, !(area > 0.0),
+    context.SourceCell, orientation);
 }
 
 //------------------------------------------------------------------------------
@@ -392,17 +369,16 @@ void PrimitiveMapper::EmitLine(
   {
     return;
   }
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (const Corner* corner : corners)
   {
-    context.Images->Connectivity.push_back(
-      static_cast<std::int64_t>(context.Images->Points.size()));
-    context.Images->Points.push_back(points[i].Point);
     if (context.IsOnMembrane)
     {
-      context.IsOnMembrane->push_back((corners[i]->Limits & 1u) != 0);
+      context.IsOnMembrane->push_back((corner->Limits & 1u) != 0);
     }
   }
-  context.Images->EndCell(context.SourceCell, 1);
+  context.Images->AddCell(
+    points.size(), [&points](std::size_t i) { return points[i].Point; }, false, context.SourceCell,
+    1);
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "Refraction/Images/PrimitiveContext.h"
 #include "Refraction/Images/PrimitiveMapper.h"
 #include "Refraction/Images/SurfaceTie.h"
+#include "Refraction/Membrane/CrossProduct.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -108,7 +109,7 @@ void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
   // The distance behind the membrane is linear in the sub-cell.
   const glm::dvec2 u = whole[1].B - whole[0].B;
   const glm::dvec2 v = whole[2].B - whole[0].B;
-  const double area = u.x * v.y - u.y * v.x;
+  const double area = Cross(u, v);
   const double byU = (whole[1].Value[0] - whole[0].Value[0]) / area;
   const double byV = (whole[2].Value[0] - whole[0].Value[0]) / area;
   const double most = this->GetReach(nodes);
@@ -116,8 +117,7 @@ void PrimitiveMapper::KeepAsBehind(const Context& context, const SubCell& nodes,
     [&](const Corner& corner)
     {
       const glm::dvec2 b = corner.B - whole[0].B;
-      const double behind =
-        whole[0].Value[0] + byU * (b.x * v.y - b.y * v.x) + byV * (u.x * b.y - u.y * b.x);
+      const double behind = whole[0].Value[0] + byU * Cross(b, v) + byV * Cross(u, b);
       return sign * behind >= -most * sign * getCosine(corner);
     });
   if (isNear)

@@ -132,10 +132,10 @@ std::vector<Seam> FindSeams(
       cells, count, [](std::size_t) { return true; },
       [&seams](const Seam& side)
       {
-        const auto at = std::lower_bound(seams.begin(), seams.end(), side);
-        if (at != seams.end() && !(side < *at))
+        const std::ptrdiff_t at = FindSeam(seams, side);
+        if (at >= 0)
         {
-          ++at->Cells;
+          ++seams[static_cast<std::size_t>(at)].Cells;
         }
       });
   }
@@ -194,9 +194,9 @@ void SeamClosure::AddPart(
   {
     return;
   }
-  const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
-  const bool isSeam = known != this->Seams.end() && !(seam < *known);
-  if (!AreSame(a, b) && (isSeam ? known->Cells > 1 : this->HasDiagonals))
+  const std::ptrdiff_t known = FindSeam(this->Seams, seam);
+  if (!AreSame(a, b) &&
+    (known >= 0 ? this->Seams[static_cast<std::size_t>(known)].Cells > 1 : this->HasDiagonals))
   {
     this->All.push_back(
       { seam.Low, seam.High, a, b, mesh.SourceCells[cell], mesh.Orientations[cell], isWhole });
@@ -253,9 +253,8 @@ void SeamClosure::Close(ImageMesh& mesh, const RangeLoop& loop)
 void SeamClosure::CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const
 {
   const Seam seam{ parts.front()->Low, parts.front()->High, 0 };
-  const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
-  const bool isSeam = known != this->Seams.end() && !(seam < *known);
-  if (!isSeam || known->Cells == 2)
+  const std::ptrdiff_t known = FindSeam(this->Seams, seam);
+  if (known < 0 || this->Seams[static_cast<std::size_t>(known)].Cells == 2)
   {
     this->CloseLoops(std::move(parts), open, mesh);
     return;

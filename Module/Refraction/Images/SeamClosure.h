@@ -53,14 +53,20 @@ void VisitPolygonSides(
     {
       continue;
     }
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[cell];
-    const std::int64_t size = cells.Offsets[cell + 1] - cells.Offsets[cell];
-    for (std::int64_t k = 0; k < size; ++k)
+    const auto [ids, size] = cells.GetCell(cell);
+    for (std::size_t k = 0; k < size; ++k)
     {
       const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
       visit(Seam{ low, high, 0 });
     }
   }
+}
+
+/** Index of a side among sorted seams, or -1. */
+inline std::ptrdiff_t FindSeam(const std::vector<Seam>& seams, const Seam& side)
+{
+  const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+  return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
 }
 
 /** Sides of mapped polygons in sequence, with the number of polygons that share each. */
@@ -78,17 +84,12 @@ void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& 
   std::size_t count, const unsigned char* isMapped, ImageMesh& pieces, const RangeLoop& loop,
   const MakeVisit& makeVisit)
 {
-  const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
-  {
-    const auto at = std::lower_bound(seams.begin(), seams.end(), side);
-    return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
-  };
   std::vector<char> isCommon(seams.size(), 0);
   VisitPolygonSides(
     cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
-    [&find, &isCommon](const Seam& side)
+    [&seams, &isCommon](const Seam& side)
     {
-      const std::ptrdiff_t at = find(side);
+      const std::ptrdiff_t at = FindSeam(seams, side);
       if (at >= 0)
       {
         isCommon[static_cast<std::size_t>(at)] = 1;
@@ -98,7 +99,7 @@ void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& 
   constexpr std::size_t size = 2048;
   const std::size_t points = pieces.Points.size();
   loop((points + size - 1) / size,
-    [&pieces, &find, &isCommon, &makeVisit, points](std::size_t begin, std::size_t end)
+    [&pieces, &seams, &isCommon, &makeVisit, points](std::size_t begin, std::size_t end)
     {
       const auto visit = makeVisit();
       for (std::size_t i = begin * size; i < std::min(end * size, points); ++i)
@@ -109,7 +110,7 @@ void VisitPointsOnNeighbours(const std::vector<Seam>& seams, const ObjectCells& 
           continue;
         }
         const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
-        const std::ptrdiff_t at = find({ point.Source[low], point.Source[1 - low], 0 });
+        const std::ptrdiff_t at = FindSeam(seams, { point.Source[low], point.Source[1 - low], 0 });
         if (at >= 0 && isCommon[static_cast<std::size_t>(at)])
         {
           visit(point.Source[low], point.Source[1 - low], point.Weight[1 - low], point);

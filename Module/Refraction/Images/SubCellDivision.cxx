@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/SubCellDivision.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/common.hpp>
@@ -250,11 +251,10 @@ double GetSize(const SubCell& nodes)
 //------------------------------------------------------------------------------
 bool IsInside(const SubCell& nodes, const glm::dvec2& b)
 {
-  const auto cross = [](const glm::dvec2& a, const glm::dvec2& c) { return a.x * c.y - a.y * c.x; };
-  const double area = cross(nodes[1].B - nodes[0].B, nodes[2].B - nodes[0].B);
-  return cross(nodes[1].B - b, nodes[2].B - b) / area >= 0.0 &&
-    cross(nodes[2].B - b, nodes[0].B - b) / area >= 0.0 &&
-    cross(nodes[0].B - b, nodes[1].B - b) / area >= 0.0;
+  const double area = Cross(nodes[1].B - nodes[0].B, nodes[2].B - nodes[0].B);
+  return Cross(nodes[1].B - b, nodes[2].B - b) / area >= 0.0 &&
+    Cross(nodes[2].B - b, nodes[0].B - b) / area >= 0.0 &&
+    Cross(nodes[0].B - b, nodes[1].B - b) / area >= 0.0;
 }
 
 //------------------------------------------------------------------------------

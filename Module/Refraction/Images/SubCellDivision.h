@@ -43,6 +43,44 @@ bool IsInside(const SubCell& nodes, const glm::dvec2& b);
  */
 glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point);
 
+/**
+ * Calls `visit(part)` for the parts of a triangle, some of whose sides are divided at `middle`;
+ * both are opposite the corners. One divided side: two halves. Two: the corner between them is cut
+ * off and the rest is halved.
+ */
+template <typename Node, typename Visit>
+void VisitParts(const std::array<Node, 3>& nodes, const std::array<Node, 3>& middle,
+  const std::array<bool, 3>& isDivided, const Visit& visit)
+{
+  using Triangle = std::array<Node, 3>;
+  const int count = isDivided[0] + isDivided[1] + isDivided[2];
+  if (count == 3)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      visit(Triangle{ nodes[k], middle[(k + 2) % 3], middle[(k + 1) % 3] });
+    }
+    visit(middle);
+    return;
+  }
+  std::size_t k = 0;
+  while (isDivided[k] != (count == 1))
+  {
+    ++k;
+  }
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  if (count == 1)
+  {
+    visit(Triangle{ nodes[k], nodes[i], middle[k] });
+    visit(Triangle{ nodes[k], middle[k], nodes[j] });
+    return;
+  }
+  visit(Triangle{ nodes[k], middle[j], middle[i] });
+  visit(Triangle{ middle[j], nodes[i], nodes[j] });
+  visit(Triangle{ middle[j], nodes[j], middle[i] });
+}
+
 class SubCellDivision
 {
 public:
@@ -87,7 +125,7 @@ private:
       return;
     }
     SubCell middle; // opposite the corners
-    bool split[3];
+    std::array<bool, 3> split;
     for (std::size_t k = 0; k < 3; ++k)
     {
       split[k] = this->FindSplit(patch, nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth, middle[k]);
@@ -102,35 +140,9 @@ private:
       return;
     }
     const int next = this->IsWide(nodes) ? depth : depth + 1;
-    const auto divide = [this, &patch, next, &isOutside, &map](const SubCell& part)
-    { this->Divide(patch, part, next, isOutside, map); };
-    if (count == 3)
-    {
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        divide({ nodes[k], middle[(k + 2) % 3], middle[(k + 1) % 3] });
-      }
-      divide(middle);
-      return;
-    }
-    // One divided edge: two halves. Two divided edges: the corner between them is cut off and the
-    // rest is halved.
-    std::size_t k = 0;
-    while (split[k] != (count == 1))
-    {
-      ++k;
-    }
-    const std::size_t i = (k + 1) % 3;
-    const std::size_t j = (k + 2) % 3;
-    if (count == 1)
-    {
-      divide({ nodes[k], nodes[i], middle[k] });
-      divide({ nodes[k], middle[k], nodes[j] });
-      return;
-    }
-    divide({ nodes[k], middle[j], middle[i] });
-    divide({ middle[j], nodes[i], nodes[j] });
-    divide({ middle[j], nodes[j], middle[i] });
+    VisitParts(nodes, middle, split,
+      [this, &patch, next, &isOutside, &map](const SubCell& part)
+      { this->Divide(patch, part, next, isOutside, map); });
   }
 
   SubCell MakeCorners(std::int32_t facet) const;

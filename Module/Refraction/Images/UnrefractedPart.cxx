@@ -130,17 +130,17 @@ public:
 
   void AddCell(const std::vector<TrianglePoint>& corners) const
   {
-    for (const TrianglePoint& corner : corners)
+    const auto pointOf = [this, &corners](std::size_t i)
     {
+      const TrianglePoint& corner = corners[i];
       ImagePoint point;
       point.Vertex = this->Geometry.PassThrough(this->GetLocal(corner.Weight));
       point.Vertex.Position = corner.Position;
       point.Vertex.SightPoint = corner.Position;
       point.SetSource(this->Primitive.Ids, corner.Weight);
-      this->Images.Connectivity.push_back(static_cast<std::int64_t>(this->Images.Points.size()));
-      this->Images.Points.push_back(point);
-    }
-    this->Images.EndCell(this->SourceCell, 1);
+      return point;
+    };
+    this->Images.AddCell(corners.size(), pointOf, false, this->SourceCell, 1);
   }
 
 private:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/CoincidentEdges.h"
 
+#include "Common/DisjointSets.h"
 #include "Common/PointOrder.h"
 
 #include <glm/geometric.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace meniscus
@@ -60,58 +60,20 @@ public:
   std::vector<std::int32_t> Of; ///< per vertex
 };
 
-/** Sets of joined vertices. */
-class JoinedVertices
-{
-public:
-  explicit JoinedVertices(std::size_t count)
-    : Parent(count)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-
-  std::int32_t Find(std::int32_t vertex)
-  {
-    while (this->At(vertex) != vertex)
-    {
-      this->At(vertex) = this->At(this->At(vertex));
-      vertex = this->At(vertex);
-    }
-    return vertex;
-  }
-
-  void Join(std::int32_t a, std::int32_t b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->HasJoined = this->HasJoined || a != b;
-    this->At(std::max(a, b)) = std::min(a, b);
-  }
-
-  bool HasJoined = false;
-
-private:
-  std::int32_t& At(std::int32_t vertex) { return this->Parent[static_cast<std::size_t>(vertex)]; }
-
-  std::vector<std::int32_t> Parent;
-};
-
-std::vector<PlacedEdge> ListEdges(const std::vector<SurfaceEdge>& borders,
-  const std::vector<Facet>& facets, const std::vector<std::int32_t>& places)
+std::vector<PlacedEdge> ListEdges(
+  const std::vector<SurfaceEdge>& borders, const std::vector<std::int32_t>& places)
 {
   std::vector<PlacedEdge> edges;
   edges.reserve(borders.size());
   for (const SurfaceEdge& border : borders)
   {
-    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
-    const auto corner = static_cast<std::size_t>(border.Corner);
-    std::array<std::int32_t, 2> vertex{ facet[(corner + 1) % 3], facet[(corner + 2) % 3] };
+    std::array<std::int32_t, 2> vertex = border.Ends;
     if (places[static_cast<std::size_t>(vertex[0])] > places[static_cast<std::size_t>(vertex[1])])
     {
       std::swap(vertex[0], vertex[1]);
     }
     edges.push_back({ places[static_cast<std::size_t>(vertex[0])],
-      places[static_cast<std::size_t>(vertex[1])], vertex, facet[corner] });
+      places[static_cast<std::size_t>(vertex[1])], vertex, border.Opposite });
   }
   std::stable_sort(edges.begin(), edges.end(),
     [](const PlacedEdge& a, const PlacedEdge& b)
@@ -136,16 +98,14 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
   ends.reserve(2 * borders.size());
   for (const SurfaceEdge& border : borders)
   {
-    const Facet& facet = facets[static_cast<std::size_t>(border.Facet)];
-    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 1) % 3]);
-    ends.push_back(facet[static_cast<std::size_t>(border.Corner + 2) % 3]);
+    ends.insert(ends.end(), border.Ends.begin(), border.Ends.end());
   }
   const Places places(positions, std::move(ends));
   if (!places.HasShared)
   {
     return {};
   }
-  const std::vector<PlacedEdge> edges = ListEdges(borders, facets, places.Of);
+  const std::vector<PlacedEdge> edges = ListEdges(borders, places.Of);
   const auto at = [&positions](std::int32_t vertex) -> const glm::dvec3&
   { return positions[static_cast<std::size_t>(vertex)]; };
   const double smooth = std::cos(CreaseAngle);
@@ -156,7 +116,8 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
     const glm::dvec3 along = glm::normalize(at(a.Vertex[1]) - start);
     return -glm::dot(Across(at(a.Opposite) - start, along), Across(at(b.Opposite) - start, along));
   };
-  JoinedVertices joined(positions.size());
+  DisjointSets joined(positions.size());
+  bool hasJoined = false;
   for (std::size_t i = 0, next = 0; i < edges.size(); i = next)
   {
     next = i + 1;
@@ -178,18 +139,20 @@ std::vector<std::int32_t> JoinCoincidentEdges(const std::vector<glm::dvec3>& pos
       const bool areGiven = first != glm::dvec3(0.0) && second != glm::dvec3(0.0);
       if (areGiven ? fold > 0.0 && glm::dot(first, second) >= smooth : fold >= smooth)
       {
-        joined.Join(a.Vertex[end], b.Vertex[end]);
+        hasJoined = joined.Join(static_cast<std::size_t>(a.Vertex[end]),
+                      static_cast<std::size_t>(b.Vertex[end])) ||
+          hasJoined;
       }
     }
   }
-  if (!joined.HasJoined)
+  if (!hasJoined)
   {
     return {};
   }
   std::vector<std::int32_t> target(positions.size());
   for (std::size_t i = 0; i < target.size(); ++i)
   {
-    target[i] = joined.Find(static_cast<std::int32_t>(i));
+    target[i] = static_cast<std::int32_t>(joined.Find(i));
   }
   for (Facet& facet : facets)
   {

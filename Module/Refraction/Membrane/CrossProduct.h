@@ -4,6 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
+
 namespace meniscus
 {
 
@@ -11,6 +13,18 @@ namespace meniscus
 inline double Cross(const glm::dvec2& a, const glm::dvec2& b)
 {
   return a.x * b.y - a.y * b.x;
+}
+
+/** Twice the signed area of a polygon with the corners placeOf(0) to placeOf(count - 1). */
+template <typename PlaceOf>
+double GetTwiceArea(std::size_t count, const PlaceOf& placeOf)
+{
+  double sum = 0.0;
+  for (std::size_t i = 2; i < count; ++i)
+  {
+    sum += Cross(placeOf(i - 1) - placeOf(0), placeOf(i) - placeOf(0));
+  }
+  return sum;
 }
 
 }

@@ -248,10 +248,11 @@ void CurvedPatches::Build(const Membrane& membrane, const RangeLoop& loop)
   this->Patches.assign(membrane.GetFacets().size(), Patch());
   for (std::size_t i = 0; i < this->Patches.size(); ++i)
   {
+    const auto& neighbours = membrane.GetPieces().Neighbours[i];
     std::copy(
       membrane.GetFacets()[i].begin(), membrane.GetFacets()[i].end(), this->Patches[i].Vertex);
+    std::copy(neighbours.begin(), neighbours.end(), this->Patches[i].Neighbour);
   }
-  this->FindNeighbours();
   this->FindRings();
   this->AddSecondRings();
   this->Refit(loop);
@@ -266,54 +267,6 @@ void CurvedPatches::Refit(const RangeLoop& loop)
     { this->Curvature[i] = this->FitCurvature(static_cast<std::int32_t>(i)); });
   ForEachItem(
     this->Patches.size(), loop, [this](std::size_t i) { this->FitFacet(this->Patches[i]); });
-}
-
-//------------------------------------------------------------------------------
-void CurvedPatches::FindNeighbours()
-{
-  struct Side
-  {
-    std::int32_t Low;
-    std::int32_t High;
-    std::int32_t Facet;
-    std::int32_t Corner;
-    bool operator<(const Side& o) const
-    {
-      return this->Low != o.Low
-        ? this->Low < o.Low
-        : (this->High != o.High ? this->High < o.High : this->Facet < o.Facet);
-    }
-    bool SameEdge(const Side& o) const { return this->Low == o.Low && this->High == o.High; }
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * this->Patches.size());
-  for (std::size_t i = 0; i < this->Patches.size(); ++i)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = this->Patches[i].Vertex[(k + 1) % 3];
-      const std::int32_t b = this->Patches[i].Vertex[(k + 2) % 3];
-      sides.push_back({ std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i), k });
-      this->Patches[i].Neighbour[k] = NoFacet;
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0; i < sides.size();)
-  {
-    std::size_t next = i + 1;
-    while (next < sides.size() && sides[next].SameEdge(sides[i]))
-    {
-      ++next;
-    }
-    if (next - i == 2)
-    {
-      const Side& a = sides[i];
-      const Side& b = sides[i + 1];
-      this->Patches[static_cast<std::size_t>(a.Facet)].Neighbour[a.Corner] = b.Facet;
-      this->Patches[static_cast<std::size_t>(b.Facet)].Neighbour[b.Corner] = a.Facet;
-    }
-    i = next;
-  }
 }
 
 //------------------------------------------------------------------------------

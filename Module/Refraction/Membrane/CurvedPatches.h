@@ -103,7 +103,6 @@ private:
   /** A symmetric tensor: xx, xy, xz, yy, yz, zz. */
   using Tensor = std::array<double, 6>;
 
-  void FindNeighbours();
   void FindRings();
   void AddSecondRings();
   bool IsSmooth(std::int32_t from, std::int32_t to) const;

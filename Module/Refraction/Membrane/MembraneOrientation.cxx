@@ -83,11 +83,14 @@ void FillPiece(const std::vector<Facet>& facets, const GroupedItems& fans, std::
     {
       const FacetAcross across = FindAcross(facets, fans, facet, corner);
       isNonManifold = isNonManifold || across.AreSeveral;
+      pieces.Neighbours[static_cast<std::size_t>(facet)][corner] = across.Facet;
       if (across.Facet < 0)
       {
         if (!across.AreSeveral)
         {
-          pieces.Borders.push_back({ facet, static_cast<std::int32_t>(corner) });
+          const Facet& own = facets[static_cast<std::size_t>(facet)];
+          pieces.Borders.push_back(
+            { { own[(corner + 1) % 3], own[(corner + 2) % 3] }, own[corner] });
         }
         continue;
       }
@@ -116,6 +119,7 @@ SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
   const GroupedItems fans = ListFans(facets, points);
   SurfacePieces pieces;
   pieces.PieceOf.assign(facets.size(), -1);
+  pieces.Neighbours.resize(facets.size());
   std::vector<bool> turned(facets.size(), false);
   std::vector<std::int32_t> piece;
   for (std::size_t i = 0; i < facets.size(); ++i)
@@ -140,6 +144,7 @@ SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
     if (turned[i])
     {
       std::swap(facets[i][1], facets[i][2]);
+      std::swap(pieces.Neighbours[i][1], pieces.Neighbours[i][2]);
       ++pieces.TurnedFacets;
     }
   }

@@ -12,11 +12,11 @@
 namespace meniscus
 {
 
-/** Edge of a facet, opposite to one of its corners. */
+/** Edge of a facet, by its vertices, and the facet's other vertex. */
 struct SurfaceEdge
 {
-  std::int32_t Facet;
-  std::int32_t Corner;
+  std::array<std::int32_t, 2> Ends;
+  std::int32_t Opposite;
 };
 
 /** Pieces of a surface that are connected by edges with two facets. */
@@ -24,7 +24,9 @@ struct SurfacePieces
 {
   std::vector<std::int32_t> PieceOf; ///< per facet
   std::int32_t Count = 0;
-  std::vector<SurfaceEdge> Borders;  ///< edges with one facet
+  std::vector<SurfaceEdge> Borders; ///< edges with one facet
+  /** Per facet and corner: the other facet at the opposite edge, or -1 if none or several. */
+  std::vector<std::array<std::int32_t, 3>> Neighbours;
   std::size_t NonManifoldFacets = 0; ///< facets with an edge that three or more of them share
   std::size_t TurnedFacets = 0;
   bool IsOneSided = false; ///< true for a surface such as a Moebius band: no winding is consistent

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/ErrorSamples.h"
 
+#include "Refraction/Membrane/HeightField.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>
@@ -19,17 +20,6 @@ namespace
 // A point whose barycentric coordinates in two cells are this close to a wall is in both. This
 // tolerance reproduces the thesis's numbers of points (Documentation/refraction-measurements.md).
 constexpr double Wall = 1e-7;
-
-/** Two unit vectors that are normal to a unit vector and to each other. */
-void MakeFrame(const glm::dvec3& axis, glm::dvec3 frame[2])
-{
-  const glm::dvec3 size = glm::abs(axis);
-  const glm::dvec3 other = size.x <= size.y && size.x <= size.z
-    ? glm::dvec3(1.0, 0.0, 0.0)
-    : (size.y <= size.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
-  frame[0] = glm::normalize(glm::cross(axis, other));
-  frame[1] = glm::cross(axis, frame[0]);
-}
 
 ErrorSample MakeWithoutImage(ImageState state)
 {
@@ -55,11 +45,10 @@ double FindAngularError(const glm::dvec3& seen, const glm::dvec3& point, const E
   constexpr double difference = 1e-7;
   constexpr double lastTurn = 1e-11;
   constexpr int steps = 20;
-  glm::dvec3 frame[2];
-  MakeFrame(seen, frame);
+  const HeightFrame frame(seen);
   glm::dvec2 turn(0.0);
   const auto offset = [&](const glm::dvec2& at, ExactRay& ray)
-  { return trace(glm::normalize(seen + at.x * frame[0] + at.y * frame[1]), ray); };
+  { return trace(glm::normalize(seen + at.x * frame.First + at.y * frame.Second), ray); };
   for (int i = 0; i < steps; ++i)
   {
     ExactRay rays[3];

@@ -35,15 +35,6 @@ void AddAround(TubeBounds& bounds, const RayJet& ray, double reach)
   bounds.Add(ray.Origin + start, ray.Direction + turn);
 }
 
-void Merge(TubeBounds& bounds, const TubeBounds& other)
-{
-  if (other.IsValid())
-  {
-    bounds.Add(other.StartLow, other.DirectionLow);
-    bounds.Add(other.StartHigh, other.DirectionHigh);
-  }
-}
-
 }
 
 const glm::dvec2 BeamPlaces[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
@@ -387,8 +378,8 @@ private:
         }
         for (std::size_t k = 0; k < part.Children; ++k)
         {
-          Merge(
-            own, bounds[this->Result.GetIndex(static_cast<std::size_t>(part.FirstChild) + k, leg)]);
+          own.Add(
+            bounds[this->Result.GetIndex(static_cast<std::size_t>(part.FirstChild) + k, leg)]);
         }
       }
     }

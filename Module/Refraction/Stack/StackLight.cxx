@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackLight.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>
@@ -83,14 +84,8 @@ public:
 
   double GetArea() const
   {
-    double sum = 0.0;
-    for (std::size_t i = 2; i < this->Count; ++i)
-    {
-      const glm::dvec2 u = this->Points[i - 1].B - this->Points[0].B;
-      const glm::dvec2 v = this->Points[i].B - this->Points[0].B;
-      sum += u.x * v.y - u.y * v.x;
-    }
-    return 0.5 * std::fabs(sum);
+    return 0.5 *
+      std::fabs(GetTwiceArea(this->Count, [this](std::size_t i) { return this->Points[i].B; }));
   }
 
 private:

@@ -22,14 +22,6 @@ DirectionBox MakeDirectionBox(const TubeBounds& tube)
     0.5 * (tube.DirectionHigh - tube.DirectionLow) };
 }
 
-void Merge(TubeBounds& bounds, const TubeBounds& other)
-{
-  bounds.StartLow = glm::min(bounds.StartLow, other.StartLow);
-  bounds.StartHigh = glm::max(bounds.StartHigh, other.StartHigh);
-  bounds.DirectionLow = glm::min(bounds.DirectionLow, other.DirectionLow);
-  bounds.DirectionHigh = glm::max(bounds.DirectionHigh, other.DirectionHigh);
-}
-
 void Move(TubeBounds& bounds, const glm::dvec3& shift)
 {
   if (bounds.IsValid())
@@ -246,7 +238,7 @@ SeenTriangle BoundSeenTriangle(
 TubeBounds BoundNextLeg(const RefractionStack::Link& link, const TubeBounds& before)
 {
   TubeBounds bounds;
-  VisitNextLegs(link, before, [&bounds](const TubeBounds& refracted) { Merge(bounds, refracted); });
+  VisitNextLegs(link, before, [&bounds](const TubeBounds& refracted) { bounds.Add(refracted); });
   return bounds;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/StackImages/SightBorders.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -49,9 +51,7 @@ void SightBorders::AddSurface(const RefractionStack::Link& link, std::size_t leg
   std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
   for (const SurfaceEdge& border : membrane.GetPieces().Borders)
   {
-    const Membrane::Facet& facet = membrane.GetFacets()[static_cast<std::size_t>(border.Facet)];
-    const std::int32_t a = facet[static_cast<std::size_t>((border.Corner + 1) % 3)];
-    const std::int32_t b = facet[static_cast<std::size_t>((border.Corner + 2) % 3)];
+    const auto [a, b] = border.Ends;
     neighbours[a].push_back(b);
     neighbours[b].push_back(a);
     const glm::dvec3 from = positions[static_cast<std::size_t>(a)] + link.Shift;
@@ -128,9 +128,8 @@ void AddCrossing(const SightBorders::Edge& edge, const RefractedPoint& first,
 //------------------------------------------------------------------------------
 double GetDepthInCell(const SubCell& sights, const glm::dvec2& place)
 {
-  const auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
   const glm::dvec2 origin = sights[0].B;
-  const double whole = cross(sights[1].B - origin, sights[2].B - origin);
+  const double whole = Cross(sights[1].B - origin, sights[2].B - origin);
   const glm::dvec3 u = sights[1].From.Ray - sights[0].From.Ray;
   const glm::dvec3 v = sights[2].From.Ray - sights[0].From.Ray;
   const double area = glm::length(glm::cross(u, v));
@@ -143,7 +142,7 @@ double GetDepthInCell(const SubCell& sights, const glm::dvec2& place)
   {
     const SubCellNode& from = sights[(k + 1) % 3];
     const SubCellNode& to = sights[(k + 2) % 3];
-    const double part = cross(to.B - from.B, place - from.B) / whole;
+    const double part = Cross(to.B - from.B, place - from.B) / whole;
     least = std::min(least, part * area / glm::length(to.From.Ray - from.From.Ray));
   }
   return least;

@@ -94,33 +94,13 @@ void SightSheet::Builder::Divide(std::size_t index, int depth)
     // Divisions of wide cells do not count.
     const bool isWide = this->IsWide(cell.Nodes[0], cell.Nodes[1]) ||
       this->IsWide(cell.Nodes[1], cell.Nodes[2]) || this->IsWide(cell.Nodes[2], cell.Nodes[0]);
-    this->AddChildren(index, ListChildren(cell.Nodes, middle, count), isWide ? depth - 1 : depth);
+    const std::array<bool, 3> isDivided{ middle[0] != NotSplit, middle[1] != NotSplit,
+      middle[2] != NotSplit };
+    Triangles children;
+    VisitParts(cell.Nodes, middle, isDivided,
+      [&children](const std::array<std::int32_t, 3>& part) { children.push_back(part); });
+    this->AddChildren(index, children, isWide ? depth - 1 : depth);
   }
-}
-
-//------------------------------------------------------------------------------
-// As SubCellDivision::Divide.
-SightSheet::Builder::Triangles SightSheet::Builder::ListChildren(
-  const std::array<std::int32_t, 3>& nodes, const std::array<std::int32_t, 3>& middle, int count)
-{
-  std::size_t k = 0;
-  while (count < 3 && (middle[k] != NotSplit) != (count == 1))
-  {
-    ++k;
-  }
-  const std::size_t i = (k + 1) % 3;
-  const std::size_t j = (k + 2) % 3;
-  if (count == 1)
-  {
-    return { { nodes[k], nodes[i], middle[k] }, { nodes[k], middle[k], nodes[j] } };
-  }
-  if (count == 2)
-  {
-    return { { nodes[k], middle[j], middle[i] }, { middle[j], nodes[i], nodes[j] },
-      { middle[j], nodes[j], middle[i] } };
-  }
-  return { { nodes[0], middle[2], middle[1] }, { nodes[1], middle[0], middle[2] },
-    { nodes[2], middle[1], middle[0] }, middle };
 }
 
 //------------------------------------------------------------------------------
@@ -187,12 +167,7 @@ void SightSheet::Builder::BoundCells()
       }
       for (std::int32_t k = 0; k < cell.Children; ++k)
       {
-        const TubeBounds& child =
-          bounds[static_cast<std::size_t>(cell.FirstChild + k) * legs + leg];
-        own.StartLow = glm::min(own.StartLow, child.StartLow);
-        own.StartHigh = glm::max(own.StartHigh, child.StartHigh);
-        own.DirectionLow = glm::min(own.DirectionLow, child.DirectionLow);
-        own.DirectionHigh = glm::max(own.DirectionHigh, child.DirectionHigh);
+        own.Add(bounds[static_cast<std::size_t>(cell.FirstChild + k) * legs + leg]);
       }
     }
   }

@@ -78,8 +78,6 @@ private:
   void Divide(std::size_t index, int depth);
 
   using Triangles = std::vector<std::array<std::int32_t, 3>>;
-  static Triangles ListChildren(
-    const std::array<std::int32_t, 3>& nodes, const std::array<std::int32_t, 3>& middle, int count);
   void AddChildren(std::size_t index, const Triangles& children, int depth);
   void BoundCell(const LegCell& cell, bool isLast, TubeBounds& rays, AxisBox& ends) const;
   void BoundCells();

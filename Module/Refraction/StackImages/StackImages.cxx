@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/StackImages/StackImages.h"
 
-#include "Refraction/Images/SeamClosure.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -110,7 +108,7 @@ void StackImages::FinishPoints()
   this->Chunks.clear();
   this->First.assign(this->States.size() + 1, 0);
   this->Farthest = 0.0;
-  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+  const glm::dvec3 eye = this->GetEye();
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
     this->First[i + 1] = this->First[i] + this->Counts[i];
@@ -152,9 +150,8 @@ std::vector<bool> StackImages::FindWhole(
   std::vector<bool> isWhole = this->FindWholeBehind(this->Solver.GetPlanes(), cells, begin, end);
   for (std::size_t i = begin; i < end; ++i)
   {
-    isWhole[i - begin] = isWhole[i - begin] ||
-      this->AreInFront(cells.Connectivity + cells.Offsets[i],
-        static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]));
+    const auto [ids, count] = cells.GetCell(i);
+    isWhole[i - begin] = isWhole[i - begin] || this->AreInFront(ids, count);
   }
   return isWhole;
 }
@@ -169,8 +166,7 @@ CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* n
   std::vector<StackMapper::Part> parts;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     if (keepsPoints[i - begin])
     {
       this->AddWhole(ids, count, names[i], whole);
@@ -207,8 +203,7 @@ CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t
   std::vector<Triangle> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
-    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    const auto [ids, count] = cells.GetCell(i);
     if (!this->AreInRange(ids, count))
     {
       isMapped[i] = 0;
@@ -266,38 +261,31 @@ bool StackImages::ClipTriangles(
 }
 
 //------------------------------------------------------------------------------
-void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
-  const RangeLoop& loop) const
+CellImages::MoveOntoSide StackImages::MakeMove() const
 {
-  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
-  if (seams.empty())
-  {
-    return;
-  }
-  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
-  const auto move = [this, &eye](
-                      std::int64_t low, std::int64_t high, double place, ImagePoint& point)
+  return [this](std::int64_t low, std::int64_t high, double place, ImagePoint& point)
   {
     if (this->GetNumberOfImages(static_cast<std::size_t>(low)) == 1 &&
       this->GetNumberOfImages(static_cast<std::size_t>(high)) == 1)
     {
-      this->MoveOntoEdge(this->GetFirstImage(low), this->GetFirstImage(high), place, eye, point);
+      this->MoveOntoEdge(this->GetFirstImage(low), this->GetFirstImage(high), place, point);
     }
   };
-  VisitPointsOnNeighbours(seams, cells, count, isMapped, pieces, loop, [&move]() { return move; });
-  if (closesSeams)
-  {
-    this->CloseSeams(seams, cells, count, isMapped, eye, whole, pieces, loop);
-  }
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 StackImages::GetEye() const
+{
+  return this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
 }
 
 //------------------------------------------------------------------------------
 // Moves a point onto the straight side of a whole polygon, if it is on the branch that the polygon
 // draws.
-void StackImages::MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
-  const glm::dvec3& eye, ImagePoint& point) const
+void StackImages::MoveOntoEdge(
+  const ImagePoint& low, const ImagePoint& high, double place, ImagePoint& point) const
 {
+  const glm::dvec3 eye = this->GetEye();
   // The polygon and the piece are each within the tolerance of the true image.
   constexpr double sameBranch = 2.0;
   const glm::dvec3 drawn = (1.0 - place) * low.Vertex.Position + place * high.Vertex.Position;

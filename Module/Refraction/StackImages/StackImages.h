@@ -45,9 +45,10 @@ public:
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
     unsigned char* isMapped) const override;
-  void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces,
-    const RangeLoop& loop) const override;
+
+protected:
+  MoveOntoSide MakeMove() const override;
+  glm::dvec3 GetEye() const override;
 
 private:
   /** A triangle of a polygon, and the parts of it that are seen. */
@@ -68,8 +69,8 @@ private:
   void SolveChunk(std::size_t begin, std::size_t end);
   bool ClipTriangles(
     const StackMapper& mapper, std::int64_t name, std::vector<Triangle>& triangles) const;
-  void MoveOntoEdge(const ImagePoint& low, const ImagePoint& high, double place,
-    const glm::dvec3& eye, ImagePoint& point) const;
+  void MoveOntoEdge(
+    const ImagePoint& low, const ImagePoint& high, double place, ImagePoint& point) const;
   std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
   bool AreInFront(const std::int64_t* ids, std::size_t count) const;
 

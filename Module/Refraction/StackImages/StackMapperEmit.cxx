@@ -3,6 +3,8 @@
 // Output of parts with exact corners.
 #include "Refraction/StackImages/StackMapper.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -23,19 +25,12 @@ constexpr int MostQuarterings = 5;
 // Twice the signed area of a polygon in the primitive's second and third barycentric coordinates.
 double StackMapper::GetArea(const Polygon& polygon)
 {
-  const auto place = [](const Corner& corner)
-  {
-    return glm::dvec2(corner.Value[2], corner.Value[3]) /
-      (corner.Value[1] + corner.Value[2] + corner.Value[3]);
-  };
-  double area = 0.0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
-    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
-    area += u.x * v.y - u.y * v.x;
-  }
-  return area;
+  return GetTwiceArea(polygon.size(),
+    [&polygon](std::size_t i)
+    {
+      const auto& value = polygon[i].Value;
+      return glm::dvec2(value[2], value[3]) / (value[1] + value[2] + value[3]);
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -172,18 +167,13 @@ bool StackMapper::EmitPolygon(const Context& context, const Part& part, ImageMes
     return false;
   }
   const int orientation = this->GetOrientation(context.Patch, part, area);
-  const auto first = static_cast<std::int64_t>(images.Points.size());
-  const auto count = static_cast<std::int64_t>(points.size());
   for (MappedPoint& point : points)
   {
     point.Point.Vertex.Orientation = static_cast<signed char>(orientation);
-    images.Points.push_back(point.Point);
   }
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    images.Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
-  }
-  images.EndCell(context.Primitive.SourceCell, orientation);
+  images.AddCell(
+    points.size(), [&points](std::size_t i) { return points[i].Point; }, !(area > 0.0),
+    context.Primitive.SourceCell, orientation);
   return true;
 }
 
@@ -198,12 +188,8 @@ bool StackMapper::EmitLine(const Context& context, const Polygon& polygon, Image
   {
     return false;
   }
-  for (const MappedPoint& end : ends)
-  {
-    images.Connectivity.push_back(static_cast<std::int64_t>(images.Points.size()));
-    images.Points.push_back(end.Point);
-  }
-  images.EndCell(context.Primitive.SourceCell, 1);
+  images.AddCell(
+    2, [&ends](std::size_t i) { return ends[i].Point; }, false, context.Primitive.SourceCell, 1);
   return true;
 }
 

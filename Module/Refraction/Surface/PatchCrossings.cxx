@@ -602,14 +602,13 @@ bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack)
 //------------------------------------------------------------------------------
 bool PassesNear(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& place, double distance)
 {
-  const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-  const double area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double area = Cross(corners[1] - corners[0], corners[2] - corners[0]);
   for (std::size_t k = 0; k < 3; ++k)
   {
     const glm::dvec2& from = corners[(k + 1) % 3];
     const glm::dvec2 side = corners[(k + 2) % 3] - from;
     // Positive inside: distance times the side's length.
-    const double inside = std::copysign(1.0, area) * cross(from - place, side);
+    const double inside = std::copysign(1.0, area) * Cross(from - place, side);
     if (inside < 0.0 && inside * inside > distance * distance * glm::dot(side, side))
     {
       return false;

@@ -14,18 +14,6 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-void SteepDirections::Build(const Membrane& membrane, const CurvedPatches& patches)
-{
-  std::vector<DirectionBox> normals;
-  normals.reserve(membrane.GetFacets().size());
-  for (std::size_t i = 0; i < membrane.GetFacets().size(); ++i)
-  {
-    normals.push_back(BoundNormals(patches.GetPatch(static_cast<std::int32_t>(i))));
-  }
-  this->Build(membrane, patches, normals);
-}
-
-//------------------------------------------------------------------------------
 // The normals of patches and facets are within some angle of their mean. Those of the curved
 // surface itself follow from its tangents, which are at right angles to the normals at the corners
 // and deviate from the facet in between by no more than these do: they are within twice the angle.

@@ -26,8 +26,6 @@ public:
   /** `normals` are bounds of the normals of each patch. */
   void Build(const Membrane& membrane, const CurvedPatches& patches,
     const std::vector<DirectionBox>& normals);
-  /** As above, with the bounds of BoundNormals. */
-  void Build(const Membrane& membrane, const CurvedPatches& patches);
 
   bool Contains(const glm::dvec3& direction) const
   {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Tubes/BoxTree.h"
 
+#include "Common/MedianSplit.h"
+
 namespace meniscus
 {
 namespace
@@ -54,33 +56,17 @@ void BoxTree::BuildNode(std::vector<std::int32_t>::iterator begin,
   { return boxes[static_cast<std::size_t>(item)]; };
   const std::size_t index = this->Nodes.size();
   this->Nodes.push_back({ AxisBox(), NoItem, 0 });
-  AxisBox whole;
-  AxisBox middles;
   for (auto item = begin; item != end; ++item)
   {
-    const AxisBox& box = boxOf(*item);
-    const glm::dvec3 middle = 0.5 * box.Low + 0.5 * box.High;
-    whole.Add(box);
-    middles.Add({ middle, middle });
+    this->Nodes[index].Box.Add(boxOf(*item));
   }
-  this->Nodes[index].Box = whole;
   if (end - begin == 1)
   {
     this->Nodes[index].Item = *begin;
     return;
   }
-  const glm::dvec3 extent = middles.High - middles.Low;
-  const int axis =
-    extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-  const auto half = begin + (end - begin) / 2;
-  // Equal places are ordered by number: the result must not depend on the library's selection.
-  std::nth_element(begin, half, end,
-    [&boxOf, axis](std::int32_t a, std::int32_t b)
-    {
-      const double first = boxOf(a).Low[axis] + boxOf(a).High[axis];
-      const double second = boxOf(b).Low[axis] + boxOf(b).High[axis];
-      return first != second ? first < second : a < b;
-    });
+  const auto half = SplitAtMedian(begin, end,
+    [&boxOf](std::int32_t item) { return 0.5 * boxOf(item).Low + 0.5 * boxOf(item).High; });
   this->BuildNode(begin, half, boxes);
   this->Nodes[index].Right = static_cast<std::int32_t>(this->Nodes.size());
   this->BuildNode(half, end, boxes);

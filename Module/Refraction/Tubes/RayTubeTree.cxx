@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Tubes/RayTubeTree.h"
 
+#include "Common/MedianSplit.h"
+
 #include <glm/common.hpp>
 
 #include <numeric>
@@ -33,40 +35,21 @@ float RoundUpRate(double value)
                                                                 : rounded;
 }
 
-Iterator SplitInHalf(Iterator begin, Iterator end, const std::vector<glm::dvec3>& centroids)
-{
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (Iterator i = begin; i != end; ++i)
-  {
-    low = glm::min(low, centroids[static_cast<std::size_t>(*i)]);
-    high = glm::max(high, centroids[static_cast<std::size_t>(*i)]);
-  }
-  const glm::dvec3 extent = high - low;
-  const int axis =
-    extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-  const Iterator middle = begin + (end - begin) / 2;
-  // Ties are broken by facet index: the topology depends on the facets alone, not on the library's
-  // sort.
-  std::nth_element(begin, middle, end,
-    [axis, &centroids](std::int32_t a, std::int32_t b)
-    {
-      const double first = centroids[static_cast<std::size_t>(a)][axis];
-      const double second = centroids[static_cast<std::size_t>(b)][axis];
-      return first != second ? first < second : a < b;
-    });
-  return middle;
-}
-
 }
 
 //------------------------------------------------------------------------------
 void TubeBounds::Add(const glm::dvec3& start, const glm::dvec3& direction)
 {
-  this->StartLow = glm::min(this->StartLow, start);
-  this->StartHigh = glm::max(this->StartHigh, start);
-  this->DirectionLow = glm::min(this->DirectionLow, direction);
-  this->DirectionHigh = glm::max(this->DirectionHigh, direction);
+  this->Add({ start, start, direction, direction });
+}
+
+//------------------------------------------------------------------------------
+void TubeBounds::Add(const TubeBounds& other)
+{
+  this->StartLow = glm::min(this->StartLow, other.StartLow);
+  this->StartHigh = glm::max(this->StartHigh, other.StartHigh);
+  this->DirectionLow = glm::min(this->DirectionLow, other.DirectionLow);
+  this->DirectionHigh = glm::max(this->DirectionHigh, other.DirectionHigh);
 }
 
 //------------------------------------------------------------------------------
@@ -102,7 +85,12 @@ std::int32_t RayTubeTree::BuildNode(
   const std::size_t index = this->Nodes.size();
   this->Nodes.emplace_back();
   const auto half = [&centroids](Iterator from, Iterator to)
-  { return to - from > 1 ? SplitInHalf(from, to, centroids) : to; };
+  {
+    return to - from > 1 ? SplitAtMedian(from, to,
+                             [&centroids](std::int32_t item) -> const glm::dvec3&
+                             { return centroids[static_cast<std::size_t>(item)]; })
+                         : to;
+  };
   const Iterator middle = half(begin, end);
   const std::array<Iterator, Width + 1> cut = { begin, half(begin, middle), middle,
     half(middle, end), end };

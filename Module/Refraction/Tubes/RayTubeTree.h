@@ -41,6 +41,8 @@ struct TubeBounds
   /** False for the bounds of a facet without a cell. */
   bool IsValid() const { return this->StartLow.x <= this->StartHigh.x; }
   void Add(const glm::dvec3& start, const glm::dvec3& direction);
+  /** Adds the rays of another tube. */
+  void Add(const TubeBounds& other);
 };
 
 class RayTubeTree

@@ -37,17 +37,6 @@ constexpr int MostDivisions = 8;
 /** Images that are nearer to each other than this part of the grid's cell count as one. */
 constexpr double OneImage = 1.0 / 256.0;
 
-/** Sets two unit vectors that are perpendicular to a unit vector and to each other. */
-void SetAxesAcross(const glm::dvec3& along, glm::dvec3& right, glm::dvec3& up)
-{
-  const glm::dvec3 size = glm::abs(along);
-  const glm::dvec3 other = size.y <= size.x && size.y <= size.z
-    ? glm::dvec3(0.0, 1.0, 0.0)
-    : (size.z <= size.x ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0));
-  right = glm::normalize(glm::cross(along, other));
-  up = glm::cross(right, along);
-}
-
 /** Ends a ray at a plane that it passes along the normal. */
 class PlaneVisitor : public GradedRayVisitor
 {
@@ -111,9 +100,9 @@ private:
 class TrailVisitor : public GradedRayVisitor
 {
 public:
-  TrailVisitor(const glm::dvec3& eye, const glm::dvec3 (&axes)[3], std::vector<glm::dvec3>& trail)
+  TrailVisitor(const glm::dvec3& eye, const HeightFrame& frame, std::vector<glm::dvec3>& trail)
     : Eye(eye)
-    , Axes(axes)
+    , Frame(frame)
     , Trail(trail)
   {
   }
@@ -136,9 +125,7 @@ public:
 private:
   void Add(const glm::dvec3& place)
   {
-    const glm::dvec3 way = place - this->Eye;
-    const glm::dvec3 inFrame(
-      glm::dot(way, this->Axes[0]), glm::dot(way, this->Axes[1]), glm::dot(way, this->Axes[2]));
+    const glm::dvec3 inFrame = this->Frame.ToFrame(place - this->Eye);
     // Depths rise: parts of a ray behind the first time at a depth do not count.
     if (this->Trail.empty() || inFrame.z > this->Trail.back().z)
     {
@@ -147,7 +134,7 @@ private:
   }
 
   const glm::dvec3 Eye;
-  const glm::dvec3 (&Axes)[3];
+  const HeightFrame& Frame;
   std::vector<glm::dvec3>& Trail;
 };
 
@@ -191,13 +178,11 @@ struct ApparentPlaces::Aim
 {
   glm::dvec3 Point;
   double Distance;
-  glm::dvec3 Along;
-  glm::dvec3 Right;
-  glm::dvec3 Up;
+  HeightFrame Frame; ///< along the straight way to it
 
   glm::dvec3 DirectionOf(const glm::dvec2& slope) const
   {
-    return this->Along + slope.x * this->Right + slope.y * this->Up;
+    return this->Frame.Axis + slope.x * this->Frame.First + slope.y * this->Frame.Second;
   }
 };
 
@@ -250,18 +235,16 @@ void ApparentPlaces::LayGrid(const std::vector<glm::dvec3>& points, const RangeL
   {
     return;
   }
-  this->Axes[2] = sum / length;
-  SetAxesAcross(this->Axes[2], this->Axes[0], this->Axes[1]);
+  this->Frame = HeightFrame(sum / length);
   glm::dvec2 low(std::numeric_limits<double>::max());
   glm::dvec2 high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& point : points)
   {
     const glm::dvec3 way = point - this->Eye;
-    const double depth = glm::dot(way, this->Axes[2]);
+    const double depth = this->Frame.GetHeight(way);
     if (IsFinite(way) && depth > 0.0)
     {
-      const glm::dvec2 slope(
-        glm::dot(way, this->Axes[0]) / depth, glm::dot(way, this->Axes[1]) / depth);
+      const glm::dvec2 slope = this->Frame.Project(way) / depth;
       low = glm::min(low, slope);
       high = glm::max(high, slope);
     }
@@ -276,7 +259,7 @@ void ApparentPlaces::LayGrid(const std::vector<glm::dvec3>& points, const RangeL
       GradedRayStatistics statistics;
       for (std::size_t i = begin; i < end; ++i)
       {
-        TrailVisitor visitor(this->Eye, this->Axes, this->Trails[i]);
+        TrailVisitor visitor(this->Eye, this->Frame, this->Trails[i]);
         // A slope makes a depth farther by its angle's cosine.
         visitor.Farthest = 2.0 * farthest * glm::length(glm::dvec3(high - low + this->Spread, 1.0));
         const glm::dvec2 node(static_cast<double>(i % side), static_cast<double>(i / side));
@@ -289,7 +272,7 @@ void ApparentPlaces::LayGrid(const std::vector<glm::dvec3>& points, const RangeL
 glm::dvec3 ApparentPlaces::DirectionAt(const glm::dvec2& node) const
 {
   const glm::dvec2 slope = this->Low + node * this->Step;
-  return this->Axes[2] + slope.x * this->Axes[0] + slope.y * this->Axes[1];
+  return this->Frame.Axis + slope.x * this->Frame.First + slope.y * this->Frame.Second;
 }
 
 //------------------------------------------------------------------------------
@@ -298,12 +281,12 @@ std::vector<glm::dvec2> ApparentPlaces::FindSeeds(const glm::dvec3& point) const
 {
   std::vector<glm::dvec2> seeds;
   const glm::dvec3 way = point - this->Eye;
-  const double depth = glm::dot(way, this->Axes[2]);
+  const double depth = this->Frame.GetHeight(way);
   if (this->Trails.empty() || !(depth > 0.0))
   {
     return seeds;
   }
-  const glm::dvec2 place(glm::dot(way, this->Axes[0]), glm::dot(way, this->Axes[1]));
+  const glm::dvec2 place = this->Frame.Project(way);
   const int side = this->Resolution + 1;
   std::vector<glm::dvec2> met;
   met.reserve(this->Trails.size());
@@ -348,17 +331,16 @@ ApparentPlace ApparentPlaces::FindOne(const glm::dvec3& point) const
   {
     return result;
   }
-  result.Direction = aim.Along = (point - this->Eye) / aim.Distance;
-  SetAxesAcross(aim.Along, aim.Right, aim.Up);
+  result.Direction = (point - this->Eye) / aim.Distance;
+  aim.Frame = HeightFrame(result.Direction);
   std::vector<glm::dvec2> starts = { glm::dvec2(0.0) };
   for (const glm::dvec2& seed : this->FindSeeds(point))
   {
     const glm::dvec3 direction = this->DirectionAt(seed);
-    const double along = glm::dot(direction, aim.Along);
+    const double along = aim.Frame.GetHeight(direction);
     if (along > 0.0)
     {
-      starts.emplace_back(
-        glm::dot(direction, aim.Right) / along, glm::dot(direction, aim.Up) / along);
+      starts.push_back(aim.Frame.Project(direction) / along);
     }
   }
   const double same = OneImage * std::min(this->Step.x, this->Step.y);
@@ -397,11 +379,10 @@ ApparentPlace ApparentPlaces::FindOne(const glm::dvec3& point) const
  */
 bool ApparentPlaces::Miss(const Aim& aim, const glm::dvec2& slope, glm::dvec2& miss) const
 {
-  PlaneVisitor visitor(aim.Point, aim.Along);
+  PlaneVisitor visitor(aim.Point, aim.Frame.Axis);
   GradedRayStatistics statistics;
   this->Walk.Follow({ this->Eye, aim.DirectionOf(slope) }, statistics, visitor);
-  const glm::dvec3 way = visitor.Place - aim.Point;
-  miss = glm::dvec2(glm::dot(way, aim.Right), glm::dot(way, aim.Up));
+  miss = aim.Frame.Project(visitor.Place - aim.Point);
   return visitor.IsMet;
 }
 

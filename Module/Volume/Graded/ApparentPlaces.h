@@ -18,6 +18,7 @@
 #pragma once
 
 #include "Common/RangeLoop.h"
+#include "Refraction/Membrane/HeightField.h"
 #include "Volume/Graded/GradedRayWalk.h"
 
 #include <glm/mat2x2.hpp>
@@ -76,8 +77,8 @@ private:
   glm::dvec3 Eye;
   double Spread;
   int Resolution;
-  /** Axes of the grid's frame: right, up and along its middle. */
-  glm::dvec3 Axes[3];
+  /** Frame of the grid; the axis is along its middle. */
+  HeightFrame Frame;
   glm::dvec2 Low{ 0.0 };
   glm::dvec2 Step{ 0.0 };
   /** Corners of the rays of the grid's nodes, in its frame. */

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/EntryRaster.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -29,21 +31,13 @@ constexpr double LargestTurn = 1.0 / 64.0;
 constexpr double TileSize = 8.0;
 constexpr int MostTiles = 16;
 
-/** Twice the area of a triangle, positive if its corners turn to the left. */
-double TwiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
-{
-  const glm::dvec2 ab = b - a;
-  const glm::dvec2 ac = c - a;
-  return ab.x * ac.y - ab.y * ac.x;
-}
-
 /** A triangle's sides as half planes, in all of which are its places and those close to it. */
 class Sides
 {
 public:
   explicit Sides(const std::array<glm::dvec2, 3>& corners)
   {
-    const double turn = std::copysign(1.0, TwiceArea(corners[0], corners[1], corners[2]));
+    const double turn = std::copysign(1.0, Cross(corners[1] - corners[0], corners[2] - corners[0]));
     for (std::size_t i = 0; i < 3; ++i)
     {
       const glm::dvec2& from = corners[i];

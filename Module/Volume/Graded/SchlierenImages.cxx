@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Graded/SchlierenImages.h"
 
+#include "Refraction/Membrane/CrossProduct.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace meniscus
 {
@@ -76,32 +79,16 @@ struct Polygon
   }
   double GetArea() const
   {
-    double twice = 0.0;
-    for (int i = 2; i < this->Size; ++i)
-    {
-      const glm::dvec2 a = this->Corners[i - 1] - this->Corners[0];
-      const glm::dvec2 b = this->Corners[i] - this->Corners[0];
-      twice += a.x * b.y - a.y * b.x;
-    }
-    return 0.5 * std::abs(twice);
+    const auto placeOf = [this](std::size_t i) { return this->Corners[i]; };
+    return 0.5 * std::abs(GetTwiceArea(static_cast<std::size_t>(this->Size), placeOf));
   }
-  double GetLeast(int axis) const
+  /** Least and largest coordinate along an axis. */
+  std::pair<double, double> GetRange(int axis) const
   {
-    double least = this->Corners[0][axis];
-    for (int i = 1; i < this->Size; ++i)
-    {
-      least = std::min(least, this->Corners[i][axis]);
-    }
-    return least;
-  }
-  double GetMost(int axis) const
-  {
-    double most = this->Corners[0][axis];
-    for (int i = 1; i < this->Size; ++i)
-    {
-      most = std::max(most, this->Corners[i][axis]);
-    }
-    return most;
+    const auto range =
+      std::minmax_element(this->Corners.begin(), this->Corners.begin() + this->Size,
+        [axis](const glm::dvec2& a, const glm::dvec2& b) { return a[axis] < b[axis]; });
+    return { (*range.first)[axis], (*range.second)[axis] };
   }
 };
 
@@ -121,9 +108,8 @@ std::array<double, 4> TurnsOf(const Quadrangle& corners)
   std::array<double, 4> turns;
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    const glm::dvec2 a = corners[(i + 1) % 4] - corners[i];
-    const glm::dvec2 b = corners[(i + 2) % 4] - corners[(i + 1) % 4];
-    turns[i] = a.x * b.y - a.y * b.x;
+    turns[i] =
+      Cross(corners[(i + 1) % 4] - corners[i], corners[(i + 2) % 4] - corners[(i + 1) % 4]);
   }
   return turns;
 }
@@ -149,8 +135,9 @@ int PixelAt(double coordinate, int first, int last)
 template <typename Body>
 void ForEachSlice(const Polygon& polygon, int axis, int first, int last, const Body& body)
 {
-  const int begin = PixelAt(polygon.GetLeast(axis), first, last);
-  const int end = PixelAt(polygon.GetMost(axis), first, last);
+  const std::pair<double, double> range = polygon.GetRange(axis);
+  const int begin = PixelAt(range.first, first, last);
+  const int end = PixelAt(range.second, first, last);
   Polygon rest = begin < first ? polygon.Cut(axis, first - 0.5, -1.0) : polygon;
   for (int pixel = std::max(begin, first); pixel <= std::min(end, last - 1) && rest.Size > 2;
        ++pixel)

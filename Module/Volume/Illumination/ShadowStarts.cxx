@@ -3,7 +3,7 @@
 #include "Volume/Illumination/ShadowStarts.h"
 
 #include "Common/BlockLoop.h"
-#include "Volume/Refracted/RayBundleEntries.h"
+#include "Volume/Mesh/InvertedCells.h"
 
 #include <glm/geometric.hpp>
 

@@ -23,6 +23,8 @@ struct BoundaryTree::Item : Box
 {
   /** Number of the face in the mesh's boundary. */
   std::int32_t Index;
+
+  bool operator<(const Item& other) const { return this->Index < other.Index; }
 };
 
 namespace
@@ -101,7 +103,11 @@ void BoundaryTree::BuildSubtree(std::vector<Item>& items, std::size_t first, std
   }
   else
   {
-    const std::size_t middle = SplitAtMedian(items, first, last);
+    const auto begin = items.begin();
+    const auto half = SplitAtMedian(begin + static_cast<std::ptrdiff_t>(first),
+      begin + static_cast<std::ptrdiff_t>(last),
+      [](const Item& item) { return item.Lower + item.Upper; });
+    const auto middle = static_cast<std::size_t>(half - begin);
     this->BuildSubtree(items, first, middle);
     this->BuildSubtree(items, middle, last);
   }

@@ -17,4 +17,10 @@ class TetrahedralMesh;
  */
 std::int64_t CountInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
+/**
+ * True if a cell is inverted by more than rounding. A ray may then return to a cell it has left,
+ * and only a walk from the boundary is certain to end on the boundary.
+ */
+bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
+
 }

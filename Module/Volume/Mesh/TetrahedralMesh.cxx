@@ -123,6 +123,7 @@ void TetrahedralMesh::ForgetAllButTables()
   this->HalfSize = glm::dvec3(0.0);
   this->Radius = 0.0;
   this->SmallestCell = 1.0;
+  this->LongestEdge = 0.0;
   this->ImpreciseCells = 0;
 }
 

@@ -266,6 +266,8 @@ public:
    * GetRadius(); 1 without such cells.
    */
   double GetSmallestCell() const { return this->SmallestCell; }
+  /** Length of the longest edge of a cell, in units of GetRadius(); 0 without cells. */
+  double GetLongestEdge() const { return this->LongestEdge; }
   /** Number of cells with an edge, between different points, below ShortestPreciseEdge. */
   std::int64_t GetNumberOfImpreciseCells() const { return this->ImpreciseCells; }
 
@@ -318,6 +320,7 @@ private:
   glm::dvec3 HalfSize{ 0.0 };
   double Radius = 0.0;
   double SmallestCell = 1.0;
+  double LongestEdge = 0.0;
   std::int64_t ImpreciseCells = 0;
 };
 

@@ -37,6 +37,7 @@ using ComponentRun = std::pair<std::int32_t, ComponentVolume>;
 struct BlockMeasure
 {
   double SmallestSquare = std::numeric_limits<double>::infinity();
+  double LargestSquare = 0.0;
   std::int64_t Imprecise = 0;
   std::vector<ComponentRun> Runs;
 };
@@ -140,6 +141,7 @@ void TetrahedralMesh::MeasureCells(
             {
               measure.SmallestSquare = cells.Longest[i];
             }
+            measure.LargestSquare = std::max(measure.LargestSquare, cells.Longest[i]);
             measure.Imprecise +=
               cells.Shortest[i] < limit * limit && this->HasShortEdge(this->Cells[c], points);
           }
@@ -151,10 +153,12 @@ void TetrahedralMesh::MeasureCells(
       blocks[block] = std::move(measure);
     });
   double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
   this->ImpreciseCells = 0;
   for (const BlockMeasure& block : blocks)
   {
     least = std::min(least, block.SmallestSquare);
+    most = std::max(most, block.LargestSquare);
     this->ImpreciseCells += block.Imprecise;
     for (const ComponentRun& run : block.Runs)
     {
@@ -162,6 +166,7 @@ void TetrahedralMesh::MeasureCells(
     }
   }
   this->SmallestCell = std::isfinite(least) ? PositionUnit * std::sqrt(least) : 1.0;
+  this->LongestEdge = PositionUnit * std::sqrt(most);
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/RayBundleEntries.h"
 
-#include "Common/BlockLoop.h"
 #include "Common/Prefetch.h"
 #include "Simd/InstructionSets.h"
 #include "Simd/LaneLoop.h"
@@ -18,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -61,40 +59,6 @@ double FindFirst(const LineBlock* blocks, std::size_t count)
   return std::min(std::min(first[0], first[1]), std::min(first[2], first[3]));
 }
 
-}
-
-//------------------------------------------------------------------------------
-bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop)
-{
-  const std::vector<glm::ivec3>& places = mesh.GetFixedPositions();
-  std::atomic<bool> found{ false };
-  ForEachBlock(static_cast<std::size_t>(mesh.GetNumberOfCells()), loop,
-    [&](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last && !found; ++c)
-      {
-        const auto& ids = mesh.GetCells()[c].Vertices;
-        const auto edge = [&](std::size_t k)
-        {
-          return glm::dvec3(places[static_cast<std::size_t>(ids[k])]) -
-            glm::dvec3(places[static_cast<std::size_t>(ids[0])]);
-        };
-        const glm::dvec3 edges[3] = { edge(1), edge(2), edge(3) };
-        const double volume = glm::dot(edges[0], glm::cross(edges[1], edges[2]));
-        // Vertices are rounded by half a unit per axis, so the error of an edge is up to sqrt(3)
-        // units, and the error of the volume is that times the area of each pair of edges.
-        const double lengths[3] = { glm::length(edges[0]), glm::length(edges[1]),
-          glm::length(edges[2]) };
-        const double rounding = std::sqrt(3.0) *
-          (lengths[0] * lengths[1] + lengths[1] * lengths[2] + lengths[2] * lengths[0]);
-        const bool positive = mesh.IsPositivelyOriented(static_cast<std::int64_t>(c));
-        if ((positive ? volume : -volume) < -rounding)
-        {
-          found = true;
-        }
-      }
-    });
-  return found;
 }
 
 //------------------------------------------------------------------------------

@@ -21,12 +21,6 @@ namespace meniscus
 {
 
 /**
- * True if a cell is inverted by more than rounding. A ray may then return to a cell it has left,
- * and only a walk from the boundary is certain to end on the boundary.
- */
-bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
-
-/**
  * Bounding box of the boundary in the frame of the view; without extent if there is no boundary.
  */
 BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view);

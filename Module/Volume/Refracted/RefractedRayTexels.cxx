@@ -108,16 +108,13 @@ void LayOutRefractedRays(const RayLegs& legs, const RefractionFrames& frames, co
 {
   const std::size_t pixels = static_cast<std::size_t>(legs.GetWidth()) * legs.GetHeight();
   lines.resize(pixels * static_cast<std::size_t>(legs.GetNumberOfLegs() - 1));
-  loop(static_cast<std::size_t>(legs.GetNumberOfTiles()),
-    [&](std::size_t begin, std::size_t end)
+  ForEachItem(static_cast<std::size_t>(legs.GetNumberOfTiles()), loop,
+    [&](std::size_t tile)
     {
-      for (std::size_t tile = begin; tile < end; ++tile)
+      for (int number = 1; number < legs.GetNumberOfLegs(); ++number)
       {
-        for (int number = 1; number < legs.GetNumberOfLegs(); ++number)
-        {
-          LayOutTile(legs, frames, static_cast<int>(tile), number,
-            lines.data() + pixels * static_cast<std::size_t>(number - 1));
-        }
+        LayOutTile(legs, frames, static_cast<int>(tile), number,
+          lines.data() + pixels * static_cast<std::size_t>(number - 1));
       }
     });
 }

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 
 namespace meniscus
 {
@@ -164,20 +166,9 @@ unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
 unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, const RangeLoop& loop) const
 {
   std::vector<unsigned int> needed(static_cast<std::size_t>(legs.GetNumberOfTiles()), 0);
-  loop(needed.size(),
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t tile = begin; tile < end; ++tile)
-      {
-        needed[tile] = this->FindNeeded(legs, static_cast<int>(tile));
-      }
-    });
-  unsigned int all = 0;
-  for (const unsigned int ofTile : needed)
-  {
-    all |= ofTile;
-  }
-  return all;
+  ForEachItem(needed.size(), loop,
+    [&](std::size_t tile) { needed[tile] = this->FindNeeded(legs, static_cast<int>(tile)); });
+  return std::accumulate(needed.begin(), needed.end(), 0u, std::bit_or<unsigned int>());
 }
 
 //------------------------------------------------------------------------------

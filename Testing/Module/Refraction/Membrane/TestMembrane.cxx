@@ -5,6 +5,8 @@
 #include "Refraction/Membrane/Membrane.h"
 #include "TestBasics.h"
 
+#include <set>
+
 namespace
 {
 
@@ -194,6 +196,47 @@ TEST(RefractionMembrane, NonManifoldAndInconsistentFacetsStillGetNormals)
     EXPECT_NEAR(glm::length(normal), 1.0, 1e-15);
   }
   EXPECT_EQ(membrane.GetNormals()[2], glm::dvec3(0.0, 1.0, 0.0));
+}
+
+TEST(RefractionMembrane, ATurnedFacetKeepsItsBordersAndNeighbours)
+{
+  // Three triangles of a strip; the middle one has the other winding.
+  MembraneMesh mesh;
+  for (int i = 0; i < 5; ++i)
+  {
+    mesh.AddPoint({ i, 0.0, i % 2 }, { 0.0, 1.0, 0.0 });
+  }
+  mesh.AddTriangle(0, 1, 2);
+  mesh.AddTriangle(1, 2, 3);
+  mesh.AddTriangle(2, 3, 4);
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
+  ASSERT_EQ(membrane.GetReport().TurnedFacets, 1u);
+
+  const SurfacePieces& pieces = membrane.GetPieces();
+  std::set<std::set<std::int32_t>> borders;
+  for (const SurfaceEdge& border : pieces.Borders)
+  {
+    borders.insert({ border.Ends[0], border.Ends[1] });
+  }
+  EXPECT_EQ(borders,
+    (std::set<std::set<std::int32_t>>{ { 0, 1 }, { 0, 2 }, { 1, 3 }, { 2, 4 }, { 3, 4 } }));
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Membrane::Facet& facet = membrane.GetFacets()[i];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      std::set<std::int32_t> edge{ facet[(k + 1) % 3], facet[(k + 2) % 3] };
+      const std::int32_t other = pieces.Neighbours[i][k];
+      EXPECT_EQ(other < 0, borders.count(edge) == 1);
+      if (other >= 0)
+      {
+        const Membrane::Facet& across = membrane.GetFacets()[static_cast<std::size_t>(other)];
+        edge.insert(across.begin(), across.end());
+        EXPECT_EQ(edge.size(), 3u); // both ends of the edge are corners of the other facet
+      }
+    }
+  }
 }
 
 TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)

@@ -8,6 +8,7 @@
 #include "TestBasics.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
+#include "Volume/Mesh/InvertedCells.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 #include "Volume/Refracted/RefractedRayStack.h"

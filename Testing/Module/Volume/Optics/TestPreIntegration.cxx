@@ -4,7 +4,6 @@
 #include "KernelMeshes.h"
 
 #include "TestBasics.h"
-#include "Volume/Mesh/LongestEdge.h"
 #include "Volume/Optics/PreIntegration.h"
 
 #include <thread>
@@ -287,9 +286,9 @@ TEST(PreIntegration, DoesNotDependOnTheThreads)
 TEST(PreIntegration, LongestEdge)
 {
   TetrahedralMesh mesh;
-  EXPECT_EQ(ComputeLongestEdge(mesh), 0.0);
+  EXPECT_EQ(mesh.GetLongestEdge(), 0.0);
   const MeshArrays arrays = KuhnGrid(2); // 2^3 cubes, each split along a diagonal
   mesh.Build(arrays.View());
   // The radius of a grid is half its diagonal, which is that of one of the cubes.
-  EXPECT_NEAR(ComputeLongestEdge(mesh), 1.0, 1e-8);
+  EXPECT_NEAR(mesh.GetLongestEdge(), 1.0, 1e-8);
 }
