@@ -37,6 +37,8 @@ public:
   /** Medium behind the membrane of the frame, and medium that the caller of RenderPart() gave. */
   meniscus::RefractionMedium Medium;
   meniscus::RefractionMedium Surroundings;
+  /** Time of the settings for which a fault of the medium was told. */
+  vtkMTimeType MediumFaultTime = 0;
 
   /** Light of the frame, if its medium attenuates it. */
   meniscus::VolumeIllumination::Request IlluminationRequest;

@@ -87,6 +87,7 @@ public:
   /** Last time that an object's shader changed. */
   vtkTimeStamp ShaderTime;
   std::string LastLightWarning;
+  vtkMTimeType MediumFaultTime = 0;
   vtkTypeInt64 SkippedLights = 0;
 
   vtkTypeInt64 Drawn = 0;
@@ -302,7 +303,12 @@ void vtkRefractionPass::UpdateMedium()
   const std::string fault = medium.DescribeFault();
   if (!fault.empty())
   {
-    vtkErrorMacro(<< fault << "; the medium is drawn clear.");
+    // Once for each change, not for each frame.
+    if (this->GetMTime() != this->Internals->MediumFaultTime)
+    {
+      vtkErrorMacro(<< fault << "; the medium is drawn clear.");
+    }
+    this->Internals->MediumFaultTime = this->GetMTime();
     medium = meniscus::RefractionMedium();
   }
   this->Internals->Medium = medium;

@@ -57,7 +57,12 @@ void vtkTetrahedraRayCastMapper::UpdateMedium()
   const std::string fault = medium.DescribeFault();
   if (!fault.empty())
   {
-    vtkErrorMacro(<< fault << "; the medium is drawn clear.");
+    // Once for each change, not for each frame.
+    if (this->vtkObject::GetMTime() != internals.MediumFaultTime)
+    {
+      vtkErrorMacro(<< fault << "; the medium is drawn clear.");
+    }
+    internals.MediumFaultTime = this->vtkObject::GetMTime();
     medium = meniscus::RefractionMedium();
   }
   internals.Medium = medium.IsClear() ? internals.Surroundings : medium;

@@ -13,6 +13,11 @@ vtkStandardNewMacro(vtkRefractingInterfaceCollection);
 //------------------------------------------------------------------------------
 void vtkRefractingInterfaceCollection::AddItem(vtkRefractingInterface* interface)
 {
+  if (!interface)
+  {
+    vtkErrorMacro("There is no interface to add.");
+    return;
+  }
   this->vtkCollection::AddItem(interface);
 }
 

@@ -82,8 +82,9 @@ const std::vector<Statistic<RayCastTables>>& RayCastTables::ListStatistics()
       "edges of the last division that exceed the tolerance after 23 divisions",
       [](Self& self) { return double(self.Input.GetDivision().GetCounts().UnresolvedEdges); } },
     { "DivisionError",
-      "largest error in the edges of the last division, in the unit of the tolerance",
-      [](Self& self) { return double(self.Input.GetDivision().GetCounts().Error); } },
+      "largest error of the tetrahedra that adaptive division has made or found accurate enough, "
+      "in the unit of the tolerance",
+      [](Self& self) { return self.Input.GetDivision().GetError(); } },
   };
   return list;
 }

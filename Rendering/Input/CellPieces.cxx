@@ -114,11 +114,14 @@ public:
   {
   }
 
-  /** True if no straight line between corners has an error above the limit. */
-  bool IsStraight(std::int32_t cell, const CornerReader& reader, double most);
+  /**
+   * Largest error of the straight lines between corners, or a bound of it within the limit; above
+   * the limit, the first error that is found there.
+   */
+  double ErrorOf(std::int32_t cell, const CornerReader& reader, double most);
 
 private:
-  bool IsBoundedBy(const CornerReader& reader, double most) const;
+  double BoundOf(const CornerReader& reader, double most) const;
 
   const PointFields& Fields;
   const DivisionMeasure& Measure;
@@ -126,26 +129,24 @@ private:
 };
 
 //------------------------------------------------------------------------------
-bool CellMeasure::IsStraight(std::int32_t cell, const CornerReader& reader, double most)
+double CellMeasure::ErrorOf(std::int32_t cell, const CornerReader& reader, double most)
 {
-  if (this->IsBoundedBy(reader, most))
+  const double bound = this->BoundOf(reader, most);
+  if (bound <= most)
   {
-    return true;
+    return bound;
   }
   const CellShape& shape = reader.GetShape();
-  for (int a = 0; a < shape.NumberOfCorners; ++a)
+  double largest = 0.0;
+  for (int a = 0; a < shape.NumberOfCorners && largest <= most; ++a)
   {
-    for (int b = a + 1; b < shape.NumberOfCorners; ++b)
+    for (int b = a + 1; b < shape.NumberOfCorners && largest <= most; ++b)
     {
-      const double error =
-        this->Test.MeasureEdge(cell, PlaceOfCorner(shape, a), PlaceOfCorner(shape, b), LeastParts);
-      if (error > most)
-      {
-        return false;
-      }
+      largest = std::max(largest,
+        this->Test.MeasureEdge(cell, PlaceOfCorner(shape, a), PlaceOfCorner(shape, b), LeastParts));
     }
   }
-  return true;
+  return largest;
 }
 
 /** Deviation of a trilinear function from its chords, at most: of values, or of positions. */
@@ -163,14 +164,15 @@ double BoundDeviation(const std::array<Value, 8>& f, const LengthOf& lengthOf)
 }
 
 //------------------------------------------------------------------------------
-/** A bound in closed form for voxels and hexahedra; false for other cells. */
-bool CellMeasure::IsBoundedBy(const CornerReader& reader, double most) const
+/** A bound in closed form for voxels and hexahedra; infinite if it is above the limit. */
+double CellMeasure::BoundOf(const CornerReader& reader, double most) const
 {
+  constexpr double none = std::numeric_limits<double>::infinity();
   const CellShape& shape = reader.GetShape();
   const bool isTrilinear = shape.LinearType == VTK_VOXEL || shape.LinearType == VTK_HEXAHEDRON;
   if (!isTrilinear || this->Fields.IsLength)
   {
-    return false;
+    return none;
   }
   std::array<std::size_t, 8> points{};
   for (int corner = 0; corner < 8; ++corner)
@@ -184,9 +186,11 @@ bool CellMeasure::IsBoundedBy(const CornerReader& reader, double most) const
     [this](std::size_t point) { return this->Fields.Points[point]; });
   const double displacement =
     BoundDeviation(positions, [](const glm::dvec3& v) { return glm::length(v); });
-  if (displacement > this->Measure.PlaceRounding && displacement * this->Measure.OfPlace > most)
+  double largest =
+    displacement > this->Measure.PlaceRounding ? displacement * this->Measure.OfPlace : 0.0;
+  if (largest > most)
   {
-    return false;
+    return none;
   }
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; displacement > 0.0 && a < 8; ++a)
@@ -207,13 +211,14 @@ bool CellMeasure::IsBoundedBy(const CornerReader& reader, double most) const
       displacement > 0.0 ? (*ends.second - *ends.first) * displacement / shortest : 0.0;
     const double deviation =
       BoundDeviation(values, [](double value) { return std::abs(value); }) + slide;
-    if (deviation > this->Measure.ValueRounding[field] &&
-      !(this->Measure.OfValues[field].Bound(*ends.first, *ends.second, deviation) <= most))
+    if (deviation > this->Measure.ValueRounding[field])
     {
-      return false;
+      const double bound =
+        this->Measure.OfValues[field].Bound(*ends.first, *ends.second, deviation);
+      largest = bound <= most ? std::max(largest, bound) : none;
     }
   }
-  return true;
+  return largest;
 }
 
 }
@@ -254,6 +259,7 @@ CurvedCells FindCurvedCells(const std::vector<vtkDataSet*>& grids, const PointFi
   CurvedCells curved;
   curved.Degrees.assign(cells, 0);
   std::vector<std::uint8_t> any(NumberOfBlocks(cells), 0);
+  std::vector<double> errors(any.size(), 0.0);
   ForEachBlock(cells, loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
@@ -273,7 +279,10 @@ CurvedCells FindCurvedCells(const std::vector<vtkDataSet*>& grids, const PointFi
           continue;
         }
         const int degree = known > 0 ? known : degrees.GetDegree(cell);
-        if (degree >= leastDegree && (degree > 1 || !cellMeasure.IsStraight(cell, reader, most)))
+        const double error =
+          degree == 1 && leastDegree == 1 ? cellMeasure.ErrorOf(cell, reader, most) : 0.0;
+        errors[block] = error <= most ? std::max(errors[block], error) : errors[block];
+        if (degree >= leastDegree && (degree > 1 || error > most))
         {
           curved.Degrees[c] = static_cast<std::uint8_t>(std::min(degree, highest));
           any[block] = 1;
@@ -281,6 +290,7 @@ CurvedCells FindCurvedCells(const std::vector<vtkDataSet*>& grids, const PointFi
       }
     });
   curved.IsEmpty = std::count(any.begin(), any.end(), 1) == 0;
+  curved.Error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
   return curved;
 }
 

@@ -30,6 +30,8 @@ struct CurvedCells
    */
   std::vector<std::uint8_t> Degrees;
   bool IsEmpty = true;
+  /** Largest error of the cells of degree 1 that were measured and are not divided, or a bound. */
+  double Error = 0.0;
 };
 
 /**

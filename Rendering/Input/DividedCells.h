@@ -10,6 +10,7 @@
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/ErrorScale.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -94,6 +95,11 @@ public:
 
   const WeightedPoints& GetPoints() const { return this->Division.GetPoints(); }
   const DivisionCounts& GetCounts() const { return this->Division.GetCounts(); }
+  /**
+   * Largest error in the edges of the tetrahedra: those of divided cells, and those of cells that
+   * were measured and need no division, for which it may be a bound.
+   */
+  double GetError() const { return std::max(this->GetCounts().Error, this->Curved.Error); }
   /** Budget that the last division had. */
   std::int64_t GetBudget() const { return this->Budget; }
   /** Number of divisions since construction. */

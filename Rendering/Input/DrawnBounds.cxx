@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <sstream>
@@ -45,6 +46,55 @@ bool HasFourPoints(const std::vector<std::int64_t>& points)
   return different == found.size();
 }
 
+/**
+ * True if points lie in a plane within the rounding errors of their coordinates: a cell of them has
+ * no volume. The determinant of four points, at most a distance L apart, changes by L^2 at most for
+ * each point and unit of length that the point is displaced. Coordinates up to C are off by 2^-53
+ * C, so points by sqrt(3) times that, and four by less than 7. The determinant itself is rounded by
+ * less than 10 2^-53 L^3: GradedCell.h.
+ */
+template <typename PlaceOf>
+bool IsFlat(std::size_t count, const PlaceOf& placeOf)
+{
+  const glm::dvec3 first = placeOf(0);
+  double largest = 0.0;
+  glm::dvec3 edge(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 size = glm::abs(placeOf(i));
+    const glm::dvec3 other = placeOf(i) - first;
+    largest = std::max({ largest, size.x, size.y, size.z });
+    edge = glm::dot(other, other) > glm::dot(edge, edge) ? other : edge;
+  }
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 other = glm::cross(edge, placeOf(i) - first);
+    normal = glm::dot(other, other) > glm::dot(normal, normal) ? other : normal;
+  }
+  double height = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    height = std::max(height, std::abs(glm::dot(normal, placeOf(i) - first)));
+  }
+  constexpr double rounding = 0.5 * std::numeric_limits<double>::epsilon();
+  const double most = 2.0 * glm::length(edge); // the first point may be in the middle
+  return height <= rounding * most * most * (7.0 * largest + 10.0 * most);
+}
+
+/**
+ * Widens a box to that with one cell more, unless the cell is flat. Few cells widen a box, so that
+ * few are tested.
+ */
+template <typename Test>
+void WidenUnless(PointBox& box, const PointBox& wider, const Test& isFlat)
+{
+  if ((wider.Lower != box.Lower || wider.Upper != box.Upper) && !isFlat())
+  {
+    box = wider;
+  }
+}
+
 /** Reader of the cells of a data set that are drawn. */
 class DrawnCells
 {
@@ -56,7 +106,7 @@ public:
   {
   }
 
-  /** Reads the points of a cell. Returns false if it is not drawn. */
+  /** Reads the points of a cell. Returns false if it is not drawn, unless it is flat. */
   bool Read(vtkIdType cell)
   {
     const int type = this->Cells.GetType(cell);
@@ -66,6 +116,12 @@ public:
       HasFourPoints(this->OfCell) &&
       std::all_of(this->OfCell.begin(), this->OfCell.end(),
         [this](std::int64_t point) { return IsFinite(this->PlaceOf(point)); });
+  }
+  /** True if the cell has no volume, and is not drawn. */
+  bool IsFlatCell() const
+  {
+    return IsFlat(
+      this->OfCell.size(), [this](std::size_t i) { return this->PlaceOf(this->OfCell[i]); });
   }
   /** Points of the cell; those of faces more than once. */
   const std::vector<std::int64_t>& GetPoints() const { return this->OfCell; }
@@ -186,10 +242,20 @@ PointBox MarkPoints(const PointsView& points, std::vector<std::uint8_t>& marks)
   return all.Box;
 }
 
-/** Marks of the points of all tetrahedra together, and NotUsable for one of fewer points. */
+/** True if the points of a tetrahedron lie in a plane. */
 template <typename Id>
-std::uint8_t JoinMarks(
-  const Id* ids, std::size_t tetrahedra, const std::vector<std::uint8_t>& marks)
+bool IsFlatTetrahedron(const Id* ids, const PointsView& points)
+{
+  return IsFlat(4, [&](std::size_t i) { return points[static_cast<std::size_t>(ids[i])]; });
+}
+
+/**
+ * Marks of the points of all tetrahedra together, without those of sides for flat ones, and
+ * NotUsable for a tetrahedron of fewer points.
+ */
+template <typename Id>
+std::uint8_t JoinMarks(const Id* ids, std::size_t tetrahedra, const PointsView& points,
+  const std::vector<std::uint8_t>& marks)
 {
   std::vector<std::uint8_t> parts(NumberOfBlocks(tetrahedra));
   ForEachBlock(tetrahedra, ThreadedLoop,
@@ -199,14 +265,17 @@ std::uint8_t JoinMarks(
       for (std::size_t t = first; t < last; ++t)
       {
         const Id* at = ids + 4 * t;
+        std::uint8_t own = 0;
         for (std::size_t i = 0; i < 4; ++i)
         {
           const auto id = static_cast<std::size_t>(at[i]);
-          part |= id < marks.size() ? marks[id] : NotUsable; // negative numbers are large here
+          own |= id < marks.size() ? marks[id] : NotUsable; // negative numbers are large here
         }
         const bool isRepeated = (at[0] == at[1]) | (at[0] == at[2]) | (at[0] == at[3]) |
           (at[1] == at[2]) | (at[1] == at[3]) | (at[2] == at[3]);
-        part |= isRepeated ? NotUsable : 0;
+        own |= isRepeated ? NotUsable : 0;
+        const bool isAtSide = (own & AllSides) != 0 && (own & NotUsable) == 0;
+        part |= isAtSide && IsFlatTetrahedron(at, points) ? own & ~AllSides : own;
       }
       parts[block] = part;
     });
@@ -214,18 +283,25 @@ std::uint8_t JoinMarks(
     parts.begin(), parts.end(), std::uint8_t{ 0 }, [](int a, int b) { return a | b; });
 }
 
-/** Box around points that are listed, each as often as it is. */
+/** Box around the points of tetrahedra that are not flat. */
 PointBox BoxOfListed(const IdView& ids, const PointsView& points)
 {
-  const auto count = static_cast<std::size_t>(ids.GetSize());
+  const auto count = static_cast<std::size_t>(ids.GetSize()) / 4;
   std::vector<PointBox> boxes(NumberOfBlocks(count));
   ForEachBlock(count, ThreadedLoop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       PointBox box;
-      for (std::size_t i = first; i < last; ++i)
+      for (std::size_t t = first; t < last; ++t)
       {
-        box.Add(points[static_cast<std::size_t>(ids[static_cast<std::int64_t>(i)])]);
+        std::array<std::int64_t, 4> own;
+        PointBox wider = box;
+        for (std::size_t i = 0; i < own.size(); ++i)
+        {
+          own[i] = ids[static_cast<std::int64_t>(4 * t + i)];
+          wider.Add(points[static_cast<std::size_t>(own[i])]);
+        }
+        WidenUnless(box, wider, [&]() { return IsFlatTetrahedron(own.data(), points); });
       }
       boxes[block] = box;
     });
@@ -233,17 +309,19 @@ PointBox BoxOfListed(const IdView& ids, const PointsView& points)
 }
 
 /**
- * Box around the points of tetrahedra. Returns false if one of them does not exist, is not finite,
- * or is there twice in one tetrahedron. Mostly the points at the sides of the box around all points
- * are listed: finding that takes a third of the time of a box around each cell.
+ * Box around the points of tetrahedra that are not flat. Returns false if one of them does not
+ * exist, is not finite, or is there twice in one tetrahedron. Mostly the points at the sides of the
+ * box around all points are listed: finding that takes a third of the time of a box around each
+ * cell.
  */
 bool EncloseListed(const IdView& ids, const PointsSource& points, PointBox& box)
 {
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(points.GetNumberOfPoints()), 0);
   box = MarkPoints(points.GetView(), marks);
   const auto size = static_cast<std::size_t>(ids.GetSize()) / 4;
-  const std::uint8_t found =
-    ids.GetInts() ? JoinMarks(ids.GetInts(), size, marks) : JoinMarks(ids.GetLongs(), size, marks);
+  const std::uint8_t found = ids.GetInts()
+    ? JoinMarks(ids.GetInts(), size, points.GetView(), marks)
+    : JoinMarks(ids.GetLongs(), size, points.GetView(), marks);
   if (found & (NotFinite | NotUsable))
   {
     return false;
@@ -255,7 +333,8 @@ bool EncloseListed(const IdView& ids, const PointsSource& points, PointBox& box)
   return true;
 }
 
-PointBox BoxOf(vtkDataSet* grid)
+/** @param withFlat whether flat cells count as drawn. */
+PointBox BoxOf(vtkDataSet* grid, bool withFlat)
 {
   PointBox box;
   const vtkIdType size = grid->GetNumberOfCells();
@@ -280,7 +359,7 @@ PointBox BoxOf(vtkDataSet* grid)
   }
   const PointsSource points({ grid }, ThreadedLoop);
   PointBox ofTetrahedra;
-  if (!cells.GetGhosts() && cells.HasOnlyTetrahedra() &&
+  if (!withFlat && !cells.GetGhosts() && cells.HasOnlyTetrahedra() &&
     EncloseListed(cells.GetIds(), points, ofTetrahedra))
   {
     return ofTetrahedra;
@@ -296,12 +375,24 @@ PointBox BoxOf(vtkDataSet* grid)
         {
           continue;
         }
+        PointBox wider = boxes[block];
         for (const std::int64_t point : drawn.GetPoints())
         {
-          boxes[block].Add(drawn.PlaceOf(point));
+          wider.Add(drawn.PlaceOf(point));
         }
+        WidenUnless(boxes[block], wider, [&]() { return !withFlat && drawn.IsFlatCell(); });
       }
     });
+  return Enclose(boxes);
+}
+
+PointBox BoxOfParts(const InputBlocks& input, bool withFlat)
+{
+  std::vector<PointBox> boxes;
+  for (const InputPart& part : input.Parts)
+  {
+    boxes.push_back(BoxOf(part.Grid, withFlat));
+  }
   return Enclose(boxes);
 }
 
@@ -318,12 +409,8 @@ const PointBox& DrawnBounds::Update(const InputBlocks& input, InputDigests& dige
   {
     return this->Box;
   }
-  std::vector<PointBox> boxes;
-  for (const InputPart& part : input.Parts)
-  {
-    boxes.push_back(BoxOf(part.Grid));
-  }
-  this->Box = Enclose(boxes);
+  const PointBox box = BoxOfParts(input, false);
+  this->Box = box.IsEmpty() ? BoxOfParts(input, true) : box;
   ++this->Builds;
   return this->Box;
 }
@@ -369,7 +456,7 @@ std::vector<std::uint8_t> MarkDrawnPoints(const std::vector<vtkDataSet*>& grids)
         DrawnCells drawn(cells, points.GetView());
         for (std::size_t c = first; c < last; ++c)
         {
-          if (!drawn.Read(static_cast<vtkIdType>(c)))
+          if (!drawn.Read(static_cast<vtkIdType>(c)) || drawn.IsFlatCell())
           {
             continue;
           }

@@ -18,7 +18,7 @@ namespace meniscus
 
 /**
  * Box around the points of the cells that are drawn: cells with a volume that are not left out.
- * Points that no such cell uses do not count.
+ * Points that no such cell uses do not count. If all cells are flat, the box is theirs.
  */
 class DrawnBounds
 {

@@ -82,6 +82,13 @@ class TestBadInput(unittest.TestCase):
         self.assertTrue(self.errors)
         self.assertEqual(refraction.GetOutput().GetNumberOfPoints(), 0)
 
+    def test_no_interface(self):
+        interfaces = self.observe(meniscus.vtkRefractingInterfaceCollection())
+        interfaces.AddItem(None)
+        self.assertEqual(len(self.errors), 1)
+        self.assertEqual(interfaces.GetNumberOfItems(), 0)
+        self.assertIsNone(interfaces.GetInterface(0))
+
     def test_other_vtk(self):
         """Another vtkmodules, or none, is an ImportError that explains the correction."""
         other = ("class vtkVersion:\n    @staticmethod\n"

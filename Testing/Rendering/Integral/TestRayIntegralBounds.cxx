@@ -207,6 +207,62 @@ TEST(DrawnBounds, OfTheMapper)
   }
 }
 
+/** Cells of four and more points without a volume; a mesh of nothing else has their bounds. */
+TEST(DrawnBounds, FlatCellsDoNotCount)
+{
+  const auto expect = [](const char* name, auto&& change)
+  {
+    const Grid grid = MakeCube();
+    change(grid.Get());
+    vtkNew<vtkTetrahedraRayCastMapper> mapper;
+    mapper->SetInputData(grid);
+    ExpectCube(mapper->GetBounds(), name);
+  };
+  expect("flat tetrahedron",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TETRA, 4);
+      grid->GetPoints()->SetPoint(grid->GetNumberOfPoints() - 1, 3.0, 1.0, 0.0);
+    });
+  expect("flat tetrahedra and a far point",
+    [](vtkUnstructuredGrid* grid)
+    {
+      for (const double shift : { 0.0, 0.1 })
+      {
+        AddFarCell(grid, VTK_TETRA, 4);
+        // In a plane that rounding does not keep.
+        const vtkIdType last = grid->GetNumberOfPoints() - 1;
+        const glm::dvec3 a = PointOf(grid, last - 3);
+        const glm::dvec3 u = PointOf(grid, last - 2) - a;
+        const glm::dvec3 v = PointOf(grid, last - 1) - a;
+        const glm::dvec3 at = a + 0.3 * u + (0.6 + shift) * v;
+        grid->GetPoints()->SetPoint(last, at.x, at.y, at.z);
+      }
+      AddPoint(grid, 0.0, 0.0, -1.0);
+    });
+  expect("flat pyramid",
+    [](vtkUnstructuredGrid* grid)
+    {
+      AddFarCell(grid, VTK_TRIANGLE, 3);
+      const vtkIdType last = grid->GetNumberOfPoints() - 1;
+      grid->GetPoints()->SetPoint(last, 1.0, 1.0, 0.0);
+      const vtkIdType ids[5] = { last - 3, last - 2, last, last - 1,
+        AddPoint(grid, 0.3, 0.6, 0.0) };
+      grid->InsertNextCell(VTK_PYRAMID, 5, ids);
+    });
+  const Grid flat = MakeSingleTetrahedron(ConstantField(1.0));
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    flat->GetPoints()->SetPoint(i, i % 2, i / 2, 3.0);
+  }
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputData(flat);
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_DOUBLE_EQ(mapper->GetBounds()[i], i < 4 ? i % 2 : 3.0) << i;
+  }
+}
+
 TEST(DrawnBounds, OfFittedRays)
 {
   for (const BoundsCase& bounds : MakeCases())

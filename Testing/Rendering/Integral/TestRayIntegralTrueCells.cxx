@@ -219,6 +219,27 @@ TEST(TrueCells, OnlyWhatIsDrawnIsTheMeasure)
   }
 }
 
+/**
+ * Cells that need no division have their error. Along a diagonal of a side of 1.2 by 1.2, 2 x z is
+ * off its chord by a quarter of 2 1.2^2.
+ */
+TEST(TrueCells, CellsThatAreNotDividedHaveTheirError)
+{
+  for (const CellCase& shape : { CellCases[0], CellCases[1] })
+  {
+    SCOPED_TRACE(shape.Name);
+    const Grid cell = MakeCell(shape, 0.0, 2);
+    SetScalars(cell, [](const glm::dvec3& at) { return at.x + 0.5 * at.y + 2.0 * at.x * at.z; });
+    double range[2];
+    cell->GetPointData()->GetScalars()->GetRange(range);
+    const Filter rays = MakeAdaptive(cell, 4);
+    rays->SetDivisionTolerance(0.5);
+    rays->Update();
+    EXPECT_NEAR(rays->GetStatistic("DivisionError"), 0.72 / (range[1] - range[0]), 1e-12);
+    EXPECT_EQ(rays->GetStatistic("NumberOfCellDivisions"), 0.0);
+  }
+}
+
 TEST(TrueCells, NeighboursOfAllTypesDoNotCrack)
 {
   for (const bool quadratic : { false, true })

@@ -178,6 +178,8 @@ TEST(RefractionPassMedium, AMediumWithoutMeaningIsAnError)
     errors->Errors.clear();
     ExpectColors(pool, what, [](const Sight&, int) { return 1.0; });
     EXPECT_EQ(errors->Errors.size(), 1u) << what;
+    pool.Render();
+    EXPECT_EQ(errors->Errors.size(), 1u) << what << ", next frame";
   };
   pool.Pass->SetAttenuationCoefficients(-1.0, 0.0, 0.0);
   expectClear("negative coefficient");

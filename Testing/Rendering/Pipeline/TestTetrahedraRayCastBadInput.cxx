@@ -289,6 +289,25 @@ TEST(TetrahedraRayCastBadInput, MeshesThatAreTooSmallForCameras)
   ExpectSamePicture(images[1], images[0], "scaled");
 }
 
+/** A fault of the medium is told once for each change, not in each frame. */
+TEST(TetrahedraRayCastBadInput, AMediumWithoutMeaning)
+{
+  RayCastScene scene(MakeBlock(3, LinearField(1.0, 0.0, 0.0)), Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  const auto told = ObserveErrors(mapper);
+  for (const double coefficient : { -1.0, std::numeric_limits<double>::infinity() })
+  {
+    told->Errors.clear();
+    mapper->SetMediumAttenuationCoefficients(coefficient, 0.0, 0.0);
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      scene.GetWindow()->Render();
+      ASSERT_EQ(told->Errors.size(), 1u) << told->GetText();
+    }
+    EXPECT_TRUE(HasText(told->Errors[0], "drawn clear"));
+  }
+}
+
 TEST(TetrahedraRayCastBadInput, CellGivenTwice)
 {
   // The same cell twice covers the same space: it counts once, and the repetition is reported.
