@@ -6,15 +6,9 @@
 // that of its name in the folder.
 #include "StrictImage.h"
 
-#include <vtkMath.h>
 #include <vtkParametricFunctionSource.h>
 #include <vtkParametricTorus.h>
-#include <vtkPlaneSource.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
-
-#include <cmath>
 
 namespace
 {

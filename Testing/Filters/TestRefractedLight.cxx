@@ -23,9 +23,7 @@ constexpr double Parallel = 2e-4;
 /** 1 - F of unpolarised light. */
 double MakeTransmittance(double cosine)
 {
-  const glm::dvec2 reflected =
-    meniscus::reference::MakeReflectances(std::sqrt(1.0 - cosine * cosine), 1.0, Water);
-  return 1.0 - 0.5 * (reflected.x + reflected.y);
+  return 1.0 - meniscus::reference::MakeReflectance(cosine, 1.0, Water);
 }
 
 vtkSmartPointer<vtkRefractedLightFilter> MakeLight(

@@ -5,8 +5,6 @@
 #include "ComparisonScene.h"
 #include "VolumeScene.h"
 
-#include <vector>
-
 namespace meniscus::test
 {
 

@@ -5,8 +5,6 @@
 #include "PovrayWriter.h"
 #include "VolumeScene.h"
 
-#include <string>
-
 namespace meniscus::test
 {
 

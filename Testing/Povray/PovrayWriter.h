@@ -4,8 +4,6 @@
 
 #include "ComparisonScene.h"
 
-#include <string>
-
 namespace meniscus::test
 {
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionCheck.h"
 
+#include "ExactStack.h"
 #include "PatchSearch.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
@@ -14,6 +15,7 @@ namespace meniscus::test
 namespace
 {
 
+using reference::MakeReflectance;
 using reference::OracleAnswer;
 using reference::OracleImage;
 using reference::SightOracle;
@@ -22,21 +24,6 @@ using reference::SurfaceError;
 
 // Largest error of Newton's method, in facets: 1e-10 away from caustics.
 constexpr double Rest = 1e-8;
-
-// Reflectance by the amplitudes of the two polarisations, not by Eq. 2.6.
-double MakeReflectance(double cosine, double exterior, double interior)
-{
-  const double c1 = std::clamp(cosine, 0.0, 1.0);
-  const double sine = exterior / interior * std::sqrt(1.0 - c1 * c1);
-  if (sine >= 1.0)
-  {
-    return 1.0;
-  }
-  const double c2 = std::sqrt(1.0 - sine * sine);
-  const double s = (exterior * c1 - interior * c2) / (exterior * c1 + interior * c2);
-  const double p = (interior * c1 - exterior * c2) / (interior * c1 + exterior * c2);
-  return 0.5 * (s * s + p * p);
-}
 
 //------------------------------------------------------------------------------
 class Checker

@@ -4,8 +4,6 @@
 
 #include "RefractionCase.h"
 
-#include <sstream>
-
 namespace meniscus::test
 {
 

@@ -5,8 +5,6 @@
 #include "CaseProcess.h"
 #include "StressCheck.h"
 
-#include <string>
-
 namespace meniscus::test
 {
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PoolScene.h"
 
+#include "ExactStack.h"
+
 #include <vtkAppendPolyData.h>
 #include <vtkConeSource.h>
 #include <vtkGenericCell.h>
@@ -236,16 +238,6 @@ private:
   std::vector<vtkSmartPointer<vtkStaticCellLocator>> Locators;
 };
 
-double MakeFresnel(double cosine)
-{
-  // Both polarisations after Snell's law, independently of the kernel's formula.
-  const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) / Index;
-  const double inner = std::sqrt(1.0 - sine * sine);
-  const double s = (cosine - Index * inner) / (cosine + Index * inner);
-  const double p = (inner - Index * cosine) / (inner + Index * cosine);
-  return 0.5 * (s * s + p * p);
-}
-
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
@@ -466,7 +458,8 @@ glm::dvec3 PoolScene::Shade(const PoolSight& sight) const
     color = glm::min(seen * color + (1.0 - seen) * this->Optics.Scattered, glm::dvec3(1.0));
   }
   const double cosine = -glm::dot(sight.Ray, sight.Normal);
-  const double reflected = this->Optics.Fresnel ? MakeFresnel(cosine) : 0.0;
+  const double reflected =
+    this->Optics.Fresnel ? reference::MakeReflectance(cosine, 1.0, Index) : 0.0;
   const glm::dvec3 mirrored =
     this->Optics.Sky ? SkyColor(sight.Ray + 2.0 * cosine * sight.Normal) : Background;
   return (1.0 - reflected) * color + reflected * mirrored;

@@ -26,9 +26,9 @@ double MakeTransmittance(double sine, double inFront, double behind)
 /** Transmittance of the surface of water, or of a pane of glass on it. */
 double MakeTransmittanceBelow(double thickness, double sine)
 {
-  const glm::dvec2 reflected = reference::MakeReflectances(sine, 1.0, Water);
-  return thickness > 0.0 ? MakeTransmittance(sine, 1.0, Water)
-                         : 1.0 - 0.5 * (reflected.x + reflected.y);
+  return thickness > 0.0
+    ? MakeTransmittance(sine, 1.0, Water)
+    : 1.0 - reference::MakeReflectance(std::sqrt(1.0 - sine * sine), 1.0, Water);
 }
 
 vtkSmartPointer<vtkRefractedLightFilter> MakeLight(vtkPolyData* geometry, const glm::dvec3& light)

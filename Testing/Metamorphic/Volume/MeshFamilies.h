@@ -5,8 +5,6 @@
 #include "MeshArrays.h"
 #include "RandomNumbers.h"
 
-#include <string>
-
 namespace meniscus::test
 {
 

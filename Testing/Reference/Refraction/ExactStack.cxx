@@ -135,6 +135,19 @@ glm::dvec2 MakeReflectances(double sine, double before, double behind)
 }
 
 //------------------------------------------------------------------------------
+double MakeReflectance(double cosine, double before, double behind)
+{
+  const double c = std::clamp(cosine, 0.0, 1.0);
+  const double sine = before * std::sqrt(1.0 - c * c);
+  if (sine >= behind)
+  {
+    return 1.0;
+  }
+  const glm::dvec2 reflected = MakeReflectances(sine, before, behind);
+  return 0.5 * (reflected.x + reflected.y);
+}
+
+//------------------------------------------------------------------------------
 double MakePlateTransmittance(double sine, double before, double plate, double behind)
 {
   const glm::dvec2 upper = MakeReflectances(sine, before, plate);

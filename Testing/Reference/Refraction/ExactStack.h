@@ -52,6 +52,9 @@ ExactImage MakeImage(
 /** Reflectances of both polarisations for an angle of incidence with this sine in a vacuum. */
 glm::dvec2 MakeReflectances(double sine, double before, double behind);
 
+/** Reflectance of unpolarised light, the mean of both; 1 beyond the critical angle. */
+double MakeReflectance(double cosine, double before, double behind);
+
 /**
  * Transmittance of a plate for unpolarised light: the sum of the geometric series of the light that
  * is reflected between its sides, for each polarisation.

@@ -3,6 +3,7 @@
 /** A flat pool seen through vtkRefractionPass, and Snell's law and Fresnel's for its pixels. */
 #pragma once
 
+#include "ExactStack.h"
 #include "RayCastScene.h"
 #include "WaterParts.h"
 
@@ -127,11 +128,7 @@ inline bool IsBorder(const Sight& sight)
 /** Reflectance of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6). */
 inline double MakeFresnel(const Sight& sight)
 {
-  const double c = sight.Cosine;
-  const double d = sight.RefractedCosine;
-  const double s = (c - Water * d) / (c + Water * d);
-  const double p = (Water * c - d) / (Water * c + d);
-  return 0.5 * (s * s + p * p);
+  return reference::MakeReflectance(sight.Cosine, 1.0, Water);
 }
 
 inline double Schlick(const Sight& sight)

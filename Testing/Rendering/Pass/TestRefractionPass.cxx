@@ -164,10 +164,7 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
             (y + 0.5 - 0.5 * Size) * scale * up[i];
         }
         const double cosine = 1.0 / vtkMath::Norm(mirrored);
-        const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
-        const double s = (cosine - index * refracted) / (cosine + index * refracted);
-        const double p = (index * cosine - refracted) / (index * cosine + refracted);
-        const double reflectance = 0.5 * (s * s + p * p);
+        const double reflectance = meniscus::reference::MakeReflectance(cosine, 1.0, index);
         for (int channel = 0; channel < 3; ++channel)
         {
           // The texture's bytes are also rounded.

@@ -3,6 +3,7 @@
 /** A floor under waves seen through vtkRefractionPass, and photons through the exact waves. */
 #pragma once
 
+#include "ExactStack.h"
 #include "RefractionPicture.h"
 #include "VTKTestBasics.h"
 #include "VolumeScene.h"
@@ -29,14 +30,6 @@ inline HeightField MakeWaves(double slope, double k = 0.04)
   waves.Amplitude = slope / waves.K;
   waves.Interior = Water;
   return waves;
-}
-
-inline double TransmittanceOf(double cosine, double before, double behind)
-{
-  const double inner = std::sqrt(1.0 - (1.0 - cosine * cosine) * std::pow(before / behind, 2.0));
-  const double s = (before * cosine - behind * inner) / (before * cosine + behind * inner);
-  const double p = (behind * cosine - before * inner) / (behind * cosine + before * inner);
-  return 1.0 - 0.5 * (s * s + p * p);
 }
 
 struct Ray
@@ -181,7 +174,8 @@ inline glm::dvec3 LightAt(const HeightField& waves, const glm::dvec3& sun, const
   const glm::dvec3 normal = waves.GetNormal(at.x, at.y);
   const double cosine = glm::dot(sun, normal);
   const glm::dvec3 along = ShineRay(waves, sun, at).Along;
-  const double level = cosine / normal.y * TransmittanceOf(cosine, 1.0, Water) / spread;
+  const double level =
+    cosine / normal.y * (1.0 - reference::MakeReflectance(cosine, 1.0, Water)) / spread;
   return level / -along.y * -along;
 }
 
@@ -249,8 +243,8 @@ inline Bins ShinePhotons(const WavePool& pool, const glm::dvec3& sun, const glm:
     const double cosine = glm::dot(sun, normal);
     if (cosine > 0.0)
     {
-      const double power =
-        area / normal.y * cosine * TransmittanceOf(cosine, 1.0, Water) / (bin * bin);
+      const double power = area / normal.y * cosine *
+        (1.0 - reference::MakeReflectance(cosine, 1.0, Water)) / (bin * bin);
       const auto end = pool.Waves.Refract(place + 1e6 * sun, place, 1.0);
       const glm::dvec3 along = *end - place;
       if (!ball || !ball->IsMet(place, along, ball->Radius))
