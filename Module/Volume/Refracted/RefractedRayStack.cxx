@@ -355,7 +355,8 @@ RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showin
     this->MeetFirst(first, StackBlock::Side, block, counts);
     farthest = std::max(farthest, this->FindFarthestSight(sight, block));
     const bool isMet = block.Lanes.IsAnyHit();
-    const bool isTraced = isMet && showing.Refracted && this->TraceBlock(&sight, block, counts);
+    const bool isTraced =
+      isMet && showing.Refracted && this->TraceBlock(hasShown ? nullptr : &sight, block, counts);
     hasShown = !isMet || (isTraced && block.EndBeside(this->Mesh.Center, this->Mesh.Half));
     sum.Rays.Add(isTraced || !isMet ? counts : Counts());
     if (isTraced)
