@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
@@ -20,6 +21,9 @@ namespace meniscus
 {
 namespace
 {
+
+/** Parts of the mesh's boundary whose bounds tell which rays show nothing of it. */
+constexpr std::size_t NumberOfParts = 32;
 
 /** Media of the interfaces that refract. */
 std::vector<InterfaceMedia> FindRefracting(const std::vector<InterfaceMedia>& media)
@@ -144,6 +148,7 @@ TableVersion RayCastMembrane::GetShapeVersion() const
 bool RayCastMembrane::Trace(RefractedRayStack::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
+  view.Parts = PartsOf(input.GetBoundaryTree(), view.Frame, NumberOfParts);
   if (this->SightShapes != this->GetShapeVersion() || !(this->SightOf == this->Used) ||
     !(this->View == view))
   {

@@ -58,14 +58,19 @@ struct StartKernel
       before[2] = height;
       const float c = 1.0f - x - y;
       const float products[3] = { x * y, y * c, c * x };
-      const float shift = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
+      const float form = products[0] * (start.Symmetric[0] + start.Asymmetric[0] * (x - y)) +
         products[1] * (start.Symmetric[1] + start.Asymmetric[1] * (y - c)) +
         products[2] * (start.Symmetric[2] + start.Asymmetric[2] * (c - x));
-      height = shift * start.AlongUp.At(c, x, y, products);
-      const float besideX = shift * start.AlongX.At(c, x, y, products);
-      const float besideY = shift * start.AlongY.At(c, x, y, products);
-      x = flatX + (height * rayByX - besideX);
-      y = flatY + (height * rayByY - besideY);
+      const float up = start.AlongUp.At(c, x, y, products);
+      const float besideX = start.AlongX.At(c, x, y, products);
+      const float besideY = start.AlongY.At(c, x, y, products);
+      // 2 / (l + l^2) for a normal of a length l near 1, to the first order in l^2 - 1.
+      const float squared = up * up + besideX * besideX * start.Sides[0] +
+        besideY * (besideY * start.Sides[1] + besideX * start.Sides[2]);
+      const float shift = form * (1.75f - 0.75f * squared);
+      height = shift * up;
+      x = flatX + (height * rayByX - shift * besideX);
+      y = flatY + (height * rayByY - shift * besideY);
     }
     // Steps shrink by a factor that hardly changes: the sum of all that would follow (Aitken).
     const float move = height - before[2];
@@ -213,6 +218,11 @@ PatchStart::PatchStart(const CurvedPatch& patch, const FacetPlane& plane, double
   this->AlongUp = formAlong(glm::normalize(plane.Normal));
   this->AlongX = formAlong(size * plane.ByX);
   this->AlongY = formAlong(size * plane.ByY);
+  const glm::dvec3 sides[2] = { (patch.Corner[1] - patch.Corner[0]) / size,
+    (patch.Corner[2] - patch.Corner[0]) / size };
+  this->Sides[0] = static_cast<float>(glm::dot(sides[0], sides[0]));
+  this->Sides[1] = static_cast<float>(glm::dot(sides[1], sides[1]));
+  this->Sides[2] = static_cast<float>(2.0 * glm::dot(sides[0], sides[1]));
   for (int k = 0; k < 3; ++k)
   {
     this->Symmetric[k] = static_cast<float>(patch.Symmetric[k] / size);

@@ -151,9 +151,8 @@ void SetNormals(const CurvedPatch& patch, InstructionSet set, PatchIntersectionB
 
 /**
  * Coefficients of a patch in single precision, for steps from the facet's plane to the patch with
- * the derivatives of the plane. Lengths are in units of the facet's size, and the length of normals
- * counts as 1. On a patch that is nearly flat, the first step of Newton's method is then so short
- * that it is the last one.
+ * the derivatives of the plane. Lengths are in units of the facet's size. On a patch that is not
+ * strongly curved, the first step of Newton's method is then so short that it is the last one.
  */
 struct PatchStart
 {
@@ -180,6 +179,8 @@ struct PatchStart
   glm::vec3 Up;
   glm::vec3 ByX;
   glm::vec3 ByY;
+  /** Products of the facet's sides at its first corner: of each with itself, and of both, twice. */
+  float Sides[3];
   Form AlongUp;
   Form AlongX;
   Form AlongY;

@@ -64,16 +64,41 @@ double FindFirst(const LineBlock* blocks, std::size_t count)
 //------------------------------------------------------------------------------
 BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view)
 {
-  BoundsInFrame box;
-  if (!tree.GetNodes().empty())
+  const std::vector<BoundsInFrame> whole = PartsOf(tree, view, 1);
+  return whole.empty() ? BoundsInFrame() : whole.front();
+}
+
+//------------------------------------------------------------------------------
+std::vector<BoundsInFrame> PartsOf(const BoundaryTree& tree, const RayFrame& view, std::size_t most)
+{
+  const std::vector<BoundaryTree::Node>& nodes = tree.GetNodes();
+  std::vector<std::size_t> parts(nodes.empty() ? 0 : 1, 0);
+  // Sum of the half extents of nodes that can be divided.
+  const auto sizeOf = [&nodes](std::size_t part)
   {
-    const BoundaryTree::Node& root = tree.GetNodes().front();
-    const glm::dmat3 toFrame = glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth));
-    box.Center = toFrame * glm::dvec3(root.Center);
-    box.HalfEdges =
-      toFrame * glm::dmat3(root.Half.x, 0.0, 0.0, 0.0, root.Half.y, 0.0, 0.0, 0.0, root.Half.z);
+    const BoundaryTree::Node& node = nodes[part];
+    return node.Face < 0 ? node.Half.x + node.Half.y + node.Half.z : -1.0f;
+  };
+  while (!parts.empty() && parts.size() < most)
+  {
+    const auto largest = std::max_element(parts.begin(), parts.end(),
+      [&sizeOf](std::size_t a, std::size_t b) { return sizeOf(a) < sizeOf(b); });
+    if (sizeOf(*largest) < 0.0f)
+    {
+      break;
+    }
+    ++*largest; // its first child follows a node
+    parts.push_back(static_cast<std::size_t>(nodes[*largest].Skip));
   }
-  return box;
+  const glm::dmat3 toFrame = glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth));
+  std::vector<BoundsInFrame> boxes;
+  for (const std::size_t part : parts)
+  {
+    const BoundaryTree::Node& node = nodes[part];
+    const glm::dmat3 half(node.Half.x, 0.0, 0.0, 0.0, node.Half.y, 0.0, 0.0, 0.0, node.Half.z);
+    boxes.push_back({ toFrame * glm::dvec3(node.Center), toFrame * half });
+  }
+  return boxes;
 }
 
 /**

@@ -24,6 +24,9 @@ namespace meniscus
  * Bounding box of the boundary in the frame of the view; without extent if there is no boundary.
  */
 BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view);
+/** Boxes around the parts of the boundary: up to `most`, the smallest that the tree has. */
+std::vector<BoundsInFrame> PartsOf(
+  const BoundaryTree& tree, const RayFrame& view, std::size_t most);
 
 /**
  * Boundary faces by which straight lines of a frame enter the mesh. At each depth, all lines of a

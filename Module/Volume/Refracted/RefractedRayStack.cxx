@@ -54,7 +54,7 @@ bool RefractedRayStack::View::operator==(const View& o) const
   return a.RowX == b.RowX && a.RowY == b.RowY && a.RowDepth == b.RowDepth && a.Origin == b.Origin &&
     a.Slope == b.Slope && a.ViewToWorld == b.ViewToWorld && this->Width == o.Width &&
     this->Height == o.Height && this->Center == o.Center && this->EyeDepth == o.EyeDepth &&
-    this->Mesh == o.Mesh;
+    this->Mesh == o.Mesh && this->Parts == o.Parts;
 }
 
 //------------------------------------------------------------------------------
@@ -87,11 +87,8 @@ void RefractedRayStack::Build(
   this->Sums = Counts();
   this->Columns = (view.Width + TileSize - 1) / TileSize;
   const int rows = (view.Height + TileSize - 1) / TileSize;
-  const glm::dmat3& toWorld = view.Frame.ViewToWorld;
-  this->WorldToFrame = glm::inverse(toWorld);
-  const glm::dmat3 edges = toWorld * view.Mesh.HalfEdges;
-  this->MeshCenter = toWorld * view.Mesh.Center;
-  this->MeshHalf = SightMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
+  this->WorldToFrame = glm::inverse(view.Frame.ViewToWorld);
+  this->BoundMesh();
 
   const auto tiles = static_cast<std::size_t>(this->Columns) * static_cast<std::size_t>(rows);
   for (RefractedRayTiles& rays : this->Rays)
@@ -99,13 +96,12 @@ void RefractedRayStack::Build(
     rays.Resize(tiles);
   }
   this->Untraced.resize(tiles);
-  const StackVisibility sight(
-    this->Interfaces, { this->MeshCenter, this->MeshHalf }, this->Of.Center, this->Set);
   std::vector<TileSum> sums(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
       std::unique_ptr<StackBlock> block = this->TakeBlock();
+      const StackVisibility sight(this->Interfaces, this->Mesh, this->Of.Center, this->Set);
       for (std::size_t tile = begin; tile < end; ++tile)
       {
         sums[tile] = this->TraceTile(static_cast<int>(tile), sight, *block);
@@ -122,6 +118,27 @@ void RefractedRayStack::Build(
   }
   const double length = glm::length(sum);
   this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayStack::BoundMesh()
+{
+  const glm::dmat3& toWorld = this->Of.Frame.ViewToWorld;
+  const auto halfOf = [&toWorld](const BoundsInFrame& bounds)
+  {
+    const glm::dmat3 edges = toWorld * bounds.HalfEdges;
+    return glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]);
+  };
+  const glm::dvec3 half = halfOf(this->Of.Mesh);
+  this->Mesh.Center = toWorld * this->Of.Mesh.Center;
+  this->Mesh.Half = SightMargin * half;
+  this->Mesh.Parts.Clear();
+  for (const BoundsInFrame& part : this->Of.Parts)
+  {
+    const glm::dvec3 center = toWorld * part.Center;
+    const glm::dvec3 halfOfPart = halfOf(part) + (this->Mesh.Half - half);
+    this->Mesh.Parts.Add(0, { center - halfOfPart, center + halfOfPart });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -299,13 +316,14 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(
     return TileSum();
   }
   return this->TraceBlocks(
-    tile, showing, showing.Straight && sight.AllMeetBoundsUnrefracted(corners), sight, block);
+    tile, showing, showing.Straight && sight.CornersMeetBoundsUnrefracted(corners), sight, block);
 }
 
 //------------------------------------------------------------------------------
 /**
  * Traces the blocks of a tile.
- * @param areStraight true if all rays, on straight ways, reach the bounds of the mesh.
+ * @param areStraight true if rays, on straight ways, mostly reach the bounds of the mesh: blocks
+ *   are not asked then.
  */
 RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showing& ofTile,
   bool areStraight, const StackVisibility& sight, StackBlock& block)
@@ -337,8 +355,9 @@ RefractedRayStack::TileSum RefractedRayStack::TraceBlocks(int tile, const Showin
     this->MeetFirst(first, StackBlock::Side, block, counts);
     farthest = std::max(farthest, this->FindFarthestSight(sight, block));
     const bool isMet = block.Lanes.IsAnyHit();
-    const bool isTraced = isMet && showing.Refracted && this->TraceBlock(&sight, block, counts);
-    hasShown = !isMet || (isTraced && block.EndBeside(this->MeshCenter, this->MeshHalf));
+    const bool isTraced =
+      isMet && showing.Refracted && this->TraceBlock(hasShown ? nullptr : &sight, block, counts);
+    hasShown = !isMet || (isTraced && block.EndBeside(this->Mesh.Center, this->Mesh.Half));
     sum.Rays.Add(isTraced || !isMet ? counts : Counts());
     if (isTraced)
     {

@@ -53,6 +53,8 @@ public:
     double EyeDepth = 0.0;
     /** Bounds of the mesh. The refraction of rays that miss it is not computed. */
     BoundsInFrame Mesh;
+    /** Bounds of the parts of its boundary, by which fewer rays are refracted that miss it. */
+    std::vector<BoundsInFrame> Parts{};
 
     bool operator==(const View& other) const;
   };
@@ -139,6 +141,7 @@ private:
   {
     return RefractedRayTiles::TileSize * glm::ivec2(tile % this->Columns, tile / this->Columns);
   }
+  void BoundMesh();
   CornerRays CornersOf(const glm::ivec2& first, int size) const;
   /** The view's origin, relative to the origin of an interface's surface. */
   glm::dvec3 ToSurface(std::size_t number) const
@@ -166,8 +169,7 @@ private:
   std::mutex BlocksMutex;
   glm::dmat3 WorldToFrame{ 1.0 };
   /** Bounds of the mesh along the world's axes, relative to the view's origin. */
-  glm::dvec3 MeshCenter{ 0.0 };
-  glm::dvec3 MeshHalf{ 0.0 };
+  VisibilityBounds Mesh;
   std::vector<RefractedRayTiles> Rays;
   /** Blocks with rays that are not traced behind the first interface: a bit per block of a tile. */
   std::vector<TileSquares> Untraced;

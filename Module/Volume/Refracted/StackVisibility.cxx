@@ -68,7 +68,7 @@ DirectionBox InBox(const glm::dvec3& low, const glm::dvec3& high)
 }
 
 //------------------------------------------------------------------------------
-bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
+bool VisibilityBounds::MeetsBox(const TubeBounds& tube, double last) const
 {
   double first = 0.0;
   const auto constrain = [&first, &last](double offset, double rate)
@@ -86,6 +86,24 @@ bool VisibilityBounds::Meets(const TubeBounds& tube, double last) const
       this->Center[axis] - tube.StartLow[axis] + this->Half[axis], -tube.DirectionLow[axis]);
   }
   return first <= last;
+}
+
+//------------------------------------------------------------------------------
+/** A ray that meets the geometry from outside of the box, or does not end, passes its boundary. */
+bool VisibilityBounds::Meets(const TubeBounds& tube, InstructionSet set, double last) const
+{
+  const glm::dvec3 beyond =
+    glm::max(tube.StartLow - this->Center, this->Center - tube.StartHigh) - this->Half;
+  const bool passes = last == std::numeric_limits<double>::infinity() ||
+    std::max(std::max(beyond.x, beyond.y), beyond.z) > 0.0;
+  bool meets = this->MeetsBox(tube, last);
+  if (meets && passes && this->Parts.Count > 0)
+  {
+    meets = false;
+    VisitBoxes(tube, set, this->Parts,
+      [&meets, last](std::int32_t, const TubeRange& range) { meets |= range.From <= last; });
+  }
+  return meets;
 }
 
 //------------------------------------------------------------------------------
@@ -175,21 +193,17 @@ bool StackVisibility::MayShowMeshUnrefracted(const CornerRays& rays) const
   {
     tube.Add(rays.Starts[i], rays.Directions[i]);
   }
-  return this->Mesh.Meets(tube);
+  return this->Mesh.Meets(tube, this->Set);
 }
 
 //------------------------------------------------------------------------------
-/**
- * The hull of points of the four corner rays, one of each, meets all rays between them. It is
- * within the bounds, which are convex, if these points are.
- */
-bool StackVisibility::AllMeetBoundsUnrefracted(const CornerRays& rays) const
+bool StackVisibility::CornersMeetBoundsUnrefracted(const CornerRays& rays) const
 {
   for (int i = 0; i < 4; ++i)
   {
     TubeBounds ray;
     ray.Add(rays.Starts[i], rays.Directions[i]);
-    if (!this->Mesh.Meets(ray))
+    if (!this->Mesh.Meets(ray, this->Set))
     {
       return false;
     }
@@ -220,7 +234,7 @@ bool StackVisibility::HidesMesh(const CornerRays& rays, FacetBoxes& facets) cons
       mayEnd |= !(range.From > 0.0);
       last = std::max(last, range.To);
     });
-  return !mayEnd && !this->Mesh.Meets(tube, last);
+  return !mayEnd && !this->MeetsBounds(tube, last);
 }
 
 //------------------------------------------------------------------------------
@@ -256,7 +270,7 @@ bool StackVisibility::FollowLegs(std::size_t number, TubeBounds tube, double med
     {
       return k > 0;
     }
-    mayShow = mayShow || (k > 0 && this->Mesh.Meets(tube, meeting.Last));
+    mayShow = mayShow || (k > 0 && this->MeetsBounds(tube, meeting.Last));
     const DirectionBox sight = InBox(tube.DirectionLow, tube.DirectionHigh);
     DirectionBox normal = InBox(meeting.Normals.Low, meeting.Normals.High);
     const CosineBounds cosine = BoundCosine(sight, normal);
@@ -273,7 +287,7 @@ bool StackVisibility::FollowLegs(std::size_t number, TubeBounds tube, double med
     medium = behind;
   }
   // Without valid bounds all rays are totally reflected.
-  return mayShow || (tube.IsValid() && this->Mesh.Meets(tube));
+  return mayShow || (tube.IsValid() && this->Mesh.Meets(tube, this->Set));
 }
 
 }

@@ -33,15 +33,24 @@ struct CornerRays
   glm::dvec3 Directions[4];
 };
 
-/** Bounds of the visible geometry. */
+/** Bounds of the visible geometry, for one thread. */
 struct VisibilityBounds
 {
   /** Centre and half extents of a box along the world's axes. */
   glm::dvec3 Center{ 0.0 };
   glm::dvec3 Half{ 0.0 };
+  /** Boxes around the parts of the geometry's boundary; none if they are not known. */
+  mutable FacetBoxes Parts;
 
-  /** True if the box meets the tube up to the parameter `last`. */
-  bool Meets(const TubeBounds& tube, double last = std::numeric_limits<double>::infinity()) const;
+  /**
+   * False if no ray of the tube meets the geometry up to the parameter `last`.
+   * @pre GetInstructionSets() has the set
+   */
+  bool Meets(const TubeBounds& tube, InstructionSet set,
+    double last = std::numeric_limits<double>::infinity()) const;
+
+private:
+  bool MeetsBox(const TubeBounds& tube, double last) const;
 };
 
 /**
@@ -81,12 +90,12 @@ public:
   bool MayShowMesh(const CornerRays& rays, BundleFacets& within, BundleFacets& facets) const;
   /** False if these rays, on straight ways, do not reach the bounds of the mesh. */
   bool MayShowMeshUnrefracted(const CornerRays& rays) const;
-  /** True if all of these rays, on straight ways, reach the bounds of the mesh. */
-  bool AllMeetBoundsUnrefracted(const CornerRays& rays) const;
+  /** True if the rays at the corners, on straight ways, reach the bounds of the mesh. */
+  bool CornersMeetBoundsUnrefracted(const CornerRays& rays) const;
   /** False if no ray of a tube reaches the bounds of the mesh up to the parameter `last`. */
   bool MeetsBounds(const TubeBounds& rays, double last) const
   {
-    return this->Mesh.Meets(rays, last);
+    return this->Mesh.Meets(rays, this->Set, last);
   }
   /**
    * True if either none of these rays meets the first interface, or all do, and before they reach

@@ -5,6 +5,9 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
+#include <iterator>
+
 namespace meniscus::test
 {
 
@@ -114,12 +117,17 @@ RefractedRayStack::View LookAt(
 }
 
 //------------------------------------------------------------------------------
-void SetMesh(RefractedRayStack::View& view, const WorldBox& box)
+void SetMesh(RefractedRayStack::View& view, const WorldBox& box, const std::vector<WorldBox>& parts)
 {
-  const glm::dmat3 toFrame = glm::transpose(view.Frame.ViewToWorld);
-  view.Mesh.Center = toFrame * (box.Center - view.Center);
-  view.Mesh.HalfEdges =
-    toFrame * glm::dmat3(box.Half.x, 0.0, 0.0, 0.0, box.Half.y, 0.0, 0.0, 0.0, box.Half.z);
+  const auto inFrame = [&view](const WorldBox& of)
+  {
+    const glm::dmat3 toFrame = glm::transpose(view.Frame.ViewToWorld);
+    const glm::dmat3 half(of.Half.x, 0.0, 0.0, 0.0, of.Half.y, 0.0, 0.0, 0.0, of.Half.z);
+    return BoundsInFrame{ toFrame * (of.Center - view.Center), toFrame * half };
+  };
+  view.Mesh = inFrame(box);
+  view.Parts.clear();
+  std::transform(parts.begin(), parts.end(), std::back_inserter(view.Parts), inFrame);
 }
 
 }

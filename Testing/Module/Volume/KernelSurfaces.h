@@ -55,7 +55,11 @@ struct WorldBox
 RefractedRayStack::View LookAt(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel, int size);
 
-/** Sets the bounds of the mesh. */
-void SetMesh(RefractedRayStack::View& view, const WorldBox& box);
+/**
+ * Sets the bounds of the mesh.
+ * @param parts of its boundary.
+ */
+void SetMesh(
+  RefractedRayStack::View& view, const WorldBox& box, const std::vector<WorldBox>& parts = {});
 
 }

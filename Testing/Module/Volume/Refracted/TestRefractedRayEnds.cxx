@@ -14,6 +14,21 @@ using meniscus::test::Random;
 namespace
 {
 
+/** A mesh of solid boxes. */
+struct SolidMesh
+{
+  WorldBox Whole;
+  std::vector<WorldBox> Solids;
+  /** Boxes around its boundary; may be empty. */
+  std::vector<WorldBox> Parts{};
+
+  bool Meets(const glm::dvec3& start, const glm::dvec3& along, double end) const
+  {
+    return std::any_of(this->Solids.begin(), this->Solids.end(),
+      [&](const WorldBox& solid) { return solid.Meets(start, along, end); });
+  }
+};
+
 /** Rays through interfaces to a small mesh, compared with those to a mesh that is everywhere. */
 struct EndedRays
 {
@@ -25,13 +40,18 @@ struct EndedRays
   std::int64_t UntracedOfAll = 0;
 
   void Compare(
-    const std::vector<Interface>& list, RefractedRayStack::View view, const WorldBox& box)
+    const std::vector<Interface>& list, const RefractedRayStack::View& view, const WorldBox& box)
+  {
+    this->CompareMesh(list, view, { box, { box } });
+  }
+  void CompareMesh(
+    const std::vector<Interface>& list, RefractedRayStack::View view, const SolidMesh& mesh)
   {
     RefractedRayStack all;
     SetMesh(view, Everywhere);
     all.Build(list, view);
     RefractedRayStack some;
-    SetMesh(view, box);
+    SetMesh(view, mesh.Whole, mesh.Parts);
     some.Build(list, view);
     EXPECT_EQ(some.GetCounts().Missing, all.GetCounts().Missing);
     EXPECT_EQ(some.GetCounts().Reflected, all.GetCounts().Reflected);
@@ -50,7 +70,7 @@ struct EndedRays
         const RefractedRay found = rayOf(some, k - 1);
         const RefractedRay next = k < list.size() ? rayOf(all, k) : RefractedRay();
         comes = comes ||
-          (exact.GoesOn() && box.Meets(ray.Start, ray.Direction, next.Depth - exact.Depth));
+          (exact.GoesOn() && mesh.Meets(ray.Start, ray.Direction, next.Depth - exact.Depth));
         this->Shown += comes ? 1 : 0;
         this->Ended += exact.GoesOn() && !found.GoesOn() ? 1 : 0;
         this->Wrong += comes && (exact.Depth != found.Depth || exact.Step != found.Step) ? 1 : 0;
@@ -64,10 +84,44 @@ struct EndedRays
       const bool isHidden = depth < 1e30 && found == view.EyeDepth && !comes;
       const double length = isHidden ? depth - view.EyeDepth : 1e30;
       this->Hidden += isHidden ? 1 : 0;
-      this->Wrong += depth != found && box.Meets(eye, sight.Direction, length) ? 1 : 0;
+      this->Wrong += depth != found && mesh.Meets(eye, sight.Direction, length) ? 1 : 0;
+      // Rays that come to the mesh in front of the interface count for the bound of the tile.
+      const int tile = pixel / Size / TileSize * Columns + pixel % Size / TileSize;
+      const double farthest = some.GetRays().front().GetFarthest(tile);
+      const bool isSeen = mesh.Meets(eye, sight.Direction, depth - view.EyeDepth);
+      this->Wrong += isSeen && !(farthest >= depth) ? 1 : 0;
     }
   }
 };
+
+/** Three boxes, whose common bounds are mostly empty. */
+SolidMesh MakeThreeBoxes(Random& random)
+{
+  SolidMesh mesh{ { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.2) }, {} };
+  for (int i = 0; i < 3; ++i)
+  {
+    mesh.Solids.push_back({ random.Point(glm::dvec3(-1.0, -1.0, -2.0), glm::dvec3(1.0, 1.0, 0.0)),
+      random.Point(glm::dvec3(0.02), glm::dvec3(0.2)) });
+  }
+  mesh.Parts = mesh.Solids;
+  return mesh;
+}
+
+/** A solid box with a box around each of its sides. */
+SolidMesh MakeBoxWithSides(Random& random)
+{
+  const WorldBox solid{ random.Point(glm::dvec3(-0.3, -0.3, -0.7), glm::dvec3(0.3, 0.3, 0.1)),
+    random.Point(glm::dvec3(0.3), glm::dvec3(2.0)) };
+  SolidMesh mesh{ solid, { solid } };
+  for (int side = 0; side < 6; ++side)
+  {
+    WorldBox part = solid;
+    part.Center[side / 2] += (side % 2 == 0 ? -1.0 : 1.0) * solid.Half[side / 2];
+    part.Half[side / 2] = 1e-6;
+    mesh.Parts.push_back(part);
+  }
+  return mesh;
+}
 
 }
 
@@ -123,6 +177,39 @@ TEST(RefractedRayStack, EndsOnlyRaysThatDoNotComeToTheMesh)
   EXPECT_EQ(rays.UntracedOfAll, 0);
   // Half of the blocks of 8 x 8 rays.
   EXPECT_GT(rays.Untraced, 96 * Size * Size / (8 * 8) / 2);
+}
+
+/**
+ * Bounds of the parts of a mesh end more rays than those of the whole, but none that comes to the
+ * mesh: neither between parts of the boundary, nor where legs, or the eye, are inside the mesh.
+ */
+TEST(RefractedRayStack, EndsRaysThatDoNotComeToThePartsOfTheMesh)
+{
+  Random random(31);
+  const Sheet front(Shapes[2], 12);
+  const Sheet back([](double x, double y) { return Shapes[1](y, x) - 0.8; }, 9);
+  const std::vector<Interface> pane{ front.Between(1.0, 1.5), back.Between(1.5, 1.1) };
+  EndedRays rays;
+  EndedRays ofWhole;
+  for (int i = 0; i < 96; ++i)
+  {
+    const RefractedRayStack::View view =
+      LookAt(glm::dvec3(random(-1.0, 1.0), random(-1.0, 1.0), random(0.5, 3.0)),
+        random.Point(glm::dvec3(-0.5), glm::dvec3(0.5)), random(0.5, 2.0), i % 3 == 0, Size);
+    SolidMesh mesh = i % 2 == 0 ? MakeThreeBoxes(random) : MakeBoxWithSides(random);
+    const std::vector<Interface> one{ i % 4 < 2 ? pane.front() : pane.back() };
+    for (const std::vector<Interface>& list : { one, pane })
+    {
+      rays.CompareMesh(list, view, mesh);
+      ASSERT_EQ(rays.Wrong, 0) << "view " << i;
+    }
+    mesh.Parts.clear();
+    ofWhole.CompareMesh(pane, view, mesh);
+    ofWhole.CompareMesh(one, view, mesh);
+  }
+  EXPECT_GT(rays.Shown, 10000);
+  EXPECT_GT(rays.Ended, ofWhole.Ended + 10000);
+  EXPECT_GT(rays.Untraced, ofWhole.Untraced + 1000);
 }
 
 /** The same from behind, at sheets of few and of many facets, through a ball, and into dense media.
