@@ -75,9 +75,7 @@ bool ObjectImages::IsProofWorthwhile(
   if (saved < facets && cells > 0 && this->Geometry.HasConvexField())
   {
     saved += FacetsPerCell * cells;
-    const glm::dvec3 half = 0.5 * (extent.High - extent.Low);
-    this->Geometry.VisitFacets(0.5 * (extent.Low + extent.High),
-      std::max({ half.x, half.y, half.z }),
+    this->Geometry.VisitFacets(0.5 * (extent.Low + extent.High), 0.5 * (extent.High - extent.Low),
       [&saved](std::int32_t) { saved += FacetsPerFacetInReach; });
   }
   return saved >= facets;
