@@ -200,7 +200,7 @@ std::vector<CellTest> ListTests(const FlatMembraneSolver& solver, const std::vec
   {
     const glm::dvec3 local = PointAt(points, i) - membrane.GetOrigin();
     std::int32_t first = std::numeric_limits<std::int32_t>::max();
-    tree.Visit(local, 0.0,
+    tree.Visit(local, glm::dvec3(0.0),
       [&](std::int32_t facet)
       {
         tests.emplace_back(i, facet);

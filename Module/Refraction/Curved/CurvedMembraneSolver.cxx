@@ -372,11 +372,10 @@ bool CurvedMembraneSolver::MayShow(
 {
   const glm::dvec3 middle = 0.5 * low + 0.5 * high - this->GetMembrane().GetOrigin();
   const glm::dvec3 half = 0.5 * high - 0.5 * low;
-  const double padding = std::max({ half.x, half.y, half.z });
   const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
     std::copysign(half.z, this->Axis.z));
   return !this->IsInReach(middle) || (!this->Optics.Reflects && !this->IsBehindAll(middle + top)) ||
-    this->GetTree().HasAny(middle, padding, chosen);
+    this->GetTree().HasAny(middle, half, chosen);
 }
 
 //------------------------------------------------------------------------------
@@ -413,7 +412,7 @@ bool CurvedMembraneSolver::FindFirst(
   // The cheap attempt comes first: Newton's method from the middle of each patch that may show the
   // point.
   place.Facet = CurvedPatches::NoFacet;
-  this->GetTree().Visit(local, 0.0,
+  this->GetTree().Visit(local, glm::dvec3(0.0),
     [this, &equation, &place](std::int32_t facet)
     {
       const CurvedPatch patch = this->GetPatches().GetPatch(facet);
@@ -444,7 +443,7 @@ void CurvedMembraneSolver::FindPlaces(
 {
   places.clear();
   bool isComplete = true;
-  this->GetTree().Visit(local, 0.0,
+  this->GetTree().Visit(local, glm::dvec3(0.0),
     [this, &equation, &places, &isComplete](std::int32_t facet)
     {
       const CurvedPatch patch = this->GetPatches().GetPatch(facet);

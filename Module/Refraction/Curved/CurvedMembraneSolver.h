@@ -198,13 +198,18 @@ public:
   }
 
   /**
-   * Calls `visit(facet)` for every facet that may show a point of the cube with centre `local` and
-   * half side `padding`.
+   * Calls `visit(facet)` for every facet that may show a point of the box with centre `local` and
+   * half sides `padding`.
    */
   template <typename Visitor>
-  void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
+  void VisitFacets(const glm::dvec3& local, const glm::dvec3& padding, Visitor&& visit) const
   {
-    VisitTree(this->GetTree(), local, padding, visit);
+    this->GetTree().Visit(local, padding,
+      [&visit](std::int32_t facet)
+      {
+        visit(facet);
+        return std::numeric_limits<std::int32_t>::max();
+      });
   }
 
   /**
@@ -271,18 +276,6 @@ public:
   /** @} */
 
 private:
-  template <typename Visitor>
-  static void VisitTree(
-    const RayTubeTree& tree, const glm::dvec3& local, double padding, Visitor&& visit)
-  {
-    tree.Visit(local, padding,
-      [&visit](std::int32_t facet)
-      {
-        visit(facet);
-        return std::numeric_limits<std::int32_t>::max();
-      });
-  }
-
   void FindAxis();
   void FindEnclosure();
   bool IsAboveAll(const glm::dvec3& local) const

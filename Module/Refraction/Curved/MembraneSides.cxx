@@ -176,7 +176,8 @@ MembraneSides::Look MembraneSides::LookAlong(
   const double low = frame.GetHeight(local) - reach - this->Slack;
   double floor = low;
   const bool isAcross = reach < std::numeric_limits<double>::infinity();
-  this->Tree.Visit(this->Frame.ToFrame(local), isAcross ? reach + this->Slack : this->Slack,
+  this->Tree.Visit(this->Frame.ToFrame(local),
+    glm::dvec3(isAcross ? reach + this->Slack : this->Slack),
     [this, &frame, &local, low, &floor](std::int32_t facet)
     {
       const Candidate candidate = this->Classify(facet, frame, local, low);

@@ -88,7 +88,8 @@ VirtualVertex FlatMembraneSolver::SolveAmong(const glm::dvec3& point, const Visi
 VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 {
   return this->SolveAmong(point,
-    [this](const glm::dvec3& local, const auto& test) { this->Tree.Visit(local, 0.0, test); });
+    [this](const glm::dvec3& local, const auto& test)
+    { this->Tree.Visit(local, glm::dvec3(0.0), test); });
 }
 
 //------------------------------------------------------------------------------
@@ -109,7 +110,7 @@ bool FlatMembraneSolver::MayShow(
   const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
 {
   const glm::dvec3 local = point - this->GetMembrane().GetOrigin();
-  return !this->IsInReach(local) || this->Tree.HasAny(local, padding, chosen);
+  return !this->IsInReach(local) || this->Tree.HasAny(local, glm::dvec3(padding), chosen);
 }
 
 //------------------------------------------------------------------------------
@@ -125,7 +126,7 @@ bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
   const double edge = 2.0 * RefractionCells::GetLargestStretch() *
     (glm::length(local) + std::sqrt(3.0) * this->GetMembrane().GetRadius());
   int count = 0;
-  this->Tree.Visit(local, 2.0 * wall * edge,
+  this->Tree.Visit(local, glm::dvec3(2.0 * wall * edge),
     [this, &local, wall, &count](std::int32_t facet)
     {
       CellHit hit;

@@ -29,7 +29,12 @@ constexpr std::size_t SmallestEdgeTable = 64;
 // each other in the cache.
 constexpr std::size_t PartsAtOnce = 64;
 
+// Middles of edges that are not divided, and of those that are not tested yet.
 constexpr std::int32_t NotSplit = -1;
+constexpr std::int32_t NotTested = -2;
+
+// Error of an edge of half the length, where the bend is the same.
+constexpr double OfHalf = 0.25;
 
 std::size_t Hash(const glm::dvec3& point)
 {
@@ -49,7 +54,7 @@ EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double to
   : Geometry(geometry)
   , Tolerance(tolerance)
   , Cache(std::move(GetSpareCache()))
-  , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0, false })
+  , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0 })
 {
   static std::atomic<std::uint64_t> last{ 0 };
   this->Number = ++last;
@@ -67,16 +72,6 @@ std::vector<EdgeSubdivision::Middle>& EdgeSubdivision::GetSpareCache()
 {
   thread_local std::vector<Middle> spare;
   return spare;
-}
-
-//------------------------------------------------------------------------------
-// The middle is solved from the ends in an order that depends on the ends alone, so that both
-// neighbours get the same answer.
-EdgeSubdivision::Ends EdgeSubdivision::GetEnds(const glm::dvec3& a, const VirtualVertex& imageOfA,
-  const glm::dvec3& b, const VirtualVertex& imageOfB)
-{
-  return IsBefore(a, b) ? Ends{ { &a, &b }, { &imageOfA, &imageOfB } }
-                        : Ends{ { &b, &a }, { &imageOfB, &imageOfA } };
 }
 
 //------------------------------------------------------------------------------
@@ -102,25 +97,23 @@ void EdgeSubdivision::SearchIfLost(const glm::dvec3& point, VirtualVertex& image
 }
 
 //------------------------------------------------------------------------------
-const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
-  const glm::dvec3& b, const VirtualVertex& imageOfB)
+const VirtualVertex& EdgeSubdivision::FindMiddle(const Stretch& part)
 {
-  const glm::dvec3 point = 0.5 * (a + b);
+  const glm::dvec3 point = part.GetMiddle();
   Middle& middle = this->FindEntry(point);
   if (!this->IsStored(middle, point))
   {
-    const Ends ends = GetEnds(a, imageOfA, b, imageOfB);
     middle.Owner = this->Number;
     middle.Point = point;
-    middle.Vertex = this->Geometry.SolveBetween(point, *ends.Image[0], *ends.Image[1]);
+    middle.Vertex = this->Geometry.SolveBetween(point, *part.Image[0], *part.Image[1]);
     this->SearchIfLost(point, middle.Vertex);
   }
   return middle.Vertex;
 }
 
 //------------------------------------------------------------------------------
-// Solves the middles that are not stored, side by side. Images of ends must not be stored ones.
-void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
+// Solves the middles of `Tested` that are not stored, side by side.
+void EdgeSubdivision::PrepareMiddles()
 {
   std::array<CurvedMembraneSolver::PointBetween, CurvedMembraneSolver::MostBetween> open{};
   std::size_t size = 0;
@@ -133,9 +126,9 @@ void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
     }
     size = 0;
   };
-  for (std::size_t i = 0; i < count; ++i)
+  for (const Stretch& part : this->Tested)
   {
-    const glm::dvec3 point = ends[i].GetMiddle();
+    const glm::dvec3 point = part.GetMiddle();
     Middle& middle = this->FindEntry(point);
     if (this->IsStored(middle, point))
     {
@@ -149,64 +142,81 @@ void EdgeSubdivision::PrepareMiddles(const Ends* ends, std::size_t count)
     }
     middle.Owner = this->Number;
     middle.Point = point;
-    open[size++] = { point, ends[i].Image[0], ends[i].Image[1], &middle.Vertex };
+    open[size++] = { point, part.Image[0], part.Image[1], &middle.Vertex };
   }
   solve();
 }
 
 //------------------------------------------------------------------------------
-// Solves the points on the edges `Tested` that FindShape looks at, side by side.
-void EdgeSubdivision::PrepareShapes()
+// The ends get an order that depends on them alone, so that both neighbours solve the same middles.
+void EdgeSubdivision::AddTested(const ImagedPoint& from, const ImagedPoint& to)
 {
+  const bool isTurned = IsBefore(to.Point, from.Point);
+  const ImagedPoint& a = isTurned ? to : from;
+  const ImagedPoint& b = isTurned ? from : to;
+  this->Tested.push_back({ this->Tested.size(), { a.Point, b.Point },
+    { a.Image->Position, b.Image->Position }, { a.Image, b.Image } });
+}
+
+//------------------------------------------------------------------------------
+// Finds the shapes of the edges `Tested`, whose points are solved side by side.
+void EdgeSubdivision::JudgeSides()
+{
+  this->Sides.assign(this->Tested.size(), Side());
   this->TestedImages.clear();
   for (int depth = 0; !this->Tested.empty(); ++depth)
   {
-    this->TestedEnds.clear();
-    for (const Stretch& part : this->Tested)
-    {
-      this->TestedEnds.push_back(
-        GetEnds(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]));
-    }
-    this->PrepareMiddles(this->TestedEnds.data(), this->TestedEnds.size());
+    this->PrepareMiddles();
     this->NextTested.clear();
     for (const Stretch& part : this->Tested)
     {
-      const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
-      const Middle& middle = this->FindEntry(point);
-      if (this->IsStored(middle, point) &&
-        this->JudgeMiddle(part, middle.Vertex, depth) == Shape::Undecided)
+      Side& side = this->Sides[part.Side];
+      if (side.Form != Shape::Straight)
       {
-        this->TestedImages.push_back(middle.Vertex); // its entry may be overwritten
-        const std::array<Stretch, 2> halves = Halve(part, this->TestedImages.back());
-        this->NextTested.insert(this->NextTested.end(), halves.begin(), halves.end());
+        continue; // another part has decided it
       }
+      const VirtualVertex& middle = this->FindMiddle(part);
+      const glm::dvec3 error = this->GetError(0.5 * (part.Drawn[0] + part.Drawn[1]), middle);
+      if (depth == 0)
+      {
+        side.Middle = middle;
+        side.Error = error;
+      }
+      const Shape shape = this->JudgeMiddle(part, middle, error, depth);
+      if (shape != Shape::Undecided)
+      {
+        side.Form = shape;
+        continue;
+      }
+      this->TestedImages.push_back(middle); // its entry may be overwritten
+      const std::array<Stretch, 2> halves = Halve(part, this->TestedImages.back());
+      this->NextTested.insert(this->NextTested.end(), halves.begin(), halves.end());
     }
     this->Tested.swap(this->NextTested);
   }
 }
 
 //------------------------------------------------------------------------------
-void EdgeSubdivision::PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides)
+std::vector<bool> EdgeSubdivision::AreStraight(const std::vector<std::array<ImagedPoint, 2>>& edges)
 {
   this->Tested.clear();
-  for (const std::array<ImagedPoint, 2>& side : sides)
+  for (const std::array<ImagedPoint, 2>& edge : edges)
   {
-    this->Tested.push_back(MakeStretch(side[0], side[1]));
+    this->AddTested(edge[0], edge[1]);
   }
-  this->PrepareShapes();
+  this->JudgeSides();
+  std::vector<bool> result(edges.size());
+  std::transform(this->Sides.begin(), this->Sides.end(), result.begin(),
+    [](const Side& side) { return side.Form == Shape::Straight; });
+  return result;
 }
 
 //------------------------------------------------------------------------------
-bool EdgeSubdivision::IsDrawnWell(
-  const glm::dvec3& drawn, const VirtualVertex& image, double parts) const
+// Angle between a drawn place and an image, seen from the eye, in tolerances.
+glm::dvec3 EdgeSubdivision::GetError(const glm::dvec3& drawn, const VirtualVertex& image) const
 {
   const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
-  const glm::dvec3 there = drawn - eye;
-  const glm::dvec3 seen = image.Position - eye;
-  const glm::dvec3 across = glm::cross(there, seen);
-  const double squared = glm::dot(there, there) * glm::dot(seen, seen);
-  const double largest = parts * this->Tolerance;
-  return glm::dot(across, across) <= largest * largest * squared;
+  return (glm::normalize(image.Position - eye) - glm::normalize(drawn - eye)) / this->Tolerance;
 }
 
 //------------------------------------------------------------------------------
@@ -243,43 +253,54 @@ bool EdgeSubdivision::MayTurn(const VirtualVertex& a, const VirtualVertex& b) co
 }
 
 //------------------------------------------------------------------------------
-// True if the halves of an edge that is divided need no test. An edge whose middle is on its chord
-// is divided because of waves between.
-bool EdgeSubdivision::AreHalvesSmooth(
-  const VirtualVertex& a, const VirtualVertex& middle, const VirtualVertex& b) const
+// True if there are no waves of the membrane between two points, and no S-shape.
+bool EdgeSubdivision::AreSampled(const VirtualVertex& a, const VirtualVertex& b) const
 {
-  const glm::dvec3 drawn = 0.5 * (a.Position + b.Position);
-  return !this->IsDrawnWell(drawn, middle) && this->IsDrawnWell(drawn, middle, TestedParts) &&
-    this->AreNeighbours(a, middle) && this->AreNeighbours(middle, b) && !this->MayTurn(a, middle) &&
-    !this->MayTurn(middle, b);
+  return this->AreNeighbours(a, b) && !this->MayTurn(a, b);
 }
 
 //------------------------------------------------------------------------------
-EdgeSubdivision::Stretch EdgeSubdivision::MakeStretch(const ImagedPoint& a, const ImagedPoint& b)
+// True if the error is about the expected one. An edge whose middle is on its chord is divided
+// because of waves between.
+bool EdgeSubdivision::Follows(const Side& side, const glm::dvec3& expected)
 {
-  return { { a.Point, b.Point }, { a.Image->Position, b.Image->Position }, { a.Image, b.Image } };
+  const double error = glm::length(side.Error);
+  return error > 1.0 && glm::length(side.Error - expected) <= MostChange * error;
+}
+
+//------------------------------------------------------------------------------
+// True if the halves of an edge that is divided need no test.
+bool EdgeSubdivision::AreHalvesSmooth(
+  const VirtualVertex& a, const Side& side, const VirtualVertex& b, bool follows) const
+{
+  const double error = glm::length(side.Error);
+  return error > 1.0 && error <= (follows ? FollowedParts : TestedParts) &&
+    this->AreSampled(a, side.Middle) && this->AreSampled(side.Middle, b);
 }
 
 //------------------------------------------------------------------------------
 std::array<EdgeSubdivision::Stretch, 2> EdgeSubdivision::Halve(
   const Stretch& part, const VirtualVertex& middle)
 {
-  const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
+  const glm::dvec3 point = part.GetMiddle();
   const glm::dvec3 drawn = 0.5 * (part.Drawn[0] + part.Drawn[1]);
-  return { { { { part.Point[0], point }, { part.Drawn[0], drawn }, { part.Image[0], &middle } },
-    { { point, part.Point[1] }, { drawn, part.Drawn[1] }, { &middle, part.Image[1] } } } };
+  return {
+    { { part.Side, { part.Point[0], point }, { part.Drawn[0], drawn }, { part.Image[0], &middle } },
+      { part.Side, { point, part.Point[1] }, { drawn, part.Drawn[1] },
+        { &middle, part.Image[1] } } }
+  };
 }
 
 //------------------------------------------------------------------------------
-// The shape of a part of an edge, as far as its middle tells it.
+// The shape of a part of an edge, as far as its middle and the middle's error tell it.
 EdgeSubdivision::Shape EdgeSubdivision::JudgeMiddle(
-  const Stretch& part, const VirtualVertex& middle, int depth) const
+  const Stretch& part, const VirtualVertex& middle, const glm::dvec3& error, int depth) const
 {
   if (middle.State != ImageState::Found)
   {
     return Shape::Open;
   }
-  if (!this->IsDrawnWell(0.5 * (part.Drawn[0] + part.Drawn[1]), middle))
+  if (!(glm::dot(error, error) <= 1.0))
   {
     return Shape::Bent;
   }
@@ -289,48 +310,23 @@ EdgeSubdivision::Shape EdgeSubdivision::JudgeMiddle(
 }
 
 //------------------------------------------------------------------------------
-EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth)
-{
-  // A copy, because the next entry may overwrite this one in the cache.
-  const VirtualVertex middle =
-    this->FindMiddle(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]);
-  Shape shape = this->JudgeMiddle(part, middle, depth);
-  if (shape == Shape::Undecided)
-  {
-    shape = Shape::Straight;
-    for (const Stretch& half : Halve(part, middle))
-    {
-      shape = shape == Shape::Straight ? this->FindShape(half, depth + 1) : shape;
-    }
-  }
-  return shape;
-}
-
-//------------------------------------------------------------------------------
-EdgeSubdivision::Shape EdgeSubdivision::FindShape(const glm::dvec3& a,
-  const VirtualVertex& imageOfA, const glm::dvec3& b, const VirtualVertex& imageOfB)
-{
-  return this->FindShape(MakeStretch({ -1, a, &imageOfA }, { -1, b, &imageOfB }), 0);
-}
-
-//------------------------------------------------------------------------------
-bool EdgeSubdivision::IsStraight(const ImagedPoint& a, const ImagedPoint& b)
-{
-  return this->FindShape(a.Point, *a.Image, b.Point, *b.Image) == Shape::Straight;
-}
-
-//------------------------------------------------------------------------------
 void EdgeSubdivision::MoveOntoEdge(
   const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image)
 {
   glm::dvec3 point[2] = { a.Point, b.Point };
   VirtualVertex end[2] = { *a.Image, *b.Image };
+  glm::dvec3 expected(0.0);
   bool isStraight = false;
   for (int depth = 0; depth <= DeepestLevel; ++depth)
   {
-    const Shape shape = isStraight || depth == DeepestLevel
-      ? Shape::Straight
-      : this->FindShape(point[0], end[0], point[1], end[1]);
+    isStraight = isStraight || depth == DeepestLevel;
+    if (!isStraight)
+    {
+      this->Tested.clear();
+      this->AddTested({ -1, point[0], &end[0] }, { -1, point[1], &end[1] });
+      this->JudgeSides();
+    }
+    const Shape shape = isStraight ? Shape::Straight : this->Sides[0].Form;
     if (shape == Shape::Open)
     {
       return;
@@ -340,14 +336,16 @@ void EdgeSubdivision::MoveOntoEdge(
       // Between the tested places the edge deviates little more than at them.
       constexpr double sameBranch = 2.0;
       const glm::dvec3 drawn = (1.0 - l) * end[0].Position + l * end[1].Position;
-      image.Position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.Position;
+      image.Position =
+        glm::length(this->GetError(drawn, image)) <= sameBranch ? drawn : image.Position;
       return;
     }
-    const VirtualVertex middle = this->FindMiddle(point[0], end[0], point[1], end[1]);
-    isStraight = this->AreHalvesSmooth(end[0], middle, end[1]);
+    const Side& side = this->Sides[0];
+    isStraight = this->AreHalvesSmooth(end[0], side, end[1], Follows(side, expected));
+    expected = OfHalf * side.Error;
     const int half = l < 0.5 ? 0 : 1;
     point[1 - half] = 0.5 * (point[0] + point[1]);
-    end[1 - half] = middle;
+    end[1 - half] = side.Middle;
     l = 2.0 * l - half;
   }
 }
@@ -390,12 +388,6 @@ EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 }
 
 //------------------------------------------------------------------------------
-bool EdgeSubdivision::IsKnown(std::int32_t a, std::int32_t b)
-{
-  return this->FindEdge(MakeKey(a, b)).Round == this->Round;
-}
-
-//------------------------------------------------------------------------------
 void EdgeSubdivision::AddEdge(const Edge& edge)
 {
   this->FindEdge(edge.Key) = edge;
@@ -406,19 +398,22 @@ void EdgeSubdivision::AddEdge(const Edge& edge)
 }
 
 //------------------------------------------------------------------------------
-// Adds an edge that is known to be straight without a test, if it is new.
-void EdgeSubdivision::AddStraight(std::int32_t a, std::int32_t b)
+// Adds an edge with an error that is expected, if it is new.
+void EdgeSubdivision::AddUntested(
+  std::int32_t a, std::int32_t b, const glm::dvec3& error, bool isStraight)
 {
-  if (!this->IsKnown(a, b))
+  const std::uint64_t key = MakeKey(a, b);
+  if (this->FindEdge(key).Round != this->Round)
   {
-    this->AddEdge({ MakeKey(a, b), NotSplit, this->Round, true });
+    this->AddEdge(
+      { key, isStraight ? NotSplit : NotTested, this->Round, isStraight, isStraight, error });
   }
 }
 
 //------------------------------------------------------------------------------
 void EdgeSubdivision::GrowEdges()
 {
-  std::vector<Edge> before(2 * this->Edges.size(), Edge{ 0, NotSplit, this->Round - 1, false });
+  std::vector<Edge> before(2 * this->Edges.size(), Edge{ 0, NotSplit, this->Round - 1 });
   before.swap(this->Edges);
   for (const Edge& edge : before)
   {
@@ -430,40 +425,65 @@ void EdgeSubdivision::GrowEdges()
 }
 
 //------------------------------------------------------------------------------
-// The node in the middle, or NotSplit if the edge is straight.
-std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
+// The node in the middle of an edge, or NotSplit if the edge is straight.
+std::int32_t EdgeSubdivision::GetMiddle(std::int32_t a, std::int32_t b)
 {
-  if (depth == DeepestLevel)
+  const Edge& edge = this->FindEdge(MakeKey(a, b));
+  return edge.Round == this->Round && edge.Middle >= 0 ? edge.Middle : NotSplit;
+}
+
+//------------------------------------------------------------------------------
+// Adds an edge to those that are tested next, unless it is known or among them.
+void EdgeSubdivision::TestEdge(std::int32_t a, std::int32_t b)
+{
+  this->AddUntested(a, b, glm::dvec3(0.0), false);
+  Edge& edge = this->FindEdge(MakeKey(a, b));
+  if (edge.Middle == NotTested)
   {
-    return NotSplit;
+    edge.Middle = NotSplit;
+    const Node& first = this->Nodes[static_cast<std::size_t>(a)];
+    const Node& last = this->Nodes[static_cast<std::size_t>(b)];
+    this->TestedKeys.push_back(edge.Key);
+    this->AddTested({ -1, first.Point, &first.Vertex }, { -1, last.Point, &last.Vertex });
   }
-  const Edge& known = this->FindEdge(MakeKey(a, b));
-  if (known.Round == this->Round)
+}
+
+//------------------------------------------------------------------------------
+// Tests the edges that have been chosen, and adds the nodes in the middles of bent ones.
+void EdgeSubdivision::SettleEdges()
+{
+  this->JudgeSides();
+  for (std::size_t i = 0; i < this->TestedKeys.size(); ++i)
   {
-    return known.Middle;
+    this->SettleEdge(this->TestedKeys[i], this->Sides[i]);
   }
+  this->TestedKeys.clear();
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::SettleEdge(std::uint64_t key, const Side& side)
+{
+  Edge& edge = this->FindEdge(key);
+  this->Failed = this->Failed || side.Form == Shape::Open;
+  this->IsFull = this->IsFull || (side.Form == Shape::Bent && this->Nodes.size() >= MostNodes);
+  edge.IsSmooth = side.Form == Shape::Straight;
+  edge.Follows = Follows(side, edge.Error);
+  edge.Error = side.Error;
+  if (side.Form != Shape::Bent || this->IsFull)
+  {
+    return;
+  }
+  const auto a = static_cast<std::int32_t>(key >> 32);
+  const auto b = static_cast<std::int32_t>(key & 0xffffffffu);
   const Node& first = this->Nodes[static_cast<std::size_t>(a)];
   const Node& second = this->Nodes[static_cast<std::size_t>(b)];
-  const Shape shape = this->FindShape(first.Point, first.Vertex, second.Point, second.Vertex);
-  this->Failed = this->Failed || shape == Shape::Open;
-  this->IsFull = this->IsFull || (shape == Shape::Bent && this->Nodes.size() >= MostNodes);
-  if (shape != Shape::Bent || this->IsFull)
-  {
-    this->AddEdge({ MakeKey(a, b), NotSplit, this->Round, shape == Shape::Straight });
-    return NotSplit;
-  }
-  const auto result = static_cast<std::int32_t>(this->Nodes.size());
-  const Node node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point),
-    this->FindMiddle(first.Point, first.Vertex, second.Point, second.Vertex) };
-  const bool isSmooth = this->AreHalvesSmooth(first.Vertex, node.Vertex, second.Vertex);
-  this->Nodes.push_back(node);
-  this->AddEdge({ MakeKey(a, b), result, this->Round, isSmooth });
-  if (isSmooth)
-  {
-    this->AddStraight(a, result);
-    this->AddStraight(result, b);
-  }
-  return result;
+  edge.Middle = static_cast<std::int32_t>(this->Nodes.size());
+  edge.IsSmooth = this->AreHalvesSmooth(first.Vertex, side, second.Vertex, edge.Follows);
+  this->Nodes.push_back(
+    Node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point), side.Middle });
+  const Edge whole = edge; // its entry may move
+  this->AddUntested(a, whole.Middle, OfHalf * whole.Error, whole.IsSmooth);
+  this->AddUntested(whole.Middle, b, OfHalf * whole.Error, whole.IsSmooth);
 }
 
 //------------------------------------------------------------------------------
@@ -487,8 +507,8 @@ void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& 
 }
 
 //------------------------------------------------------------------------------
-// Solves the points of the sides of some parts of a level that have to be tested.
-void EdgeSubdivision::PrepareLevel(std::size_t begin, std::size_t end)
+// Tests the sides of some parts of a level.
+void EdgeSubdivision::SettleLevel(std::size_t begin, std::size_t end)
 {
   this->Tested.clear();
   for (std::size_t i = begin; i < end; ++i)
@@ -496,16 +516,10 @@ void EdgeSubdivision::PrepareLevel(std::size_t begin, std::size_t end)
     const NodeIds& part = this->Level[i];
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const std::size_t next = (k + 1) % 3;
-      if (!this->IsKnown(part[k], part[next]))
-      {
-        const Node& a = this->Nodes[static_cast<std::size_t>(part[k])];
-        const Node& b = this->Nodes[static_cast<std::size_t>(part[next])];
-        this->Tested.push_back(MakeStretch({ -1, a.Point, &a.Vertex }, { -1, b.Point, &b.Vertex }));
-      }
+      this->TestEdge(part[k], part[(k + 1) % 3]);
     }
   }
-  this->PrepareShapes();
+  this->SettleEdges();
 }
 
 //------------------------------------------------------------------------------
@@ -520,9 +534,9 @@ void EdgeSubdivision::Divide(const Cell& cell)
     {
       if (i % PartsAtOnce == 0 && depth < DeepestLevel)
       {
-        this->PrepareLevel(i, std::min(i + PartsAtOnce, this->Level.size()));
+        this->SettleLevel(i, std::min(i + PartsAtOnce, this->Level.size()));
       }
-      this->DividePart(cell, this->Level[i], depth);
+      this->DividePart(cell, this->Level[i]);
     }
     this->Level.swap(this->NextLevel);
   }
@@ -530,35 +544,50 @@ void EdgeSubdivision::Divide(const Cell& cell)
 
 //------------------------------------------------------------------------------
 // Adds the edges between middles of sides, which are half as long as the side that they are
-// parallel to, if that one is smooth.
+// parallel to.
 void EdgeSubdivision::AddParallels(const NodeIds& nodes, const NodeIds& middle)
 {
   for (std::size_t k = 0; k < 3; ++k)
   {
     const std::int32_t a = middle[(k + 1) % 3];
     const std::int32_t b = middle[(k + 2) % 3];
-    if (a == NotSplit || b == NotSplit ||
-      !this->FindEdge(MakeKey(nodes[(k + 1) % 3], nodes[(k + 2) % 3])).IsSmooth)
+    if (a == NotSplit || b == NotSplit)
     {
       continue;
     }
-    const VirtualVertex& first = this->Nodes[static_cast<std::size_t>(a)].Vertex;
-    const VirtualVertex& last = this->Nodes[static_cast<std::size_t>(b)].Vertex;
-    if (this->AreNeighbours(first, last) && !this->MayTurn(first, last))
-    {
-      this->AddStraight(a, b);
-    }
+    const Edge& side = this->FindEdge(MakeKey(nodes[(k + 1) % 3], nodes[(k + 2) % 3]));
+    this->AddUntested(a, b, OfHalf * side.Error, side.IsSmooth && this->AreSampled(a, b));
   }
 }
 
 //------------------------------------------------------------------------------
+// The error that is expected of the edge from the first node to the middle of the other two. Where
+// second derivatives are the same everywhere, the error of an edge is a quadratic form of the edge;
+// this one is half of the difference of two sides.
+glm::dvec3 EdgeSubdivision::ExpectMedian(const NodeIds& nodes)
+{
+  const auto error = [this, &nodes](std::size_t i, std::size_t j)
+  { return this->FindEdge(MakeKey(nodes[i], nodes[j])).Error; };
+  return OfHalf * (2.0 * (error(0, 1) + error(2, 0)) - error(1, 2));
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::AddMedian(const NodeIds& nodes, std::int32_t middle)
+{
+  const glm::dvec3 error = this->ExpectMedian(nodes);
+  this->AddUntested(nodes[0], middle, error,
+    this->FindEdge(MakeKey(nodes[1], nodes[2])).Follows &&
+      glm::length(error) <= OfHalf * FollowedParts && this->AreSampled(nodes[0], middle));
+}
+
+//------------------------------------------------------------------------------
 // Emits a part, or adds its parts to the next level.
-void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes, int depth)
+void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes)
 {
   NodeIds middle; // of the edge opposite each node
   for (std::size_t k = 0; k < 3; ++k)
   {
-    middle[k] = this->Split(nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth);
+    middle[k] = this->GetMiddle(nodes[(k + 1) % 3], nodes[(k + 2) % 3]);
   }
   this->AddParallels(nodes, middle);
   const auto splits =
@@ -579,22 +608,35 @@ void EdgeSubdivision::DividePart(const Cell& cell, const NodeIds& nodes, int dep
   std::vector<NodeIds>& parts = this->NextLevel;
   if (splits == 1)
   {
+    this->AddMedian(n, m[0]);
     parts.insert(parts.end(), { { n[0], n[1], m[0] }, { n[0], m[0], n[2] } });
     return;
   }
   parts.push_back({ m[0], n[2], m[1] });
-  if (splits == 2)
+  if (splits == 3)
   {
-    parts.insert(parts.end(), { { n[0], n[1], m[0] }, { n[0], m[0], m[1] } });
+    parts.insert(parts.end(), { { n[0], m[2], m[1] }, { m[2], n[1], m[0] }, { m[2], m[0], m[1] } });
     return;
   }
-  parts.insert(parts.end(), { { n[0], m[2], m[1] }, { m[2], n[1], m[0] }, { m[2], m[0], m[1] } });
+  // The diagonal of the rest that is expected to be bent less.
+  const NodeIds turned = { n[1], n[2], n[0] };
+  const bool isFirst =
+    glm::length(this->ExpectMedian(n)) <= glm::length(this->ExpectMedian(turned));
+  this->AddMedian(isFirst ? n : turned, isFirst ? m[0] : m[1]);
+  parts.push_back({ n[0], n[1], isFirst ? m[0] : m[1] });
+  parts.push_back({ isFirst ? n[0] : n[1], m[0], m[1] });
 }
 
 //------------------------------------------------------------------------------
 void EdgeSubdivision::DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth)
 {
-  const std::int32_t middle = this->Split(a, b, depth);
+  this->Tested.clear();
+  if (depth < DeepestLevel)
+  {
+    this->TestEdge(a, b);
+  }
+  this->SettleEdges();
+  const std::int32_t middle = this->GetMiddle(a, b);
   if (this->Failed)
   {
     return;

@@ -8,9 +8,10 @@
  * a tolerance; its halves are then treated in the same way. The tested points are its middle, the
  * middles of its halves and so on, until the sight points of neighbours among these points and the
  * ends are as close as the membrane's vertices, between which the membrane has no waves. Halves
- * whose ends are that close are not tested if the middle was off by at most TestedParts tolerances:
- * a curve leaves its chord by the square of the chord's length. The result depends on the edge
- * alone, on its two ends and their images, so neighbours agree on every point and no cracks appear.
+ * whose ends are that close are not tested if they are expected to be off by less than the
+ * tolerance: a curve leaves its chord by the square of the chord's length. The result depends on
+ * the edge alone, on its two ends and their images, so neighbours agree on every point and no
+ * cracks appear.
  * A triangle is divided at the middles of its divided edges until none of its edges needs division,
  * or until it has MostNodes: its parts are then as they are, with larger errors, and there may be
  * cracks of that size next to its neighbours.
@@ -49,6 +50,14 @@ public:
    */
   static constexpr double TestedParts = 1.5;
 
+  /**
+   * The same for an edge whose error is that of the edge twice as long, along it or parallel to it,
+   * divided by four, up to this part of it: the bend has been seen to change little. Its halves are
+   * off by (1 + MostChange / 2) / 4 of that, 0.7 tolerances, if the change goes on as it is.
+   */
+  static constexpr double FollowedParts = 2.5;
+  static constexpr double MostChange = 0.25;
+
   /** `tolerance` is an angle in radians at the eye. */
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
   ~EdgeSubdivision();
@@ -56,16 +65,10 @@ public:
   EdgeSubdivision& operator=(const EdgeSubdivision&) = delete;
 
   /**
-   * Solves the points of the sides of polygons side by side that IsStraight would solve one by one.
-   * The answers are the same with and without it.
+   * For each of some edges: true if the images of points on it lie on the virtual edge within the
+   * tolerance. An image of another branch does not.
    */
-  void PrepareSides(const std::vector<std::array<ImagedPoint, 2>>& sides);
-
-  /**
-   * True if the images of points on the edge lie on the virtual edge within the tolerance. An image
-   * of another branch does not.
-   */
-  bool IsStraight(const ImagedPoint& a, const ImagedPoint& b);
+  std::vector<bool> AreStraight(const std::vector<std::array<ImagedPoint, 2>>& edges);
 
   /**
    * Adds the image of a triangle as triangles with the same winding. Returns false, and adds
@@ -96,12 +99,29 @@ private:
     VirtualVertex Vertex;
     std::int64_t Output = -1; ///< index among the points of `images`; -1 until it is added
   };
+  enum class Shape
+  {
+    Straight,
+    Bent,
+    Open,     ///< a point has no image
+    Undecided ///< the halves have to be tested
+  };
+  /** An edge that is tested, and the result. */
+  struct Side
+  {
+    Shape Form = Shape::Straight;
+    VirtualVertex Middle;
+    glm::dvec3 Error{ 0.0 }; ///< of the drawn middle
+  };
   /** A part of an edge between two tested points. */
   struct Stretch
   {
+    std::size_t Side; ///< index of the edge
     glm::dvec3 Point[2];
     glm::dvec3 Drawn[2]; ///< positions of the ends on the virtual edge as it is drawn
     const VirtualVertex* Image[2];
+
+    glm::dvec3 GetMiddle() const { return 0.5 * (this->Point[0] + this->Point[1]); }
   };
   struct Middle
   {
@@ -124,7 +144,9 @@ private:
     std::int32_t Middle;
     std::uint32_t Round; ///< number of the primitive that the entry belongs to
     /** True if edges of half the length, along this one or parallel to it, need no test. */
-    bool IsSmooth;
+    bool IsSmooth = false;
+    bool Follows = false;    ///< the bend is as that of the edge twice as long
+    glm::dvec3 Error{ 0.0 }; ///< of the drawn middle; expected if the edge is not tested
   };
   /** Nodes of a part of a triangle. */
   using NodeIds = std::array<std::int32_t, 3>;
@@ -136,54 +158,44 @@ private:
     ImageMesh* Images;
   };
 
-  /** Two points and their images, in the order that GetEnds gives them. */
-  struct Ends
-  {
-    const glm::dvec3* Point[2];
-    const VirtualVertex* Image[2];
-
-    glm::dvec3 GetMiddle() const { return 0.5 * (*this->Point[0] + *this->Point[1]); }
-  };
-  static Ends GetEnds(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
-    const VirtualVertex& imageOfB);
   Middle& FindEntry(const glm::dvec3& point);
-  const VirtualVertex& FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
-    const glm::dvec3& b, const VirtualVertex& imageOfB);
+  const VirtualVertex& FindMiddle(const Stretch& part);
   void SearchIfLost(const glm::dvec3& point, VirtualVertex& image);
-  void PrepareMiddles(const Ends* ends, std::size_t count);
-  void PrepareShapes();
-  void PrepareLevel(std::size_t begin, std::size_t end);
-  enum class Shape
-  {
-    Straight,
-    Bent,
-    Open,     ///< a point has no image
-    Undecided ///< the halves have to be tested
-  };
-  static Stretch MakeStretch(const ImagedPoint& a, const ImagedPoint& b);
+  void PrepareMiddles();
+  void AddTested(const ImagedPoint& from, const ImagedPoint& to);
+  void JudgeSides();
   static std::array<Stretch, 2> Halve(const Stretch& part, const VirtualVertex& middle);
-  Shape JudgeMiddle(const Stretch& part, const VirtualVertex& middle, int depth) const;
-  Shape FindShape(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
-    const VirtualVertex& imageOfB);
-  Shape FindShape(const Stretch& part, int depth);
-  /** True if `image` is within `parts` times the tolerance of `drawn`, seen from the eye. */
-  bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image, double parts = 1.0) const;
+  Shape JudgeMiddle(
+    const Stretch& part, const VirtualVertex& middle, const glm::dvec3& error, int depth) const;
+  glm::dvec3 GetError(const glm::dvec3& drawn, const VirtualVertex& image) const;
   bool AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const;
   bool MayTurn(const VirtualVertex& a, const VirtualVertex& b) const;
+  static bool Follows(const Side& side, const glm::dvec3& expected);
   bool AreHalvesSmooth(
-    const VirtualVertex& a, const VirtualVertex& middle, const VirtualVertex& b) const;
+    const VirtualVertex& a, const Side& side, const VirtualVertex& b, bool follows) const;
+  bool AreSampled(const VirtualVertex& a, const VirtualVertex& b) const;
+  bool AreSampled(std::int32_t a, std::int32_t b) const
+  {
+    return this->AreSampled(this->Nodes[static_cast<std::size_t>(a)].Vertex,
+      this->Nodes[static_cast<std::size_t>(b)].Vertex);
+  }
   double GetSquaredSize(std::int32_t facet) const;
   void Start(const std::array<ImagedPoint, 3>& corners, std::size_t count);
   static std::uint64_t MakeKey(std::int32_t a, std::int32_t b);
   Edge& FindEdge(std::uint64_t key);
-  bool IsKnown(std::int32_t a, std::int32_t b);
   void AddEdge(const Edge& edge);
-  void AddStraight(std::int32_t a, std::int32_t b);
+  void AddUntested(std::int32_t a, std::int32_t b, const glm::dvec3& error, bool isStraight);
   void GrowEdges();
-  std::int32_t Split(std::int32_t a, std::int32_t b, int depth);
+  std::int32_t GetMiddle(std::int32_t a, std::int32_t b);
+  void TestEdge(std::int32_t a, std::int32_t b);
+  void SettleEdges();
+  void SettleEdge(std::uint64_t key, const Side& side);
+  void SettleLevel(std::size_t begin, std::size_t end);
   void Divide(const Cell& cell);
   void AddParallels(const NodeIds& nodes, const NodeIds& middle);
-  void DividePart(const Cell& cell, const NodeIds& nodes, int depth);
+  glm::dvec3 ExpectMedian(const NodeIds& nodes);
+  void AddMedian(const NodeIds& nodes, std::int32_t middle);
+  void DividePart(const Cell& cell, const NodeIds& nodes);
   void DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth);
   template <std::size_t N>
   void Emit(const Cell& cell, const std::array<std::int32_t, N>& nodes);
@@ -200,10 +212,14 @@ private:
   /** Parts of a triangle that are to be divided, and their parts. */
   std::vector<NodeIds> Level;
   std::vector<NodeIds> NextLevel;
-  /** Edges that are tested next, those after them, and images of their ends. */
+  /**
+   * Edges that are tested and their keys; their parts that are tested next, those after them, and
+   * images of their ends.
+   */
+  std::vector<Side> Sides;
+  std::vector<std::uint64_t> TestedKeys;
   std::vector<Stretch> Tested;
   std::vector<Stretch> NextTested;
-  std::vector<Ends> TestedEnds;
   std::deque<VirtualVertex> TestedImages;
   std::vector<VirtualVertex> Searched; ///< kept so that its memory is reused
   std::vector<Edge> Edges; ///< the size is a power of two; at most half of the entries belong to

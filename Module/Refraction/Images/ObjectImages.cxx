@@ -31,8 +31,8 @@ constexpr int MostHalvings = 6;
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
-// Number of polygons whose sides are prepared together: enough for two blocks of lanes.
-constexpr std::size_t PreparedCells = 8;
+// Number of cells whose sides are tested together: enough for two blocks of lanes.
+constexpr std::size_t CellsAtOnce = 8;
 
 }
 
@@ -75,9 +75,7 @@ bool ObjectImages::IsProofWorthwhile(
   if (saved < facets && cells > 0 && this->Geometry.HasConvexField())
   {
     saved += FacetsPerCell * cells;
-    const glm::dvec3 half = 0.5 * (extent.High - extent.Low);
-    this->Geometry.VisitFacets(0.5 * (extent.Low + extent.High),
-      std::max({ half.x, half.y, half.z }),
+    this->Geometry.VisitFacets(0.5 * (extent.Low + extent.High), 0.5 * (extent.High - extent.Low),
       [&saved](std::int32_t) { saved += FacetsPerFacetInReach; });
   }
   return saved >= facets;
@@ -327,22 +325,9 @@ bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) cons
 }
 
 //------------------------------------------------------------------------------
-// True if the cell can keep its points, each of which has one image.
-bool ObjectImages::IsSimple(
-  const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const
+// True if a cell with straight sides, whose points have one image each, can keep its points.
+bool ObjectImages::HasSimpleMiddle(const std::int64_t* ids, std::size_t count) const
 {
-  glm::dvec3 middle(0.0);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    middle += this->GetPoint(ids[i]) / static_cast<double>(count);
-    const bool hasSide = i + 1 < count || isClosed;
-    if (hasSide &&
-      !division.IsStraight(
-        this->GetImagedPoint(ids[i]), this->GetImagedPoint(ids[(i + 1) % count])))
-    {
-      return false;
-    }
-  }
   // Between sight points in one facet the membrane is smooth; between different facets the edges
   // are tested.
   const VirtualVertex& first = *this->GetImagedPoint(ids[0]).Image;
@@ -351,6 +336,11 @@ bool ObjectImages::IsSimple(
         { return this->GetImagedPoint(id).Image->Facet == first.Facet; }))
   {
     return true;
+  }
+  glm::dvec3 middle(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    middle += this->GetPoint(ids[i]) / static_cast<double>(count);
   }
   if (this->IsUnique(ids, count))
   {
@@ -361,23 +351,32 @@ bool ObjectImages::IsSimple(
 }
 
 //------------------------------------------------------------------------------
-// Prepares the sides of polygons that may keep their points, unless it is known that they do.
-void ObjectImages::PrepareSides(const ObjectCells& cells, std::size_t begin, std::size_t end,
-  const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division) const
+// Sets `areStraight` to true for cells behind the membrane that have one image, and straight sides,
+// unless it is known that they keep their points.
+void ObjectImages::FindStraight(const ObjectCells& cells, std::size_t begin, std::size_t end,
+  bool areClosed, const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division,
+  std::vector<bool>& areStraight) const
 {
   std::vector<std::array<ImagedPoint, 2>> sides;
+  std::vector<std::size_t> cellOfSide;
+  areStraight.assign(end - begin, false);
   for (std::size_t i = begin; i < end; ++i)
   {
     const auto [ids, count] = cells.GetCell(i);
-    const bool isOpen = !keepsPoints[static_cast<std::ptrdiff_t>(i - begin)] &&
+    areStraight[i - begin] = !keepsPoints[static_cast<std::ptrdiff_t>(i - begin)] &&
       this->HaveOneRefractedImage(ids, count);
-    const std::size_t open = isOpen ? count : 0;
-    for (std::size_t k = 0; k < open; ++k)
+    for (std::size_t k = areClosed ? 0 : 1; k < count && areStraight[i - begin]; ++k)
     {
-      sides.push_back({ this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[(k + 1) % count]) });
+      const std::size_t last = k > 0 ? k - 1 : count - 1;
+      sides.push_back({ this->GetImagedPoint(ids[last]), this->GetImagedPoint(ids[k]) });
+      cellOfSide.push_back(i - begin);
     }
   }
-  division.PrepareSides(sides);
+  const std::vector<bool> straight = division.AreStraight(sides);
+  for (std::size_t k = 0; k < sides.size(); ++k)
+  {
+    areStraight[cellOfSide[k]] = areStraight[cellOfSide[k]] && straight[k];
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -398,14 +397,20 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
   EdgeSubdivision division(this->Geometry, this->Tolerance);
   const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
+  std::vector<bool> areStraight;
   for (std::size_t i = begin; i < end; ++i)
   {
+    if ((i - begin) % CellsAtOnce == 0)
+    {
+      this->FindStraight(cells, i, std::min(i + CellsAtOnce, end), false,
+        keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division, areStraight);
+    }
     const auto [ids, count] = cells.GetCell(i);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
     if (keepsPoints[i - begin] || side == Side::InFront ||
-      (isOne && this->IsSimple(ids, count, false, division)))
+      (areStraight[(i - begin) % CellsAtOnce] && this->HasSimpleMiddle(ids, count)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.Whole;
@@ -445,12 +450,13 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   const std::vector<bool> keepsPoints = this->FindWhole(cells, begin, end);
   CellReport report;
   std::vector<std::int64_t> triangles;
+  std::vector<bool> areStraight;
   for (std::size_t i = begin; i < end; ++i)
   {
-    if ((i - begin) % PreparedCells == 0)
+    if ((i - begin) % CellsAtOnce == 0)
     {
-      this->PrepareSides(cells, i, std::min(i + PreparedCells, end),
-        keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division);
+      this->FindStraight(cells, i, std::min(i + CellsAtOnce, end), true,
+        keepsPoints.begin() + static_cast<std::ptrdiff_t>(i - begin), division, areStraight);
     }
     const auto [ids, count] = cells.GetCell(i);
     const std::int64_t cell = names[i];
@@ -463,7 +469,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       continue;
     }
     if (keepsPoints[i - begin] || side == Side::InFront ||
-      (isOne && this->IsSimple(ids, count, true, division)))
+      (areStraight[(i - begin) % CellsAtOnce] && this->HasSimpleMiddle(ids, count)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.Whole;

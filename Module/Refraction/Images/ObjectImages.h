@@ -128,10 +128,10 @@ private:
     return this->FindSide(ids, count) == Side::Behind && this->HaveOneImage(ids, count) &&
       this->AreInRange(ids, count);
   }
-  void PrepareSides(const ObjectCells& cells, std::size_t begin, std::size_t end,
-    const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division) const;
-  bool IsSimple(
-    const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
+  void FindStraight(const ObjectCells& cells, std::size_t begin, std::size_t end, bool areClosed,
+    const std::vector<bool>::const_iterator& keepsPoints, EdgeSubdivision& division,
+    std::vector<bool>& areStraight) const;
+  bool HasSimpleMiddle(const std::int64_t* ids, std::size_t count) const;
   std::vector<bool> FindWhole(const ObjectCells& cells, std::size_t begin, std::size_t end) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,

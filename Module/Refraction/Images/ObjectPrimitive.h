@@ -89,15 +89,15 @@ struct ObjectPrimitive
   glm::dvec3 Axis[2];
   glm::dvec3 Normal;
   std::array<Side, PrimitiveConstraints> Sides;
-  /** A cube around the primitive: its middle and half its side. */
+  /** A box around the primitive: its middle and half its sides. */
   glm::dvec3 Middle;
-  double Padding;
+  glm::dvec3 Padding;
 
   /** A triangle in coordinates relative to `origin`. */
   static ObjectPrimitive MakeTriangle(
     const MappedTriangle& triangle, std::int64_t sourceCell, const glm::dvec3& origin)
   {
-    ObjectPrimitive primitive{ triangle, sourceCell, false, {}, {}, {}, {}, {}, 0.0 };
+    ObjectPrimitive primitive{ triangle, sourceCell, false, {}, {}, {}, {}, {}, {} };
     glm::dvec3 low(std::numeric_limits<double>::max());
     glm::dvec3 high(std::numeric_limits<double>::lowest());
     for (std::size_t i = 0; i < 3; ++i)
@@ -119,7 +119,7 @@ struct ObjectPrimitive
   static ObjectPrimitive MakeLine(const MappedTriangle& line, std::int64_t sourceCell,
     const glm::dvec3& origin, const glm::dvec3& eye)
   {
-    ObjectPrimitive primitive{ line, sourceCell, true, {}, {}, {}, {}, {}, 0.0 };
+    ObjectPrimitive primitive{ line, sourceCell, true, {}, {}, {}, {}, {}, {} };
     primitive.Corners = { line.Corners[0] - origin, line.Corners[1] - origin,
       line.Corners[0] - origin };
     primitive.Axis[0] = primitive.Corners[1] - primitive.Corners[0];
@@ -135,7 +135,7 @@ struct ObjectPrimitive
     this->Normal = glm::cross(this->Axis[0], this->Axis[1]);
     this->SetSides();
     this->Middle = middle;
-    this->Padding = std::max({ half.x, half.y, half.z });
+    this->Padding = half;
   }
 
   void SetSides()

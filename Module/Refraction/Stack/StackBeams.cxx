@@ -169,7 +169,7 @@ void StackBeams::FindCandidates(const StackTarget& target, std::vector<Candidate
 {
   candidates.clear();
   const std::size_t leg = target.Count - 1;
-  this->Trees[leg].Visit(target.Point, 0.0,
+  this->Trees[leg].Visit(target.Point, glm::dvec3(0.0),
     [this, &target, &candidates, leg](std::int32_t facet)
     {
       Candidate candidate{ facet, glm::dvec2(0.0), std::numeric_limits<double>::infinity() };

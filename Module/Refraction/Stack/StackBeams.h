@@ -71,11 +71,11 @@ public:
 
   /**
    * Calls `visit(facet)` for every patch that may show a point of the cube with centre `middle` and
-   * half side `padding` behind `count` interfaces, at least one.
+   * half sides `padding` behind `count` interfaces, at least one.
    */
   template <typename Visitor>
   void VisitFacets(
-    std::size_t count, const glm::dvec3& middle, double padding, Visitor&& visit) const
+    std::size_t count, const glm::dvec3& middle, const glm::dvec3& padding, Visitor&& visit) const
   {
     this->Trees[count - 1].Visit(middle, padding,
       [&visit](std::int32_t facet)

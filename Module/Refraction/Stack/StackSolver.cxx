@@ -364,7 +364,7 @@ ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPat
     const StackTarget target{ local, count };
     const StackBeams& beams = this->GetBeams();
     StackSearch search(this->Stack, beams, target);
-    beams.VisitFacets(count, local, 0.0,
+    beams.VisitFacets(count, local, glm::dvec3(0.0),
       [&beams, &search, &path, &images](std::int32_t facet)
       { search.FindAll(beams.GetParts(facet), path, images); });
     isComplete = isComplete && search.IsComplete();

@@ -71,13 +71,15 @@ public:
   /**
    * Calls `visit(facet)` for every facet whose tube may hold `point`, in an order fixed by the
    * topology. `visit` returns a limit: facets with this index or a larger one are skipped from then
-   * on. `padding` widens every tube, in local units. The point must lie within FarthestRadii.
+   * on. `padding` widens every tube along the axes, in local units. The point must lie within
+   * FarthestRadii.
    */
   template <typename Visitor>
-  void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
+  void Visit(const glm::dvec3& point, const glm::dvec3& padding, Visitor&& visit) const;
 
   /** True if the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`. */
-  bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
+  bool HasAny(
+    const glm::dvec3& point, const glm::dvec3& padding, const std::vector<bool>& chosen) const
   {
     bool found = false;
     this->Visit(point, padding,
@@ -116,7 +118,7 @@ private:
   struct Query
   {
     float Point[3];
-    float Padding;
+    float Padding[3];
   };
 
   std::int32_t BuildNode(std::vector<std::int32_t>::iterator begin,
@@ -153,13 +155,13 @@ inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
     for (int lane = 0; lane < Width; ++lane)
     {
       const float start = node.StartHigh[axis][lane];
-      const float slack = query.Padding + rounding * std::fabs(start);
+      const float slack = query.Padding[axis] + rounding * std::fabs(start);
       constrain(lane, (start - p) + slack, node.DirectionHigh[axis][lane]);
     }
     for (int lane = 0; lane < Width; ++lane)
     {
       const float start = node.NegatedStartLow[axis][lane];
-      const float slack = query.Padding + rounding * std::fabs(start);
+      const float slack = query.Padding[axis] + rounding * std::fabs(start);
       constrain(lane, (start + p) + slack, node.NegatedDirectionLow[axis][lane]);
     }
   }
@@ -173,7 +175,7 @@ inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
 
 //------------------------------------------------------------------------------
 template <typename Visitor>
-void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit) const
+void RayTubeTree::Visit(const glm::dvec3& point, const glm::dvec3& padding, Visitor&& visit) const
 {
   if (this->Nodes.empty())
   {
@@ -182,10 +184,10 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
   const glm::dvec3 scaled = point * this->Scale;
   const double reach =
     std::max({ std::fabs(scaled.x), std::fabs(scaled.y), std::fabs(scaled.z), 1.0 });
-  const Query query{
-    { static_cast<float>(scaled.x), static_cast<float>(scaled.y), static_cast<float>(scaled.z) },
-    static_cast<float>(padding * this->Scale + 4.0 * std::numeric_limits<float>::epsilon() * reach)
-  };
+  const glm::vec3 place(scaled);
+  const glm::vec3 slack(
+    padding * this->Scale + 4.0 * std::numeric_limits<float>::epsilon() * reach);
+  const Query query{ { place.x, place.y, place.z }, { slack.x, slack.y, slack.z } };
 
   struct Entry
   {

@@ -559,6 +559,39 @@ TEST(RefractionCurved, EqualIndicesAreTheIdentity)
 }
 
 //------------------------------------------------------------------------------
+// A wall of a pool is a flat box. Facets that show a point of it are visited, and few others: of
+// the wall below the near border, which is seen from behind, only those at the border.
+TEST(RefractionCurved, FacetsThatShowPointsOfABoxAreVisited)
+{
+  CurvedMembraneSolver geometry;
+  Set(geometry, Waves.MakeMesh(40), { 60.0, 260.0, -200.0 });
+  Random random(41);
+  std::vector<VirtualVertex> images;
+  for (int i = 0; i < 200; ++i)
+  {
+    glm::dvec3 half = random.Point(glm::dvec3(0.0), { 10.0, 10.0, 10.0 });
+    half[i % 3] = 0.0;
+    const glm::dvec3 middle = random.Point({ -90.0, -80.0, -90.0 }, { 90.0, -14.0, 90.0 });
+    const glm::dvec3 local = middle - geometry.GetMembrane().GetOrigin();
+    std::vector<bool> isVisited(geometry.GetMembrane().GetFacets().size());
+    geometry.VisitFacets(local, half,
+      [&isVisited](std::int32_t facet) { isVisited[static_cast<std::size_t>(facet)] = true; });
+    for (int k = 0; k < 20; ++k)
+    {
+      geometry.FindImages(random.Point(middle - half, middle + half), images);
+      for (const VirtualVertex& image : images)
+      {
+        EXPECT_TRUE(isVisited[static_cast<std::size_t>(image.Facet)]);
+      }
+    }
+  }
+  std::size_t visited = 0;
+  geometry.VisitFacets(glm::dvec3(0.0, -40.0, -100.0) - geometry.GetMembrane().GetOrigin(),
+    { 100.0, 30.0, 0.0 }, [&visited](std::int32_t) { ++visited; });
+  EXPECT_LE(visited, 80u);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionCurved, BadPointsAndEyes)
 {
   CurvedMembraneSolver geometry;
