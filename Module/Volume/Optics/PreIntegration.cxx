@@ -194,29 +194,27 @@ PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& l
   Slice slice(static_cast<std::size_t>(count) * count);
   const auto at = [count](int front, int back)
   { return static_cast<std::size_t>(back) * count + front; };
-  loop(count,
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(static_cast<std::size_t>(count), loop,
+    [&](std::size_t row)
     {
-      for (int low = static_cast<int>(first); low < static_cast<int>(last); ++low)
+      const int low = static_cast<int>(row);
+      slice[at(low, low)] = glm::vec3(this->Samples[2 * low].Color);
+      // Sums of what lies in between, not differences of integrals: where attenuation is small
+      // beside that elsewhere, nothing would be left of such differences but rounding errors.
+      double depth = 0.0;
+      glm::dvec3 emission(0.0);
+      for (int high = low + 1; high < count; ++high)
       {
-        slice[at(low, low)] = glm::vec3(this->Samples[2 * low].Color);
-        // Sums of what lies in between, not differences of integrals: where attenuation is small
-        // beside that elsewhere, nothing would be left of such differences but rounding errors.
-        double depth = 0.0;
-        glm::dvec3 emission(0.0);
-        for (int high = low + 1; high < count; ++high)
+        for (int i = 2 * high - 1; i <= 2 * high; ++i)
         {
-          for (int i = 2 * high - 1; i <= 2 * high; ++i)
-          {
-            depth += this->Samples[i].StepDepth;
-            emission += this->Samples[i].StepEmission;
-          }
-          // Entries without opacity also need a colour, for interpolation: the colour in the
-          // middle.
-          slice[at(low, high)] =
-            glm::vec3(depth > 0.0 ? emission / depth : this->Samples[low + high].Color);
-          slice[at(high, low)] = slice[at(low, high)];
+          depth += this->Samples[i].StepDepth;
+          emission += this->Samples[i].StepEmission;
         }
+        // Entries without opacity also need a colour, for interpolation: the colour in the
+        // middle.
+        slice[at(low, high)] =
+          glm::vec3(depth > 0.0 ? emission / depth : this->Samples[low + high].Color);
+        slice[at(high, low)] = slice[at(low, high)];
       }
     });
   return slice;
@@ -230,26 +228,24 @@ PreIntegrationTable::Slice PreIntegrationTable::DoubleLength(
   const auto at = [&halves, count](int f, int b)
   { return halves[static_cast<std::size_t>(b) * count + f]; };
   Slice slice(halves.size());
-  loop(count,
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(static_cast<std::size_t>(count), loop,
+    [&](std::size_t row)
     {
-      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      const int b = static_cast<int>(row);
+      for (int f = 0; f < count; ++f)
       {
-        for (int f = 0; f < count; ++f)
-        {
-          const int middle = f + b; // index among the samples, of which there are two per scalar
-          const int below = middle / 2;
-          const int above = below + middle % 2;
-          const double front = Opacity(this->MeanAttenuation(2 * f, middle), 0.5 * length);
-          const double back =
-            (1.0 - front) * Opacity(this->MeanAttenuation(middle, 2 * b), 0.5 * length);
-          const glm::vec3 frontColor = 0.5f * (at(f, below) + at(f, above));
-          const glm::vec3 backColor = 0.5f * (at(below, b) + at(above, b));
-          const double whole = front + back;
-          const float share = whole > 0.0 ? static_cast<float>(front / whole) : 0.5f;
-          slice[static_cast<std::size_t>(b) * count + f] =
-            share * frontColor + (1.0f - share) * backColor;
-        }
+        const int middle = f + b; // index among the samples, of which there are two per scalar
+        const int below = middle / 2;
+        const int above = below + middle % 2;
+        const double front = Opacity(this->MeanAttenuation(2 * f, middle), 0.5 * length);
+        const double back =
+          (1.0 - front) * Opacity(this->MeanAttenuation(middle, 2 * b), 0.5 * length);
+        const glm::vec3 frontColor = 0.5f * (at(f, below) + at(f, above));
+        const glm::vec3 backColor = 0.5f * (at(below, b) + at(above, b));
+        const double whole = front + back;
+        const float share = whole > 0.0 ? static_cast<float>(front / whole) : 0.5f;
+        slice[static_cast<std::size_t>(b) * count + f] =
+          share * frontColor + (1.0f - share) * backColor;
       }
     });
   return slice;
@@ -260,19 +256,17 @@ void PreIntegrationTable::Store(int length, const Slice& slice, const RangeLoop&
 {
   const int count = this->Scalars;
   float* values = &this->Values[4 * static_cast<std::size_t>(length) * slice.size()];
-  loop(count,
-    [&](std::size_t first, std::size_t last)
+  ForEachItem(static_cast<std::size_t>(count), loop,
+    [&](std::size_t row)
     {
-      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      const int b = static_cast<int>(row);
+      for (int f = 0; f < count; ++f)
       {
-        for (int f = 0; f < count; ++f)
-        {
-          const std::size_t i = static_cast<std::size_t>(b) * count + f;
-          values[4 * i] = slice[i].r;
-          values[4 * i + 1] = slice[i].g;
-          values[4 * i + 2] = slice[i].b;
-          values[4 * i + 3] = static_cast<float>(this->MeanAttenuation(2 * f, 2 * b));
-        }
+        const std::size_t i = static_cast<std::size_t>(b) * count + f;
+        values[4 * i] = slice[i].r;
+        values[4 * i + 1] = slice[i].g;
+        values[4 * i + 2] = slice[i].b;
+        values[4 * i + 3] = static_cast<float>(this->MeanAttenuation(2 * f, 2 * b));
       }
     });
 }
