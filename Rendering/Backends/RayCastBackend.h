@@ -259,7 +259,8 @@ public:
   }
   /**
    * Returns true if the image of a frame depends on the request and the depths alone, so that an
-   * equal frame needs no Cast(): the image of the last one is shown again.
+   * equal frame needs no Cast(): the image of the last one is shown again. So it is if rays begin or
+   * end elsewhere outside of the mesh.
    */
   virtual bool IsRepeatable() const { return false; }
   /**

@@ -57,7 +57,10 @@ constexpr double CoarseTerminationOpacity = 1.0 - 1.0 / 512.0;
 struct RayCastFrame
 {
   RayFrame Rays;
-  /** Map from the model to clip coordinates, the same for images of all sizes. */
+  /**
+   * Map from the model to clip coordinates, without their depth: the same for images of all sizes
+   * and for all clipping ranges.
+   */
   glm::dmat4 ModelToClip{ 1.0 };
   double EarlyTerminationOpacity = 1.0;
   /**
@@ -78,8 +81,8 @@ struct RayCastFrame
 };
 
 /**
- * True if two frames have the same image, given the same tables and depths of opaque geometry. The
- * way of the image to the framebuffer may differ.
+ * True if two frames have the same image, given the same tables and opaque geometry. The way of the
+ * image to the framebuffer may differ, and the clipping range, if it does not cut the mesh.
  */
 bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b);
 

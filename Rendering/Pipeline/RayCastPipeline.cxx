@@ -11,6 +11,9 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace meniscus
@@ -34,6 +37,31 @@ RayCastFrame FrameOfRay(const RayCastFrame& frame, int number)
   }
   ofRay.Output.RaysAcross = 1;
   return ofRay;
+}
+
+/**
+ * A projection, with the rows of the last one that the rays depend on if these differ by rounding
+ * only. VTK computes them from the near plane, by less than 8 roundings of numbers of the order of
+ * the row or of the homogeneous coordinate. Rays differ by less than 2^-48 of the image.
+ */
+glm::dmat4 KeepLines(const glm::dmat4& projection, const glm::dmat4& last)
+{
+  glm::dmat4 kept = last;
+  for (int column = 0; column < 4; ++column)
+  {
+    const glm::dvec4& now = projection[column];
+    for (const int row : { 0, 1, 3 })
+    {
+      const double size = std::max(std::abs(now[row]), std::abs(now[3]));
+      const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * size;
+      if (!(std::abs(now[row] - last[column][row]) <= rounding))
+      {
+        return projection;
+      }
+    }
+    kept[column][2] = now[2];
+  }
+  return kept;
 }
 
 }
@@ -88,9 +116,11 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
   if (error.empty())
   {
     ImageSource source{ &backend, frame, this->ListWanted(frame) };
+    const RayFrame before = this->Shown.Frame.Rays;
     const bool repeated = this->IsRepeated(source);
     this->Shown = ImageSource();
-    error = this->Presenter.Present(frame.Output, repeated, this->View == frame.ModelToClip,
+    error = this->Presenter.Present(frame, repeated ? &before : nullptr,
+      this->View == frame.ModelToClip,
       [this, &frame, &backend, &request](RayCastTarget& target)
       {
         this->Whole = target.GetDepthsOfImage() == nullptr;
@@ -174,20 +204,23 @@ void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Shown = ImageSource();
   this->View.reset();
+  this->Projection = glm::dmat4(0.0);
   this->Backends.ReleaseGraphicsResources(window);
   this->Presenter.Release(window);
 }
 
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const
+  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   RayFrameInput input;
   input.ModelToWorld = ToGlm(volume->GetMatrix());
   input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
-  input.ViewToClip =
-    ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  this->Projection = KeepLines(
+    ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)),
+    this->Projection);
+  place.ViewToClip = input.ViewToClip = this->Projection;
   input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   return this->PlaceIn(input, place);
 }
@@ -215,6 +248,7 @@ std::string RayCastPipeline::PlaceIn(RayFrameInput& input, ViewContext& place) c
   input.Center = this->Input.GetMesh().GetCenter();
   input.Radius = this->Input.GetMesh().GetRadius();
   input.SmallestCell = this->Input.GetMesh().GetSmallestCell();
+  input.HalfSize = this->Input.GetMesh().GetHalfSize() / input.Radius;
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;
   place.GradientScale = this->Input.GetNormalization().GradientScale;

@@ -39,7 +39,7 @@ public:
    * size.
    */
   std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const;
+    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place);
 
   /**
    * As above, for a frame of the world, which does not depend on the camera: with x and y as in the
@@ -101,6 +101,8 @@ private:
   ImageSource Shown;
   /** ModelToClip of the image that the presenter holds; none if it holds none. */
   std::optional<glm::dmat4> View;
+  /** The camera's projection; zeros before the first frame. */
+  glm::dmat4 Projection{ 0.0 };
   std::int64_t Casts = 0;
   bool Whole = false;
 };

@@ -46,6 +46,28 @@ void SampleDepths(std::vector<float>& depths, int width, int height, const int (
 }
 
 /**
+ * Replaces window depths of an image by those of other clipping planes at which rays end in the same
+ * places, and by no depth of the window where they do not.
+ */
+void TakeOverEnds(const RayFrame& before, const RayFrame& rays, const std::vector<float>& depths,
+  std::vector<float>& ofImage)
+{
+  float window[2] = { -1.0f, -1.0f };
+  bool isSame = false;
+  for (std::size_t i = 0; i < ofImage.size(); ++i)
+  {
+    // Consecutive pixels mostly have the same depth, the background's.
+    if (ofImage[i] != window[0] || depths[i] != window[1])
+    {
+      window[0] = ofImage[i];
+      window[1] = depths[i];
+      isSame = before.EndAt(window[0]) == rays.EndAt(window[1]);
+    }
+    ofImage[i] = isSame ? depths[i] : -1.0f;
+  }
+}
+
+/**
  * Source of the shader that blends an image into the framebuffer.
  * @param biased for images that are composited later.
  */
@@ -124,9 +146,10 @@ void RayCastPresenter::GetViewport(int viewport[4]) const
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFrame, bool sameView,
-  const std::function<std::string(RayCastTarget&)>& makeImage)
+std::string RayCastPresenter::Present(const RayCastFrame& frame, const RayFrame* before,
+  bool sameView, const std::function<std::string(RayCastTarget&)>& makeImage)
 {
+  const RayCastOutput& output = frame.Output;
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
   vtkOpenGLState::ScopedglScissor scissorScope(state);
@@ -159,7 +182,7 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
     state->vtkglDisable(GL_SCISSOR_TEST);
     state->vtkglDisable(GL_BLEND);
     state->PushFramebufferBindings();
-    if (!this->HoldsImageOfDepths(sameFrame))
+    if (!this->HoldsImageOfDepths(frame.Rays, before))
     {
       this->Filled = { 0, this->Size[0], 0, this->Size[1] };
       this->Finished = true;
@@ -246,9 +269,9 @@ const std::vector<float>& RayCastPresenter::ReadDepths()
  * same, so that the first repetition of a frame may not be recognised, but a moving camera costs
  * nothing.
  */
-bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
+bool RayCastPresenter::HoldsImageOfDepths(const RayFrame& rays, const RayFrame* before)
 {
-  if (!sameFrame)
+  if (!before)
   {
     this->HasDepthsOfImage = false;
     // A moving camera needs the memory of one image of depths only.
@@ -256,6 +279,10 @@ bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
     return false;
   }
   const std::vector<float>& depths = this->ReadDepths();
+  if (this->HasDepthsOfImage && !(*before == rays))
+  {
+    TakeOverEnds(*before, rays, depths, this->DepthsOfImage);
+  }
   return this->Finished && this->HasDepthsOfImage && this->DepthsOfImage == depths;
 }
 
