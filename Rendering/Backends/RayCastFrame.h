@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Property/RayCastOptics.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RayLegs.h"
@@ -21,6 +22,8 @@ struct RayCastOutput
 {
   /** Rays of the image; fewer than the viewport's pixels are interpolated. */
   int ImageSize[2] = { 0, 0 };
+  /** Box of pixels of the image outside of which no ray meets the mesh. */
+  RayCastImageBox Meeting{ 0, 0, 0, 0 };
   /** Rays of a pixel along each axis, where its neighbours differ. */
   int RaysAcross = 1;
   /** Still picture, which the application may give up. */

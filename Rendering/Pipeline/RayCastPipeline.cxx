@@ -4,6 +4,7 @@
 
 #include "Rendering/Common/Matrices.h"
 #include "Volume/Rays/ClippingPlanes.h"
+#include "Volume/Rays/MeshPixels.h"
 #include "Volume/Rays/RayFrame.h"
 
 #include "vtkCamera.h"
@@ -111,6 +112,7 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
     this->ClearStatistics();
     return std::string();
   }
+  frame.Output.Meeting = this->FindMeeting(frame);
   const RayCastRequest request(*this, frame, this->Presenter.GetWindow());
   std::string error = backend.Update(request);
   if (error.empty())
@@ -119,19 +121,19 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
     const RayFrame before = this->Shown.Frame.Rays;
     const bool repeated = this->IsRepeated(source);
     this->Shown = ImageSource();
-    error = this->Presenter.Present(frame, repeated ? &before : nullptr,
-      this->View == frame.ModelToClip,
-      [this, &frame, &backend, &request](RayCastTarget& target)
-      {
-        this->Whole = target.GetDepthsOfImage() == nullptr;
-        if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
+    error =
+      this->Presenter.Present(frame, repeated ? &before : nullptr, this->View == frame.ModelToClip,
+        [this, &frame, &backend, &request](RayCastTarget& target)
         {
-          return this->CastMean(frame, backend);
-        }
-        std::string failure = backend.Cast(request, target);
-        this->Casts += this->Presenter.IsFinished() ? 1 : 0;
-        return failure;
-      });
+          this->Whole = target.GetDepthsOfImage() == nullptr;
+          if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
+          {
+            return this->CastMean(frame, backend);
+          }
+          std::string failure = backend.Cast(request, target);
+          this->Casts += this->Presenter.IsFinished() ? 1 : 0;
+          return failure;
+        });
     // Refracted rays may have been traced while the image was made.
     source.Tables = this->ListWanted(frame);
     this->Shown = error.empty() ? std::move(source) : ImageSource();
@@ -143,6 +145,20 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
   }
   this->Active = error.empty() ? &backend : this->Active;
   return error;
+}
+
+//------------------------------------------------------------------------------
+/** Refracted rays may meet the mesh anywhere. */
+RayCastImageBox RayCastPipeline::FindMeeting(const RayCastFrame& frame) const
+{
+  const int(&size)[2] = frame.Output.ImageSize;
+  if (frame.Refracting.Wanted)
+  {
+    return { 0, size[0], 0, size[1] };
+  }
+  const ProjectedFaces::PixelBox box =
+    FindMeshPixels(frame.Rays, size[0], size[1], this->Input.GetMesh());
+  return { box.Left, box.Right, box.Bottom, box.Top };
 }
 
 //------------------------------------------------------------------------------

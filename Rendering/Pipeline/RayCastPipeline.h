@@ -92,6 +92,7 @@ private:
   bool Trace(const RayCastFrame& frame);
   std::string CastMean(const RayCastFrame& frame, RayCastBackend& backend);
   bool IsRepeated(const ImageSource& source) const;
+  RayCastImageBox FindMeeting(const RayCastFrame& frame) const;
 
   RayCastPresenter Presenter;
   RayCastBackendSet Backends;

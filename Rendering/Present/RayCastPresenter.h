@@ -106,6 +106,7 @@ private:
   };
 
   bool HoldsImageOfDepths(const RayFrame& rays, const RayFrame* before);
+  void ReadMeetingDepths();
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
@@ -123,6 +124,8 @@ private:
   int Size[2] = { 0, 0 };
   /** Box outside of which the image is zero. */
   RayCastImageBox Filled{ 0, 0, 0, 0 };
+  /** RayCastOutput::Meeting of the frame at hand. */
+  RayCastImageBox Meeting{ 0, 0, 0, 0 };
   /** Depths of the frame at hand, as soon as they are read. */
   std::vector<float> Depths;
   bool HasDepths = false;
