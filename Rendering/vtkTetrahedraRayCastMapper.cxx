@@ -28,6 +28,7 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -512,8 +513,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareView(
     return error;
   }
   frame.Rays = place.Frame;
-  frame.ModelToClip = meniscus::ToGlm(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
-                        renderer->GetTiledAspectRatio(), -1.0, 1.0)) *
+  frame.ModelToClip = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 1.0, 0.0)) * place.ViewToClip *
     place.WorldToView * meniscus::ToGlm(volume->GetMatrix());
   this->PrepareRefraction(place, frame);
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;

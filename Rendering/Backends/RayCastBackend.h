@@ -192,7 +192,10 @@ public:
   /** Pixels of the image; one ray each. */
   virtual int GetWidth() const = 0;
   virtual int GetHeight() const = 0;
-  /** Window depths in [0, 1], one per pixel, rows from below. Valid while the image is made. */
+  /**
+   * Window depths in [0, 1], one per pixel, rows from below; 1 where no ray meets the mesh's box.
+   * Valid while the image is made.
+   */
   virtual const std::vector<float>& ReadDepths() = 0;
   /**
    * Takes premultiplied RGBA, four numbers per pixel, rows from below. Returns an error or "".
@@ -259,7 +262,8 @@ public:
   }
   /**
    * Returns true if the image of a frame depends on the request and the depths alone, so that an
-   * equal frame needs no Cast(): the image of the last one is shown again.
+   * equal frame needs no Cast(): the image of the last one is shown again. So it is if rays begin
+   * or end elsewhere outside of the mesh.
    */
   virtual bool IsRepeatable() const { return false; }
   /**

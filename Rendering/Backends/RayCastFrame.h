@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Property/RayCastOptics.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/RayLegs.h"
@@ -21,6 +22,8 @@ struct RayCastOutput
 {
   /** Rays of the image; fewer than the viewport's pixels are interpolated. */
   int ImageSize[2] = { 0, 0 };
+  /** Box of pixels of the image outside of which no ray meets the mesh. */
+  RayCastImageBox Meeting{ 0, 0, 0, 0 };
   /** Rays of a pixel along each axis, where its neighbours differ. */
   int RaysAcross = 1;
   /** Still picture, which the application may give up. */
@@ -57,7 +60,10 @@ constexpr double CoarseTerminationOpacity = 1.0 - 1.0 / 512.0;
 struct RayCastFrame
 {
   RayFrame Rays;
-  /** Map from the model to clip coordinates, the same for images of all sizes. */
+  /**
+   * Map from the model to clip coordinates, without their depth: the same for images of all sizes
+   * and for all clipping ranges.
+   */
   glm::dmat4 ModelToClip{ 1.0 };
   double EarlyTerminationOpacity = 1.0;
   /**
@@ -78,8 +84,8 @@ struct RayCastFrame
 };
 
 /**
- * True if two frames have the same image, given the same tables and depths of opaque geometry. The
- * way of the image to the framebuffer may differ.
+ * True if two frames have the same image, given the same tables and opaque geometry. The way of the
+ * image to the framebuffer may differ, and the clipping range, if it does not cut the mesh.
  */
 bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b);
 

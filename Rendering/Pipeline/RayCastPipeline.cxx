@@ -4,6 +4,7 @@
 
 #include "Rendering/Common/Matrices.h"
 #include "Volume/Rays/ClippingPlanes.h"
+#include "Volume/Rays/MeshPixels.h"
 #include "Volume/Rays/RayFrame.h"
 
 #include "vtkCamera.h"
@@ -11,6 +12,9 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace meniscus
@@ -34,6 +38,31 @@ RayCastFrame FrameOfRay(const RayCastFrame& frame, int number)
   }
   ofRay.Output.RaysAcross = 1;
   return ofRay;
+}
+
+/**
+ * A projection, with the rows of the last one that the rays depend on if these differ by rounding
+ * only. VTK computes them from the near plane, by less than 8 roundings of numbers of the order of
+ * the row or of the homogeneous coordinate. Rays differ by less than 2^-48 of the image.
+ */
+glm::dmat4 KeepLines(const glm::dmat4& projection, const glm::dmat4& last)
+{
+  glm::dmat4 kept = last;
+  for (int column = 0; column < 4; ++column)
+  {
+    const glm::dvec4& now = projection[column];
+    for (const int row : { 0, 1, 3 })
+    {
+      const double size = std::max(std::abs(now[row]), std::abs(now[3]));
+      const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * size;
+      if (!(std::abs(now[row] - last[column][row]) <= rounding))
+      {
+        return projection;
+      }
+    }
+    kept[column][2] = now[2];
+  }
+  return kept;
 }
 
 }
@@ -83,25 +112,28 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
     this->ClearStatistics();
     return std::string();
   }
+  frame.Output.Meeting = this->FindMeeting(frame);
   const RayCastRequest request(*this, frame, this->Presenter.GetWindow());
   std::string error = backend.Update(request);
   if (error.empty())
   {
     ImageSource source{ &backend, frame, this->ListWanted(frame) };
+    const RayFrame before = this->Shown.Frame.Rays;
     const bool repeated = this->IsRepeated(source);
     this->Shown = ImageSource();
-    error = this->Presenter.Present(frame.Output, repeated, this->View == frame.ModelToClip,
-      [this, &frame, &backend, &request](RayCastTarget& target)
-      {
-        this->Whole = target.GetDepthsOfImage() == nullptr;
-        if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
+    error =
+      this->Presenter.Present(frame, repeated ? &before : nullptr, this->View == frame.ModelToClip,
+        [this, &frame, &backend, &request](RayCastTarget& target)
         {
-          return this->CastMean(frame, backend);
-        }
-        std::string failure = backend.Cast(request, target);
-        this->Casts += this->Presenter.IsFinished() ? 1 : 0;
-        return failure;
-      });
+          this->Whole = target.GetDepthsOfImage() == nullptr;
+          if (frame.Output.RaysAcross > 1 && !backend.CastsSeveralRays(request))
+          {
+            return this->CastMean(frame, backend);
+          }
+          std::string failure = backend.Cast(request, target);
+          this->Casts += this->Presenter.IsFinished() ? 1 : 0;
+          return failure;
+        });
     // Refracted rays may have been traced while the image was made.
     source.Tables = this->ListWanted(frame);
     this->Shown = error.empty() ? std::move(source) : ImageSource();
@@ -113,6 +145,20 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
   }
   this->Active = error.empty() ? &backend : this->Active;
   return error;
+}
+
+//------------------------------------------------------------------------------
+/** Refracted rays may meet the mesh anywhere. */
+RayCastImageBox RayCastPipeline::FindMeeting(const RayCastFrame& frame) const
+{
+  const int(&size)[2] = frame.Output.ImageSize;
+  if (frame.Refracting.Wanted)
+  {
+    return { 0, size[0], 0, size[1] };
+  }
+  const ProjectedFaces::PixelBox box =
+    FindMeshPixels(frame.Rays, size[0], size[1], this->Input.GetMesh());
+  return { box.Left, box.Right, box.Bottom, box.Top };
 }
 
 //------------------------------------------------------------------------------
@@ -174,20 +220,23 @@ void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Shown = ImageSource();
   this->View.reset();
+  this->Projection = glm::dmat4(0.0);
   this->Backends.ReleaseGraphicsResources(window);
   this->Presenter.Release(window);
 }
 
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const
+  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   RayFrameInput input;
   input.ModelToWorld = ToGlm(volume->GetMatrix());
   input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
-  input.ViewToClip =
-    ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  this->Projection = KeepLines(
+    ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)),
+    this->Projection);
+  place.ViewToClip = input.ViewToClip = this->Projection;
   input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   return this->PlaceIn(input, place);
 }
@@ -215,6 +264,7 @@ std::string RayCastPipeline::PlaceIn(RayFrameInput& input, ViewContext& place) c
   input.Center = this->Input.GetMesh().GetCenter();
   input.Radius = this->Input.GetMesh().GetRadius();
   input.SmallestCell = this->Input.GetMesh().GetSmallestCell();
+  input.HalfSize = this->Input.GetMesh().GetHalfSize() / input.Radius;
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;
   place.GradientScale = this->Input.GetNormalization().GradientScale;

@@ -39,7 +39,7 @@ public:
    * size.
    */
   std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const;
+    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place);
 
   /**
    * As above, for a frame of the world, which does not depend on the camera: with x and y as in the
@@ -92,6 +92,7 @@ private:
   bool Trace(const RayCastFrame& frame);
   std::string CastMean(const RayCastFrame& frame, RayCastBackend& backend);
   bool IsRepeated(const ImageSource& source) const;
+  RayCastImageBox FindMeeting(const RayCastFrame& frame) const;
 
   RayCastPresenter Presenter;
   RayCastBackendSet Backends;
@@ -101,6 +102,8 @@ private:
   ImageSource Shown;
   /** ModelToClip of the image that the presenter holds; none if it holds none. */
   std::optional<glm::dmat4> View;
+  /** The camera's projection; zeros before the first frame. */
+  glm::dmat4 Projection{ 0.0 };
   std::int64_t Casts = 0;
   bool Whole = false;
 };

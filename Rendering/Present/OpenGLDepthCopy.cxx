@@ -39,7 +39,8 @@ OpenGLDepthCopy::Format OpenGLDepthCopy::ReadFormat(int framebuffer)
 }
 
 //------------------------------------------------------------------------------
-void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4])
+void OpenGLDepthCopy::Update(
+  vtkOpenGLRenderWindow* window, const int viewport[4], const RayCastImageBox& box)
 {
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
@@ -63,7 +64,8 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
     // CopyFromFrameBuffer() is not used: it checks the window's samples instead of the
     // framebuffer's (VTK 9.1; test MultisampledWindow).
     this->Texture->Activate();
-    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2], viewport[3]);
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, box.Left, box.Bottom, viewport[0] + box.Left,
+      viewport[1] + box.Bottom, box.Right - box.Left, box.Top - box.Bottom);
     this->Texture->Deactivate();
   }
   state->PopFramebufferBindings();
@@ -98,15 +100,18 @@ void OpenGLDepthCopy::Resolve(vtkOpenGLRenderWindow* window, const int viewport[
 }
 
 //------------------------------------------------------------------------------
-void OpenGLDepthCopy::Read(vtkOpenGLRenderWindow* window, std::vector<float>& depths)
+void OpenGLDepthCopy::Read(
+  vtkOpenGLRenderWindow* window, const RayCastImageBox& box, std::vector<float>& depths)
 {
-  depths.resize(static_cast<std::size_t>(this->Width) * this->Height);
+  const int width = box.Right - box.Left;
+  const int height = box.Top - box.Bottom;
+  depths.resize(static_cast<std::size_t>(width) * height);
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
   this->Target->SetContext(window);
   this->Target->Bind();
   this->Target->AddDepthAttachment(this->Texture);
-  glReadPixels(0, 0, this->Width, this->Height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  glReadPixels(box.Left, box.Bottom, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   state->PopFramebufferBindings();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Rendering/Backends/RayCastBackend.h"
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkSmartPointer.h"
@@ -22,13 +23,13 @@ public:
   vtkTextureObject* GetTexture() { return this->Texture; }
 
   /**
-   * Copies the viewport (x, y, width, height). Multisampled depth is resolved; a framebuffer
-   * without a depth buffer is taken as infinitely far.
+   * Copies at least a box of the viewport (x, y, width, height). Multisampled depth is resolved; a
+   * framebuffer without a depth buffer is taken as infinitely far.
    */
-  void Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
+  void Update(vtkOpenGLRenderWindow* window, const int viewport[4], const RayCastImageBox& box);
 
-  /** Replaces `depths` by the window depths of the last copy, in rows from the bottom. */
-  void Read(vtkOpenGLRenderWindow* window, std::vector<float>& depths);
+  /** Replaces `depths` by the window depths of a box of the last copy, in rows from the bottom. */
+  void Read(vtkOpenGLRenderWindow* window, const RayCastImageBox& box, std::vector<float>& depths);
 
   void Release(vtkWindow* window);
 

@@ -29,19 +29,31 @@ namespace meniscus
 namespace
 {
 
-/** Replaces the depths of a viewport by those at the pixels of an image of another size. */
-void SampleDepths(std::vector<float>& depths, int width, int height, const int (&size)[2])
+/** Pixel of a viewport, along one axis, in which the middle of a pixel of an image is. */
+int PixelBelow(int pixel, int length, int size)
 {
-  std::vector<float> all;
-  all.swap(depths);
-  depths.reserve(static_cast<std::size_t>(size[0]) * size[1]);
-  for (int y = 0; y < size[1]; ++y)
+  return static_cast<int>((pixel + 0.5) * length / size);
+}
+
+/**
+ * Replaces window depths of an image by those of other clipping planes at which rays end in the
+ * same places, and by no depth of the window where they do not.
+ */
+void TakeOverEnds(const RayFrame& before, const RayFrame& rays, const std::vector<float>& depths,
+  std::vector<float>& ofImage)
+{
+  float window[2] = { -1.0f, -1.0f };
+  bool isSame = false;
+  for (std::size_t i = 0; i < ofImage.size(); ++i)
   {
-    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / size[1]) * width;
-    for (int x = 0; x < size[0]; ++x)
+    // Consecutive pixels mostly have the same depth, the background's.
+    if (ofImage[i] != window[0] || depths[i] != window[1])
     {
-      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / size[0])]);
+      window[0] = ofImage[i];
+      window[1] = depths[i];
+      isSame = before.EndAt(window[0]) == rays.EndAt(window[1]);
     }
+    ofImage[i] = isSame ? depths[i] : -1.0f;
   }
 }
 
@@ -67,6 +79,20 @@ RayCastImageBox Grown(const RayCastImageBox& box, int margin, const int (&size)[
 bool IsEmpty(const RayCastImageBox& box)
 {
   return box.Left >= box.Right || box.Bottom >= box.Top;
+}
+
+/** Pixels of a viewport in which the middles of the pixels of a box of an image are. */
+RayCastImageBox PixelsBelow(
+  const RayCastImageBox& box, const int (&viewport)[4], const int (&size)[2])
+{
+  if (IsEmpty(box))
+  {
+    return { 0, 0, 0, 0 };
+  }
+  return { PixelBelow(box.Left, viewport[2], size[0]),
+    PixelBelow(box.Right - 1, viewport[2], size[0]) + 1,
+    PixelBelow(box.Bottom, viewport[3], size[1]),
+    PixelBelow(box.Top - 1, viewport[3], size[1]) + 1 };
 }
 
 /**
@@ -124,9 +150,10 @@ void RayCastPresenter::GetViewport(int viewport[4]) const
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFrame, bool sameView,
-  const std::function<std::string(RayCastTarget&)>& makeImage)
+std::string RayCastPresenter::Present(const RayCastFrame& frame, const RayFrame* before,
+  bool sameView, const std::function<std::string(RayCastTarget&)>& makeImage)
 {
+  const RayCastOutput& output = frame.Output;
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
   vtkOpenGLState::ScopedglScissor scissorScope(state);
@@ -141,7 +168,9 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
 
   int viewport[4];
   this->GetViewport(viewport);
-  this->Depth.Update(this->Window, viewport);
+  this->Meeting = output.Meeting;
+  this->Depth.Update(
+    this->Window, viewport, PixelsBelow(output.Meeting, viewport, output.ImageSize));
   this->HasDepths = false;
   this->Stoppable = output.MayStop;
   const HeldImage last{ this->Image, { this->Size[0], this->Size[1] }, this->Filled };
@@ -159,7 +188,7 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
     state->vtkglDisable(GL_SCISSOR_TEST);
     state->vtkglDisable(GL_BLEND);
     state->PushFramebufferBindings();
-    if (!this->HoldsImageOfDepths(sameFrame))
+    if (!this->HoldsImageOfDepths(frame.Rays, before))
     {
       this->Filled = { 0, this->Size[0], 0, this->Size[1] };
       this->Finished = true;
@@ -228,16 +257,40 @@ const std::vector<float>& RayCastPresenter::ReadDepths()
 {
   if (!this->HasDepths)
   {
-    this->Depth.Read(this->Window, this->Depths);
-    const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
-    const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
-    if (width != this->Size[0] || height != this->Size[1])
+    // Elsewhere, depths do not matter.
+    this->Depths.assign(static_cast<std::size_t>(this->Size[0]) * this->Size[1], 1.0f);
+    if (!IsEmpty(this->Meeting))
     {
-      SampleDepths(this->Depths, width, height, this->Size);
+      this->ReadMeetingDepths();
     }
     this->HasDepths = true;
   }
   return this->Depths;
+}
+
+//------------------------------------------------------------------------------
+/** Reads the depths in the middles of the pixels whose rays may meet the mesh. */
+void RayCastPresenter::ReadMeetingDepths()
+{
+  const int viewport[4] = { 0, 0, static_cast<int>(this->Depth.GetTexture()->GetWidth()),
+    static_cast<int>(this->Depth.GetTexture()->GetHeight()) };
+  const RayCastImageBox& box = this->Meeting;
+  const RayCastImageBox below = PixelsBelow(box, viewport, this->Size);
+  std::vector<float> read;
+  this->Depth.Read(this->Window, below, read);
+  std::vector<int> columns;
+  for (int x = box.Left; x < box.Right; ++x)
+  {
+    columns.push_back(PixelBelow(x, viewport[2], this->Size[0]) - below.Left);
+  }
+  for (int y = box.Bottom; y < box.Top; ++y)
+  {
+    const int row = PixelBelow(y, viewport[3], this->Size[1]) - below.Bottom;
+    const float* from = read.data() + std::ptrdiff_t{ row } * (below.Right - below.Left);
+    std::transform(columns.begin(), columns.end(),
+      this->Depths.begin() + std::ptrdiff_t{ y } * this->Size[0] + box.Left,
+      [from](int column) { return from[column]; });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -246,9 +299,9 @@ const std::vector<float>& RayCastPresenter::ReadDepths()
  * same, so that the first repetition of a frame may not be recognised, but a moving camera costs
  * nothing.
  */
-bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
+bool RayCastPresenter::HoldsImageOfDepths(const RayFrame& rays, const RayFrame* before)
 {
-  if (!sameFrame)
+  if (!before)
   {
     this->HasDepthsOfImage = false;
     // A moving camera needs the memory of one image of depths only.
@@ -256,6 +309,10 @@ bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
     return false;
   }
   const std::vector<float>& depths = this->ReadDepths();
+  if (this->HasDepthsOfImage && !(*before == rays))
+  {
+    TakeOverEnds(*before, rays, depths, this->DepthsOfImage);
+  }
   return this->Finished && this->HasDepthsOfImage && this->DepthsOfImage == depths;
 }
 

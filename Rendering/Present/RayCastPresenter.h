@@ -48,13 +48,14 @@ public:
 
   /**
    * Has an image of the current viewport made and blends it into the current framebuffer.
-   * @param sameFrame true if the frame differs at most in the depths of opaque geometry from the
-   *   frame of the image that is held or begun. If these depths are equal, too, and the image is
-   *   finished, `makeImage` is not called.
+   * @param before rays of the frame of the image that is held or begun, if that frame differs at
+   *   most in the depths of opaque geometry and in the clipping range, which does not cut the mesh;
+   *   otherwise null. If rays end at the same places and the image is finished, `makeImage` is not
+   *   called.
    * @param sameView true if the image held shows the same view, perhaps with fewer rays: it is
    *   shown again if the application gives up the frame. Nothing is drawn then if it does not.
    */
-  std::string Present(const RayCastOutput& output, bool sameFrame, bool sameView,
+  std::string Present(const RayCastFrame& frame, const RayFrame* before, bool sameView,
     const std::function<std::string(RayCastTarget&)>& makeImage);
   /** False if the application has given up the last frame. */
   bool IsFinished() const { return this->Finished; }
@@ -104,7 +105,8 @@ private:
     RayCastImageBox Filled;
   };
 
-  bool HoldsImageOfDepths(bool sameFrame);
+  bool HoldsImageOfDepths(const RayFrame& rays, const RayFrame* before);
+  void ReadMeetingDepths();
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
@@ -122,6 +124,8 @@ private:
   int Size[2] = { 0, 0 };
   /** Box outside of which the image is zero. */
   RayCastImageBox Filled{ 0, 0, 0, 0 };
+  /** RayCastOutput::Meeting of the frame at hand. */
+  RayCastImageBox Meeting{ 0, 0, 0, 0 };
   /** Depths of the frame at hand, as soon as they are read. */
   std::vector<float> Depths;
   bool HasDepths = false;

@@ -106,6 +106,7 @@ struct ViewContext
   RayFrame Frame;
   glm::dvec3 CenterInWorld{ 0.0 };
   glm::dmat4 WorldToView{ 1.0 };
+  glm::dmat4 ViewToClip{ 1.0 };
   /** Unit of gradients: scalars are multiplied by it. */
   double GradientScale = 1.0;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Rays/RayFrame.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -95,21 +96,41 @@ void SetClippingPlanes(const glm::dmat4& p, double center, double unit, RayFrame
                                 : std::min(frame.DepthNumerator.x / ofFar, RayFrame::FarthestDepth);
 }
 
-}
-
-//------------------------------------------------------------------------------
-bool operator==(const RayFrame& a, const RayFrame& b)
+/** True if all but the clipping planes is equal. */
+bool HaveSameLines(const RayFrame& a, const RayFrame& b)
 {
   const auto mapOf = [](const AffinePixelMap& map)
   { return std::tie(map.Base, map.PerColumn, map.PerRow); };
   const auto rest = [](const RayFrame& frame)
   {
     return std::tie(frame.RowX, frame.RowY, frame.RowDepth, frame.ViewToWorld, frame.Handedness,
-      frame.NearDepth, frame.FarDepth, frame.SmallestCell, frame.DepthNumerator,
-      frame.DepthDenominator);
+      frame.Reach, frame.SmallestCell);
   };
   return mapOf(a.Origin) == mapOf(b.Origin) && mapOf(a.Slope) == mapOf(b.Slope) &&
     rest(a) == rest(b);
+}
+
+/**
+ * Room for rounding at the ends of the mesh, in units of the frame: vertices are moved by 2^-30 at
+ * most, and depths about the pivot, below 2, are floats.
+ */
+constexpr double ReachMargin = 9.5367431640625e-07; // 2^-20
+
+}
+
+//------------------------------------------------------------------------------
+bool operator==(const RayFrame& a, const RayFrame& b)
+{
+  const auto planes = [](const RayFrame& frame) {
+    return std::tie(frame.NearDepth, frame.FarDepth, frame.DepthNumerator, frame.DepthDenominator);
+  };
+  return HaveSameLines(a, b) && planes(a) == planes(b);
+}
+
+//------------------------------------------------------------------------------
+bool DifferInClippingRange(const RayFrame& a, const RayFrame& b)
+{
+  return HaveSameLines(a, b) && a.ShowsWholeDepth() && b.ShowsWholeDepth();
 }
 
 //------------------------------------------------------------------------------
@@ -172,6 +193,7 @@ RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
   frame.RowX = row(0) / unit;
   frame.RowY = row(1) / unit;
   frame.RowDepth = -row(2) / unit;
+  frame.Reach = ReachMargin + std::min(glm::dot(glm::abs(frame.RowDepth), input.HalfSize), 1.0);
   frame.Handedness = determinant > 0.0 ? 1 : -1;
   frame.SmallestCell = input.SmallestCell;
   frame.ViewToWorld = unit * glm::inverse(glm::dmat3(input.WorldToView));

@@ -18,6 +18,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+
 namespace meniscus
 {
 
@@ -31,6 +33,8 @@ struct RayFrameInput
   glm::dvec3 Center{ 0.0 };
   /** Radius of the mesh about its centre, model coordinates, > 0. */
   double Radius = 1.0;
+  /** Half of the sides of the mesh's box over that radius. */
+  glm::dvec3 HalfSize{ 1.0 };
   /** Size of the mesh's smallest cell over that radius (TetrahedralMesh::GetSmallestCell()). */
   double SmallestCell = 1.0;
   /** Number of pixels in the image, which the clip coordinates [-1, 1] span. */
@@ -69,6 +73,8 @@ struct RayFrame
    */
   double NearDepth = 0.0;
   double FarDepth = FarthestDepth;
+  /** The mesh is between the depths -Reach and Reach, with room for rounding. */
+  double Reach = 1.0;
   /** RayFrameInput::SmallestCell. */
   double SmallestCell = 1.0;
   /**
@@ -80,6 +86,20 @@ struct RayFrame
   glm::dvec2 DepthDenominator{ 1.0 };
 
   static constexpr double FarthestDepth = 1.0e+30;
+
+  /** True if the clipping planes do not cut the mesh. */
+  bool ShowsWholeDepth() const
+  {
+    return this->NearDepth <= -this->Reach && this->FarDepth >= this->Reach;
+  }
+  /**
+   * Depth at which a ray ends for a window depth in [0, 1]. All ends in front of the mesh are
+   * equal, and all behind it.
+   */
+  double EndAt(double windowDepth) const
+  {
+    return std::clamp(this->DepthAt(2.0 * windowDepth - 1.0), -this->Reach, this->Reach);
+  }
 
   /** @param clipDepth in [-1, 1]. */
   double DepthAt(double clipDepth) const
@@ -105,6 +125,10 @@ RayFrame Shifted(const RayFrame& frame, const glm::dvec2& fromCenter);
 
 /** True if all numbers are equal, so that images have the same rays. */
 bool operator==(const RayFrame& a, const RayFrame& b);
+
+/** True if images have the same rays, but for the clipping planes, which cut the mesh in neither.
+ */
+bool DifferInClippingRange(const RayFrame& a, const RayFrame& b);
 
 enum class RayFrameStatus
 {

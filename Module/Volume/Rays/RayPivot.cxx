@@ -75,7 +75,8 @@ void AddRay(const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& 
 //------------------------------------------------------------------------------
 double FindPivot(const RayFrame& frame, int width, int height, const TetrahedralMesh& mesh)
 {
-  const double begin = std::clamp(frame.NearDepth, -1.0, 1.0);
+  // The same for all near planes in front of the mesh.
+  const double begin = std::clamp(frame.NearDepth, std::max(-frame.Reach, -1.0), 1.0);
   const glm::dvec3 half = mesh.GetHalfSize() / mesh.GetRadius();
   const glm::dmat3 toModel =
     glm::inverse(glm::transpose(glm::dmat3(frame.RowX, frame.RowY, frame.RowDepth)));

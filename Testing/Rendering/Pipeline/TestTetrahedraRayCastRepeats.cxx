@@ -203,6 +203,64 @@ TEST_F(TetrahedraRayCastRepeats, MovedBallIsCastWhereItWasAndIs)
   EXPECT_EQ(this->Mapper()->GetNumberOfTraversalSteps(), steps);
 }
 
+/** Depths of the window depend on the planes; rays that end outside of the mesh are the same. */
+TEST_F(TetrahedraRayCastRepeats, ClippingRangeThatCutsNothingCastsNothing)
+{
+  vtkCamera* camera = this->Scene->GetRenderer()->GetActiveCamera();
+  const double position[3] = { camera->GetPosition()[0], camera->GetPosition()[1],
+    camera->GetPosition()[2] };
+  double range[2];
+  camera->GetClippingRange(range);
+  const auto castPixels = [this] { return this->Mapper()->GetStatistic("NumberOfCastPixels"); };
+  this->Ball->SetScale(0.1);
+  for (const bool isParallel : { false, true })
+  {
+    camera->SetParallelProjection(isParallel);
+    // In front of the mesh and behind it: its corners are at 1.63, its centre at 0.
+    for (const double distance : { 1.68, -1.68 })
+    {
+      const double share = distance / vtkMath::Norm(position);
+      this->Ball->SetPosition(share * position[0], share * position[1], share * position[2]);
+      camera->SetClippingRange(range);
+      const FloatImage expected = this->Settle();
+      const double pixels = castPixels();
+      for (const double nearer : { 0.9, 0.77, 0.31, 0.1003, 1.0 })
+      {
+        camera->SetClippingRange(nearer * range[0], range[1] / nearer);
+        ExpectEqualBits(this->Scene->RenderFloat(), expected, "clipping range");
+        EXPECT_EQ(castPixels(), pixels) << nearer;
+      }
+    }
+  }
+}
+
+TEST_F(TetrahedraRayCastRepeats, ClippingRangeWithABallInTheMeshCastsTheBall)
+{
+  vtkCamera* camera = this->Scene->GetRenderer()->GetActiveCamera();
+  double range[2];
+  camera->GetClippingRange(range);
+  this->Ball->SetScale(0.4);
+  this->Ball->SetPosition(0.3, 0.2, 0.4);
+  const FloatImage expected = this->Settle();
+  const double pixels = this->Mapper()->GetStatistic("NumberOfCastPixels");
+  camera->SetClippingRange(0.1 * range[0], 10.0 * range[1]);
+  const FloatImage image = this->Scene->RenderFloat();
+  const double cast = this->Mapper()->GetStatistic("NumberOfCastPixels") - pixels;
+  EXPECT_GT(cast, 0);
+  if (this->IsNative())
+  {
+    EXPECT_LT(cast, Size * Size / 4);
+  }
+  // A step of the window's depth, of 24 bits, is 6e-6 at the ball; the medium absorbs less than 10
+  // times that. A new mapper places vertices by a projection that is rounded otherwise.
+  const FloatImage anew = this->RenderAnew();
+  for (std::size_t i = 0; i < image.Rgba.size(); ++i)
+  {
+    ASSERT_NEAR(image.Rgba[i], expected.Rgba[i], 6.0e-5) << i;
+    ASSERT_NEAR(image.Rgba[i], anew.Rgba[i], 1.0e-6) << i;
+  }
+}
+
 TEST_F(TetrahedraRayCastRepeats, BackgroundAndSelectionShowTheSameImage)
 {
   this->Scene->GetWindow()->Render();
