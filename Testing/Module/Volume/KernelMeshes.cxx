@@ -57,6 +57,30 @@ void Jitter(MeshArrays& mesh, double amount, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
+MeshArrays Moved(MeshArrays mesh, const Motion& motion)
+{
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    const glm::dvec3 p = motion(mesh.PointAt(static_cast<std::int64_t>(i / 3)));
+    std::copy(&p.x, &p.x + 3, mesh.Points.data() + i);
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+MeshArrays Joined(const MeshArrays& a, const MeshArrays& b)
+{
+  MeshArrays both = a;
+  const auto first = static_cast<std::int64_t>(a.Points.size() / 3);
+  both.Points.insert(both.Points.end(), b.Points.begin(), b.Points.end());
+  for (const std::int64_t id : b.Cells)
+  {
+    both.Cells.push_back(first + id);
+  }
+  return both;
+}
+
+//------------------------------------------------------------------------------
 RayFrame FrameAlongZ(const TetrahedralMesh& mesh, double extent, int pixels)
 {
   RayFrameInput input;

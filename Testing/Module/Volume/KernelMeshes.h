@@ -37,6 +37,15 @@ MeshArrays KuhnGrid(int n);
 /** nx * ny * nz such cubes, with a corner at the origin and so many per unit of length. */
 MeshArrays KuhnBlock(int nx, int ny, int nz, double perUnit);
 
+/** Motion of a point. */
+using Motion = std::function<glm::dvec3(const glm::dvec3&)>;
+
+/** The mesh with moved points. */
+MeshArrays Moved(MeshArrays mesh, const Motion& motion);
+
+/** Both meshes, without common points. */
+MeshArrays Joined(const MeshArrays& a, const MeshArrays& b);
+
 /**
  * Moves every point by up to `amount` along each axis, with a fixed seed; large amounts invert
  * cells.

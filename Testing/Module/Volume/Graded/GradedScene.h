@@ -101,30 +101,19 @@ inline void JitterInside(MeshArrays& arrays, double amount, RandomNumbers& rando
 /** A cube [-half, half]^3 of n^3 cubes, each split into 6 tetrahedra. */
 inline MeshArrays CenteredGrid(int n, double half)
 {
-  MeshArrays arrays = KuhnGrid(n);
-  for (double& coordinate : arrays.Points)
-  {
-    coordinate = half * (2.0 * coordinate - 1.0);
-  }
-  return arrays;
+  return Moved(KuhnGrid(n), [half](const glm::dvec3& p) { return half * (2.0 * p - 1.0); });
 }
 
 /** The same mapped to a ball of that radius: each cube about the centre becomes a sphere. */
 inline MeshArrays BallOfCubes(int n, double radius)
 {
-  MeshArrays arrays = CenteredGrid(n, radius);
-  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
-  {
-    const glm::dvec3 point = arrays.PointAt(static_cast<std::int64_t>(p / 3));
-    const glm::dvec3 size = glm::abs(point);
-    const double length = glm::length(point);
-    const double scale = length > 0.0 ? std::max(size.x, std::max(size.y, size.z)) / length : 0.0;
-    for (int axis = 0; axis < 3; ++axis)
+  return Moved(CenteredGrid(n, radius),
+    [](const glm::dvec3& point)
     {
-      arrays.Points[p + static_cast<std::size_t>(axis)] = scale * point[axis];
-    }
-  }
-  return arrays;
+      const glm::dvec3 size = glm::abs(point);
+      const double length = glm::length(point);
+      return point * (length > 0.0 ? std::max(size.x, std::max(size.y, size.z)) / length : 0.0);
+    });
 }
 
 /** Two unit vectors perpendicular to a unit vector and to each other. */

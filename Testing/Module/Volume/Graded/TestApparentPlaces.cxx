@@ -77,11 +77,8 @@ TEST(ApparentPlaces, ImagesOfARodAreCounted)
 {
   constexpr double g = 0.65;
   constexpr double distance = 2.9 / g;
-  MeshArrays rod = CenteredGrid(9, 1.0);
-  for (std::size_t p = 2; p < rod.Points.size(); p += 3)
-  {
-    rod.Points[p] *= 2.4;
-  }
+  const MeshArrays rod =
+    Moved(CenteredGrid(9, 1.0), [](const glm::dvec3& p) { return p * glm::dvec3(1.0, 1.0, 2.4); });
   GradedScene scene(
     rod, [](const glm::dvec3& p) { return 2.25 * (1.0 - g * g * (p.x * p.x + p.y * p.y)); });
   const glm::dvec3 eye(0.0, 0.0, 0.5 * distance);

@@ -110,12 +110,8 @@ double FishEyeError(int n)
 /** RMS error of the end of rays in a rod with n^2 = n0^2 (1 - g^2 r^2): sines in the parameter. */
 double RodError(int n)
 {
-  MeshArrays arrays = KuhnBlock(n, n, 3 * n, 2 * n);
-  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
-  {
-    arrays.Points[p] -= 0.25;
-    arrays.Points[p + 1] -= 0.25;
-  }
+  const MeshArrays arrays = Moved(KuhnBlock(n, n, 3 * n, 2 * n),
+    [](const glm::dvec3& p) { return p - glm::dvec3(0.25, 0.25, 0.0); });
   const double square = 2.25;
   const double g = 2.0;
   GradedScene scene(

@@ -490,13 +490,9 @@ TEST(GradedRayWalk, RayIsStoppedAfterItsSteps)
 // face by which it has entered, straight or bent.
 TEST(GradedRayWalk, RayLeavesAFoldForward)
 {
-  MeshArrays arrays = KuhnGrid(2);
-  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
-  {
-    const bool isMiddleOfTop = arrays.PointAt(static_cast<std::int64_t>(p / 3)) == //
-      glm::dvec3(0.5, 0.5, 1.0);
-    arrays.Points[p] += isMiddleOfTop ? 0.8 : 0.0;
-  }
+  const MeshArrays arrays = Moved(KuhnGrid(2), // the middle of the top
+    [](const glm::dvec3& p)
+    { return p == glm::dvec3(0.5, 0.5, 1.0) ? p + glm::dvec3(0.8, 0.0, 0.0) : p; });
   for (const bool isStraight : { false, true })
   {
     GradedScene scene(arrays, LinearField(1.5, glm::dvec3(0.2, 0.1, 0.3)));

@@ -289,11 +289,8 @@ TEST(OpaqueTriangles, NothingIsNoObject)
 // Cells a thousand times as long as high are those that a plane cuts, none of their neighbours.
 TEST(OpaqueTriangles, LongCellsAreMarkedIfTheyMayHoldATriangle)
 {
-  MeshArrays arrays = KuhnGrid(9);
-  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
-  {
-    arrays.Points[p] *= 1000.0;
-  }
+  const MeshArrays arrays =
+    Moved(KuhnGrid(9), [](const glm::dvec3& p) { return p * glm::dvec3(1000.0, 1.0, 1.0); });
   const GradedScene scene(arrays, [](const glm::dvec3&) { return 2.0; });
   const auto at = [&scene](double x, double y, double z)
   { return glm::dvec3(x, y, z) * scene.Mesh.GetRadius() + scene.Mesh.GetCenter(); };

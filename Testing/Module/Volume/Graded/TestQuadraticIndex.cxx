@@ -129,13 +129,9 @@ TEST(QuadraticIndex, SquareStaysPositive)
 TEST(QuadraticIndex, FewVerticesAreLinear)
 {
   const auto field = [](const glm::dvec3& p) { return 1.0 + glm::dot(p, p); };
-  MeshArrays flat = KuhnGrid(3);
-  for (std::size_t i = 2; i < flat.Points.size(); i += 3)
-  {
-    flat.Points[i] = 0.5;
-  }
-  MeshArrays point = KuhnGrid(2);
-  std::fill(point.Points.begin(), point.Points.end(), 0.25);
+  const MeshArrays flat =
+    Moved(KuhnGrid(3), [](const glm::dvec3& p) { return glm::dvec3(p.x, p.y, 0.5); });
+  const MeshArrays point = Moved(KuhnGrid(2), [](const glm::dvec3&) { return glm::dvec3(0.25); });
   for (const MeshArrays& arrays : { SingleTetrahedron(), flat, point, MeshArrays{ {}, {} } })
   {
     const GradedScene scene(arrays, field);

@@ -264,10 +264,7 @@ TEST(VolumeLight, NoiseAlongParabolas)
   RandomNumbers random(9);
   MeshArrays arrays = KuhnGrid(5);
   JitterInside(arrays, 0.06, random);
-  for (double& coordinate : arrays.Points)
-  {
-    coordinate = 2.0 * coordinate - 1.0;
-  }
+  arrays = Moved(arrays, [](const glm::dvec3& p) { return 2.0 * p - 1.0; });
   LitScene scene(
     arrays, LinearIndex, [&random](const glm::dvec3&) { return random.Uniform(-1.0, 1.0); },
     Layers);
@@ -325,16 +322,9 @@ TEST(VolumeLight, NothingBendsIsTheStraightIntegral)
 // as the way through the cube is long.
 TEST(VolumeLight, FoldsArePassedOnce)
 {
-  MeshArrays arrays = CenteredGrid(4, 1.0);
   // A vertex within the cube is on the far side of its neighbours.
-  for (std::size_t p = 0; p < arrays.Points.size(); p += 3)
-  {
-    if (arrays.PointAt(static_cast<std::int64_t>(p / 3)) == glm::dvec3(0.0))
-    {
-      arrays.Points[p] = 0.7;
-      arrays.Points[p + 1] = 0.1;
-    }
-  }
+  const MeshArrays arrays = Moved(CenteredGrid(4, 1.0),
+    [](const glm::dvec3& p) { return p == glm::dvec3(0.0) ? glm::dvec3(0.7, 0.1, 0.0) : p; });
   RandomNumbers random(8);
   LitScene scene(
     arrays, [](const glm::dvec3&) { return 1.7; }, [](const glm::dvec3&) { return 0.0; }, Smoke);

@@ -175,17 +175,9 @@ TEST_P(VertexShadowsTest, LineEndsAtReach)
 TEST_P(VertexShadowsTest, GapIsPassed)
 {
   // Two cubes with a gap of 1 between them, along z.
-  test::MeshArrays arrays = test::KuhnGrid(2);
-  const test::MeshArrays upper = test::KuhnGrid(2);
-  const auto points = static_cast<std::int64_t>(arrays.Points.size() / 3);
-  for (std::size_t i = 0; i < upper.Points.size(); ++i)
-  {
-    arrays.Points.push_back(upper.Points[i] + (i % 3 == 2 ? 2.0 : 0.0));
-  }
-  for (const std::int64_t id : upper.Cells)
-  {
-    arrays.Cells.push_back(id + points);
-  }
+  const test::MeshArrays arrays = test::Joined(test::KuhnGrid(2),
+    test::Moved(
+      test::KuhnGrid(2), [](const glm::dvec3& p) { return p + glm::dvec3(0.0, 0.0, 2.0); }));
   Shadows shadows(arrays, 0.7, GetParam());
   const std::vector<float> result = shadows.CastParallel({ 0, 0, 1 });
   for (std::size_t v = 0; v < result.size(); ++v)

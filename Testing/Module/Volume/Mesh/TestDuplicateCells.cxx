@@ -34,19 +34,6 @@ MeshArrays Doubled(const MeshArrays& arrays, unsigned int seed)
   return doubled;
 }
 
-/** The same cells twice, the second time with their own points. */
-MeshArrays WithCopiedPoints(const MeshArrays& arrays)
-{
-  MeshArrays copied = arrays;
-  const auto points = static_cast<std::int64_t>(arrays.Points.size() / 3);
-  copied.Points.insert(copied.Points.end(), arrays.Points.begin(), arrays.Points.end());
-  for (const std::int64_t id : arrays.Cells)
-  {
-    copied.Cells.push_back(id + points);
-  }
-  return copied;
-}
-
 /** Expects the picture of a cube that is filled once, seen along an axis. */
 void ExpectFilledOnce(PictureScene& scene)
 {
@@ -101,11 +88,7 @@ TEST(DuplicateCells, MeshGivenInAnyNumberAndOrderIsTheMesh)
 TEST(DuplicateCells, MeshThatIsSmallBesideItsBoxAsWell)
 {
   // The whole grid has one Morton code: thousands of cells are compared with each other.
-  MeshArrays arrays = KuhnGrid(8);
-  for (double& x : arrays.Points)
-  {
-    x *= 1e-6;
-  }
+  MeshArrays arrays = Moved(KuhnGrid(8), [](const glm::dvec3& p) { return 1e-6 * p; });
   const auto first = static_cast<std::int64_t>(arrays.Points.size() / 3);
   arrays.Points.insert(arrays.Points.end(), { 1, 0, 0, 1, 1, 0, 1, 0, 1, 2, 1, 1 });
   arrays.Cells.insert(arrays.Cells.end(), { first, first + 1, first + 2, first + 3 });
@@ -116,7 +99,7 @@ TEST(DuplicateCells, MeshThatIsSmallBesideItsBoxAsWell)
 
 TEST(DuplicateCells, PositionsCountWhereTheyAreMatched)
 {
-  const MeshArrays arrays = WithCopiedPoints(KuhnGrid(3));
+  const MeshArrays arrays = Joined(KuhnGrid(3), KuhnGrid(3));
   const auto cells = static_cast<std::int64_t>(arrays.Cells.size() / 4);
   TetrahedraView view = arrays.View();
   TetrahedralMesh mesh;
@@ -131,7 +114,7 @@ TEST(DuplicateCells, PositionsCountWhereTheyAreMatched)
 
 TEST(DuplicateCells, PositionsThatDifferByTheSignOfZeroOrTheLastBit)
 {
-  MeshArrays arrays = WithCopiedPoints(SingleTetrahedron());
+  MeshArrays arrays = Joined(SingleTetrahedron(), SingleTetrahedron());
   for (std::size_t i = 12; i < 24; ++i)
   {
     arrays.Points[i] = arrays.Points[i] == 0.0 ? -0.0 : arrays.Points[i];

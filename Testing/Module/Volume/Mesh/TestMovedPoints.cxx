@@ -16,8 +16,6 @@ using namespace meniscus::test;
 namespace
 {
 
-using Motion = std::function<glm::dvec3(const glm::dvec3&)>;
-
 /** Three points of a face in the order in which its normal points outwards, the lowest first. */
 using OrientedFace = std::array<std::int32_t, 3>;
 
@@ -102,31 +100,6 @@ TetrahedralMesh Build(const MeshArrays& arrays, bool matchPositions = false)
   TetrahedralMesh mesh;
   mesh.Build(view);
   return mesh;
-}
-
-MeshArrays Moved(MeshArrays arrays, const Motion& motion)
-{
-  for (std::size_t i = 0; i < arrays.Points.size(); i += 3)
-  {
-    const glm::dvec3 p = motion(arrays.PointAt(static_cast<std::int64_t>(i / 3)));
-    arrays.Points[i] = p.x;
-    arrays.Points[i + 1] = p.y;
-    arrays.Points[i + 2] = p.z;
-  }
-  return arrays;
-}
-
-/** Both meshes side by side, without common points. */
-MeshArrays Joined(const MeshArrays& a, const MeshArrays& b)
-{
-  MeshArrays both = a;
-  const auto first = static_cast<std::int64_t>(a.Points.size() / 3);
-  both.Points.insert(both.Points.end(), b.Points.begin(), b.Points.end());
-  for (const std::int64_t id : b.Cells)
-  {
-    both.Cells.push_back(first + id);
-  }
-  return both;
 }
 
 /** Motion of points with x > 1.5, the second of two meshes; others stay. */

@@ -27,11 +27,8 @@ PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
  * it. */
 PictureScene MakeSceneOfSize(double scale)
 {
-  MeshArrays arrays = KuhnGrid(2);
-  for (double& coordinate : arrays.Points)
-  {
-    coordinate = scale * (coordinate - 0.5);
-  }
+  const MeshArrays arrays =
+    Moved(KuhnGrid(2), [scale](const glm::dvec3& p) { return scale * (p - 0.5); });
   PictureScene scene = MakeScene(arrays, 1.0 / scale);
   RayFrameInput input;
   input.WorldToView = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -10.0 * scale));
@@ -135,11 +132,8 @@ TEST_P(PacketWalkTest, NeedlesSeenAslant)
   // Along needles with an aspect ratio of 1e4 edges are long in u and in v, and most of their
   // products cancels in the areas by which depth and scalar are interpolated. The box is 2e4 x 1 x
   // 1, seen near its middle; attenuation increases across it from 0 to 0.6.
-  MeshArrays arrays = KuhnGrid(4);
-  for (std::size_t i = 0; i < arrays.Points.size(); ++i)
-  {
-    arrays.Points[i] = (arrays.Points[i] - 0.5) * (i % 3 == 0 ? 2e4 : 1.0);
-  }
+  const MeshArrays arrays =
+    Moved(KuhnGrid(4), [](const glm::dvec3& p) { return (p - 0.5) * glm::dvec3(2e4, 1.0, 1.0); });
   PictureScene scene = MakeScene(arrays, 0.0);
   const double edge = 0.5 / scene.Mesh.GetRadius();
   scene.Intervals = BuildIntervals(
@@ -187,11 +181,8 @@ TEST_P(PacketWalkTest, NeedlesSeenAslant)
 
 TEST_P(PacketWalkTest, FlatMeshesHaveNothingToShow)
 {
-  MeshArrays flat = KuhnGrid(3);
-  for (std::size_t i = 1; i < flat.Points.size(); i += 3)
-  {
-    flat.Points[i] = 0.5;
-  }
+  const MeshArrays flat =
+    Moved(KuhnGrid(3), [](const glm::dvec3& p) { return glm::dvec3(p.x, 0.5, p.z); });
   PictureScene scene = MakeScene(flat, 1.0);
   scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 64);
   const Picture picture = CastPicture(scene, 65, GetParam());
