@@ -37,6 +37,7 @@ PICTURES = {
     "gallery-lens": through.draw_lens,
     "opacity-distances": opacity.draw_distances,
     "opacity-functions": opacity.draw_functions,
+    "volume-modes": volumes.draw_modes,
     "volume-shadows": shadows.draw_shadows,
 }
 

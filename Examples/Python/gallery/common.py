@@ -5,6 +5,7 @@ import meniscus
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
+from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkImagingCore import vtkImageShrink3D
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -252,6 +253,22 @@ def take_beside(renderers, size, finer=1):
         renderer.SetViewport(index / len(renderers), 0, (index + 1) / len(renderers), 1)
         window.AddRenderer(renderer)
     return _grab(window, finer)
+
+
+def stack(pictures, columns):
+    """Pictures of one size in rows, from the upper left one."""
+    rows = [_append(pictures[first:first + columns], 0)
+            for first in range(0, len(pictures), columns)]
+    return _append(rows[::-1], 1)
+
+
+def _append(pictures, axis):
+    strip = vtkImageAppend()
+    strip.SetAppendAxis(axis)
+    for picture in pictures:
+        strip.AddInputData(picture)
+    strip.Update()
+    return strip.GetOutput()
 
 
 def _grab(window, finer):

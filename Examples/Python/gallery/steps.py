@@ -3,7 +3,6 @@
 """Time steps on one mesh."""
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkImageAppend
 
 from . import common
 
@@ -109,13 +108,4 @@ def draw_blow(data, size):
         renderer.ResetCameraClippingRange()
         pictures.append(common.take(renderer, panel))
         renderer.RemoveVolume(volume)
-    return stack([stack(pictures[:2], 0), stack(pictures[2:], 0)][::-1], 1)
-
-
-def stack(pictures, axis):
-    strip = vtkImageAppend()
-    strip.SetAppendAxis(axis)
-    for picture in pictures:
-        strip.AddInputData(picture)
-    strip.Update()
-    return strip.GetOutput()
+    return common.stack(pictures, 2)
