@@ -37,6 +37,19 @@ public:
     word = value ? word | bit : word & ~bit;
   }
 
+  /** True if all items that are set are set in another table of as many items, too. */
+  bool IsWithin(const BitTable& other) const
+  {
+    for (std::size_t word = 0; word < this->Words.size(); ++word)
+    {
+      if ((this->Words[word] & ~other.Words[word]) != 0)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   std::int64_t GetBytes() const
   {
     return static_cast<std::int64_t>(this->Words.capacity() * sizeof(Word));

@@ -148,11 +148,20 @@ TableVersion RayCastMembrane::GetShapeVersion() const
 bool RayCastMembrane::Trace(RefractedRayStack::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
-  view.Parts = PartsOf(input.GetBoundaryTree(), view.Frame, NumberOfParts);
+  // Without further active cells no ray shows more: parts of the mesh that it has lost do no harm.
+  const bool isWithin = this->SightMesh == input.GetMeshVersion() &&
+    (this->SightLinks == input.GetLinkVersion() ||
+      input.GetMesh().GetActiveCells().IsWithin(this->SightCells));
+  view.Parts =
+    isWithin ? this->View.Parts : PartsOf(input.GetBoundaryTree(), view.Frame, NumberOfParts);
+  this->SightLinks = input.GetLinkVersion();
   if (this->SightShapes != this->GetShapeVersion() || !(this->SightOf == this->Used) ||
     !(this->View == view))
   {
+    view.Parts = PartsOf(input.GetBoundaryTree(), view.Frame, NumberOfParts);
     this->View = view;
+    this->SightMesh = input.GetMeshVersion();
+    this->SightCells = input.GetMesh().GetActiveCells();
     for (Shape& shape : this->Shapes)
     {
       shape.Source.GetSurface()->Prepare(RefractedRayStack::NeededParts, ThreadedLoop);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Common/BitTable.h"
 #include "Common/TableVersion.h"
 #include "Filters/Membrane/SourceSurface.h"
 #include "Refraction/Surface/Interface.h"
@@ -114,6 +115,10 @@ private:
   RefractedRayStack::View View;
   std::vector<Interface> SightOf;
   TableVersion SightShapes;
+  /** Mesh whose active cells rays were traced for, and links for which that is known to do. */
+  TableVersion SightMesh;
+  TableVersion SightLinks;
+  BitTable SightCells;
   TableVersion SightVersion;
   /** Versions of the mesh, of its scalars and of the sight that vertices were placed for. */
   TableVersions Placed;

@@ -214,6 +214,7 @@ public:
     const RangeLoop& loop = SerialLoop);
 
   /** True if rays visit the cell. */
+  const BitTable& GetActiveCells() const { return this->IsActive; }
   bool IsActiveCell(std::int64_t cell) const
   {
     return this->IsActive[static_cast<std::size_t>(cell)];
