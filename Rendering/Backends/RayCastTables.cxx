@@ -15,8 +15,9 @@ std::vector<RayCastTableState> RayCastTables::ListWanted(const RayCastFrame& fra
   const RayCastOptics& optics = frame.Optics;
   const TableVersion scalars = this->Input.GetScalarVersion();
   const TableVersion ofVertices = optics.CellScalars ? TableVersion() : scalars;
+  const TableVersions boundary = this->Input.GetBoundaryVersions();
   std::vector<RayCastTableState> tables{ { RayCastTable::Cells, this->Input.GetLinkVersion() },
-    { RayCastTable::Boundary, this->Input.GetBoundaryVersions() },
+    { RayCastTable::Boundary, boundary },
     { RayCastTable::Vertices, { this->Input.GetMeshVersion(), ofVertices } },
     { RayCastTable::Functions, this->Property.GetVersion() } };
   const auto addIf = [&tables](bool wanted, RayCastTable table, TableVersion version)
@@ -26,6 +27,10 @@ std::vector<RayCastTableState> RayCastTables::ListWanted(const RayCastFrame& fra
       tables.push_back({ table, version });
     }
   };
+  if (!optics.LongLists)
+  {
+    tables.push_back({ RayCastTable::BoundaryTree, boundary });
+  }
   addIf(optics.CellScalars, RayCastTable::CellScalars, scalars);
   addIf(optics.VertexGradients, RayCastTable::VertexGradients, this->VertexGradients.GetVersion());
   addIf(optics.UsesCellGradients(), RayCastTable::CellGradients, this->CellGradients.GetVersion());

@@ -25,6 +25,7 @@ enum class RayCastTable
 {
   Cells,
   Boundary,
+  BoundaryTree,
   Vertices,
   CellScalars,
   VertexGradients,

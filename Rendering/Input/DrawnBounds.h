@@ -7,6 +7,7 @@
 #include "Rendering/Input/InputContent.h"
 #include "Volume/Mesh/PointBox.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,9 +32,20 @@ public:
   /** Times that the box was computed. */
   std::int64_t GetNumberOfBuilds() const { return this->Builds; }
 
+  /** Where the tetrahedra of a data set reach the sides of the box around its points. */
+  struct SideCells
+  {
+    /** Number of points; 0 if cells are not known to be tetrahedra of four different ones. */
+    std::size_t Points = 0;
+    /** Blocks of cells, each of which has a cell that is not flat at one of the sides. */
+    std::vector<std::size_t> Blocks;
+  };
+
 private:
   ContentWatch CellWatch;
   ContentWatch PointWatch;
+  /** One for each data set. They hold until the cells change. */
+  std::vector<SideCells> Sides;
   PointBox Box;
   std::int64_t Builds = 0;
 };

@@ -7,8 +7,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstring>
 
 namespace meniscus
 {
@@ -30,8 +29,6 @@ struct BoundaryTree::Item : Box
 namespace
 {
 
-constexpr float Infinity = std::numeric_limits<float>::infinity();
-
 /**
  * Smallest float half extent for which the box around `center` contains [lower, upper] in exact
  * arithmetic.
@@ -41,7 +38,14 @@ float HalfExtent(float center, float lower, float upper)
   const double half =
     std::max(static_cast<double>(upper) - center, static_cast<double>(center) - lower);
   const float rounded = static_cast<float>(half);
-  return rounded < half ? std::nextafter(rounded, Infinity) : rounded;
+  // The bits of the next larger float are those of a float that is not negative, plus 1. No branch:
+  // none predicts the rounding.
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &rounded, sizeof(bits));
+  bits += rounded < half ? 1 : 0;
+  float result = 0.0f;
+  std::memcpy(&result, &bits, sizeof(result));
+  return result;
 }
 
 /** Surface area of a box, times a constant. */
@@ -119,7 +123,7 @@ bool BoundaryTree::Refit(const TetrahedralMesh& mesh)
 {
   for (BoundaryFace& face : this->Faces)
   {
-    face = mesh.GetFace(face.CellFace / 4, face.CellFace % 4);
+    mesh.Orient(face);
   }
   constexpr double mostGrowth = 2.0;
   return this->FitBoxes(mesh) <= mostGrowth * this->BuiltCost;

@@ -243,6 +243,8 @@ public:
   }
   /** A face of a cell in the form of the boundary: see BoundaryFace. */
   BoundaryFace GetFace(std::int64_t cell, int face) const;
+  /** Puts the vertices of a face, which may be those before a motion, into that order. */
+  void Orient(BoundaryFace& face) const;
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
   /**
    * Number of links cut because they contradict the flood fill, or in components whose volumes

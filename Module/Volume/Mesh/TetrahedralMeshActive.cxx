@@ -165,11 +165,19 @@ BoundaryFace TetrahedralMesh::GetFace(std::int64_t cell, int face) const
 {
   BoundaryFace made{ FaceVertices(this->Cells[cell].Vertices, face),
     static_cast<std::int32_t>(4 * cell + face) };
-  if (this->IsPositivelyOriented(cell) != (FaceParity(face) > 0))
-  {
-    std::swap(made.Vertices[0], made.Vertices[1]);
-  }
+  this->Orient(made);
   return made;
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::Orient(BoundaryFace& face) const
+{
+  const bool isPositive = this->IsPositivelyOriented(face.CellFace / 4);
+  const bool ascends = isPositive == (FaceParity(face.CellFace % 4) > 0);
+  if (ascends != face.IsAscending())
+  {
+    std::swap(face.Vertices[0], face.Vertices[1]);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -250,11 +250,7 @@ bool TetrahedralMesh::TurnComponents(
     { this->IsPositive.Set(c, this->IsPositive[c] != isMirrored(volumes[this->ComponentOf(c)])); });
   for (BoundaryFace& face : this->Boundary)
   {
-    const auto cell = static_cast<std::size_t>(face.CellFace) / 4;
-    if (isMirrored(volumes[this->ComponentOf(cell)]))
-    {
-      std::swap(face.Vertices[0], face.Vertices[1]);
-    }
+    this->Orient(face);
   }
   return true;
 }

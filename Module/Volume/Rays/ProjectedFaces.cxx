@@ -140,18 +140,20 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     seen.Lower = glm::dvec2(std::min(seen.Lower.x, pixel.x), std::min(seen.Lower.y, pixel.y));
     seen.Upper = glm::dvec2(std::max(seen.Upper.x, pixel.x), std::max(seen.Upper.y, pixel.y));
     const double opposite = At(face.Edges[(k + 1) % 3], pixel);
-    double margin = Margin;
-    if (error > 0.0)
+    const auto margin = [&]()
     {
-      margin += AreaError(face.Vertices[(k + 1) % 3], face.Vertices[(k + 2) % 3], pixel, error);
-    }
+      const Vertex& next = face.Vertices[(k + 1) % 3];
+      const Vertex& last = face.Vertices[(k + 2) % 3];
+      return Margin + (error > 0.0 ? AreaError(next, last, pixel, error) : 0.0);
+    };
     // (u, v) changes per pixel by at least the smaller singular value, which is the determinant
     // over the larger one. Both u and v have errors, which are many pixels next to the eye.
     const double largest =
       std::abs(vertex.U[1]) + std::abs(vertex.U[2]) + std::abs(vertex.V[1]) + std::abs(vertex.V[2]);
     seen.Error = std::max(seen.Error, rounding * largest * std::abs(perSide));
     // Inside a face that faces away, one edge is below a third of its value at the opposite vertex.
-    facesAway = facesAway && opposite < -3.0 * margin;
+    // The margin, which takes three roots, is of no use for faces towards the eye.
+    facesAway = facesAway && opposite < 0.0 && opposite < -3.0 * margin();
   }
   if (facesAway)
   {
@@ -170,10 +172,19 @@ ProjectedFaces::PixelBox ProjectedFaces::PixelsIn(
   const int height = this->Rays.GetHeight();
   // The centre of pixel p is at p + 1/2.
   const glm::dvec2 zero = 0.5 * glm::dvec2(width, height) - 0.5;
+  // std::ceil() and std::floor() would be calls.
   const auto from = [](double value, int size)
-  { return static_cast<int>(std::clamp(std::ceil(value), 0.0, double(size))); };
+  {
+    const double kept = std::clamp(value, 0.0, double(size));
+    const auto whole = static_cast<int>(kept);
+    return whole + (whole < kept ? 1 : 0);
+  };
   const auto to = [](double value, int size)
-  { return static_cast<int>(std::clamp(std::floor(value) + 1.0, 0.0, double(size))); };
+  {
+    const double kept = std::clamp(value, -1.0, size - 1.0);
+    const auto whole = static_cast<int>(kept);
+    return whole - (whole > kept ? 1 : 0) + 1;
+  };
   return { from(lower.x + zero.x, width), to(upper.x + zero.x, width),
     from(lower.y + zero.y, height), to(upper.y + zero.y, height) };
 }

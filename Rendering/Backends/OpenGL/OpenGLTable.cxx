@@ -38,12 +38,30 @@ bool OpenGLTable::MakeTexture(
 }
 
 //------------------------------------------------------------------------------
+/** Sends values into the buffer of as many others. Returns false if the device fails. */
+bool OpenGLTable::Overwrite(const void* values)
+{
+  if (!this->Buffer->Bind())
+  {
+    return false;
+  }
+  glBufferSubData(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(this->Bytes), values);
+  return glGetError() == GL_NO_ERROR && this->Buffer->Release();
+}
+
+//------------------------------------------------------------------------------
 template <typename T>
 std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* values,
   std::size_t count, int components, int texelsPerRow, int vtkType)
 {
-  this->Release(window);
+  const auto bytes = static_cast<std::int64_t>(count * sizeof(T));
   const std::int64_t texels = static_cast<std::int64_t>(count) / components;
+  const bool alike = bytes == this->Bytes && texels / texelsPerRow == this->Rows;
+  if (this->IsFilled() && alike && this->Overwrite(values))
+  {
+    return std::string();
+  }
+  this->Release(window);
   const std::string excess = DescribeExcess(texels);
   if (!excess.empty())
   {
@@ -53,11 +71,11 @@ std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* va
   if (!this->Buffer->Upload(values, count, vtkOpenGLBufferObject::TextureBuffer) ||
     !this->MakeTexture(window, texels, components, vtkType))
   {
-    return "a table of " + std::to_string(count * sizeof(T)) +
+    return "a table of " + std::to_string(bytes) +
       " bytes could not be created on the graphics device";
   }
   this->Rows = texels / texelsPerRow;
-  this->Bytes = static_cast<std::int64_t>(count * sizeof(T));
+  this->Bytes = bytes;
   return std::string();
 }
 

@@ -32,8 +32,9 @@ public:
 
   /**
    * Replaces the contents by `count` values in texels of 1 or 4. Returns an error or an empty
-   * string.
-   * @param texelsPerRow used by GetNumberOfRows() only.
+   * string. As many values as before go to the same place on the device.
+   * @param texelsPerRow used by GetNumberOfRows() only. A table has one number of them, as well as
+   *                     one type of values.
    */
   std::string Upload(vtkOpenGLRenderWindow* window, const float* values, std::size_t count,
     int components, int texelsPerRow);
@@ -52,6 +53,7 @@ public:
 private:
   static std::string DescribeExcess(std::int64_t texels);
   bool MakeTexture(vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType);
+  bool Overwrite(const void* values);
   template <typename T>
   std::string UploadValues(vtkOpenGLRenderWindow* window, const T* values, std::size_t count,
     int components, int texelsPerRow, int vtkType);

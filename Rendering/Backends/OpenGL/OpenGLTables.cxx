@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <numeric>
 
 namespace meniscus
@@ -26,6 +27,31 @@ namespace
 constexpr int FullCellSize = 8;
 constexpr int CompactCellSize = 5;
 constexpr int WideTexelSize = 4;
+
+/** Rows of values in texels of four, made of items on several threads, each value written once. */
+template <typename T>
+class Rows
+{
+public:
+  /** @param write  write(item, values) writes `size` values of an item. */
+  template <typename Item, typename Write>
+  Rows(std::size_t size, const std::vector<Item>& items, const Write& write)
+    : Count(size * items.size())
+    , Values(new T[this->Count]) // not set to 0 first, as in a vector
+  {
+    ForEachInBlocks(items.size(), ThreadedLoop,
+      [&](std::size_t i) { write(items[i], this->Values.get() + size * i); });
+  }
+
+  std::string SendTo(OpenGLTable& table, vtkOpenGLRenderWindow* window, int texelsPerRow) const
+  {
+    return table.Upload(window, this->Values.get(), this->Count, 4, texelsPerRow);
+  }
+
+private:
+  std::size_t Count;
+  std::unique_ptr<T[]> Values;
+};
 
 std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
 {
@@ -107,6 +133,8 @@ std::string OpenGLTables::Upload(
       return this->UploadCells(input.GetMesh(), frame.Optics);
     case RayCastTable::Boundary:
       return this->UploadBoundary(input.GetBoundaryTree());
+    case RayCastTable::BoundaryTree:
+      return this->UploadBoundaryTree(input.GetBoundaryTree());
     case RayCastTable::Vertices:
       return this->UploadVertices(input.GetMesh(), input.GetScalars());
     case RayCastTable::CellScalars:
@@ -209,7 +237,7 @@ std::int64_t OpenGLTables::GetTableBytes()
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
+std::string OpenGLTables::UploadBoundaryTree(const BoundaryTree& tree)
 {
   // A node's indices are stored as floats, which represent integers up to 2^24 exactly.
   const std::int64_t largestIndex =
@@ -219,33 +247,32 @@ std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
     return "a mesh with " + std::to_string(tree.GetFaces().size()) +
       " boundary faces exceeds the limit of 8388608";
   }
-  std::vector<float> nodes(8 * tree.GetNodes().size());
-  float* value = nodes.data();
-  for (const auto& node : tree.GetNodes())
-  {
-    const float values[8] = { node.Center.x, node.Center.y, node.Center.z,
-      static_cast<float>(node.Skip), node.Half.x, node.Half.y, node.Half.z,
-      static_cast<float>(node.Face) };
-    value = std::copy_n(values, 8, value);
-  }
-  std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
-  if (!this->Count(this->TreeNodes, error).empty())
-  {
-    return error;
-  }
+  const Rows<float> nodes(8, tree.GetNodes(),
+    [](const BoundaryTree::Node& node, float* value)
+    {
+      const float values[8] = { node.Center.x, node.Center.y, node.Center.z,
+        static_cast<float>(node.Skip), node.Half.x, node.Half.y, node.Half.z,
+        static_cast<float>(node.Face) };
+      std::copy_n(values, 8, value);
+    });
+  return this->Count(this->TreeNodes, nodes.SendTo(this->TreeNodes, this->Window, 2));
+}
 
-  std::vector<std::int32_t> faces;
-  faces.reserve(4 * tree.GetFaces().size());
-  for (const auto& face : tree.GetFaces())
-  {
-    const auto& v = face.Vertices;
-    // Ascending; the first number tells the order in which the normal points outwards.
-    const bool ascending = face.IsAscending();
-    faces.insert(
-      faces.end(), { ascending ? v[0] : ~v[1], ascending ? v[1] : v[0], v[2], face.CellFace });
-  }
-  error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
-  return this->Count(this->TreeFaces, error);
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
+{
+  const Rows<std::int32_t> faces(4, tree.GetFaces(),
+    [](const BoundaryFace& face, std::int32_t* value)
+    {
+      const auto& v = face.Vertices;
+      // Ascending; the first number tells the order in which the normal points outwards.
+      const bool ascending = face.IsAscending();
+      value[0] = ascending ? v[0] : ~v[1];
+      value[1] = ascending ? v[1] : v[0];
+      value[2] = v[2];
+      value[3] = face.CellFace;
+    });
+  return this->Count(this->TreeFaces, faces.SendTo(this->TreeFaces, this->Window, 1));
 }
 
 //------------------------------------------------------------------------------
@@ -277,21 +304,18 @@ std::string OpenGLTables::UploadVertices(
   // Differences of coordinates have to fit in 32 bits.
   constexpr std::int32_t largest = (std::int32_t{ 1 } << 30) - 1;
   const std::vector<glm::ivec3>& positions = mesh.GetFixedPositions();
-  std::vector<std::int32_t> values(4 * positions.size());
-  ForEachInBlocks(positions.size(), ThreadedLoop,
-    [&](std::size_t v)
+  const Rows<std::int32_t> values(4, positions,
+    [&](const glm::ivec3& position, std::int32_t* value)
     {
-      const glm::ivec3 p = glm::clamp(positions[v], -largest, largest);
-      const float scalar = scalars.empty() ? 0.0f : scalars[v];
-      std::int32_t* value = &values[4 * v];
+      const glm::ivec3 p = glm::clamp(position, -largest, largest);
+      const float scalar = scalars.empty() ? 0.0f : scalars[&position - positions.data()];
       value[0] = p.x;
       value[1] = p.y;
       value[2] = p.z;
       std::memcpy(value + 3, &scalar, sizeof(scalar));
     });
   this->VertexUploads.Bump();
-  const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
-  return this->Count(this->Vertices, error);
+  return this->Count(this->Vertices, values.SendTo(this->Vertices, this->Window, 1));
 }
 
 //------------------------------------------------------------------------------
@@ -317,17 +341,15 @@ std::string OpenGLTables::UploadCellScalars(const std::vector<float>& scalars)
 //------------------------------------------------------------------------------
 std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
 {
-  std::vector<float> values(4 * vectors.size());
-  ForEachInBlocks(vectors.size(), ThreadedLoop,
-    [&vectors, &values](std::size_t v)
+  const Rows<float> values(4, vectors,
+    [](const glm::vec3& vector, float* value)
     {
-      const glm::vec3& vector = vectors[v];
-      float* const value = &values[4 * v];
       value[0] = vector.x;
       value[1] = vector.y;
       value[2] = vector.z;
+      value[3] = 0.0f;
     });
-  return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
+  return this->Count(table, values.SendTo(table, this->Window, 1));
 }
 
 //------------------------------------------------------------------------------
@@ -467,14 +489,18 @@ void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& o
 }
 
 //------------------------------------------------------------------------------
-std::vector<OpenGLTable*> OpenGLTables::ActivateRays(vtkShaderProgram* program)
+std::vector<OpenGLTable*> OpenGLTables::ActivateRays(vtkShaderProgram* program, bool withTree)
 {
   OpenGLTable& placed = this->PlacedVertices.GetTable();
   placed.Activate(program, "vertices");
-  this->TreeNodes.Activate(program, "treeNodes");
   this->TreeFaces.Activate(program, "treeFaces");
+  if (!withTree)
+  {
+    return { &placed, &this->TreeFaces };
+  }
+  this->TreeNodes.Activate(program, "treeNodes");
   program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
-  return { &placed, &this->TreeNodes, &this->TreeFaces };
+  return { &placed, &this->TreeFaces, &this->TreeNodes };
 }
 
 //------------------------------------------------------------------------------

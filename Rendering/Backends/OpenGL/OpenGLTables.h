@@ -79,8 +79,11 @@ public:
   /** Bytes of the tables that are currently on the device. */
   std::int64_t GetTableBytes();
 
-  /** Binds the tables for entries and projections: vertices and the tree of the boundary. */
-  std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program);
+  /**
+   * Binds the tables for entries and projections: vertices and faces of the boundary.
+   * @param withTree  whether to bind the tree of the boundary, for entries without long lists.
+   */
+  std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program, bool withTree);
   /** Binds the tables of the optical model. */
   std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
   OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
@@ -104,6 +107,7 @@ private:
    */
   std::string UploadCells(const TetrahedralMesh& mesh, const RayCastOptics& optics);
   std::string UploadBoundary(const BoundaryTree& tree);
+  std::string UploadBoundaryTree(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
   std::string UploadCellScalars(const std::vector<float>& scalars);

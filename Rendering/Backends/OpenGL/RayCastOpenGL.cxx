@@ -126,22 +126,16 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   }
   this->Frame.Optics.WideCells = OpenGLTables::NeedsWideCells(
     tables.Input.GetMesh(), this->Frame.Optics.CompactCells, this->Frame.MaximumTableSize);
+  this->Frame.Optics.LongLists = !this->Frame.Optics.IsRefracting() &&
+    this->LongLists.Update(tables.Input, this->Frame, this->Tables);
   const std::string error = this->Tables.Update(tables, this->Frame);
-  if (!error.empty())
-  {
-    return error;
-  }
-  if (this->Frame.Optics.IsRefracting())
+  if (error.empty() && this->Frame.Optics.IsRefracting())
   {
     this->BeginsInside = tables.Membrane.BeginsInside(tables.Input);
     this->RefractedVersions = { tables.Membrane.GetSightVersion(), tables.Input.GetLinkVersion(),
       tables.Input.GetMeshVersion() };
   }
-  else
-  {
-    this->Frame.Optics.LongLists = this->LongLists.Update(tables.Input, this->Frame, this->Tables);
-  }
-  return std::string();
+  return error;
 }
 
 //------------------------------------------------------------------------------
@@ -462,7 +456,7 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   program->SetUniform1iv("gridOffset", static_cast<int>(offset.size()), offset.data());
   program->SetUniform1iv("gridSlope", static_cast<int>(slope.size()), slope.data());
   program->SetUniformi("enteringSign", rays.Handedness);
-  return this->Tables.ActivateRays(program);
+  return this->Tables.ActivateRays(program, !this->Frame.Optics.LongLists);
 }
 
 //------------------------------------------------------------------------------

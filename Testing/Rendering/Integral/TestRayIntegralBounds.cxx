@@ -302,6 +302,60 @@ TEST(DrawnBounds, FollowTheInput)
   ExpectCube(mapper->GetBounds(), "moved");
 }
 
+/** Cells at the sides stay there, become inner ones, get flat or get lost; more than one block. */
+TEST(DrawnBounds, FollowMotions)
+{
+  const Grid grid = MakeBlock(16, ConstantField(1.0));
+  const vtkIdType far = grid->GetNumberOfPoints();
+  AddFarCell(grid, VTK_TETRA, 4);
+  std::vector<glm::dvec3> places;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    places.push_back((i < far ? 1.0 : 3.0) * PointOf(grid, i));
+  }
+  struct Motion
+  {
+    const char* Name;
+    std::function<glm::dvec3(const glm::dvec3&, bool)> Move;
+    double Right;
+  };
+  const auto away = [](const glm::dvec3& at) { return at + glm::dvec3(9.0, 0.0, 0.0); };
+  const Motion motions[] = {
+    { "none", [](const glm::dvec3& at, bool) { return at; }, 3.0 },
+    { "longer", [](const glm::dvec3& at, bool) { return 1.5 * at; }, 4.5 },
+    { "mirrored", [](const glm::dvec3& at, bool) { return -at; }, 1.0 },
+    { "away", [&](const glm::dvec3& at, bool isFar) { return isFar ? away(at) : at; }, 12.0 },
+    { "flat",
+      [&](const glm::dvec3& at, bool isFar) {
+        return isFar ? away({ at.x, at.y, 0.0 }) : at;
+      },
+      1.0 },
+    { "away again", [&](const glm::dvec3& at, bool isFar) { return isFar ? away(at) : at; }, 12.0 },
+    { "lost",
+      [&](const glm::dvec3& at, bool isFar) { return isFar ? glm::dvec3(NaN, at.y, at.z) : at; },
+      1.0 },
+    { "back", [](const glm::dvec3& at, bool) { return at; }, 3.0 },
+  };
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputData(grid);
+  for (const Motion& motion : motions)
+  {
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      const glm::dvec3 to = motion.Move(places[static_cast<std::size_t>(i)], i >= far);
+      grid->GetPoints()->SetPoint(i, to.x, to.y, to.z);
+    }
+    grid->GetPoints()->Modified();
+    vtkNew<vtkTetrahedraRayCastMapper> other;
+    other->SetInputData(grid);
+    EXPECT_EQ(mapper->GetBounds()[1], motion.Right) << motion.Name;
+    for (int side = 0; side < 6; ++side)
+    {
+      EXPECT_EQ(mapper->GetBounds()[side], other->GetBounds()[side]) << motion.Name << side;
+    }
+  }
+}
+
 TEST(DrawnBounds, OfNothing)
 {
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
