@@ -74,3 +74,24 @@ TEST(BitTable, ThreadsMayWriteDifferentBlocks)
     ASSERT_EQ(table[i], i % 3 == 0) << i;
   }
 }
+
+//------------------------------------------------------------------------------
+TEST(BitTable, OneIsWithinAnotherItemByItem)
+{
+  constexpr std::size_t count = 130; // words, and a part of one
+  BitTable few;
+  BitTable many;
+  few.Assign(count, false);
+  many.Assign(count, false);
+  EXPECT_TRUE(few.IsWithin(many));
+  for (const std::size_t item : { std::size_t{ 0 }, std::size_t{ 64 }, count - 1 })
+  {
+    few.Set(item, true);
+    EXPECT_FALSE(few.IsWithin(many)) << item;
+    many.Set(item, true);
+    EXPECT_TRUE(few.IsWithin(many)) << item;
+  }
+  many.Set(7, true);
+  EXPECT_TRUE(few.IsWithin(many));
+  EXPECT_FALSE(many.IsWithin(few));
+}
