@@ -53,7 +53,7 @@ public:
   vtkTypeMacro(vtkTetrahedraVolumePicker, vtkAbstractPropPicker);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Places on a ray; the class comment says what they are in each blend mode. */
+  /** Places on a ray. The class comment describes them for each blend mode. */
   enum
   {
     FIRST_VISIBLE = 0,       ///< first place with opacity

@@ -12,7 +12,7 @@ import os
 import meniscus
 import numpy
 from gallery import common
-from thesis_figures import AIR, BACKGROUND, DISC, GLASS, draw, join, make_bowl, make_disc
+from thesis_figures import AIR, BACKGROUND, DISC, GLASS, draw, make_bowl, make_disc
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPlane, vtkSphere
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
@@ -43,7 +43,8 @@ def put_together(rows):
     """Rows of panels, from the top, with gaps between them."""
     def pad(panel):
         return numpy.pad(panel, ((GAP, GAP), (GAP, GAP), (0, 0)), constant_values=1.0)
-    return join([join([to_image(pad(panel)) for panel in row], 0) for row in reversed(rows)], 1)
+    panels = [to_image(pad(panel)) for row in rows for panel in row]
+    return common.stack(panels, len(rows[0]))
 
 
 def make_shallow_bowl():

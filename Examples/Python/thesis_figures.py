@@ -16,7 +16,7 @@ from gallery import common
 from vtkmodules.util.vtkConstants import VTK_UNSIGNED_CHAR
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkSphere
-from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkImageAppend, vtkTubeFilter
+from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkTubeFilter
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
@@ -210,15 +210,6 @@ def mark(image, truth):
     return number
 
 
-def join(images, axis):
-    append = vtkImageAppend()
-    append.SetAppendAxis(axis)
-    for image in images:
-        append.AddInputData(image)
-    append.Update()
-    return append.GetOutput()
-
-
 def draw_resolutions(size):
     """Top: flat facets and 2, 3, 5 and 8 vertices per side. Bottom: 22 vertices, 8 vertices and
     more facets, the plain triangle with all images, and traced rays. Pixels that differ from those
@@ -235,7 +226,7 @@ def draw_resolutions(size):
         print(f"{side} vertices per side, {membrane.GetNumberOfCells()} facets, "
               f"{'ALL_IMAGES' if all_images else 'FLAT_FACETS'}: {number} of {sum(truth)} pixels")
         panels.append(image)
-    return join([join(panels[4:] + [traced], 0), join(panels[:4], 0)], 1)
+    return common.stack(panels + [traced], 4)
 
 
 def add_cells(renderer, membrane, exterior, interior, length):
@@ -294,7 +285,7 @@ def draw_cells(size):
         common.look_from(renderer, (350.0, 420.0, 1900.0), (0.0, -15.0, 0.0), (0, 1, 0), 29.0)
         renderer.ResetCameraClippingRange()
         panels.append(common.take(renderer, (2 * size, 2 * size)))
-    return join(panels, 0)
+    return common.stack(panels, len(panels))
 
 
 def make_waves(cells, side, amplitude, wave_number):
@@ -458,7 +449,7 @@ def draw_errors(size):
         renderer.ResetCameraClippingRange()
         bar = common.make_bar(look, "pixels") if name == "Pixels" else None
         panels.append(common.take(renderer, (2 * size, 2 * size), bar))
-    return join(panels, 0)
+    return common.stack(panels, len(panels))
 
 
 def main():

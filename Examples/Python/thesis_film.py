@@ -14,7 +14,7 @@ import numpy
 from gallery import common
 from thesis_figures import (
     AIR, BACKGROUND, DISC, EYE, FILL, GLASS, HALF_TANGENT, SPHERE, TRIANGLE_HEIGHT, TRIANGLE_RADIUS,
-    draw_virtual, join, make_disc, make_triangle)
+    draw_virtual, make_disc, make_triangle)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
@@ -152,9 +152,10 @@ def main():
                   f"{area:.1f} pixels" +
                   (f", {worst[name]} samples wrong in the worst frame" if name in worst else ""))
         shown = numpy.linspace(0, options.frames - 1, SHOWN).round().astype(int)
-        rows = [join([to_image(films[name][i]) for i in shown], 0)
-                for name in ("traced", "all images", "first image")]
-        common.write(join(rows, 1), os.path.join(options.output, f"thesis-film-{film}.png"))
+        pictures = [to_image(films[name][i])
+                    for name in ("first image", "all images", "traced") for i in shown]
+        common.write(common.stack(pictures, SHOWN),
+                     os.path.join(options.output, f"thesis-film-{film}.png"))
 
 
 if __name__ == "__main__":

@@ -96,8 +96,8 @@ public:
   const WeightedPoints& GetPoints() const { return this->Division.GetPoints(); }
   const DivisionCounts& GetCounts() const { return this->Division.GetCounts(); }
   /**
-   * Largest error in the edges of the tetrahedra: those of divided cells, and those of cells that
-   * were measured and need no division, for which it may be a bound.
+   * Largest error in the edges of the tetrahedra. Cells that were measured and need no division
+   * count as well, some of them by a bound of their error.
    */
   double GetError() const { return std::max(this->GetCounts().Error, this->Curved.Error); }
   /** Budget that the last division had. */

@@ -199,8 +199,8 @@ PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& l
     {
       const int low = static_cast<int>(row);
       slice[at(low, low)] = glm::vec3(this->Samples[2 * low].Color);
-      // Sums of what lies in between, not differences of integrals: where attenuation is small
-      // beside that elsewhere, nothing would be left of such differences but rounding errors.
+      // Each segment is integrated by itself. Where the attenuation is small compared with other
+      // places, the difference of two running integrals would consist of rounding errors.
       double depth = 0.0;
       glm::dvec3 emission(0.0);
       for (int high = low + 1; high < count; ++high)

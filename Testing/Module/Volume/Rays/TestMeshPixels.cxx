@@ -93,13 +93,20 @@ TEST(MeshPixels, HoldAllPointsOfTheBoxAndFewMore)
   }
 }
 
+/** A view of the middle of the mesh along -z, with these distances of the clipping planes. */
+View MakeViewAlongZ(const TetrahedralMesh& mesh, double distance, double first, double last)
+{
+  View view;
+  view.WorldToView = glm::lookAt(
+    mesh.GetCenter() + glm::dvec3(0.0, 0.0, distance), mesh.GetCenter(), glm::dvec3(0.0, 1.0, 0.0));
+  view.ViewToClip = glm::perspective(0.5, 1.5, first, last);
+  return view;
+}
+
 TEST(MeshPixels, AreAllIfThePlanesCutTheMesh)
 {
   const TetrahedralMesh mesh = MakeMesh();
-  View view;
-  view.WorldToView = glm::lookAt(
-    mesh.GetCenter() + glm::dvec3(0.0, 0.0, 0.2), mesh.GetCenter(), glm::dvec3(0.0, 1.0, 0.0));
-  view.ViewToClip = glm::perspective(0.5, 1.5, 0.1, 40.0);
+  const View view = MakeViewAlongZ(mesh, 0.2, 0.1, 40.0);
   const RayFrame frame = FrameOf(view, mesh);
   EXPECT_FALSE(frame.ShowsWholeDepth());
   const ProjectedFaces::PixelBox box = FindMeshPixels(frame, Width, Height, mesh);
@@ -113,10 +120,7 @@ TEST(MeshPixels, AreAllIfThePlanesCutTheMesh)
 TEST(MeshPixels, ReachIsThatOfTheBox)
 {
   const TetrahedralMesh mesh = MakeMesh();
-  View view;
-  view.WorldToView = glm::lookAt(
-    mesh.GetCenter() + glm::dvec3(0.0, 0.0, 4.0), mesh.GetCenter(), glm::dvec3(0.0, 1.0, 0.0));
-  view.ViewToClip = glm::perspective(0.5, 1.5, 3.4, 4.6);
+  View view = MakeViewAlongZ(mesh, 4.0, 3.4, 4.6);
   const RayFrame frame = FrameOf(view, mesh);
   EXPECT_NEAR(frame.Reach, mesh.GetHalfSize().z / mesh.GetRadius(), 1.0e-6);
   EXPECT_TRUE(frame.ShowsWholeDepth());
