@@ -8,6 +8,7 @@ import inspect
 import math
 import numbers
 import re
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -32,6 +33,17 @@ if TYPE_CHECKING:
 
 # Colour maps that plotter.add_volume() gives the blocks of a dataset with multi_colors.
 _BLOCK_COLORS = ("Reds", "Greens", "Blues", "Greys", "Oranges", "Purples")
+
+# Arguments for surfaces, which plotter.add_volume() does not take, and what volumes have instead.
+_INSTEAD = {
+    "color": "cmap=[\"red\", \"red\"] draws all values in one colour",
+    "nan_color": "cells without a finite value are not drawn",
+    "above_color": "the range ends with the last colour of cmap",
+    "below_color": "the range begins with the first colour of cmap",
+    "show_edges": "plotter.add_mesh(mesh, style=\"wireframe\") adds the edges",
+    "style": "blending= chooses how the values along a ray are shown",
+    "smooth_shading": "light=True has light, which is smooth",
+}
 
 # Anti-aliasing that is for edges, where it leaves the number of a volume's rays as it is.
 _AT_EDGES = ("msaa", "fxaa")
@@ -229,6 +241,33 @@ def _set_isovalues(look, isovalues, limits):
         contours.SetValue(index, value)
 
 
+def _is_zero(function, low, high):
+    """Whether a vtkPiecewiseFunction is 0 from low to high."""
+    node = [0.0] * 4
+    places = []
+    for index in range(function.GetSize()):
+        function.GetNodeValue(index, node)
+        if low < node[0] < high:
+            places.append(node[0])
+    return not any(function.GetValue(place) for place in (low, *places, high))
+
+
+def _warn_of_emptiness(look, scalars, is_surface):
+    """Warns of a volume of which nothing is seen."""
+    low, high = map(float, scalars.get_range())
+    opacity = look.GetScalarOpacity()
+    if not is_surface:
+        empty, reason = _is_zero(opacity, low, high), "the opacity is 0 for all of its values"
+    else:
+        contours = look.GetIsoSurfaceValues()
+        values = [contours.GetValue(index) for index in range(contours.GetNumberOfContours())]
+        empty, reason = not any(
+            low <= value <= high for value in values), "it has none of the isovalues"
+    if empty:
+        warnings.warn("Nothing of '%s' can be seen: %s, from %g to %g" % (
+            scalars.name, reason, low, high), stacklevel=3)
+
+
 def _wrap(mesh, resolution):
     """A mesh of any library as PyVista's. resolution: distances of the values of an array with
     three dimensions, which plotter.add_volume() takes as well."""
@@ -248,14 +287,16 @@ def _wrap(mesh, resolution):
 
 
 def _add_stand_in(plotter, *positional, **named):
-    """plotter.add_volume(); an error about a name that it does not know has names that are like
-    it."""
+    """plotter.add_volume(); an error about a name that it does not know says what there is instead,
+    or has names that are like it."""
     try:
         return plotter.add_volume(*positional, **named)
     except TypeError as error:
         wrong = re.match(r'"(\w+)".* invalid keyword', str(error))
         if not wrong:
             raise
+        if wrong[1] in _INSTEAD:
+            raise TypeError("%s; %s" % (error, _INSTEAD[wrong[1]])) from None
         known = {name for function in (plot, add_to, plotter.add_volume)
                  for name in inspect.signature(function).parameters}
         near = difflib.get_close_matches(wrong[1], sorted(known))
@@ -391,6 +432,8 @@ def add_to(
         _follow_mesh(plotter.renderer, mapper, mesh, choose)
     if blending == "isosurface":
         _set_isovalues(look, 3 if isovalues is None else isovalues, mapper.scalar_range)
+    if not chosen.is_mixed:
+        _warn_of_emptiness(look, chosen, blending == "isosurface")
     if not chosen.has_colors:
         _add_bar(plotter, chosen.title, scalar_bar_args, show_scalar_bar)
     if render:

@@ -256,6 +256,28 @@ class TestArguments(unittest.TestCase):
         self.assertEqual((look.ambient, look.diffuse), (0.5, 0.25))
         self.assertEqual(tuple(plotter.mapper.scalar_range), (-2.0, 2.0))
 
+    def test_nothing_to_be_seen(self):
+        """A warning says why."""
+        cube = make_cube()
+        low, high = cube["y"].min(), cube["y"].max()
+        plotter = pyvista.Plotter(off_screen=True)
+        self.addCleanup(plotter.close)
+        inside = 0.75 * low + 0.25 * high
+        for named, message in (
+                ({"clim": (high + 1.0, high + 2.0)}, "the opacity is 0 for all of its values"),
+                ({"opacity": 0.0}, "the opacity is 0"), ({"opacity": [0.0, 0.0]}, "opacity is 0"),
+                ({"isovalues": [high + 1.0]}, "it has none of the isovalues"),
+                ({"isovalues": 3, "clim": (low - 9.0, low - 1.0)}, "none of the isovalues")):
+            with self.assertWarnsRegex(UserWarning, "^Nothing of 'y' can be seen: .*" + message):
+                add_volume(plotter, cube, "y", **named)
+        for named in ({}, {"clim": (low - 2.0, low - 1.0)}, {"opacity": [1.0, 0.0, 0.0]},
+                      {"clim": (inside, inside + 1.0)}, {"clim": (low - 1.0, low + 0.01)},
+                      {"isovalues": [high + 1.0, inside]}, {"blending": "maximum"},
+                      {"opacity": [0.0] * 20 + [1.0] + [0.0] * 20}):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", UserWarning)
+                add_volume(plotter, cube, "y", **named)
+
     def test_values_that_are_too_near(self):
         cube = make_cube()
         plotter = pyvista.Plotter(off_screen=True)

@@ -303,6 +303,8 @@ class TestPyVistaPlotters(unittest.TestCase):
                 add_ours(plotter, FIRST, "height", **named)
         for named, message in (({"opacitty": 0.5}, "did you mean opacity"),
                                ({"windowsize": (9, 9)}, "did you mean window_size"),
+                               ({"color": "red"}, "cmap=.* draws all values in one colour$"),
+                               ({"show_edges": True}, "adds the edges$"),
                                ({"xyzzy": 1}, "`$")):
             with self.assertRaisesRegex(TypeError, message):
                 add_ours(plotter, FIRST, "height", **named)
