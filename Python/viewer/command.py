@@ -15,7 +15,7 @@ from .colors import COLOR_MAPS
 from .files import collecting_reports
 from .guard import run_guarded
 from .options import OptionParser
-from .pictures import draw_picture, grab_picture, write_picture
+from .pictures import check_picture, draw_picture, grab_picture, write_picture
 from .reading import MeshSeries, ReadingError, read_surface
 from .scene import AXES, MeshScene
 
@@ -125,6 +125,8 @@ def _add_view(parser):
     parser.add_argument("--view", type=float, nargs=3, metavar=("X", "Y", "Z"),
                         default=(1.0, 0.7, 1.0),
                         help="vector from the mesh to the eye; default: 1 0.7 1")
+    parser.add_argument("--zoom", type=float, default=1.0, metavar="FACTOR",
+                        help="enlarges the mesh; default: 1, all of it fits into the picture")
     parser.add_argument("--up", choices=list(AXES), default="y", help="upward axis; default: y")
     parser.add_argument("--size", type=_size, default=(1024, 768), metavar="WxH",
                         help="size of the window or picture; default: 1024x768")
@@ -160,6 +162,33 @@ def _split_clip(text):
         raise ReadingError(f"--clip: '{share}' is not a number") from None
 
 
+def check(options):
+    """What needs no mesh, before one is read, which may take minutes: a ReadingError about options
+    that exclude each other, and files that cannot be written."""
+    if options.isovalues and options.blend not in (None, "isosurface"):
+        raise ReadingError("--isovalues are those of --blend isosurface, not of --blend "
+                           + options.blend)
+    if options.index is not None and not options.water:
+        raise ReadingError("--index is that behind a surface, which --water SURFACE names")
+    if len(options.units) > 2:
+        raise ReadingError("--units takes at most two: of lengths and of the array")
+    if not 0.0 < math.hypot(*options.view) < math.inf:
+        raise ReadingError("--view {:g} {:g} {:g} is no direction".format(*options.view))
+    if options.compare and (options.orbit or options.movie or options.web):
+        raise ReadingError("--compare makes a picture; it goes without --orbit, --movie and --web")
+    if options.orbit and not (options.compare or options.output or options.movie):
+        raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
+    if options.watch and (options.output or options.movie):
+        raise ReadingError("--watch goes with the window or --web")
+    if not (options.output or options.movie or options.web or options.compare or _has_display()):
+        raise ReadingError("There is no display; use --output PICTURE.png or --web")
+    if options.movie:
+        from .movies import check_movie
+        check_movie(options.movie)
+    elif options.output:
+        check_picture(options.output)
+
+
 def make_scene(options, report=lambda line: None):
     """The scene of the options. report: see MeshScene."""
     limits = options.range and tuple(options.range)
@@ -176,9 +205,6 @@ def make_scene(options, report=lambda line: None):
     scene.set_opacities(options.opacity)
     scene.set_blend(options.blend or "composite")
     if options.isovalues:
-        if options.blend not in (None, "isosurface"):
-            raise ReadingError("--isovalues are those of --blend isosurface, not of --blend "
-                               + options.blend)
         scene.set_isovalues(options.isovalues)
     scene.set_lit(options.light or options.shadows)
     scene.set_shadows(1.0 if options.shadows else 0.0)
@@ -192,15 +218,10 @@ def make_scene(options, report=lambda line: None):
     if options.water:
         scene.set_surface(read_surface(options.water),
                           _WATER if options.index is None else options.index)
-    elif options.index is not None:
-        raise ReadingError("--index is that behind a surface, which --water SURFACE names")
-    if len(options.units) > 2:
-        raise ReadingError("--units takes at most two: of lengths and of the array")
     scene.set_units(*options.units)
     for name in scene.furniture.NAMES:
         scene.furniture.set(name, getattr(options, name))
-    if options.view and not 0.0 < math.hypot(*options.view) < math.inf:
-        raise ReadingError("--view {:g} {:g} {:g} is no direction".format(*options.view))
+    scene.set_zoom(options.zoom)
     scene.reset_camera(options.view, AXES[options.up])
     return scene
 
@@ -211,8 +232,6 @@ def _has_display():
 
 def _compare(scene, options):
     from .contest import TITLE, compare_on, format_row, make_panels, show_panels
-    if options.orbit or options.movie or options.web:
-        raise ReadingError("--compare makes a picture; it goes without --orbit, --movie and --web")
     pairs = []
     with collecting_reports() as reports:
         for found, picture in compare_on(scene, options.size):
@@ -246,10 +265,6 @@ def _show(scene, options):
     watch = _make_watch(scene) if options.watch else None
     if options.compare:
         _compare(scene, options)
-    elif options.orbit and not (options.output or options.movie):
-        raise ReadingError("--orbit needs --output PICTURE.png or --movie FILE.mp4")
-    elif options.watch and (options.output or options.movie):
-        raise ReadingError("--watch goes with the window or --web")
     elif options.movie or options.orbit:
         _write_views(scene, options)
     elif options.output:
@@ -260,8 +275,6 @@ def _show(scene, options):
     elif options.web:
         from .web import serve
         serve(scene, options.host, options.port, watch)
-    elif not _has_display():
-        raise ReadingError("There is no display; use --output PICTURE.png or --web")
     else:
         from .window import Window
         Window(scene, options.size, watch=watch).start()
@@ -273,6 +286,7 @@ def main(arguments=None):
     parser.complete()
     try:
         options = parser.parse(arguments)
+        check(options)
         _show(make_scene(options, lambda line: print(line, flush=True)), options)
     except ReadingError as error:
         print(f"meniscus: {error}", file=sys.stderr)

@@ -55,11 +55,14 @@ def compare_on(scene: Any, size: Sequence[int]) -> Iterator[tuple[Comparison, An
         raise ReadingError("--compare draws what VTK's mappers can: the blend mode composite, "
                            "without --light, --shadows, --clip and --water")
     association, _ = arrays_of(scene.data)[scene.array]
+    width, height = (max(length // _COLUMNS, 1) for length in size)
     renderer = vtkRenderer()
     renderer.AddVolume(scene.volume)
-    renderer.GetActiveCamera().DeepCopy(scene.renderer.GetActiveCamera())
+    camera = renderer.GetActiveCamera()
+    camera.DeepCopy(scene.renderer.GetActiveCamera())
+    scene.fit_camera(camera, width / height)
     renderer.ResetCameraClippingRange()
-    window = make_window(renderer, [length // _COLUMNS for length in size], offscreen=True)
+    window = make_window(renderer, (width, height), offscreen=True)
     yield from compare_mappers(window, renderer, scene.volume,
                                lambda: _make_grid(scene, association), association == "points")
     window.Finalize()

@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Views that turn and time steps, as numbered pictures or as a movie."""
+import importlib
 import os
 import tempfile
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .files import ReadingError
-from .pictures import draw_checked, grab_picture, make_window, write_picture
+from .pictures import check_folder, draw_checked, grab_picture, make_window, write_picture
 
 ORBIT_FRAMES = 120
 FRAMES_PER_SECOND = 25
@@ -40,15 +41,22 @@ def write_pictures(scene, size, name, orbit, transparent):
         write_picture(picture, f"{stem}-{number:03d}{ending or '.png'}")
 
 
-def write_movie(scene, size, name, orbit):
-    """Writes a movie by the package imageio. One time step and no orbit mean an orbit."""
+def check_movie(name):
+    """A movie that cannot be written is a ReadingError: its name, or the package that writes it."""
     try:
-        import imageio.v2 as imageio
+        importlib.import_module("imageio.v2")
     except ImportError:
         raise ReadingError("--movie needs the package imageio: pip install 'imageio[ffmpeg]'"
                            ) from None
     if os.path.splitext(name)[1].lower() not in MOVIE_ENDINGS:
         raise ReadingError(f"{name}: the ending of a movie is one of " + ", ".join(MOVIE_ENDINGS))
+    check_folder(name)
+
+
+def write_movie(scene, size, name, orbit):
+    """Writes a movie by the package imageio. One time step and no orbit mean an orbit."""
+    check_movie(name)
+    import imageio.v2 as imageio
     if not orbit and len(scene.series.get_times()) == 1:
         orbit = ORBIT_FRAMES
     even = tuple(max(2, length - length % 2) for length in size)  # as codecs need it

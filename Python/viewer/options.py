@@ -75,9 +75,16 @@ class OptionParser(argparse.ArgumentParser):
         if not options.mesh:
             options.mesh = self.get_default("mesh")
         if not options.mesh:
-            self.error("the following arguments are required: MESH, before options that take any "
-                       "number of values")
+            takers = [word for word in arguments if self._takes_any_number(word)]
+            self.error("no mesh is named: meniscus MESH, or meniscus demo" + (
+                f"; it goes before {takers[-1]}, which takes any number of values" if takers else ""
+            ))
         return options
+
+    def _takes_any_number(self, word: str) -> bool:
+        """Whether a word is the name of an option with any number of values."""
+        return word.startswith("--") and word[2:] in self._names and (
+            self._names[word[2:]].nargs == "+")
 
     def _put_mesh_first(self, words: Sequence[str]) -> list[str]:
         """Words of a command line whose files are first where they follow an option with any number
@@ -86,11 +93,13 @@ class OptionParser(argparse.ArgumentParser):
         others: list[str] = []
         target, has_numbers = files, False
         for place, word in enumerate(words):
+            if has_numbers and words[place - 1].startswith("--") and not _is_number(word):
+                self.error(f"argument {words[place - 1]}: '{word}' is not a number")
             if word == "--":
                 return [*files, *others, *words[place:]]
             if word.startswith("-") and not _is_number(word):
-                action = self._names.get(word[2:])
-                has_numbers = action is not None and action.nargs == "+" and action.type is float
+                has_numbers = (self._takes_any_number(word)
+                               and self._names[word[2:]].type is float)
                 target = others
             elif has_numbers and not _is_number(word):
                 target = files

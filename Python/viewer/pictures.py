@@ -77,12 +77,25 @@ def grab_picture(window, transparent=False):
     return picture.GetOutput()
 
 
-def write_picture(picture, name):
-    """Writes a PNG file; a file that cannot be written, and the ending of another format, is a
-    ReadingError."""
+def check_folder(name):
+    """A file whose folder does not exist is a ReadingError."""
+    folder = os.path.dirname(name)
+    if folder and not os.path.isdir(folder):
+        raise ReadingError(f"{name}: there is no folder '{folder}'")
+
+
+def check_picture(name):
+    """The name of a picture that cannot be written is a ReadingError."""
     ending = os.path.splitext(name)[1]
     if ending and ending.lower() != ".png":
         raise ReadingError(f"{name}: pictures are PNG files, whose names end in '.png'")
+    check_folder(name)
+
+
+def write_picture(picture, name):
+    """Writes a PNG file; a file that cannot be written, and the ending of another format, is a
+    ReadingError."""
+    check_picture(name)
     try:
         with open(name, "wb"):
             pass

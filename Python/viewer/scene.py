@@ -106,7 +106,7 @@ class MeshScene:
         self.furniture.set_data(self.data, self.bounds)
 
     def _add_bar(self):
-        self._turns, self._reset_at = 1, None  # of reset_camera()
+        self._turns, self._reset_at, self._zoom = 1, None, 1.0  # of reset_camera()
         self.bar = vtkScalarBarActor()
         self.bar.SetLabelFormat("%.3g")
         self.bar.SetMaximumWidthInPixels(90)
@@ -130,15 +130,23 @@ class MeshScene:
         self.bar.SetPosition(1.0 - room, 0.08)
         camera = self.renderer.GetActiveCamera()
         if camera.GetMTime() == self._reset_at:
-            self._set_distance((1.0 - room) * width / height)
+            self.fit_camera(camera, (1.0 - room) * width / height)
+            self.renderer.ResetCameraClippingRange()
         if camera.GetWindowCenter() != (room, 0.0):
             camera.SetWindowCenter(room, 0.0)
 
-    def _set_distance(self, aspect):
+    def set_zoom(self, zoom):
+        """Sets the factor by which the first view, and that of reset_camera(), enlarges the mesh;
+        with 1, its bounds fit into the picture."""
+        if not 0.0 < zoom < math.inf:
+            raise ReadingError("The zoom must be above 0")
+        self._zoom = zoom
+
+    def fit_camera(self, camera, aspect):
         """Moves the eye so that the corners of the mesh's bounds fit into a picture of that width
-        by height, from each of the directions of reset_camera()."""
-        camera = self.renderer.GetActiveCamera()
-        fill = (0.8 if self.furniture.get("axes") else 0.94) * math.tan(
+        by height, from each of the directions of reset_camera(); with a zoom, into one that is
+        larger by this factor."""
+        fill = self._zoom * (0.8 if self.furniture.get("axes") else 0.94) * math.tan(
             math.radians(0.5 * camera.GetViewAngle()))
         corners = self._get_corners()
         distance = 0.0
@@ -154,7 +162,6 @@ class MeshScene:
         camera.SetPosition(position)
         if 0.0 < distance < math.inf:  # bounds may be too large for their differences
             camera.Dolly(camera.GetDistance() / distance)
-            self.renderer.ResetCameraClippingRange()
 
     def _get_corners(self):
         """Corners of the mesh's bounds, from their middle."""

@@ -411,6 +411,20 @@ class TestCommand(FolderCase):
                      self.name("constant.vtu"))
         self.assertGreater(self.draw(name).std(), 5)
 
+    def test_zoom(self):
+        """Of half the size, the mesh fills half of the height, in the same place; of twice the
+        size, all of it, with its borders outside."""
+        ends = []
+        for zoom in (), ("--zoom", "0.5"), ("--zoom", "2"):
+            rows = self.draw(self.mesh, "--opacity", "1", "1", "--view", "0", "0", "1", *zoom
+                             ).reshape(120, 160, 3)
+            shown = abs(rows - rows[:, :1]).max(axis=2) > 20
+            ends.append(numpy.flatnonzero(shown[:, 40:80].any(axis=1))[[0, -1]])
+        (low, high), (half_low, half_high), twice = ends
+        self.assertAlmostEqual(half_high - half_low, 0.5 * (high - low), delta=2)
+        self.assertAlmostEqual(half_high + half_low, high + low, delta=2)
+        self.assertEqual(list(twice), [0, 119])
+
     def test_view_along_the_upward_axis(self):
         for view in (("0", "1", "0"), ("0", "-2", "0")):
             scene = make_scene(make_parser().parse_args([self.mesh, "--view", *view]))
@@ -469,6 +483,8 @@ class TestCommand(FolderCase):
                 ([self.mesh, "--clip", "x:nan"], "finite"),
                 ([self.mesh, "--density", "inf"], "above 0"),
                 ([self.mesh, "--view", "0", "0", "0"], "no direction"),
+                ([self.mesh, "--zoom", "0"], "zoom must be above 0"),
+                ([self.mesh, "--zoom", "nan"], "zoom must be above 0"),
                 ([self.mesh, "--step", "1"], "no time step 1; the mesh has "),
                 ([self.mesh, "--isovalues", "9"], "isovalues; 'r' goes from 0 to 1.73"),
                 ([self.mesh, "--blend", "maximum", "--range", "5", "6"], "the opacity is 0"),
@@ -480,7 +496,7 @@ class TestCommand(FolderCase):
                 ([self.mesh, "--water", self.water, "--index", "nan"], "above 0"),
                 ([self.mesh, self.name("absent.vtu")], "absent.vtu: there is no such file"),
                 ([self.mesh, "--output", self.name("picture.jpg")], "end in '.png'"),
-                ([self.mesh, "--output", self.name("no/folder.png")], "No such file")):
+                ([self.mesh, "--output", self.name("no/folder.png")], "there is no folder")):
             with self.subTest(arguments=arguments):
                 if "--output" not in arguments:
                     arguments = [*arguments, "--output", self.name("none.png")]

@@ -226,9 +226,18 @@ class TestMessages(Case):
                       ["--light", "--opacity", "0", "-1e-5", "--", "a.vtu", "b.vtu"],
                       ["a.vtu", "--opacity", "0", "-1e-5", "b.vtu", "--light"]):
             self.assertEqual(vars(make_parser().parse(words)), vars(first), words)
-        with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit):
-            make_parser().parse(["--units", "m", "a.vtu"])
-        self.assertIn("required: MESH, before options", message.getvalue())
+
+    def test_command_lines_that_are_refused(self):
+        for words, expected in (
+                (["--units", "m", "a.vtu"],
+                 "meniscus demo; it goes before --units, which takes any number of values\n"),
+                (["--light"], "no mesh is named: meniscus MESH, or meniscus demo\n"),
+                (["a.vtu", "--opacity", "linear"], "--opacity: 'linear' is not a number"),
+                (["--isovalues", "a.vtu", "0.5"], "--isovalues: 'a.vtu' is not a number")):
+            with contextlib.redirect_stderr(io.StringIO()) as message, \
+                    self.assertRaises(SystemExit):
+                make_parser().parse(words)
+            self.assertIn(expected, message.getvalue())
 
     def test_help(self):
         """has titles, and examples that the parser takes."""
@@ -288,7 +297,20 @@ class TestMessages(Case):
         with mock.patch.dict(sys.modules, {"imageio": imageio, "imageio.v2": imageio.v2}):
             status, _, errors = self.run_command(self.mesh, "--movie", self.name("absent/turn.mp4"))
         self.assertEqual(status, 1)
-        self.assertIn("cannot be written: [Errno 2]", errors)
+        self.assertIn("there is no folder", errors)
+
+    def test_before_the_mesh_is_read(self):
+        """What needs no mesh is told at once."""
+        absent = self.name("absent")
+        for arguments, message in (
+                (["--output", absent + ".jpg"], "end in '.png'"),
+                (["--output", absent + "/a.png"], f"there is no folder '{absent}'"),
+                (["--orbit", "9"], "--orbit needs"), (["--movie", "a.xyz"], "imageio|ending"),
+                (["--blend", "maximum", "--isovalues", "1"], "--isovalues"),
+                (["--view", "0", "0", "0"], "no direction")):
+            status, output, errors = self.run_command("absent.vtu", *arguments)
+            self.assertEqual((status, output), (1, ""))
+            self.assertRegex(errors, message)
 
 
 class TestCompletion(Case):
@@ -325,7 +347,10 @@ class TestCompare(Case):
         pixels = read_picture(name).reshape(160, 240, 3)
         for lower in (0, 80):
             for left in (0, 120):
+                panel = pixels[lower:lower + 60, left:left + 120].max(axis=2) > 20
                 self.assertGreater(pixels[lower:lower + 60, left:left + 120].max(), 60)
+                # The block, seen from (1, 0.7, 1), fills the height of its panel.
+                self.assertGreater(panel.any(axis=1).sum(), 50)
 
     def test_the_scene_stays(self):
         scene = make_scene(make_parser().parse([self.mesh, "--array", "z"]))
