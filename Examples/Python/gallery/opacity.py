@@ -7,7 +7,7 @@ from . import common
 
 PAPER = ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
 # Shares of the mesh's diagonal; the ball's diameter is 0.58 of it.
-DISTANCES = ((1.0, "unit distance: the diagonal"), (0.1, "a tenth of it"),
+DISTANCES = ((1.0, "the whole diagonal"), (0.1, "a tenth of it"),
              (0.01, "a hundredth of it"))
 FUNCTIONS = ((((0.0, 1.0), (1.0, 1.0)), "opacity 1 everywhere"),
              (((0.0, 0.0), (1.0, 1.0)), "a ramp"),
