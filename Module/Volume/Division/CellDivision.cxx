@@ -24,27 +24,15 @@ namespace
 
 constexpr std::uint8_t EveryEdge = 0x3F;
 
-}
-
-//------------------------------------------------------------------------------
-DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFields& fields,
-  const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
-  const std::function<bool(double)>& progress)
+/**
+ * Splits the pieces until their errors are within the tolerance or the budget is spent; in that
+ * case the errors are as small as it allows. Returns false after an abort.
+ */
+bool Refine(DivisionRound& round, const DivisionLimits& limits, DivisionWatch& watch,
+  const std::vector<CellPiece>& pieces)
 {
-  this->Pieces = std::move(pieces);
-  this->Counts = DivisionCounts();
-  for (CellPiece& piece : this->Pieces)
-  {
-    piece.NewEdges = piece.Degree > 0 ? EveryEdge : 0;
-  }
-  DivisionWatch watch(loop, progress);
-  DivisionRound round(this->Pieces, fields, functions, limits, watch);
-  if (!watch.Run(0.25, [&round]() { round.Measure(); }))
-  {
-    return DivisionStatus::Aborted;
-  }
   const auto hasRoom = [&]()
-  { return static_cast<std::int64_t>(this->Pieces.size()) < limits.MostPieces; };
+  { return static_cast<std::int64_t>(pieces.size()) < limits.MostPieces; };
   // A threshold that takes less than the budget is lowered by this factor at least. One that takes
   // more is raised towards the error that has been reached, unless they are as close as that.
   constexpr double step = 0.8;
@@ -65,7 +53,7 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
         });
       if (!goesOn)
       {
-        return DivisionStatus::Aborted;
+        return false;
       }
       if (!fits && threshold < step * reached.Error && attempts-- > 0)
       {
@@ -82,7 +70,7 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
       if (isMarked &&
         !(watch.Run(0.25, [&round]() { round.AddPoints(); }) && watch.Run(0.25, split)))
       {
-        return DivisionStatus::Aborted;
+        return false;
       }
     }
     if (fits)
@@ -94,6 +82,32 @@ DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFi
   if (!fits && round.GetError() > reached.Error)
   {
     round.Restore(reached);
+  }
+  return true;
+}
+
+}
+
+//------------------------------------------------------------------------------
+DivisionStatus CellDivision::Divide(std::vector<CellPiece> pieces, const PointFields& fields,
+  const ShapeFunctionsMaker& functions, const DivisionLimits& limits, const RangeLoop& loop,
+  const std::function<bool(double)>& progress)
+{
+  this->Pieces = std::move(pieces);
+  this->Counts = DivisionCounts();
+  for (CellPiece& piece : this->Pieces)
+  {
+    piece.NewEdges = piece.Degree > 0 ? EveryEdge : 0;
+  }
+  DivisionWatch watch(loop, progress);
+  DivisionRound round(this->Pieces, fields, functions, limits, watch);
+  if (!watch.Run(0.25, [&round]() { round.Measure(); }))
+  {
+    return DivisionStatus::Aborted;
+  }
+  if (!Refine(round, limits, watch, this->Pieces))
+  {
+    return DivisionStatus::Aborted;
   }
   this->Counts.Error = round.GetError();
   this->Counts.ReachedTolerance = !round.HasPending();

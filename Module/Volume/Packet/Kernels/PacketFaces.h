@@ -39,7 +39,50 @@ public:
   }
 
   /** Lanes whose ray enters by the face. */
-  Mask Test(const LaneRays<Simd>& rays);
+  Mask Test(const LaneRays<Simd>& rays)
+  {
+    Corner corners[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const Int place[2] = { Simd::Splat(this->Seen[k]->Place[0]),
+        Simd::Splat(this->Seen[k]->Place[1]) };
+      const Float depth = Simd::Splat(this->Depths[k]);
+      Float coordinates[2];
+      if (this->RaysAreFine)
+      {
+        rays.AboutFineRays(place, Simd::Splat(this->GridDepths[k]), depth, coordinates);
+      }
+      else
+      {
+        rays.AboutRays(place, depth, coordinates);
+      }
+      corners[k] = { coordinates[0], coordinates[1] };
+    }
+    const Float zero = Simd::Splat(0.0f);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Corner& p = corners[k];
+      const Corner& q = corners[(k + 1) % 3];
+      this->Areas[k] = Simd::CrossProduct(p.U, p.V, q.U, q.V);
+    }
+    const Float least = Simd::Min(this->Areas[0], Simd::Min(this->Areas[1], this->Areas[2]));
+    const Mask inside = least > zero;
+    const Mask outside = least < zero;
+    if (Simd::Bits(inside | outside) == (1u << Simd::Width) - 1u)
+    {
+      return inside;
+    }
+    Mask entered = Simd::Not(outside);
+    for (int k = 0; k < 3; ++k)
+    {
+      const int next = (k + 1) % 3;
+      const Mask before =
+        Simd::FromBits(this->Ids[k] < this->Ids[next] ? (1u << Simd::Width) - 1u : 0u);
+      entered =
+        entered & ((this->Areas[k] > zero) | PassesLeft<Simd>(corners[k], corners[next], before));
+    }
+    return entered;
+  }
 
   /**
    * Depths at which the rays of the last test that enter do so, in grid units from the pivot. A
@@ -73,53 +116,6 @@ private:
   /** Twice the areas that the edges 01, 12, 20 span with the rays. */
   Float Areas[3];
 };
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketFaceTest<Simd>::Test(const LaneRays<Simd>& rays) -> Mask
-{
-  Corner corners[3];
-  for (int k = 0; k < 3; ++k)
-  {
-    const Int place[2] = { Simd::Splat(this->Seen[k]->Place[0]),
-      Simd::Splat(this->Seen[k]->Place[1]) };
-    const Float depth = Simd::Splat(this->Depths[k]);
-    Float coordinates[2];
-    if (this->RaysAreFine)
-    {
-      rays.AboutFineRays(place, Simd::Splat(this->GridDepths[k]), depth, coordinates);
-    }
-    else
-    {
-      rays.AboutRays(place, depth, coordinates);
-    }
-    corners[k] = { coordinates[0], coordinates[1] };
-  }
-  const Float zero = Simd::Splat(0.0f);
-  for (int k = 0; k < 3; ++k)
-  {
-    const Corner& p = corners[k];
-    const Corner& q = corners[(k + 1) % 3];
-    this->Areas[k] = Simd::CrossProduct(p.U, p.V, q.U, q.V);
-  }
-  const Float least = Simd::Min(this->Areas[0], Simd::Min(this->Areas[1], this->Areas[2]));
-  const Mask inside = least > zero;
-  const Mask outside = least < zero;
-  if (Simd::Bits(inside | outside) == (1u << Simd::Width) - 1u)
-  {
-    return inside;
-  }
-  Mask entered = Simd::Not(outside);
-  for (int k = 0; k < 3; ++k)
-  {
-    const int next = (k + 1) % 3;
-    const Mask before =
-      Simd::FromBits(this->Ids[k] < this->Ids[next] ? (1u << Simd::Width) - 1u : 0u);
-    entered =
-      entered & ((this->Areas[k] > zero) | PassesLeft<Simd>(corners[k], corners[next], before));
-  }
-  return entered;
-}
 
 //------------------------------------------------------------------------------
 /** Finds the entries of a tile's rays. */

@@ -85,7 +85,31 @@ public:
 
 private:
   template <class Values>
-  Mask Take(Mask segments, const Values& from, const Values& to, Float length);
+  Mask Take(Mask segments, const Values& from, const Values& to, Float length)
+  {
+    // Neither infinite nor NaN.
+    const auto isFinite = [](Float a, Float b)
+    { return Simd::Abs(a) + Simd::Abs(b) < Simd::Splat(3.0e+38f); };
+    if (!this->Emitting)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        this->Sums[i].Add(segments & isFinite(from.Of[i], to.Of[i]),
+          Simd::Splat(0.5f) * (from.Of[i] + to.Of[i]) * length);
+      }
+      return Simd::FromBits(0);
+    }
+    const Mask valid = segments & isFinite(from.Of[0], to.Of[0]) & isFinite(from.Of[1], to.Of[1]);
+    const auto take = [valid](Float& kept, Float value)
+    { kept = Simd::Select(valid, value, kept); };
+    // Interpolation may round below zero.
+    take(this->Attenuation, Simd::Max(from.Of[0], Simd::Splat(0.0f)));
+    take(this->AttenuationTo, Simd::Max(to.Of[0], Simd::Splat(0.0f)));
+    take(this->Emission, from.Of[1]);
+    take(this->EmissionTo, to.Of[1]);
+    take(this->Remaining, length);
+    return valid;
+  }
 
   bool Emitting;
   CompensatedSum<Simd> Sums[3];
@@ -99,35 +123,6 @@ private:
   Float EmissionTo;
   Float Remaining;
 };
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfCells>
-template <class Values>
-inline auto BinMeasureModel<Simd, OfCells>::Take(
-  Mask segments, const Values& from, const Values& to, Float length) -> Mask
-{
-  // Neither infinite nor NaN.
-  const auto isFinite = [](Float a, Float b)
-  { return Simd::Abs(a) + Simd::Abs(b) < Simd::Splat(3.0e+38f); };
-  if (!this->Emitting)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      this->Sums[i].Add(segments & isFinite(from.Of[i], to.Of[i]),
-        Simd::Splat(0.5f) * (from.Of[i] + to.Of[i]) * length);
-    }
-    return Simd::FromBits(0);
-  }
-  const Mask valid = segments & isFinite(from.Of[0], to.Of[0]) & isFinite(from.Of[1], to.Of[1]);
-  const auto take = [valid](Float& kept, Float value) { kept = Simd::Select(valid, value, kept); };
-  // Interpolation may round below zero.
-  take(this->Attenuation, Simd::Max(from.Of[0], Simd::Splat(0.0f)));
-  take(this->AttenuationTo, Simd::Max(to.Of[0], Simd::Splat(0.0f)));
-  take(this->Emission, from.Of[1]);
-  take(this->EmissionTo, to.Of[1]);
-  take(this->Remaining, length);
-  return valid;
-}
 
 //------------------------------------------------------------------------------
 /**

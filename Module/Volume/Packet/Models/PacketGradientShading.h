@@ -74,7 +74,37 @@ public:
 
   /** Starts new segments for `lanes`, a subset of the lanes that made a step. */
   template <class Place>
-  void Begin(Mask lanes, const Place& place);
+  void Begin(Mask lanes, const Place& place)
+  {
+    if (Simd::Bits(lanes) == 0)
+    {
+      this->Continues = Simd::AndNot(this->Continues, place.Stepped);
+      return;
+    }
+    if constexpr (OfVertices)
+    {
+      this->Front.Replace(lanes, this->Back);
+      const Mask elsewhere = lanes & (Simd::Not(this->Continues) | place.Late);
+      if (Simd::Bits(elsewhere) != 0)
+      {
+        this->Evaluate(elsewhere, this->ToFrame(place.StartValues), place.StartValues,
+          place.StartDepth, place.Ray, this->Front);
+      }
+      this->Evaluate(lanes, this->ToFrame(place.EndValues), place.EndValues, place.EndDepth,
+        place.Ray, this->Back);
+      this->Continues = Simd::AndNot(this->Continues, place.Stepped) | lanes;
+    }
+    else
+    {
+      const Vector gradient = this->ToFrame(place.CellGradient);
+      this->SetOpacity(lanes, gradient, this->Front);
+      this->Back.Opacity = Simd::Select(lanes, this->Front.Opacity, this->Back.Opacity);
+      if (this->Medium.Shading)
+      {
+        this->LightCell(lanes, gradient, place);
+      }
+    }
+  }
 
   /** Density of the medium at a fraction of the segment. */
   Float ApplyGradientOpacity(Float density, Float done) const
@@ -134,18 +164,98 @@ private:
   /** Effects of a gradient in `lanes` of an end of the segments. */
   template <class Values, class Line>
   void Evaluate(Mask lanes, const Vector& gradient, const Values& values, Float depth,
-    const Line& ray, End& end);
-  void SetOpacity(Mask lanes, const Vector& gradient, End& end);
+    const Line& ray, End& end)
+  {
+    if (this->Medium.Shading)
+    {
+      end.ReplaceLight(lanes, this->Light(gradient, values, depth, ray));
+    }
+    this->SetOpacity(lanes, gradient, end);
+  }
+
+  void SetOpacity(Mask lanes, const Vector& gradient, End& end)
+  {
+    if (this->Medium.NumberOfOpacityIntervals == 0)
+    {
+      return;
+    }
+    const Float square = Simd::Fma(
+      gradient[0], gradient[0], Simd::Fma(gradient[1], gradient[1], gradient[2] * gradient[2]));
+    const Float size = Simd::Splat(this->Medium.GradientMagnitude) * Simd::Sqrt(square);
+    const auto& fields = this->Opacity.GetFields();
+    const Mask outside = lanes & ((size < fields.Lower) | (size > fields.Upper));
+    if (Simd::Bits(outside) != 0)
+    {
+      this->Opacity.Find(outside, size);
+    }
+    const Float opacity =
+      Simd::Max(Simd::Fma(size - fields.Lower, fields.AttenuationSlope, fields.Attenuation),
+        Simd::Splat(0.0f));
+    end.Opacity = Simd::Select(lanes, opacity, end.Opacity);
+  }
   /** @param values interpolated at the place; their last triple is the light. */
   template <class Values, class Line>
   PacketLit<Simd> Light(
-    const Vector& gradient, const Values& values, Float depth, const Line& ray) const;
+    const Vector& gradient, const Values& values, Float depth, const Line& ray) const
+  {
+    if constexpr (Shadowed)
+    {
+      return this->Lights.LightInParts(gradient, depth, ray).Attenuate(ShadowOf(values));
+    }
+    else
+    {
+      return this->Lights.Light(gradient, depth, ray);
+    }
+  }
+
+  /** Lights both ends of segments with the same gradient. */
   template <class Place>
-  void LightCell(Mask lanes, const Vector& gradient, const Place& place);
+  void LightCell(Mask lanes, const Vector& gradient, const Place& place)
+  {
+    if (this->Lights.DependOnPlace())
+    {
+      this->Front.ReplaceLight(
+        lanes, this->Light(gradient, place.StartValues, place.StartDepth, place.Ray));
+      this->Back.ReplaceLight(
+        lanes, this->Light(gradient, place.EndValues, place.EndDepth, place.Ray));
+    }
+    else if constexpr (Shadowed)
+    {
+      const PacketLitParts<Simd> parts =
+        this->Lights.LightInParts(gradient, place.StartDepth, place.Ray);
+      this->Front.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.StartValues)));
+      this->Back.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.EndValues)));
+    }
+    else
+    {
+      const PacketLit<Simd> lit =
+        this->Light(gradient, place.StartValues, place.StartDepth, place.Ray);
+      this->Front.ReplaceLight(lanes, lit);
+      this->Back.ReplaceLight(lanes, lit);
+    }
+  }
+
+  /** Transmittances of the lights among the values at a place. */
   template <class Values>
-  static Vector ShadowOf(const Values& values);
+  static Vector ShadowOf(const Values& values)
+  {
+    constexpr int first = OfVertices ? 3 : 0;
+    return { values.Of[first + AmbientTransmittance], values.Of[first + BrightestTransmittance],
+      values.Of[first + OtherTransmittance] };
+  }
+
   template <class Values>
-  Vector ToFrame(const Values& values) const;
+  Vector ToFrame(const Values& values) const
+  {
+    Vector gradient;
+    for (int row = 0; row < 3; ++row)
+    {
+      const float(&matrix)[3] = this->Medium.GradientToFrame[row];
+      gradient[row] = Simd::Fma(Simd::Splat(matrix[0]), values.Of[0],
+        Simd::Fma(Simd::Splat(matrix[1]), values.Of[1], Simd::Splat(matrix[2]) * values.Of[2]));
+    }
+    return gradient;
+  }
 
   const GradientShading& Medium;
   PacketLights<Simd> Lights;
@@ -155,150 +265,5 @@ private:
   /** Lanes whose next segment begins where the last one ended, with the same gradient. */
   Mask Continues;
 };
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Values>
-inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ToFrame(const Values& values) const
-  -> Vector
-{
-  Vector gradient;
-  for (int row = 0; row < 3; ++row)
-  {
-    const float(&matrix)[3] = this->Medium.GradientToFrame[row];
-    gradient[row] = Simd::Fma(Simd::Splat(matrix[0]), values.Of[0],
-      Simd::Fma(Simd::Splat(matrix[1]), values.Of[1], Simd::Splat(matrix[2]) * values.Of[2]));
-  }
-  return gradient;
-}
-
-//------------------------------------------------------------------------------
-/** Transmittances of the lights among the values at a place. */
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Values>
-inline auto PacketGradientShading<Simd, OfVertices, Shadowed>::ShadowOf(const Values& values)
-  -> Vector
-{
-  constexpr int first = OfVertices ? 3 : 0;
-  return { values.Of[first + AmbientTransmittance], values.Of[first + BrightestTransmittance],
-    values.Of[first + OtherTransmittance] };
-}
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Values, class Line>
-inline PacketLit<Simd> PacketGradientShading<Simd, OfVertices, Shadowed>::Light(
-  const Vector& gradient, const Values& values, Float depth, const Line& ray) const
-{
-  if constexpr (Shadowed)
-  {
-    return this->Lights.LightInParts(gradient, depth, ray).Attenuate(ShadowOf(values));
-  }
-  else
-  {
-    return this->Lights.Light(gradient, depth, ray);
-  }
-}
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfVertices, bool Shadowed>
-inline void PacketGradientShading<Simd, OfVertices, Shadowed>::SetOpacity(
-  Mask lanes, const Vector& gradient, End& end)
-{
-  if (this->Medium.NumberOfOpacityIntervals == 0)
-  {
-    return;
-  }
-  const Float square = Simd::Fma(
-    gradient[0], gradient[0], Simd::Fma(gradient[1], gradient[1], gradient[2] * gradient[2]));
-  const Float size = Simd::Splat(this->Medium.GradientMagnitude) * Simd::Sqrt(square);
-  const auto& fields = this->Opacity.GetFields();
-  const Mask outside = lanes & ((size < fields.Lower) | (size > fields.Upper));
-  if (Simd::Bits(outside) != 0)
-  {
-    this->Opacity.Find(outside, size);
-  }
-  const Float opacity = Simd::Max(
-    Simd::Fma(size - fields.Lower, fields.AttenuationSlope, fields.Attenuation), Simd::Splat(0.0f));
-  end.Opacity = Simd::Select(lanes, opacity, end.Opacity);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Values, class Line>
-inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Evaluate(
-  Mask lanes, const Vector& gradient, const Values& values, Float depth, const Line& ray, End& end)
-{
-  if (this->Medium.Shading)
-  {
-    end.ReplaceLight(lanes, this->Light(gradient, values, depth, ray));
-  }
-  this->SetOpacity(lanes, gradient, end);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Place>
-inline void PacketGradientShading<Simd, OfVertices, Shadowed>::Begin(Mask lanes, const Place& place)
-{
-  if (Simd::Bits(lanes) == 0)
-  {
-    this->Continues = Simd::AndNot(this->Continues, place.Stepped);
-    return;
-  }
-  if constexpr (OfVertices)
-  {
-    this->Front.Replace(lanes, this->Back);
-    const Mask elsewhere = lanes & (Simd::Not(this->Continues) | place.Late);
-    if (Simd::Bits(elsewhere) != 0)
-    {
-      this->Evaluate(elsewhere, this->ToFrame(place.StartValues), place.StartValues,
-        place.StartDepth, place.Ray, this->Front);
-    }
-    this->Evaluate(lanes, this->ToFrame(place.EndValues), place.EndValues, place.EndDepth,
-      place.Ray, this->Back);
-    this->Continues = Simd::AndNot(this->Continues, place.Stepped) | lanes;
-  }
-  else
-  {
-    const Vector gradient = this->ToFrame(place.CellGradient);
-    this->SetOpacity(lanes, gradient, this->Front);
-    this->Back.Opacity = Simd::Select(lanes, this->Front.Opacity, this->Back.Opacity);
-    if (this->Medium.Shading)
-    {
-      this->LightCell(lanes, gradient, place);
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/** Lights both ends of segments with the same gradient. */
-template <class Simd, bool OfVertices, bool Shadowed>
-template <class Place>
-inline void PacketGradientShading<Simd, OfVertices, Shadowed>::LightCell(
-  Mask lanes, const Vector& gradient, const Place& place)
-{
-  if (this->Lights.DependOnPlace())
-  {
-    this->Front.ReplaceLight(
-      lanes, this->Light(gradient, place.StartValues, place.StartDepth, place.Ray));
-    this->Back.ReplaceLight(
-      lanes, this->Light(gradient, place.EndValues, place.EndDepth, place.Ray));
-  }
-  else if constexpr (Shadowed)
-  {
-    const PacketLitParts<Simd> parts =
-      this->Lights.LightInParts(gradient, place.StartDepth, place.Ray);
-    this->Front.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.StartValues)));
-    this->Back.ReplaceLight(lanes, parts.Attenuate(ShadowOf(place.EndValues)));
-  }
-  else
-  {
-    const PacketLit<Simd> lit =
-      this->Light(gradient, place.StartValues, place.StartDepth, place.Ray);
-    this->Front.ReplaceLight(lanes, lit);
-    this->Back.ReplaceLight(lanes, lit);
-  }
-}
 
 }

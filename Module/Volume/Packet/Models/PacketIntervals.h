@@ -73,7 +73,22 @@ public:
     Mask Downward;
   };
   /** Moves lanes to the intervals of `from`, and finds the parts of segments in them. */
-  Part FindPart(Mask lanes, Float from, Float to);
+  Part FindPart(Mask lanes, Float from, Float to)
+  {
+    const Mask outside = lanes & ((from < this->Now.Lower) | (from > this->Now.Upper));
+    if (Simd::Bits(outside) != 0)
+    {
+      this->Find(outside, from);
+    }
+    Part part;
+    part.Upward = lanes & (to > this->Now.Upper);
+    part.Downward = lanes & (to < this->Now.Lower);
+    part.To = Simd::Min(Simd::Max(to, this->Now.Lower), this->Now.Upper);
+    // 0 / 0, which Min() replaces by 1, if the scalar does not change.
+    const Float share = (part.To - from) / (to - from);
+    part.Share = Simd::Max(Simd::Min(share, Simd::Splat(1.0f)), Simd::Splat(0.0f));
+    return part;
+  }
 
   /** Moves lanes by one interval; few segments leave their interval. */
   void Move(Mask upward, Mask downward)
@@ -97,7 +112,20 @@ private:
   static constexpr int LargestColumn = 2 * Simd::LookupBlock;
 
   template <int Blocks>
-  void Lookup();
+  void Lookup()
+  {
+    Fields& fields = this->Now;
+    const auto& table = this->Columns;
+    fields.Lower = Simd::template Lookup<Blocks>(table[0], this->At);
+    fields.Upper = Simd::template Lookup<Blocks>(table[1], this->At);
+    fields.Attenuation = Simd::template Lookup<Blocks>(table[2], this->At);
+    fields.AttenuationSlope = Simd::template Lookup<Blocks>(table[3], this->At);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      fields.Color[channel] = Simd::template Lookup<Blocks>(table[4 + channel], this->At);
+      fields.ColorSlope[channel] = Simd::template Lookup<Blocks>(table[8 + channel], this->At);
+    }
+  }
   void Fetch();
 
   const PacketInterval* Table;
@@ -161,43 +189,6 @@ void PacketIntervals<Simd>::Find(Mask lanes, Float scalar)
   }
   this->At = Simd::Load(at);
   this->Fetch();
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketIntervals<Simd>::FindPart(Mask lanes, Float from, Float to) -> Part
-{
-  const Mask outside = lanes & ((from < this->Now.Lower) | (from > this->Now.Upper));
-  if (Simd::Bits(outside) != 0)
-  {
-    this->Find(outside, from);
-  }
-  Part part;
-  part.Upward = lanes & (to > this->Now.Upper);
-  part.Downward = lanes & (to < this->Now.Lower);
-  part.To = Simd::Min(Simd::Max(to, this->Now.Lower), this->Now.Upper);
-  // 0 / 0, which Min() replaces by 1, if the scalar does not change.
-  const Float share = (part.To - from) / (to - from);
-  part.Share = Simd::Max(Simd::Min(share, Simd::Splat(1.0f)), Simd::Splat(0.0f));
-  return part;
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-template <int Blocks>
-inline void PacketIntervals<Simd>::Lookup()
-{
-  Fields& fields = this->Now;
-  const auto& table = this->Columns;
-  fields.Lower = Simd::template Lookup<Blocks>(table[0], this->At);
-  fields.Upper = Simd::template Lookup<Blocks>(table[1], this->At);
-  fields.Attenuation = Simd::template Lookup<Blocks>(table[2], this->At);
-  fields.AttenuationSlope = Simd::template Lookup<Blocks>(table[3], this->At);
-  for (int channel = 0; channel < 3; ++channel)
-  {
-    fields.Color[channel] = Simd::template Lookup<Blocks>(table[4 + channel], this->At);
-    fields.ColorSlope[channel] = Simd::template Lookup<Blocks>(table[8 + channel], this->At);
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -156,10 +156,33 @@ private:
     /** Lanes with a normal. */
     Mask Any;
   };
-  Surface SurfaceAt(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
+
+  Surface SurfaceAt(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+  {
+    const Float zero = Simd::Splat(0.0f);
+    const Float one = Simd::Splat(1.0f);
+    const Float largest =
+      Simd::Max(Simd::Abs(normal[0]), Simd::Max(Simd::Abs(normal[1]), Simd::Abs(normal[2])));
+    Surface surface;
+    surface.Any = largest > zero;
+    const Vector facing = Normalized(normal, surface.Any, largest);
+    const Mask away = Dot(facing, ray.ToEye) < zero;
+    surface.Normal = Scaled(facing, Simd::Select(away, zero - one, one));
+    const Float fromPivot = depth * Simd::Splat(PacketVertex::DepthUnit);
+    surface.Place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
+      Simd::Fma(fromPivot, ray.SlopeY, ray.Y), fromPivot + ray.Depth };
+    return surface;
+  }
 
   /** Henyey and Greenstein's phase function, 1 in the mean; for the cosine of the turn of light. */
-  Float Phase(Float cosine) const;
+  Float Phase(Float cosine) const
+  {
+    const float g = this->Medium.Anisotropy;
+    const Float square =
+      Simd::Max(Simd::Fma(Simd::Splat(-2.0f * g), cosine, Simd::Splat(1.0f + g * g)),
+        Simd::Splat(SmallestTurn));
+    return Simd::Splat(1.0f - g * g) / (square * Simd::Sqrt(square));
+  }
 
   static Float Dot(const Vector& a, const Vector& b)
   {
@@ -179,7 +202,26 @@ private:
   {
     return { Simd::Splat(of[0]), Simd::Splat(of[1]), Simd::Splat(of[2]) };
   }
-  static Vector Normalized(const Vector& a, Mask any, Float largest);
+
+  /**
+   * Vectors of length 1; those that are not `any`, which are 0, have no meaning.
+   * @param largest magnitude of the largest component.
+   */
+  static Vector Normalized(const Vector& a, Mask any, Float largest)
+  {
+    // Between these bounds the square of the length neither overflows nor loses digits; other
+    // vectors are scaled first.
+    const Float one = Simd::Splat(1.0f);
+    const Mask tiny = largest < Simd::Splat(9.094947017729282e-13f); // 2^-40
+    const Mask huge = largest > Simd::Splat(1.099511627776e+12f);    // 2^40
+    const Mask extreme = any & (tiny | huge);
+    Vector safe = a;
+    if (Simd::Bits(extreme) != 0)
+    {
+      safe = Scaled(a, Simd::Select(extreme, Reciprocal(Simd::Select(any, largest, one)), one));
+    }
+    return Scaled(safe, Reciprocal(Simd::Sqrt(Simd::Select(any, Dot(safe, safe), one))));
+  }
   static Float Reciprocal(Float x) { return Simd::Splat(1.0f) / x; }
 
   /**
@@ -187,126 +229,68 @@ private:
    * @param scattered null if none is wanted.
    */
   void Add(const PacketLight& light, const Surface& surface, const Vector& toEye,
-    PacketLit<Simd>& sum, Vector* scattered) const;
+    PacketLit<Simd>& sum, Vector* scattered) const
+  {
+    const Float zero = Simd::Splat(0.0f);
+    const Float one = Simd::Splat(1.0f);
+    Vector toLight = Splat(light.Position);
+    Float strength = one;
+    if (light.Position[3] != 0.0f)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        toLight[i] = toLight[i] - surface.Place[i];
+      }
+      const Float distance = Simd::Sqrt(Dot(toLight, toLight));
+      toLight = Scaled(toLight, Reciprocal(distance));
+      const Float quadratic = Simd::Splat(light.Falloff[2]);
+      strength = Reciprocal(
+        Simd::Fma(distance, Simd::Fma(distance, quadratic, Simd::Splat(light.Falloff[1])),
+          Simd::Splat(light.Falloff[0])));
+      strength = Simd::Min(strength, Simd::Splat(LargestLightStrength));
+    }
+    const Vector& normal = surface.Normal;
+    const Float facing = Cosine(normal, toLight);
+    if (light.Cone[3] >= -1.0f)
+    {
+      const Float inCone = zero - Dot(toLight, Splat(light.Cone));
+      if (light.Falloff[3] != 0.0f)
+      {
+        strength = strength * PacketPower<Simd>(light.Falloff[3])(Clamped(inCone));
+      }
+      strength = Simd::Select(inCone < Simd::Splat(light.Cone[3]), zero, strength);
+    }
+    if (scattered)
+    {
+      // Light goes against toLight and on towards the eye.
+      Float turned = strength * Simd::Splat(this->Medium.Diffuse);
+      if (this->Medium.Anisotropy != 0.0f)
+      {
+        turned = turned * this->Phase(zero - Dot(toLight, toEye));
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+        (*scattered)[c] = Simd::Fma(turned, Simd::Splat(light.Diffuse[c]), (*scattered)[c]);
+      }
+    }
+    strength = Simd::Select(facing > zero, strength, zero);
+    const Vector mirrored = Scaled(normal, facing + facing);
+    const Float glance = Cosine(
+      { mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
+    const Float diffuse = strength * Simd::Splat(this->Medium.Diffuse) * facing;
+    const Float shine = Simd::Select(glance > zero,
+      strength * Simd::Splat(this->Medium.Specular) * this->SpecularPower(glance), zero);
+    for (int c = 0; c < 3; ++c)
+    {
+      sum.Reflected[c] = Simd::Fma(diffuse, Simd::Splat(light.Diffuse[c]), sum.Reflected[c]);
+      sum.Highlight[c] = Simd::Fma(shine, Simd::Splat(light.Specular[c]), sum.Highlight[c]);
+    }
+  }
 
   const GradientShading& Medium;
   PacketPower<Simd> SpecularPower;
   bool Positional = false;
 };
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketLights<Simd>::Phase(Float cosine) const -> Float
-{
-  const float g = this->Medium.Anisotropy;
-  const Float square =
-    Simd::Max(Simd::Fma(Simd::Splat(-2.0f * g), cosine, Simd::Splat(1.0f + g * g)),
-      Simd::Splat(SmallestTurn));
-  return Simd::Splat(1.0f - g * g) / (square * Simd::Sqrt(square));
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketLights<Simd>::Add(const PacketLight& light, const Surface& surface,
-  const Vector& toEye, PacketLit<Simd>& sum, Vector* scattered) const
-{
-  const Float zero = Simd::Splat(0.0f);
-  const Float one = Simd::Splat(1.0f);
-  Vector toLight = Splat(light.Position);
-  Float strength = one;
-  if (light.Position[3] != 0.0f)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      toLight[i] = toLight[i] - surface.Place[i];
-    }
-    const Float distance = Simd::Sqrt(Dot(toLight, toLight));
-    toLight = Scaled(toLight, Reciprocal(distance));
-    const Float quadratic = Simd::Splat(light.Falloff[2]);
-    strength =
-      Reciprocal(Simd::Fma(distance, Simd::Fma(distance, quadratic, Simd::Splat(light.Falloff[1])),
-        Simd::Splat(light.Falloff[0])));
-    strength = Simd::Min(strength, Simd::Splat(LargestLightStrength));
-  }
-  const Vector& normal = surface.Normal;
-  const Float facing = Cosine(normal, toLight);
-  if (light.Cone[3] >= -1.0f)
-  {
-    const Float inCone = zero - Dot(toLight, Splat(light.Cone));
-    if (light.Falloff[3] != 0.0f)
-    {
-      strength = strength * PacketPower<Simd>(light.Falloff[3])(Clamped(inCone));
-    }
-    strength = Simd::Select(inCone < Simd::Splat(light.Cone[3]), zero, strength);
-  }
-  if (scattered)
-  {
-    // Light goes against toLight and on towards the eye.
-    Float turned = strength * Simd::Splat(this->Medium.Diffuse);
-    if (this->Medium.Anisotropy != 0.0f)
-    {
-      turned = turned * this->Phase(zero - Dot(toLight, toEye));
-    }
-    for (int c = 0; c < 3; ++c)
-    {
-      (*scattered)[c] = Simd::Fma(turned, Simd::Splat(light.Diffuse[c]), (*scattered)[c]);
-    }
-  }
-  strength = Simd::Select(facing > zero, strength, zero);
-  const Vector mirrored = Scaled(normal, facing + facing);
-  const Float glance =
-    Cosine({ mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
-  const Float diffuse = strength * Simd::Splat(this->Medium.Diffuse) * facing;
-  const Float shine = Simd::Select(glance > zero,
-    strength * Simd::Splat(this->Medium.Specular) * this->SpecularPower(glance), zero);
-  for (int c = 0; c < 3; ++c)
-  {
-    sum.Reflected[c] = Simd::Fma(diffuse, Simd::Splat(light.Diffuse[c]), sum.Reflected[c]);
-    sum.Highlight[c] = Simd::Fma(shine, Simd::Splat(light.Specular[c]), sum.Highlight[c]);
-  }
-}
-
-//------------------------------------------------------------------------------
-/**
- * Vectors of length 1; those that are not `any`, which are 0, have no meaning.
- * @param largest magnitude of the largest component.
- */
-template <class Simd>
-inline auto PacketLights<Simd>::Normalized(const Vector& a, Mask any, Float largest) -> Vector
-{
-  // Between these bounds the square of the length neither overflows nor loses digits; other vectors
-  // are scaled first.
-  const Float one = Simd::Splat(1.0f);
-  const Mask tiny = largest < Simd::Splat(9.094947017729282e-13f); // 2^-40
-  const Mask huge = largest > Simd::Splat(1.099511627776e+12f);    // 2^40
-  const Mask extreme = any & (tiny | huge);
-  Vector safe = a;
-  if (Simd::Bits(extreme) != 0)
-  {
-    safe = Scaled(a, Simd::Select(extreme, Reciprocal(Simd::Select(any, largest, one)), one));
-  }
-  return Scaled(safe, Reciprocal(Simd::Sqrt(Simd::Select(any, Dot(safe, safe), one))));
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketLights<Simd>::SurfaceAt(
-  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const -> Surface
-{
-  const Float zero = Simd::Splat(0.0f);
-  const Float one = Simd::Splat(1.0f);
-  const Float largest =
-    Simd::Max(Simd::Abs(normal[0]), Simd::Max(Simd::Abs(normal[1]), Simd::Abs(normal[2])));
-  Surface surface;
-  surface.Any = largest > zero;
-  const Vector facing = Normalized(normal, surface.Any, largest);
-  const Mask away = Dot(facing, ray.ToEye) < zero;
-  surface.Normal = Scaled(facing, Simd::Select(away, zero - one, one));
-  const Float fromPivot = depth * Simd::Splat(PacketVertex::DepthUnit);
-  surface.Place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
-    Simd::Fma(fromPivot, ray.SlopeY, ray.Y), fromPivot + ray.Depth };
-  return surface;
-}
 
 //------------------------------------------------------------------------------
 template <class Simd>

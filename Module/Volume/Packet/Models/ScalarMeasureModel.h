@@ -87,7 +87,22 @@ public:
   }
 
 private:
-  void Measure(Mask valid, Float from, Float to, Float length, Float start, Float end);
+  /** Extremes lie at the ends of a segment; of equal ones, the first along the ray counts. */
+  void Measure(Mask valid, Float from, Float to, Float length, Float start, Float end)
+  {
+    this->Length.Add(valid, length);
+    this->Integral.Add(valid, Simd::Splat(0.5f) * (from + to) * length);
+    this->First = Simd::Select(valid, Simd::Min(this->First, start), this->First);
+    this->Last = Simd::Select(valid, Simd::Max(this->Last, end), this->Last);
+    const Float low = Simd::Min(from, to);
+    const Mask lower = valid & (low < this->Lowest);
+    this->LowestAt = Simd::Select(lower, Simd::Select(to < from, end, start), this->LowestAt);
+    this->Lowest = Simd::Select(lower, low, this->Lowest);
+    const Float high = Simd::Max(from, to);
+    const Mask higher = valid & (high > this->Highest);
+    this->HighestAt = Simd::Select(higher, Simd::Select(to > from, end, start), this->HighestAt);
+    this->Highest = Simd::Select(higher, high, this->Highest);
+  }
 
   /** Beyond all depths and normalised scalars. */
   static constexpr float Far = 1.0e+30f;
@@ -104,26 +119,6 @@ private:
   Float Highest;
   Float HighestAt;
 };
-
-//------------------------------------------------------------------------------
-/** Extremes lie at the ends of a segment; of equal ones, the first along the ray counts. */
-template <class Simd, bool WithOpticalDepth>
-inline void ScalarMeasureModel<Simd, WithOpticalDepth>::Measure(
-  Mask valid, Float from, Float to, Float length, Float start, Float end)
-{
-  this->Length.Add(valid, length);
-  this->Integral.Add(valid, Simd::Splat(0.5f) * (from + to) * length);
-  this->First = Simd::Select(valid, Simd::Min(this->First, start), this->First);
-  this->Last = Simd::Select(valid, Simd::Max(this->Last, end), this->Last);
-  const Float low = Simd::Min(from, to);
-  const Mask lower = valid & (low < this->Lowest);
-  this->LowestAt = Simd::Select(lower, Simd::Select(to < from, end, start), this->LowestAt);
-  this->Lowest = Simd::Select(lower, low, this->Lowest);
-  const Float high = Simd::Max(from, to);
-  const Mask higher = valid & (high > this->Highest);
-  this->HighestAt = Simd::Select(higher, Simd::Select(to > from, end, start), this->HighestAt);
-  this->Highest = Simd::Select(higher, high, this->Highest);
-}
 
 //------------------------------------------------------------------------------
 template <class Simd, bool WithOpticalDepth>

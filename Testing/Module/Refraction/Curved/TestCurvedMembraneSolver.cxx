@@ -3,6 +3,7 @@
 // Curved patches and the sight points on them: closed forms, analytic membranes, a dense search.
 #include "ExactStack.h"
 #include "OracleImages.h"
+#include "ReadySolver.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 #include "RefractionTestRandom.h"
@@ -14,20 +15,6 @@ namespace
 using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
-
-void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
-  double exterior = 1.0, double interior = 1.333)
-{
-  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
-  ASSERT_EQ(geometry.SetEye(eye, exterior, interior), EyeStatus::Ready);
-}
-
-VirtualVertex SolveOne(const CurvedMembraneSolver& geometry, const glm::dvec3& point)
-{
-  VirtualVertex vertex;
-  geometry.Solve(&point.x, 0, 1, &vertex);
-  return vertex;
-}
 
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * std::acos(-1.0), 1.0,
   1.333 };
@@ -77,8 +64,7 @@ TEST(RefractionCurved, ImagesInHugeFacetsAreDecided)
         sea.Points[i] /= size.Slenderness;
       }
       const glm::dvec3 eye(0.3, 1.1, -0.4);
-      CurvedMembraneSolver geometry;
-      Set(geometry, sea, eye, 1.0, interior);
+      ReadySolver geometry(sea, eye, 1.0, interior);
       // Coordinates of the sea's rim and Newton's method have about 2e-16 of its width each.
       const double rounding = 1e-11 + 1e-14 * half;
       Random random(13);
@@ -105,15 +91,14 @@ TEST(RefractionCurved, ImagesInHugeFacetsAreDecided)
 double MeasureWaves(int cells)
 {
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedMembraneSolver geometry;
-  Set(geometry, Waves.MakeMesh(cells), eye);
+  ReadySolver geometry(Waves.MakeMesh(cells), eye);
   Random random(5);
   double sum = 0.0;
   constexpr int points = 4000;
   for (int i = 0; i < points; ++i)
   {
     const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -10.0), random(-60.0, 60.0));
-    const VirtualVertex vertex = SolveOne(geometry, point);
+    const VirtualVertex vertex = geometry.SolveOne(point);
     EXPECT_EQ(vertex.State, ImageState::Found);
     const glm::dvec3 sight = vertex.SightPoint - eye;
     const glm::dvec3 exact = Waves.Intersect(eye, glm::normalize(sight), glm::length(sight));
@@ -332,9 +317,8 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
   for (const OracleCase& test : cases)
   {
     SCOPED_TRACE(test.Name);
-    CurvedMembraneSolver geometry;
-    Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye, test.Field.Exterior,
-      test.Field.Interior);
+    ReadySolver geometry(
+      test.Field.MakeMesh(test.Cells), test.Eye, test.Field.Exterior, test.Field.Interior);
     Random random(83);
     OracleCounts counts;
     constexpr int points = 300;
@@ -358,8 +342,7 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
   const HeightField dome{ HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 };
   const glm::dvec3 eye(0.0, 400.0, 0.0);
   const glm::dvec3 point(0.0, -200.0, 0.0);
-  CurvedMembraneSolver geometry;
-  Set(geometry, dome.MakeMesh(32), eye, 1.0, 1.5);
+  ReadySolver geometry(dome.MakeMesh(32), eye, 1.0, 1.5);
   std::vector<VirtualVertex> images;
   EXPECT_EQ(geometry.FindImages(point, images), ImageState::Found);
   EXPECT_GT(images.size(), 1u);
@@ -370,7 +353,7 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
     // Where the rays of a ring meet, an error of the patch is not magnified.
     EXPECT_LT(glm::length(*seen - point), 1.0);
   }
-  EXPECT_EQ(SolveOne(geometry, point).State, ImageState::Found);
+  EXPECT_EQ(geometry.SolveOne(point).State, ImageState::Found);
 }
 
 //------------------------------------------------------------------------------
@@ -379,8 +362,8 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
 // point off the axis has one.
 TEST(RefractionCurved, CountsSearchesThatAreUndecided)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, meniscus::reference::MakeDisc(100.0, 12, 200.0), { 0.0, 2000.0, 0.0 }, 1.5, 1.0);
+  ReadySolver geometry(
+    meniscus::reference::MakeDisc(100.0, 12, 200.0), { 0.0, 2000.0, 0.0 }, 1.5, 1.0);
   std::vector<VirtualVertex> images;
   EXPECT_EQ(geometry.FindImages({ 30.0, -60.0, 7.0 }, images), ImageState::Found);
   EXPECT_EQ(images.size(), 1u);
@@ -403,7 +386,7 @@ TEST(RefractionCurved, PointsCloseToTheMembraneHaveTheirImageInAnyOrderOfCorners
   for (unsigned seed = 0; seed < 8; ++seed)
   {
     const MembraneMesh mesh = meniscus::reference::MakeRandom(4.0, 8, 0.1, 0.4, seed);
-    CurvedMembraneSolver geometry[3];
+    ReadySolver geometry[3];
     for (std::size_t turn = 0; turn < 3; ++turn)
     {
       MembraneMesh turned = mesh;
@@ -414,7 +397,7 @@ TEST(RefractionCurved, PointsCloseToTheMembraneHaveTheirImageInAnyOrderOfCorners
           turned.Triangles[i + k] = mesh.Triangles[i + (k + turn) % 3];
         }
       }
-      Set(geometry[turn], turned, { -1.8, 2.5, 0.9 }, 1.0, 1.33);
+      geometry[turn].Set(turned, { -1.8, 2.5, 0.9 }, 1.0, 1.33);
     }
     for (int i = 0; i < 500; ++i)
     {
@@ -437,8 +420,7 @@ TEST(RefractionCurved, PointsCloseToTheMembraneHaveTheirImageInAnyOrderOfCorners
 // solved as at the start of a chain, bit by bit. These are most of them.
 TEST(RefractionCurved, LongStepsAreNotContinuedAfterAFailure)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, Waves.MakeMesh(128), { 20.0, 300.0, 10.0 });
+  ReadySolver geometry(Waves.MakeMesh(128), { 20.0, 300.0, 10.0 });
   Random random(7);
   CurvedMembraneSolver::Memory memory;
   std::size_t notContinued = 0;
@@ -464,8 +446,7 @@ TEST(RefractionCurved, LongStepsAreNotContinuedAfterAFailure)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, TheOneImageIsOneOfAll)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
+  ReadySolver geometry(meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
   std::vector<double> points;
   Random random(89);
   for (int i = 0; i < 3000; ++i)
@@ -492,8 +473,7 @@ TEST(RefractionCurved, TheOneImageIsOneOfAll)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
+  ReadySolver geometry(meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
   constexpr std::size_t count = 5 * CurvedMembraneSolver::Chain;
   std::vector<double> points;
   Random random(91);
@@ -520,11 +500,9 @@ TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
 TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
 {
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedMembraneSolver moved;
-  Set(moved, meniscus::reference::MakeWaves(200.0, 24, 1.0, 2.0), eye);
-  Set(moved, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
-  CurvedMembraneSolver fresh;
-  Set(fresh, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
+  ReadySolver moved(meniscus::reference::MakeWaves(200.0, 24, 1.0, 2.0), eye);
+  moved.Set(meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
+  ReadySolver fresh(meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
   Random random(97);
   std::vector<VirtualVertex> a;
   std::vector<VirtualVertex> b;
@@ -544,14 +522,13 @@ TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, EqualIndicesAreTheIdentity)
 {
-  CurvedMembraneSolver geometry;
-  Set(
-    geometry, meniscus::reference::MakeWaves(200.0, 24, 3.0, 2.0), { 20.0, 300.0, 10.0 }, 1.5, 1.5);
+  ReadySolver geometry(
+    meniscus::reference::MakeWaves(200.0, 24, 3.0, 2.0), { 20.0, 300.0, 10.0 }, 1.5, 1.5);
   Random random(101);
   for (int i = 0; i < 500; ++i)
   {
     const glm::dvec3 point(random(-60, 60), random(-50, -10), random(-60, 60));
-    const VirtualVertex vertex = SolveOne(geometry, point);
+    const VirtualVertex vertex = geometry.SolveOne(point);
     ASSERT_EQ(vertex.State, ImageState::Found);
     EXPECT_LE(glm::length(vertex.Position - point), 1e-13 * 200.0);
     EXPECT_EQ(vertex.Reflectance, 0.0);
@@ -563,8 +540,7 @@ TEST(RefractionCurved, EqualIndicesAreTheIdentity)
 // the wall below the near border, which is seen from behind, only those at the border.
 TEST(RefractionCurved, FacetsThatShowPointsOfABoxAreVisited)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, Waves.MakeMesh(40), { 60.0, 260.0, -200.0 });
+  ReadySolver geometry(Waves.MakeMesh(40), { 60.0, 260.0, -200.0 });
   Random random(41);
   std::vector<VirtualVertex> images;
   for (int i = 0; i < 200; ++i)
@@ -594,23 +570,21 @@ TEST(RefractionCurved, FacetsThatShowPointsOfABoxAreVisited)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, BadPointsAndEyes)
 {
-  CurvedMembraneSolver geometry;
-  const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
-  Set(geometry, mesh, { 0.0, 100.0, 0.0 });
+  ReadySolver geometry(meniscus::reference::MakeSquare(200.0, 8, 0.0), { 0.0, 100.0, 0.0 });
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double value : { nan, std::numeric_limits<double>::infinity(), 1e300 })
   {
-    EXPECT_EQ(SolveOne(geometry, { 0.0, value, 0.0 }).State, ImageState::NotFinite);
+    EXPECT_EQ(geometry.SolveOne({ 0.0, value, 0.0 }).State, ImageState::NotFinite);
   }
-  EXPECT_EQ(SolveOne(geometry, { 0.0, 5.0, 0.0 }).State, ImageState::NoImage);
-  EXPECT_EQ(SolveOne(geometry, { 0.0, 0.0, 0.0 }).State, ImageState::NoImage);
+  EXPECT_EQ(geometry.SolveOne({ 0.0, 5.0, 0.0 }).State, ImageState::NoImage);
+  EXPECT_EQ(geometry.SolveOne({ 0.0, 0.0, 0.0 }).State, ImageState::NoImage);
   EXPECT_EQ(geometry.SetEye({ 7.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
   EXPECT_EQ(geometry.SetEye({ 12.5, 0.0, 0.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
   EXPECT_EQ(geometry.SetEye({ 7.0, 1e-9, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
   EXPECT_EQ(geometry.SetEye({ nan, 1.0, 3.0 }, 1.0, 1.3), EyeStatus::NotFinite);
   EXPECT_EQ(geometry.SetEye({ 7.0, 1.0, 3.0 }, 1.0, -1.3), EyeStatus::BadIndex);
   EXPECT_EQ(geometry.SetEye({ 7.0, -50.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
-  EXPECT_EQ(SolveOne(geometry, { 0.0, -10.0, 0.0 }).State, ImageState::NoImage); // from behind
+  EXPECT_EQ(geometry.SolveOne({ 0.0, -10.0, 0.0 }).State, ImageState::NoImage); // from behind
   CurvedMembraneSolver empty;
   EXPECT_EQ(empty.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
 }

@@ -3,6 +3,7 @@
 // Regions in which points have at most one image, compared with a search for all images; cells
 // divided there.
 #include "HeightField.h"
+#include "ReadySolver.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Images/EdgeSubdivision.h"
@@ -17,15 +18,9 @@ using namespace meniscus;
 using namespace meniscus::reference;
 using meniscus::test::Product;
 using meniscus::test::Random;
+using meniscus::test::ReadySolver;
 
 constexpr double Pi = 3.14159265358979323846;
-
-void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
-  double interior = 1.333)
-{
-  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
-  ASSERT_EQ(geometry.SetEye(eye, 1.0, interior), EyeStatus::Ready);
-}
 
 InjectivityGrid Build(const CurvedMembraneSolver& geometry, double low, double high)
 {
@@ -107,8 +102,7 @@ class RefractionUnique : public ::testing::TestWithParam<UniqueCase>
 TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
 {
   const UniqueCase& test = GetParam();
-  CurvedMembraneSolver geometry;
-  Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye, test.Field.Interior);
+  ReadySolver geometry(test.Field.MakeMesh(test.Cells), test.Eye, 1.0, test.Field.Interior);
   geometry.PrepareField();
   ASSERT_TRUE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
@@ -125,8 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, ::testing::ValuesIn(Cases));
 //------------------------------------------------------------------------------
 TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
 {
-  CurvedMembraneSolver geometry;
-  Set(geometry, Cases[0].Field.MakeMesh(8), Cases[0].Eye);
+  ReadySolver geometry(Cases[0].Field.MakeMesh(8), Cases[0].Eye);
   const InjectivityGrid unique = Build(geometry, -100.0, -50.0);
   EXPECT_TRUE(unique.HoldsAtMostOne({ 0.0, -100.0, 0.0 }, { 1.0, -50.0, 1.0 }));
   EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -101.0, 0.0 }, { 1.0, -60.0, 1.0 }));
@@ -142,13 +135,10 @@ TEST(RefractionUnique, ObjectsInSimilarDepthsShareAGrid)
 {
   const UniqueCase& waves = Cases[2];
   const MembraneMesh mesh = waves.Field.MakeMesh(waves.Cells);
-  CurvedMembraneSolver first;
-  CurvedMembraneSolver second;
-  for (CurvedMembraneSolver* geometry : { &first, &second })
-  {
-    Set(*geometry, mesh, waves.Eye);
-    geometry->PrepareField();
-  }
+  ReadySolver first(mesh, waves.Eye);
+  ReadySolver second(mesh, waves.Eye);
+  first.PrepareField();
+  second.PrepareField();
   const auto prepare = [](CurvedMembraneSolver& geometry, double height)
   {
     const double origin = geometry.GetFrame().GetHeight(geometry.GetMembrane().GetOrigin());
@@ -183,18 +173,15 @@ TEST(RefractionUnique, GridsBelongToTheirEye)
   const UniqueCase& waves = Cases[2];
   const MembraneMesh mesh = waves.Field.MakeMesh(waves.Cells);
   const glm::dvec3 eyes[2] = { waves.Eye, { 150.0, 120.0, 10.0 } };
-  CurvedMembraneSolver moved;
-  Set(moved, mesh, eyes[0]);
+  ReadySolver moved(mesh, eyes[0]);
   moved.PrepareField();
   moved.PrepareGrid(-220.0, meniscus::SerialLoop);
   ASSERT_EQ(moved.SetEye(eyes[1], 1.0, 1.333), EyeStatus::Ready);
-  CurvedMembraneSolver fresh;
-  Set(fresh, mesh, eyes[1]);
+  ReadySolver fresh(mesh, eyes[1]);
   fresh.PrepareField();
   const InjectivityGrid& found = moved.PrepareGrid(-220.0, meniscus::SerialLoop);
   const InjectivityGrid& expected = fresh.PrepareGrid(-220.0, meniscus::SerialLoop);
-  CurvedMembraneSolver before;
-  Set(before, mesh, eyes[0]);
+  ReadySolver before(mesh, eyes[0]);
   before.PrepareField();
   const InjectivityGrid& old = before.PrepareGrid(-220.0, meniscus::SerialLoop);
   Random random(11);
@@ -326,8 +313,7 @@ class RefractionUniqueSheet : public ::testing::TestWithParam<SheetCase>
 TEST_P(RefractionUniqueSheet, NoPointOfABoxHasSeveral)
 {
   const SheetCase& test = GetParam();
-  CurvedMembraneSolver geometry;
-  Set(geometry, MakeSheet(40, test.Place, test.IsThere), { 0.5, 9.0, 1.0 });
+  ReadySolver geometry(MakeSheet(40, test.Place, test.IsThere), { 0.5, 9.0, 1.0 });
   geometry.PrepareField();
   EXPECT_FALSE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
@@ -348,8 +334,7 @@ INSTANTIATE_TEST_SUITE_P(Sheets, RefractionUniqueSheet, ::testing::ValuesIn(Shee
 TEST(RefractionDivision, TrianglesAreStraightAndTile)
 {
   const UniqueCase& test = Cases[1];
-  CurvedMembraneSolver geometry;
-  Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye);
+  ReadySolver geometry(test.Field.MakeMesh(test.Cells), test.Eye);
   constexpr double tolerance = 1e-4;
   const glm::dvec3 points[4] = { { -50.0, -90.0, -50.0 }, { 50.0, -90.0, -50.0 },
     { 50.0, -90.0, 50.0 }, { -50.0, -90.0, 50.0 } };
@@ -425,11 +410,9 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
 TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
 {
   const UniqueCase& test = Cases[0];
-  CurvedMembraneSolver geometry;
-  Set(geometry,
-    MakeSheet(
-      20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
-      [](int i, int) { return i < 8 || i > 11; }),
+  ReadySolver geometry(MakeSheet(
+                         20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
+                         [](int i, int) { return i < 8 || i > 11; }),
     test.Eye);
   const glm::dvec3 points[2] = { { -9.0, -2.0, 0.0 }, { 9.0, -2.0, 0.0 } };
   std::vector<VirtualVertex> vertices(2);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images in mirrors: planes in closed form, spheres by Alhazen's equation, waves by a dense search.
 #include "OracleImages.h"
+#include "ReadySolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
@@ -16,18 +17,17 @@ using namespace meniscus;
 using namespace meniscus::reference;
 using namespace meniscus::test;
 
-EyeStatus SetMirror(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye)
+struct Mirror : ReadySolver
 {
-  EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
-  return geometry.SetEye(eye, 1.0, 1.333, meniscus::SerialLoop, true);
-}
-
-VirtualVertex SolveOne(const CurvedMembraneSolver& geometry, const glm::dvec3& point)
-{
-  VirtualVertex vertex;
-  geometry.Solve(&point.x, 0, 1, &vertex);
-  return vertex;
-}
+  Mirror(const MembraneMesh& mesh, const glm::dvec3& eye)
+    : ReadySolver(mesh, eye, 1.0, 1.333, true)
+  {
+  }
+  EyeStatus Look(const glm::dvec3& eye)
+  {
+    return this->SetEye(eye, 1.0, 1.333, meniscus::SerialLoop, true);
+  }
+};
 
 //------------------------------------------------------------------------------
 // The mirror image by a plane is the reflected point. Sight points beyond the border are no images.
@@ -35,9 +35,7 @@ TEST(Reflection, PlaneMirrorsAreExact)
 {
   constexpr double half = 1.0;
   const glm::dvec3 eye(0.2, 3.0, 0.1);
-  CurvedMembraneSolver geometry;
-  ASSERT_EQ(SetMirror(geometry, meniscus::reference::MakeSquare(2.0 * half, 8, 0.0), eye),
-    EyeStatus::Ready);
+  Mirror geometry(meniscus::reference::MakeSquare(2.0 * half, 8, 0.0), eye);
   Random random(5);
   std::vector<VirtualVertex> images;
   int seen = 0;
@@ -52,7 +50,7 @@ TEST(Reflection, PlaneMirrorsAreExact)
     {
       continue;
     }
-    const VirtualVertex one = SolveOne(geometry, point);
+    const VirtualVertex one = geometry.SolveOne(point);
     geometry.FindImages(point, images);
     if (reach > half)
     {
@@ -81,22 +79,20 @@ TEST(Reflection, PlaneMirrorsAreExact)
 //------------------------------------------------------------------------------
 TEST(Reflection, PointsBehindAndOnAPlaneMirror)
 {
-  CurvedMembraneSolver geometry;
-  ASSERT_EQ(SetMirror(geometry, meniscus::reference::MakeSquare(2.0, 8, 0.0), { 0.2, 3.0, 0.1 }),
-    EyeStatus::Ready);
+  Mirror geometry(meniscus::reference::MakeSquare(2.0, 8, 0.0), { 0.2, 3.0, 0.1 });
   Random random(7);
   std::vector<VirtualVertex> images;
   for (int i = 0; i < 200; ++i)
   {
     const glm::dvec3 behind = random.Point({ -2.0, -2.0, -2.0 }, { 2.0, -1e-9, 2.0 });
-    EXPECT_EQ(SolveOne(geometry, behind).State, ImageState::NoImage);
+    EXPECT_EQ(geometry.SolveOne(behind).State, ImageState::NoImage);
     EXPECT_EQ(geometry.FindImages(behind, images), ImageState::NoImage);
     const glm::dvec3 on = random.Point({ -0.9, 0.0, -0.9 }, { 0.9, 0.0, 0.9 });
     ASSERT_EQ(geometry.FindImages(on, images), ImageState::Found);
     ASSERT_EQ(images.size(), 1u);
     EXPECT_EQ(images.front().Position, on);
     EXPECT_EQ(images.front().Depth, 0.0);
-    EXPECT_EQ(SolveOne(geometry, on).Position, on);
+    EXPECT_EQ(geometry.SolveOne(on).Position, on);
   }
   EXPECT_EQ(geometry.GetNumberOfUndecidedSearches() + geometry.GetNumberOfUndecidedSides(), 0);
   const double bad = std::numeric_limits<double>::quiet_NaN();
@@ -107,16 +103,15 @@ TEST(Reflection, PointsBehindAndOnAPlaneMirror)
 // A mirror that is seen from behind, and an eye on it.
 TEST(Reflection, BacksOfMirrorsShowNothing)
 {
-  CurvedMembraneSolver geometry;
-  const MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 8, 0.0);
-  EXPECT_EQ(SetMirror(geometry, mesh, { 0.1, 0.0, 0.2 }), EyeStatus::OnTheMembrane);
-  ASSERT_EQ(SetMirror(geometry, mesh, { 0.1, -1.0, 0.2 }), EyeStatus::Ready);
+  Mirror geometry(meniscus::reference::MakeSquare(2.0, 8, 0.0), { 0.1, 1.0, 0.2 });
+  EXPECT_EQ(geometry.Look({ 0.1, 0.0, 0.2 }), EyeStatus::OnTheMembrane);
+  ASSERT_EQ(geometry.Look({ 0.1, -1.0, 0.2 }), EyeStatus::Ready);
   EXPECT_FALSE(geometry.FacesEye());
   std::vector<VirtualVertex> images;
   for (const double height : { 1.0, -1.0, -0.5 })
   {
     EXPECT_EQ(geometry.FindImages({ 0.3, height, 0.1 }, images), ImageState::NoImage);
-    EXPECT_EQ(SolveOne(geometry, { 0.3, height, 0.1 }).State, ImageState::NoImage);
+    EXPECT_EQ(geometry.SolveOne({ 0.3, height, 0.1 }).State, ImageState::NoImage);
   }
 }
 
@@ -191,9 +186,7 @@ TEST(Reflection, SpheresShowTheImagesOfAlhazensProblem)
     { "concave, near the mirror", -1.0, { 0.1, -0.9, 0.2 }, 0.98 } };
   for (const Ball& ball : balls)
   {
-    CurvedMembraneSolver geometry;
-    ASSERT_EQ(SetMirror(geometry, meniscus::reference::MakeSphere(32, ball.Side), ball.Eye),
-      EyeStatus::Ready);
+    Mirror geometry(meniscus::reference::MakeSphere(32, ball.Side), ball.Eye);
     Random random(11);
     std::vector<VirtualVertex> images;
     int points = 0;
@@ -230,7 +223,7 @@ TEST(Reflection, SpheresShowTheImagesOfAlhazensProblem)
         largest = std::max(largest, nearest);
       }
       several += exact.size() > 1;
-      const VirtualVertex one = SolveOne(geometry, point);
+      const VirtualVertex one = geometry.SolveOne(point);
       EXPECT_EQ(one.State == ImageState::Found, !exact.empty()) << ball.Name;
     }
     EXPECT_LT(largest, 1e-9) << ball.Name;
@@ -245,18 +238,13 @@ TEST(Reflection, SpheresShowTheImagesOfAlhazensProblem)
 TEST(Reflection, ClosedMirrorsHideTheirOtherSide)
 {
   std::vector<VirtualVertex> images;
-  CurvedMembraneSolver ball;
-  ASSERT_EQ(
-    SetMirror(ball, meniscus::reference::MakeSphere(16, 1.0), { 0.0, 3.0, 0.5 }), EyeStatus::Ready);
+  Mirror ball(meniscus::reference::MakeSphere(16, 1.0), { 0.0, 3.0, 0.5 });
   EXPECT_EQ(ball.FindImages({ 0.1, 0.5, 0.2 }, images), ImageState::NoImage);
-  CurvedMembraneSolver room;
-  ASSERT_EQ(SetMirror(room, meniscus::reference::MakeSphere(16, -1.0), { 0.1, 0.2, 0.3 }),
-    EyeStatus::Ready);
+  Mirror room(meniscus::reference::MakeSphere(16, -1.0), { 0.1, 0.2, 0.3 });
   EXPECT_EQ(room.FindImages({ 2.0, 0.5, 0.2 }, images), ImageState::NoImage);
   EXPECT_EQ(room.FindImages({ 0.3, -0.2, 0.1 }, images), ImageState::Found);
   // An eye inside of a ball sees the backs of its facets only.
-  ASSERT_EQ(
-    SetMirror(ball, meniscus::reference::MakeSphere(16, 1.0), { 0.1, 0.2, 0.3 }), EyeStatus::Ready);
+  ASSERT_EQ(ball.Look({ 0.1, 0.2, 0.3 }), EyeStatus::Ready);
   EXPECT_FALSE(ball.FacesEye());
   EXPECT_EQ(ball.FindImages({ 0.3, -0.2, 0.1 }, images), ImageState::NoImage);
   EXPECT_EQ(ball.FindImages({ 2.0, 0.5, 0.2 }, images), ImageState::NoImage);
@@ -291,8 +279,7 @@ TEST(Reflection, WavesShowAllImagesAndNoOthers)
   for (const WaveCase& test : GetWaveCases())
   {
     SCOPED_TRACE(test.Name);
-    CurvedMembraneSolver geometry;
-    ASSERT_EQ(SetMirror(geometry, test.Field.MakeMesh(cells), test.Eye), EyeStatus::Ready);
+    Mirror geometry(test.Field.MakeMesh(cells), test.Eye);
     Random random(83);
     OracleCounts counts;
     constexpr int points = 200;
@@ -315,8 +302,7 @@ TEST(Reflection, RegionsWithOneImageHaveOne)
   HeightField field = GetWaveCases().front().Field;
   field.Amplitude = 0.5;
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedMembraneSolver geometry;
-  ASSERT_EQ(SetMirror(geometry, field.MakeMesh(64), eye), EyeStatus::Ready);
+  Mirror geometry(field.MakeMesh(64), eye);
   geometry.PrepareField();
   ASSERT_TRUE(geometry.HasConvexField());
   // Heights along the frame, which points down.
@@ -392,8 +378,7 @@ TEST(Reflection, PointsBelowTheWavesHaveNoImage)
 {
   HeightField field = GetWaveCases().front().Field;
   field.Amplitude = 12.0;
-  CurvedMembraneSolver geometry;
-  ASSERT_EQ(SetMirror(geometry, field.MakeMesh(96), { 20.0, 300.0, 10.0 }), EyeStatus::Ready);
+  Mirror geometry(field.MakeMesh(96), { 20.0, 300.0, 10.0 });
   Random random(17);
   std::vector<VirtualVertex> images;
   int above = 0;
@@ -405,7 +390,7 @@ TEST(Reflection, PointsBelowTheWavesHaveNoImage)
     if (height < -0.01)
     {
       EXPECT_TRUE(images.empty()) << point.x << " " << point.y << " " << point.z;
-      EXPECT_EQ(SolveOne(geometry, point).State, ImageState::NoImage);
+      EXPECT_EQ(geometry.SolveOne(point).State, ImageState::NoImage);
       EXPECT_FALSE(geometry.IsOnRaySide(point - geometry.GetMembrane().GetOrigin()));
     }
     else if (height > 0.01)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points that are solved side by side: the same bits as one by one, with every instruction set.
 #include "MembraneMeshes.h"
+#include "ReadySolver.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/SightLanes.h"
 #include "Refraction/Membrane/FacetWalk.h"
@@ -15,14 +16,7 @@ namespace
 using namespace meniscus;
 using meniscus::reference::MembraneMesh;
 using meniscus::test::Random;
-
-void Set(CurvedMembraneSolver& solver, const MembraneMesh& mesh, const glm::dvec3& eye,
-  double exterior = 1.0, double interior = 1.333, bool reflects = false)
-{
-  ASSERT_EQ(solver.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
-  ASSERT_EQ(
-    solver.SetEye(eye, exterior, interior, meniscus::SerialLoop, reflects), EyeStatus::Ready);
-}
+using meniscus::test::ReadySolver;
 
 void ExpectSame(const VirtualVertex& a, const VirtualVertex& b, std::size_t i)
 {
@@ -43,8 +37,7 @@ TEST(RefractionSightLanes, AgreeWithOnePointBitByBit)
 {
   constexpr int steps = 8;
   constexpr double reach = 0.3;
-  CurvedMembraneSolver solver;
-  Set(solver, meniscus::reference::MakeRandom(4.0, 12, 0.15, 0.9, 3), { 0.2, 3.0, -0.3 });
+  ReadySolver solver(meniscus::reference::MakeRandom(4.0, 12, 0.15, 0.9, 3), { 0.2, 3.0, -0.3 });
   ASSERT_GT(solver.GetPatches().GetNumberOfStraightEdges(), 0u);
   const auto facets = static_cast<double>(solver.GetMembrane().GetFacets().size());
   for (const auto set : meniscus::GetInstructionSets())
@@ -131,8 +124,7 @@ TEST(RefractionSightLanes, ChainsSideBySideAreChainsOneByOne)
     { meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), 1.333, true } };
   for (const auto& each : cases)
   {
-    CurvedMembraneSolver solver;
-    Set(solver, each.Mesh, { 20.0, 300.0, 10.0 }, 1.0, each.Interior, each.Reflects);
+    ReadySolver solver(each.Mesh, { 20.0, 300.0, 10.0 }, 1.0, each.Interior, each.Reflects);
     std::vector<double> points;
     Random random(91);
     for (std::size_t i = 0; i < count; ++i)
@@ -185,10 +177,8 @@ TEST(RefractionSightLanes, NumbersOfFacetsDoNotMatter)
     std::copy_n(mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * order[i]), 3,
       shuffled.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * i));
   }
-  CurvedMembraneSolver regular;
-  CurvedMembraneSolver random;
-  Set(regular, mesh, { 20.0, 300.0, 10.0 });
-  Set(random, shuffled, { 20.0, 300.0, 10.0 });
+  ReadySolver regular(mesh, { 20.0, 300.0, 10.0 });
+  ReadySolver random(shuffled, { 20.0, 300.0, 10.0 });
   std::vector<double> points;
   constexpr std::size_t across = 40;
   for (std::size_t i = 0; i < across * across; ++i)
@@ -213,8 +203,7 @@ TEST(RefractionSightLanes, NumbersOfFacetsDoNotMatter)
 // A walk over a height field ends in the facet below the target, also in turns with other walks.
 TEST(RefractionSightLanes, WalksEndAtTheirTargets)
 {
-  CurvedMembraneSolver solver;
-  Set(solver, meniscus::reference::MakeWaves(200.0, 60, 4.0, 3.0), { 20.0, 300.0, 10.0 });
+  ReadySolver solver(meniscus::reference::MakeWaves(200.0, 60, 4.0, 3.0), { 20.0, 300.0, 10.0 });
   const auto& patches = solver.GetPatches();
   const glm::dvec3 up(0.1, 1.0, -0.05);
   Random random(3);

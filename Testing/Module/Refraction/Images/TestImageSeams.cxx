@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of images: within their cells, and without cracks between them.
 #include "HeightField.h"
+#include "ReadySolver.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"
@@ -238,9 +239,8 @@ TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
 TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
 {
   const SeamScene scene = MakeScene(GetParam());
-  CurvedMembraneSolver geometry;
-  geometry.SetMembrane(scene.Field.MakeMesh(scene.Cells).AsInput());
-  geometry.SetEye(scene.Eye, scene.Field.Exterior, scene.Field.Interior);
+  ReadySolver geometry(
+    scene.Field.MakeMesh(scene.Cells), scene.Eye, scene.Field.Exterior, scene.Field.Interior);
   const Drawn drawn = Draw(geometry, scene.Ball, 0.005 * Pi / 180.0);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double rounding = 100.0 * epsilon * scene.Field.Side;
@@ -354,9 +354,7 @@ double MapWholeTriangle(
 TEST(RefractionSeamsCriticalAngle, SnellsWindowShowsWholeTriangles)
 {
   const HeightField field{ HeightField::Shape::Waves, 400.0, 0.0, 0.03 * Pi, 1.333, 1.0 };
-  CurvedMembraneSolver geometry;
-  geometry.SetMembrane(field.MakeMesh(4).AsInput());
-  geometry.SetEye({ 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
+  ReadySolver geometry(field.MakeMesh(4), { 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
   for (const double away : { 40.0, 60.0, 80.0, 110.0 })
   {
     const std::array<glm::dvec3, 3> corners = { glm::dvec3(away, -8.0, 1.0),
@@ -383,9 +381,7 @@ TEST(RefractionSeamsCriticalAngle, SnellsWindowIsFoundInHugeFacets)
     const HeightField field{ HeightField::Shape::Waves, width, 0.0, 0.03 * Pi, 1.333, 1.0 };
     MembraneMesh mesh = field.MakeMesh(sea.Cells);
     mesh.Translate(sea.Shift * width * glm::dvec3(1.0, 0.0, -0.7));
-    CurvedMembraneSolver geometry;
-    geometry.SetMembrane(mesh.AsInput());
-    geometry.SetEye({ 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
+    ReadySolver geometry(mesh, { 0.7, 20.0, 1.3 }, field.Exterior, field.Interior);
     const std::array<glm::dvec3, 3> corners = { glm::dvec3(-9.0, -8.0, 1.0),
       glm::dvec3(3.0, -8.0, 7.0), glm::dvec3(1.0, -8.0, -6.0) };
     const double area =
@@ -507,9 +503,7 @@ TEST(RefractionSeamsThreads, ResultsDoNotDependOnTheOrderOfBlocks)
 TEST(RefractionSeamsCost, FloorsOfFewPointsAreDivided)
 {
   const HeightField field{ HeightField::Shape::Waves, 200.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
-  CurvedMembraneSolver geometry;
-  geometry.SetMembrane(field.MakeMesh(64).AsInput());
-  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
+  ReadySolver geometry(field.MakeMesh(64), { 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
   Object floor;
   floor.Points = { { -60.0, -50.0, -60.0 }, { 60.0, -50.0, -60.0 }, { 60.0, -50.0, 60.0 },
     { -60.0, -50.0, 60.0 } };

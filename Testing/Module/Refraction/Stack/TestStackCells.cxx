@@ -53,10 +53,6 @@ TEST(RefractionStackCells, ImagesThroughTwoWavySurfacesCoverTheTracedRays)
   EXPECT_GT(result.Hits, 500);
   EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
   ExpectExactPoints(solver, object, 1e-6);
-  RecordProperty("hits", result.Hits);
-  RecordProperty("off", result.Off);
-  RecordProperty("wrong", result.Wrong);
-  RecordProperty("rays", result.Rays);
 }
 
 //------------------------------------------------------------------------------
@@ -78,10 +74,6 @@ TEST(RefractionStackCells, RaysThatEndEarlierShowWhatIsBefore)
   const Comparison result = Compare(solver, object, 4000, 33);
   EXPECT_GT(result.Hits, 500);
   EXPECT_EQ(result.Wrong, 0) << "of " << result.Rays;
-  RecordProperty("hits", result.Hits);
-  RecordProperty("off", result.Off);
-  RecordProperty("wrong", result.Wrong);
-  RecordProperty("rays", result.Rays);
 }
 
 //------------------------------------------------------------------------------
@@ -99,10 +91,6 @@ TEST(RefractionStackCells, BallShowsTrianglesBeforeWithinAndBehindIt)
   EXPECT_GT(result.Hits, 1000);
   // At the rim, details are finer than the smallest cells.
   EXPECT_LE(result.Wrong, result.Rays / 1000) << "of " << result.Rays;
-  RecordProperty("hits", result.Hits);
-  RecordProperty("off", result.Off);
-  RecordProperty("wrong", result.Wrong);
-  RecordProperty("rays", result.Rays);
 }
 
 //------------------------------------------------------------------------------

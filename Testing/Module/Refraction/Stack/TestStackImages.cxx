@@ -239,6 +239,37 @@ void FindPlantedPoints(const StackSolver& solver, Random& random, int count, dou
   EXPECT_EQ(planted, count);
 }
 
+/** Points by the number of their images. */
+struct ImageCounts
+{
+  std::size_t Images = 0;
+  std::size_t Several = 0;
+  std::size_t None = 0;
+};
+
+/** Compares the images of random points in a box with those of a dense search. */
+ImageCounts CompareInBox(const StackSolver& solver, unsigned int seed, int points,
+  const glm::dvec3& lower, const glm::dvec3& upper)
+{
+  const DenseSearch dense(solver, 10);
+  Random random(seed);
+  ImageCounts counts;
+  for (int i = 0; i < points; ++i)
+  {
+    SCOPED_TRACE(i);
+    const std::size_t count = Compare(solver, dense, random.Point(lower, upper), 1e-5);
+    counts.Images += count;
+    counts.Several += count > 1;
+    counts.None += count == 0;
+  }
+  ::testing::Test::RecordProperty("images", std::to_string(counts.Images));
+  ::testing::Test::RecordProperty("several", std::to_string(counts.Several));
+  ::testing::Test::RecordProperty("none", std::to_string(counts.None));
+  ::testing::Test::RecordProperty(
+    "undecided", std::to_string(solver.GetNumberOfUndecidedSearches()));
+  return counts;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -250,25 +281,10 @@ TEST(RefractionStackImages, AgreeWithADenseSearchThroughTwoWavySurfaces)
     { { MakeSurface(MakeWaves(100.0, 0.0, 1.3, 8.0, 24)), { 1.0, 1.5 } },
       { MakeSurface(MakeWaves(100.0, -12.0, 1.0, 9.0, 28)), { 1.5, 1.2 } } },
     { 5.0, 90.0, -8.0 });
-  const DenseSearch dense(solver, 10);
-  Random random(21);
-  std::size_t images = 0;
-  std::size_t several = 0;
-  std::size_t none = 0;
-  for (int i = 0; i < 300; ++i)
-  {
-    SCOPED_TRACE(i);
-    const glm::dvec3 point = random.Point({ -60.0, -300.0, -60.0 }, { 60.0, -14.0, 60.0 });
-    const std::size_t count = Compare(solver, dense, point, 1e-5);
-    images += count;
-    several += count > 1;
-    none += count == 0;
-  }
+  const ImageCounts counts =
+    CompareInBox(solver, 21, 300, { -60.0, -300.0, -60.0 }, { 60.0, -14.0, 60.0 });
   EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
-  EXPECT_GT(several, 70u);
-  RecordProperty("images", std::to_string(images));
-  RecordProperty("several", std::to_string(several));
-  RecordProperty("none", std::to_string(none));
+  EXPECT_GT(counts.Several, 70u);
 }
 
 //------------------------------------------------------------------------------
@@ -397,23 +413,10 @@ TEST(RefractionStackImages, AgreeWithADenseSearchAtBordersAndCriticalAngles)
     { { MakeSurface(MakeWaves(100.0, 0.0, 1.0, 7.0, 20)), { 1.0, 1.6 } },
       { MakeSurface(MakeWaves(100.0, -10.0, 1.2, 7.0, 24)), { 1.6, 1.0 } } },
     { 60.0, 50.0, 8.0 });
-  const DenseSearch dense(solver, 10);
-  Random random(24);
-  std::size_t images = 0;
-  std::size_t none = 0;
-  for (int i = 0; i < 100; ++i)
-  {
-    SCOPED_TRACE(i);
-    const glm::dvec3 point = random.Point({ -90.0, -100.0, -70.0 }, { 40.0, -13.0, 70.0 });
-    const std::size_t count = Compare(solver, dense, point, 1e-5);
-    images += count;
-    none += count == 0;
-  }
-  EXPECT_GT(images, 100u);
-  EXPECT_GT(none, 2u);
-  RecordProperty("images", std::to_string(images));
-  RecordProperty("none", std::to_string(none));
-  RecordProperty("undecided", std::to_string(solver.GetNumberOfUndecidedSearches()));
+  const ImageCounts counts =
+    CompareInBox(solver, 24, 100, { -90.0, -100.0, -70.0 }, { 40.0, -13.0, 70.0 });
+  EXPECT_GT(counts.Images, 100u);
+  EXPECT_GT(counts.None, 2u);
 }
 
 //------------------------------------------------------------------------------

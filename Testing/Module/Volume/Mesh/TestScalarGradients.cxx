@@ -25,14 +25,20 @@ std::vector<double> Evaluate(const TetrahedralMesh& mesh, const Function& field)
   return values;
 }
 
+TetrahedralMesh BuildJittered(int cubes, double amount, unsigned int seed)
+{
+  MeshArrays arrays = KuhnGrid(cubes);
+  Jitter(arrays, amount, seed);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  return mesh;
+}
+
 }
 
 TEST(VertexGradients, LinearFieldIsExact)
 {
-  MeshArrays arrays = KuhnGrid(4);
-  Jitter(arrays, 0.05, 3);
-  TetrahedralMesh mesh;
-  mesh.Build(arrays.View());
+  const TetrahedralMesh mesh = BuildJittered(4, 0.05, 3);
   const glm::dvec3 slope(0.5, -1.0, 0.25);
   const auto scalars = Evaluate(mesh, [&](const glm::dvec3& p) { return glm::dot(slope, p); });
   for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars, 1.0))
@@ -45,10 +51,7 @@ TEST(VertexGradients, LinearFieldIsExact)
 TEST(CellGradients, NearlyEqualScalarsKeepTheDirection)
 {
   // Changes of 1e-12 at a scalar of 1: normalised floats would all be equal.
-  MeshArrays arrays = KuhnGrid(4);
-  Jitter(arrays, 0.05, 3);
-  TetrahedralMesh mesh;
-  mesh.Build(arrays.View());
+  const TetrahedralMesh mesh = BuildJittered(4, 0.05, 3);
   const glm::dvec3 slope(0.5, -1.0, 0.25);
   constexpr double change = 1.0e-12;
   const auto scalars =
@@ -64,10 +67,7 @@ TEST(CellGradients, NearlyEqualScalarsKeepTheDirection)
 
 TEST(CellGradients, EqualScalarsHaveNone)
 {
-  MeshArrays arrays = KuhnGrid(3);
-  Jitter(arrays, 0.05, 5);
-  TetrahedralMesh mesh;
-  mesh.Build(arrays.View());
+  const TetrahedralMesh mesh = BuildJittered(3, 0.05, 5);
   const auto scalars = Evaluate(mesh, [](const glm::dvec3&) { return 0.1; });
   for (const glm::vec3& gradient : ComputeCellGradients(mesh, scalars, 1.0))
   {
@@ -147,10 +147,7 @@ TEST(VertexGradients, MeansAreWeightedByVolume)
 
 TEST(VertexGradients, DoNotDependOnTheLoop)
 {
-  MeshArrays arrays = KuhnGrid(30); // 162,000 cells, more than one chunk
-  Jitter(arrays, 0.005, 7);
-  TetrahedralMesh mesh;
-  mesh.Build(arrays.View());
+  const TetrahedralMesh mesh = BuildJittered(30, 0.005, 7); // 162,000 cells, more than one chunk
   const auto scalars =
     Evaluate(mesh, [](const glm::dvec3& p) { return std::sin(3.0 * p.x) * p.y + p.z * p.z; });
   const auto backwards = [](std::size_t count, const RangeBody& body)
@@ -168,10 +165,7 @@ TEST(VertexGradients, DoNotDependOnTheLoop)
 
 TEST(VertexGradients, AreTheSameWithAllInstructionSets)
 {
-  MeshArrays arrays = KuhnGrid(7);
-  Jitter(arrays, 0.05, 7);
-  TetrahedralMesh mesh;
-  mesh.Build(arrays.View());
+  const TetrahedralMesh mesh = BuildJittered(7, 0.05, 7);
   auto scalars = Evaluate(mesh, [](const glm::dvec3& p) { return std::sin(3.0 * p.x) * p.y; });
   scalars[17] = std::numeric_limits<double>::quiet_NaN();
   constexpr const char* variable = "MENISCUS_INSTRUCTION_SET";

@@ -65,35 +65,20 @@ TEST(BlendModels, AccumulatedOpacity)
   }
 }
 
-TEST(BlendModels, NothingInFrontLeavesWhatIsBehind)
+TEST(BlendModels, NothingInFrontOrBehindChangesNothing)
 {
   for (const BlendModel& model : BlendModels)
   {
-    float values[4];
-    ClearValues(model.Mode, values);
-    const float behind[4] = { -0.5f, 0.25f, 0.125f, 0.75f };
-    JoinValues(model.Mode, behind, values);
-    const int kept = model.HidesBehind() ? 4 : 2;
-    for (int i = 0; i < kept; ++i)
+    for (const bool isInFront : { false, true })
     {
-      EXPECT_EQ(values[i], behind[i]) << model.Label;
-    }
-  }
-}
-
-TEST(BlendModels, NothingBehindChangesNothing)
-{
-  for (const BlendModel& model : BlendModels)
-  {
-    float behind[4];
-    ClearValues(model.Mode, behind);
-    float values[4] = { -0.5f, 0.25f, 0.125f, 0.75f };
-    JoinValues(model.Mode, behind, values);
-    const int kept = model.HidesBehind() ? 4 : 2;
-    const float expected[4] = { -0.5f, 0.25f, 0.125f, 0.75f };
-    for (int i = 0; i < kept; ++i)
-    {
-      EXPECT_EQ(values[i], expected[i]) << model.Label;
+      float parts[2][4] = { { -0.5f, 0.25f, 0.125f, 0.75f }, { -0.5f, 0.25f, 0.125f, 0.75f } };
+      ClearValues(model.Mode, parts[isInFront ? 0 : 1]);
+      JoinValues(model.Mode, parts[1], parts[0]);
+      const float expected[4] = { -0.5f, 0.25f, 0.125f, 0.75f };
+      for (int i = 0; i < (model.HidesBehind() ? 4 : 2); ++i)
+      {
+        EXPECT_EQ(parts[0][i], expected[i]) << model.Label << isInFront;
+      }
     }
   }
 }
