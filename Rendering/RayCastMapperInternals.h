@@ -25,6 +25,9 @@ public:
   static const std::vector<meniscus::Statistic<vtkTetrahedraRayCastMapper>>& List();
   std::int64_t GetHostBytes() const;
 
+  /** Takes the volume's matrix over for positions in world coordinates, if it has an inverse. */
+  void SetPlace(vtkVolume* volume);
+
   meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
   /** Component of the scalars to draw if they are not mixed, as in ScalarSelection. */
   int Component = meniscus::ScalarSelection::Only;
@@ -56,7 +59,10 @@ public:
   /** Fallbacks that were reported: the backends that refused, and the backend that drew instead. */
   std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;
-  /** Matrix of the last frame, for positions given in world coordinates. */
+  /** Last error of a frame, and the time of the settings that it was told for. */
+  std::string DrawFault;
+  vtkMTimeType DrawFaultTime = 0;
+  /** Inverse of the last matrix that has one, for positions given in world coordinates. */
   glm::dmat4 WorldToModel{ 1.0 };
   /** Null until the first pick. */
   std::unique_ptr<meniscus::RayPicker> Picker;

@@ -37,7 +37,7 @@ int vtkBentMediumAlgorithm::FillInputPortInformation(int vtkNotUsed(port), vtkIn
 int vtkBentMediumAlgorithm::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
-  meniscus::RequestWholeInputs(inputs);
+  meniscus::RequestWholeInputs(inputs, this->GetNumberOfInputPorts());
   return 1;
 }
 

@@ -584,9 +584,18 @@ bool vtkTetrahedraRayCastMapper::Draw(
   {
     error = this->WriteDepths(frame);
   }
+  // Once for each change, not for each frame.
+  const vtkMTimeType time = std::max(this->vtkObject::GetMTime(), volume->GetMTime());
+  const bool isTold = error == internals.DrawFault && time == internals.DrawFaultTime;
+  internals.DrawFault = error;
+  internals.DrawFaultTime = time;
   if (!error.empty())
   {
-    vtkErrorMacro("Nothing is rendered: " << error << ".");
+    internals.ClearStatistics();
+    if (!isTold)
+    {
+      vtkErrorMacro("Nothing is rendered: " << error << ".");
+    }
     return false;
   }
   this->Tell({ "", internals.Input.WarnOfOverlaps(internals.CountOverlaps()) });
@@ -627,7 +636,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   {
     return;
   }
-  this->Internals->WorldToModel = glm::inverse(meniscus::ToGlm(volume->GetMatrix()));
+  this->Internals->SetPlace(volume);
   this->WarnAboutUnavailable();
   this->UpdateTransferFunction();
   vtkHardwareSelector* selector = renderer->GetSelector();

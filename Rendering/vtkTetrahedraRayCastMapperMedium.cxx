@@ -3,10 +3,12 @@
 // Membranes of vtkTetrahedraRayCastMapper, and the medium behind them.
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Rendering/Common/Matrices.h"
 #include "Rendering/RayCastMapperInternals.h"
 #include "Volume/Optics/RefractionMedium.h"
 
 #include "vtkPolyData.h"
+#include "vtkVolume.h"
 
 #include <algorithm>
 #include <string>
@@ -35,6 +37,16 @@ vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane(int i)
   return i >= 0 && i < this->GetNumberOfMembranes()
     ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))
     : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::vtkInternals::SetPlace(vtkVolume* volume)
+{
+  const glm::dmat4 matrix = meniscus::ToGlm(volume->GetMatrix());
+  if (meniscus::HasInverse(matrix))
+  {
+    this->WorldToModel = glm::inverse(matrix);
+  }
 }
 
 //------------------------------------------------------------------------------

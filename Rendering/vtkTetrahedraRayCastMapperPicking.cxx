@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Places on rays for vtkTetrahedraRayCastMapper: picks, and depths of frames.
-#include "Rendering/Common/Matrices.h"
 #include "Rendering/RayCastMapperInternals.h"
 #include "Rendering/VolumePick.h"
 #include "vtkTetrahedraRayCastMapper.h"
@@ -32,7 +31,7 @@ bool vtkTetrahedraRayCastMapper::UpdateForPick(
   {
     return false;
   }
-  internals.WorldToModel = glm::inverse(meniscus::ToGlm(volume->GetMatrix()));
+  internals.SetPlace(volume);
   this->UpdateTransferFunction();
   // A mesh without extent has no cell that a ray could cross.
   const meniscus::TetrahedralMesh& mesh = internals.Input.GetMesh();

@@ -183,7 +183,7 @@ int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(requ
 int vtkTetrahedraRayIntegral::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
-  meniscus::RequestWholeInputs(inputs);
+  meniscus::RequestWholeInputs(inputs, this->GetNumberOfInputPorts());
   return 1;
 }
 

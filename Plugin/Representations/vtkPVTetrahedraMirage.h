@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVTetrahedraMirage
- * @brief   vtkTetrahedraMirage whose camera is set by numbers
+ * @brief   vtkTetrahedraMirage for ParaView, whose proxies set numbers, functions and inputs
  *
- * For ParaView, whose proxies set numbers and no vtkCamera.
+ * The camera is set by numbers, the volume property by its functions. Port 2, which is optional,
+ * has the image of the texture.
  */
 #ifndef vtkPVTetrahedraMirage_h
 #define vtkPVTetrahedraMirage_h
 
 #include "vtkCamera.h"                        // For the numbers
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
+#include "vtkNew.h"                           // For members
 #include "vtkTetrahedraMirage.h"
+
+class vtkColorTransferFunction;
+class vtkPiecewiseFunction;
+class vtkTexture;
+class vtkVolumeProperty;
 
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVTetrahedraMirage : public vtkTetrahedraMirage
 {
@@ -38,13 +45,34 @@ public:
   void SetViewParallelScale(double scale) { this->GetCamera()->SetParallelScale(scale); }
   /** @} */
 
+  /** @{ */
+  /** Show the medium itself by functions of a volume property, or, the default, do not. */
+  void SetShowVolume(bool isShown);
+  void SetVolumeColors(vtkColorTransferFunction* colors);
+  void SetVolumeOpacity(vtkPiecewiseFunction* opacity);
+  void SetScalarOpacityUnitDistance(double distance);
+  /** @} */
+
+  /** @{ */
+  /** Remove an optional input, which a proxy does before it sets one. */
+  void RemoveObjects() { this->RemoveAllInputConnections(1); }
+  void RemoveTexturePicture() { this->RemoveAllInputConnections(2); }
+  /** @} */
+
 protected:
   vtkPVTetrahedraMirage();
   ~vtkPVTetrahedraMirage() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
 private:
   vtkPVTetrahedraMirage(const vtkPVTetrahedraMirage&) = delete;
   void operator=(const vtkPVTetrahedraMirage&) = delete;
+
+  vtkNew<vtkVolumeProperty> Functions;
+  vtkNew<vtkTexture> Picture;
 };
 
 #endif

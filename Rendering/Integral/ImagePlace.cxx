@@ -51,10 +51,10 @@ void AnnounceImage(vtkInformation* output, const int size[2])
 }
 
 //------------------------------------------------------------------------------
-void RequestWholeInputs(vtkInformationVector** inputs)
+void RequestWholeInputs(vtkInformationVector** inputs, int ports)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < 2; ++port)
+  for (int port = 0; port < ports; ++port)
   {
     for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
     {

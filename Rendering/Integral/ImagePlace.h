@@ -33,7 +33,7 @@ std::string DescribeBadSize(const int size[2]);
  */
 void AnnounceImage(vtkInformation* output, const int size[2]);
 
-/** Asks for whole inputs on the first two ports: every part of the image needs them. */
-void RequestWholeInputs(vtkInformationVector** inputs);
+/** Asks for whole inputs on so many ports: every part of the image needs them. */
+void RequestWholeInputs(vtkInformationVector** inputs, int ports);
 
 }

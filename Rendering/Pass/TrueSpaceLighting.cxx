@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/TrueSpaceLighting.h"
 
+#include "Rendering/Common/Matrices.h"
 #include "Rendering/Pass/PlateUniforms.h"
 
 #include "vtkActor.h"
@@ -11,7 +12,6 @@
 #include "vtkMapper.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -19,6 +19,10 @@
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -156,13 +160,14 @@ void TrueSpaceLighting::FitPlane(vtkActor* membrane)
   const Fit& fit = this->FitOf(DataOf(membrane));
   double place[4] = { fit.Origin[0], fit.Origin[1], fit.Origin[2], 1.0 };
   vtkMatrix4x4* matrix = membrane->GetMatrix();
-  double normal[4] = { fit.Normal[0], fit.Normal[1], fit.Normal[2], 0.0 };
   matrix->MultiplyPoint(place, place);
-  // Normals are transformed by the inverse of the transpose.
-  vtkNew<vtkMatrix4x4> inverse;
-  vtkMatrix4x4::Invert(matrix, inverse);
-  inverse->Transpose();
-  inverse->MultiplyPoint(normal, normal);
+  // Normals are transformed by the cofactors: the inverse of the transpose, which a matrix has not
+  // that makes things flat, times the determinant.
+  const glm::dmat3 m(ToGlm(matrix));
+  const glm::dmat3 cofactors(
+    glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  glm::dvec3 normalInWorld = cofactors * glm::make_vec3(fit.Normal);
+  double* const normal = &normalInWorld.x;
   vtkMath::Normalize(normal);
   const double height = vtkMath::Dot(normal, this->Eye.data()) - vtkMath::Dot(normal, place);
   const double sign = height < 0.0 ? -1.0 : 1.0;

@@ -273,7 +273,9 @@ std::string RayCastPipeline::PlaceIn(RayFrameInput& input, ViewContext& place) c
     case RayFrameStatus::Ok:
       return std::string();
     case RayFrameStatus::Singular:
-      return "the matrix of the volume or of the camera is singular or not finite";
+      return HasInverse(input.ModelToWorld)
+        ? "the matrix of the camera is singular or not finite"
+        : "the matrix of the volume is singular, as with a scale of 0, or not finite";
     default:
       return "the camera's projection is not that of a plane image";
   }

@@ -51,6 +51,7 @@ void OpenGLDepthCopy::Update(
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
   const Format format = ReadFormat(source);
   this->Allocate(window, format, viewport[2], viewport[3]);
+  this->Sampled = samples > 1 && format.DepthBits > 0;
   if (format.DepthBits == 0)
   {
     this->Clear(window);

@@ -21,6 +21,8 @@ class OpenGLDepthCopy
 {
 public:
   vtkTextureObject* GetTexture() { return this->Texture; }
+  /** True if each depth of the last copy is one of several of its pixel. */
+  bool HasSamples() const { return this->Sampled; }
 
   /**
    * Copies at least a box of the viewport (x, y, width, height). Multisampled depth is resolved; a
@@ -55,6 +57,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkNew<vtkOpenGLFramebufferObject> Target;
   Format Allocated;
+  bool Sampled = false;
   int Width = 0;
   int Height = 0;
 };

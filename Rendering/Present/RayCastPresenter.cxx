@@ -60,10 +60,12 @@ void TakeOverEnds(const RayFrame& before, const RayFrame& rays, const std::vecto
 /**
  * Source of the shader that blends an image into the framebuffer.
  * @param biased for images that are composited later.
+ * @param sampled for framebuffers with several samples per pixel.
  */
-std::string ComposeSource(bool biased)
+std::string ComposeSource(bool biased, bool sampled)
 {
   std::string source = vtkTetrahedraComposeFS;
+  vtkShaderProgram::Substitute(source, "//VTK::Samples::Dec", sampled ? "#define HAS_SAMPLES" : "");
   vtkShaderProgram::Substitute(
     source, "//VTK::ColorBias::Dec", biased ? "#define HAS_COLOR_BIAS" : "");
   return source;
@@ -427,10 +429,14 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   this->LimitToFilled(viewport);
   const bool biased = output.ColorBias > 0.0f;
-  std::unique_ptr<vtkOpenGLQuadHelper>& composer = biased ? this->BiasedComposer : this->Composer;
+  const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
+  const bool sampled = whole && !biased && !output.Selecting && this->MayHaveSteps();
+  std::unique_ptr<vtkOpenGLQuadHelper>& composer =
+    biased ? this->BiasedComposer : (sampled ? this->SampleComposer : this->Composer);
   const std::string error = output.Selecting
     ? ReadyQuad(this->Window, this->Selector, []() { return vtkTetrahedraSelectFS; })
-    : ReadyQuad(this->Window, composer, [biased]() { return ComposeSource(biased); });
+    : ReadyQuad(
+        this->Window, composer, [biased, sampled]() { return ComposeSource(biased, sampled); });
   if (!error.empty())
   {
     return error;
@@ -457,7 +463,6 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
     state->SetEnumState(GL_BLEND, !hasUnder);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
-  const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
   // With one filter for both, a software rasteriser need not compute the size of a texel.
   const int filter = whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
   this->Image->SetMagnificationFilter(filter);
@@ -471,10 +476,46 @@ std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewp
   {
     drawer->Program->SetUniformi("under", under->GetTextureUnit());
   }
-  drawer->Render();
+  if (sampled)
+  {
+    this->DrawSamples(*drawer);
+  }
+  else
+  {
+    drawer->Render();
+  }
   under->Deactivate();
   this->Image->Deactivate();
   return std::string();
+}
+
+//------------------------------------------------------------------------------
+/** False if all samples of each pixel are known to be on the same side of every step of depths. */
+bool RayCastPresenter::MayHaveSteps() const
+{
+  const std::vector<float>& depths = this->DepthsOfImage;
+  return this->Depth.HasSamples() &&
+    (!this->HasDepthsOfImage ||
+      std::any_of(
+        depths.begin(), depths.end(), [&depths](float depth) { return depth != depths[0]; }));
+}
+
+//------------------------------------------------------------------------------
+/** Blends over the samples of pixels by their depths, which the shader compares with. */
+void RayCastPresenter::DrawSamples(vtkOpenGLQuadHelper& composer)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState::ScopedglDepthFunc depthFuncScope(state);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  this->Depth.GetTexture()->Activate();
+  composer.Program->SetUniformi("depths", this->Depth.GetTexture()->GetTextureUnit());
+  for (const bool drawsFront : { true, false })
+  {
+    composer.Program->SetUniformi("drawsFront", drawsFront ? 1 : 0);
+    state->vtkglDepthFunc(drawsFront ? GL_GREATER : GL_LEQUAL);
+    composer.Render();
+  }
+  this->Depth.GetTexture()->Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -528,6 +569,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Under.Release(owner);
   this->Composer.reset();
   this->BiasedComposer.reset();
+  this->SampleComposer.reset();
   this->Selector.reset();
   this->DepthWriter.reset();
   this->Image = nullptr;

@@ -110,6 +110,8 @@ private:
   void ShowAgain(const HeldImage& last, bool sameView);
   std::string Resize(int width, int height);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
+  bool MayHaveSteps() const;
+  void DrawSamples(vtkOpenGLQuadHelper& composer);
   void LimitToFilled(const int viewport[4]);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
@@ -119,6 +121,7 @@ private:
   OpenGLImageMean Mean;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> BiasedComposer;
+  std::unique_ptr<vtkOpenGLQuadHelper> SampleComposer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   std::unique_ptr<vtkOpenGLQuadHelper> DepthWriter;
   int Size[2] = { 0, 0 };

@@ -58,6 +58,68 @@ def check_cameras(index, wall):
         assert math.dist(place, expected) < 1e-4, (place, expected)
 
 
+def check_volume(index):
+    """The medium as fog of one colour: the opacity on the straight middle ray is Beer's law."""
+    density, color = 0.05, (1.0, 0.4, 0.2)  # whole steps of 1 / 255
+    picture = simple.TetrahedraMirage(
+        Input=index, EyePosition=[0, 0, EYE], ViewFocalPoint=[0, 0, 0], ViewUp=[0, 1, 0],
+        ViewAngle=20, ImageSize=[11, 9], BendRays=0)
+    picture.ScalarArray = ["POINTS", "index"]
+    picture.Quantity = "Index of refraction"
+    picture.ShowVolume = 1
+    picture.VolumeArrayName = "RTData"
+    picture.VolumeColors = simple.GetColorTransferFunction("RTData")
+    picture.VolumeColors.RGBPoints = [0, *color, 300, *color]
+    picture.VolumeOpacity = simple.GetOpacityTransferFunction("RTData")
+    picture.VolumeOpacity.Points = [0, density, 0.5, 0, 300, density, 0.5, 0]
+    middle = 4 * 11 + 5
+
+    def expect(attenuation, shades=color):
+        rgba = servermanager.Fetch(picture).GetPointData().GetArray("RGBA").GetTuple(middle)
+        alpha = 1 - math.exp(-attenuation * 2 * HALF)
+        for value, share in zip(rgba, (*shades, 1)):
+            assert abs(value - share * alpha) < 1e-5, (rgba, alpha)
+    expect(density)
+    picture.ScalarOpacityUnitDistance = 2
+    expect(density / 2)
+    # A change of the functions is seen, too.
+    picture.VolumeOpacity.Points = [0, 2 * density, 0.5, 0, 300, 2 * density, 0.5, 0]
+    expect(density)
+    picture.VolumeColors.RGBPoints = [0, 0, 0, 1, 300, 0, 0, 1]
+    expect(density, (0, 0, 1))
+    picture.OpacityModel = "Opacity per unit distance"
+    expect(-math.log(1 - 2 * density) / 2, (0, 0, 1))
+    # The functions that the panel begins with.
+    other = simple.TetrahedraMirage(Input=index, ShowVolume=1, ImageSize=[3, 3])
+    other.ScalarArray = ["POINTS", "index"]
+    assert other.VolumeColors is not None and other.VolumeOpacity is not None
+
+
+def check_texture(index, wall):
+    """A wall with texture coordinates shows a picture whose values are columns."""
+    columns = simple.Calculator(
+        Input=simple.Wavelet(WholeExtent=[0, 3, 0, 3, 0, 0]), ResultArrayName="columns",
+        Function="60*coordsX")
+    bytes_of = simple.ProgrammableFilter(Input=columns, Script="""
+import numpy
+output.PointData.append(
+    inputs[0].PointData["columns"].astype(numpy.uint8), "bytes")
+output.GetPointData().SetActiveScalars("bytes")
+""")
+    picture = simple.TetrahedraMirage(
+        Input=index, Objects=wall, TexturePicture=bytes_of, EyePosition=[0, 0, EYE],
+        ViewFocalPoint=[0, 0, 0], ViewUp=[0, 1, 0], ViewAngle=20, ImageSize=[11, 9], Ambient=1,
+        BendRays=0)
+    picture.ScalarArray = ["POINTS", "index"]
+    points = servermanager.Fetch(picture).GetPointData()
+    shades = {points.GetArray("Color").GetTuple(i) for i in range(11 * 9)}
+    # The picture is 24.7 high and 30.2 wide in the middle of a wall of 60: the two inner columns.
+    assert shades == {(60, 60, 60), (120, 120, 120)}, shades
+    picture.TexturePicture = None
+    points = servermanager.Fetch(picture).GetPointData()
+    assert {points.GetArray("Color").GetTuple(i) for i in range(99)} == {(255, 255, 255)}
+
+
 def check_apparent(index):
     point = simple.PointSource(Center=[0, 0, WALL], NumberOfPoints=1, Radius=0)
     seen = simple.ApparentGeometry(Input=point, Medium=index, EyePosition=[0, 0, EYE],
@@ -86,6 +148,8 @@ def test():
                               Function="1+%g*coordsX" % SLOPE)
     wall = simple.Plane(Origin=[-30, -30, WALL], Point1=[30, -30, WALL], Point2=[-30, 30, WALL])
     check_mirage(index, wall)
+    check_volume(index)
+    check_texture(index, wall)
     check_apparent(index)
     check_cameras(index, wall)
 

@@ -180,6 +180,22 @@ TEST(RefractionPassLighting, LightsOnTheSurfaceAreLeftOut)
   EXPECT_TRUE(messages->Errors.empty()) << messages->GetText();
 }
 
+/** The matrix of its actor may make a membrane flat: here, a wall is turned to become the water. */
+TEST(RefractionPassLighting, AMembraneThatItsMatrixMakesFlat)
+{
+  LitPool pool;
+  vtkNew<vtkPlaneSource> wall;
+  wall->SetOrigin(-3.0, 0.0, -3.0);
+  wall->SetPoint1(3.0, 0.0, -3.0);
+  wall->SetPoint2(-3.0, 0.0, 3.0);
+  pool.Membrane = MakeActor(wall->GetOutputPort());
+  pool.Membrane->RotateX(-90.0);
+  pool.Membrane->SetScale(1.0, 0.0, 1.0);
+  pool.Pass->RemoveAllRefractions();
+  pool.Pass->AddRefraction(pool.Membrane, pool.Floor, pool.Filter);
+  pool.ExpectLit("aslant", { Distant(0.8, -0.3, 0.4) });
+}
+
 TEST(RefractionPassLighting, WithoutTruePositionsThereIsAnError)
 {
   LitPool pool;

@@ -343,3 +343,65 @@ TEST(TetrahedraRayCastAntiAliasing, DepthsAreThoseOfOneRay)
   }
   EXPECT_EQ(depths[0], depths[1]);
 }
+
+/**
+ * A plate in front of fog, inside of it and behind it. All samples of a pixel have the colour of
+ * the plate or the colour next to it, so that its mean lies between them.
+ */
+TEST(TetrahedraRayCastAntiAliasing, OutlinesInAMultisampledWindow)
+{
+  for (const double depth : { 1.5, 0.3, -1.5 })
+  {
+    SCOPED_TRACE(depth);
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->AddPoint(0.0, 1.2);
+    opacity->AddPoint(2.0, 1.2);
+    vtkNew<vtkColorTransferFunction> colors;
+    colors->AddRGBPoint(0.0, 0.1, 0.2, 0.9);
+    colors->AddRGBPoint(2.0, 0.1, 0.2, 0.9);
+    vtkNew<vtkVolumeProperty> fog;
+    fog->SetScalarOpacity(opacity);
+    fog->SetColor(colors);
+    RayCastScene scene(MakeBlock(2, ConstantField(1.0)), fog, Size, Size, 4);
+    vtkNew<vtkPlaneSource> plate;
+    plate->SetOrigin(-0.5, -0.5, 0.0);
+    plate->SetPoint1(0.5, -0.5, 0.0);
+    plate->SetPoint2(-0.5, 0.5, 0.0);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(plate->GetOutputPort());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->RotateZ(20.0);
+    actor->SetPosition(0.0, 0.0, depth);
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetColor(1.0, 0.7, 0.0);
+    vtkRenderer* renderer = scene.GetRenderer();
+    renderer->AddActor(actor);
+    renderer->SetBackground(1.0, 1.0, 1.0);
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(0.9);
+    camera->SetPosition(0.0, 0.0, 5.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetClippingRange(2.0, 8.0);
+    const ByteImage image = scene.RenderBytes();
+    const auto at = [&image](int x, int y)
+    {
+      const auto pixel = image.GetPixel(x, y);
+      return glm::dvec3(pixel[0], pixel[1], pixel[2]);
+    };
+    const glm::dvec3 around = at(2, 2);
+    const glm::dvec3 step = at(Size / 2, Size / 2) - around;
+    int between = 0;
+    for (const auto& [y, x] : Product(Numbers<int>(0, Size), Numbers<int>(0, Size)))
+    {
+      const glm::dvec3 color = at(x, y) - around;
+      const double share = glm::dot(color, step) / glm::dot(step, step);
+      between += share > 0.1 && share < 0.9 ? 1 : 0;
+      // Each sample is rounded to a level, and so is their mean.
+      EXPECT_LE(glm::length(color - share * step), 3.0) << x << ", " << y;
+    }
+    // Nearly all of the pixels along the outline, which is 4 / 1.8 of the picture's width.
+    EXPECT_GT(between, Size);
+  }
+}

@@ -4,6 +4,7 @@
 // without the cells that were left out). Never a crash.
 #include "HardMeshes.h"
 #include "RayCastScene.h"
+#include "WaterParts.h"
 
 #include <vtkLongLongArray.h>
 
@@ -270,6 +271,50 @@ TEST(TetrahedraRayCastBadInput, AMediumWithoutMeaning)
     }
     EXPECT_TRUE(HasText(told->Errors[0], "drawn clear"));
   }
+}
+
+/** A volume without thickness shows nothing. That is told once for each change of its matrix. */
+TEST(TetrahedraRayCastBadInput, AMatrixThatMakesTheVolumeFlat)
+{
+  RayCastScene scene(MakeBlock(3, WavyField(2.0)), Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  for (const glm::dvec3 scale : { glm::dvec3(1.0, 1.0, 0.0), glm::dvec3(0.0),
+         glm::dvec3(1.0, std::numeric_limits<double>::quiet_NaN(), 1.0) })
+  {
+    SCOPED_TRACE(scale.z);
+    scene.GetVolume()->SetScale(scale.x, scale.y, scale.z);
+    const Outcome outcome = Render(scene);
+    EXPECT_TRUE(outcome.PictureIsTheCube);
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      scene.GetRenderer()->GetActiveCamera()->Azimuth(1.0);
+      scene.GetWindow()->Render();
+      ASSERT_EQ(outcome.Errors->Errors.size(), 1u) << outcome.Errors->GetText();
+    }
+    EXPECT_TRUE(HasText(outcome.Errors->Errors[0], "matrix of the volume"));
+    EXPECT_EQ(mapper->GetNumberOfRays(), 0);
+  }
+  scene.GetRenderer()->RemoveAllViewProps();
+  scene.GetRenderer()->AddVolume(scene.GetVolume());
+  scene.GetRenderer()->SetBackground(0.0, 0.0, 0.0);
+  scene.GetVolume()->SetScale(1.0);
+  ExpectMatchesReference(scene, "with its size again");
+}
+
+/** Its membrane is in world coordinates, which such a matrix takes to none of the volume's. */
+TEST(TetrahedraRayCastBadInput, AFlatVolumeBehindAMembraneHasBounds)
+{
+  RayCastScene scene(MakeBlock(3, WavyField(2.0)), Smooth(), Size, Size);
+  const auto plane = MakePlane(1.0, 2.0, 2);
+  plane->Update();
+  scene.GetRayCaster()->SetMembraneData(plane->GetOutput());
+  scene.GetVolume()->SetScale(1.0, 0.0, 1.0);
+  const auto told = ObserveErrors(scene.GetRayCaster());
+  scene.GetWindow()->Render();
+  const double* bounds = scene.GetVolume()->GetBounds();
+  EXPECT_EQ(told->Errors.size(), 1u) << told->GetText();
+  EXPECT_DOUBLE_EQ(bounds[4], -1.0);
+  EXPECT_DOUBLE_EQ(bounds[5], 2.0);
 }
 
 TEST(TetrahedraRayCastBadInput, TransferFunctionWithoutNodes)

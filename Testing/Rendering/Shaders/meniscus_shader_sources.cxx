@@ -253,10 +253,11 @@ void AddAll(ShaderFolder& folder)
     }
   }
   folder.AddFragment("place", vtkTetrahedraPlaceFS);
-  for (const char* bias : { "", "#define HAS_COLOR_BIAS" })
+  for (const char* variant : { "", "#define HAS_COLOR_BIAS", "#define HAS_SAMPLES" })
   {
     std::string source = vtkTetrahedraComposeFS;
-    ReplaceAll(source, "//VTK::ColorBias::Dec", bias);
+    ReplaceAll(source, "//VTK::ColorBias::Dec", variant);
+    ReplaceAll(source, "//VTK::Samples::Dec", "");
     folder.AddFragment("compose", source);
   }
   folder.AddFragment("select", vtkTetrahedraSelectFS);
